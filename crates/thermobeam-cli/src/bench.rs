@@ -1,4 +1,4 @@
-//! `bench`: how long things take on this machine. With `--out` written to `bench.md` there, which no verdict depends on.
+//! `bench`: measures times on this machine. With `--out` it writes `bench.md` there; no verdict depends on it.
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ use convergence_study::judge::verdict::Verdict;
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
 
-/// The scene of what is compared with a library.
+/// The scene for the comparison with a library.
 const SCENE: &str = "studies/scenes/paper-1-beta-0.toml";
 
 /// Time per step, and run time against error, on this machine
@@ -41,7 +41,7 @@ pub struct Arguments {
     flags: Flags,
 }
 
-/// What `bench --format json` prints beside the verdict.
+/// The keys of `bench --format json` in addition to the verdict.
 #[derive(serde::Serialize)]
 struct Tables<'a> {
     tables: &'a [Table],
@@ -90,7 +90,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(Ended::Well)
 }
 
-/// The runs of a library, from what its program has printed.
+/// The runs of a library, from the output of its program.
 fn rival(path: &Path) -> Result<Rival, Unusable> {
     let text = input::read_text(path)?;
     Rival::parse(&text).map_err(|error| {
@@ -98,19 +98,19 @@ fn rival(path: &Path) -> Result<Rival, Unusable> {
     })
 }
 
-/// What has been measured so far, as Markdown.
+/// The measurements so far, as Markdown.
 struct Page {
     text: String,
-    /// Where it is written, if anywhere.
+    /// Destination folder, if any.
     folder: Option<PathBuf>,
     tables: Vec<Table>,
-    /// Whether a table is shown as soon as it is there.
+    /// Whether a table is printed as soon as it is complete.
     shows: bool,
     clock: LongRun,
 }
 
 impl Page {
-    /// Adds a table, and shows it.
+    /// Adds a table, and prints it.
     fn add(&mut self, table: Table) -> std::io::Result<()> {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
         self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
@@ -122,7 +122,7 @@ impl Page {
         Ok(())
     }
 
-    /// Adds a figure, in a file beside the page.
+    /// Adds a figure, in a file next to the page.
     fn draw(&mut self, name: &str, caption: &str, svg: &str) -> std::io::Result<()> {
         self.text += &format!("![{caption}](bench/{name})\n\n");
         match &self.folder {

@@ -1,7 +1,7 @@
 //! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
 //!
 //! The harness's commands come from `convergence_study::cli`, with the beam's kinds of study registered in [`project()`]. This
-//! file adds the beam's own commands, and only dispatches.
+//! file adds the beam's own commands and dispatches.
 
 mod bench;
 mod equilibria;
@@ -19,12 +19,12 @@ pub use project::project;
 /// The command line of `thermobeam`.
 #[derive(Debug, Parser)]
 pub struct Thermobeam {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// The commands. What each does stands at its arguments, from where `--help` takes it.
+/// The commands. Each is documented at its arguments, where `--help` finds the text.
 #[allow(missing_docs)]
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -37,7 +37,7 @@ pub enum Command {
     Bench(bench::Arguments),
 }
 
-/// The commands by what a user wants to do.
+/// The commands, grouped by the user's purpose.
 pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate a scene", &["run", "equilibria"]),
     ("Verify", &["verify", "study", "list", "explain", "new"]),

@@ -25,7 +25,7 @@ pub const fn project(command: &'static str) -> Project {
         ],
         terms: &TERMS,
         templates: &TEMPLATES,
-        // Others show this picture, and need a name that studies do not change.
+        // Other pages show this picture, so its name must not depend on studies.
         front_pictures: &[("section-5-beam.svg", "beam.svg")],
         front: FRONT,
         settings,

@@ -57,7 +57,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Shows the result, and then the complaint if there is one: the verdict is fail.
+    /// Prints the result, and then the complaint if the verdict is fail.
     fn show(
         &self,
         complaint: Option<String>,
@@ -74,7 +74,7 @@ impl Arguments {
     }
 }
 
-/// The JSON object, with what was asked for on top.
+/// The JSON object, with the requested analyses at its top.
 #[derive(Serialize)]
 struct Printed<'a> {
     #[serde(flatten)]
@@ -88,7 +88,7 @@ struct Printed<'a> {
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
 
-/// Runs the command. Nothing is written, not even the folder made, before the scene has proved usable.
+/// Runs the command. Nothing is written, and no folder is created, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let read = Scene::read(&arguments.scene)?;
     let planned = match arguments.target_error.map(|target| accuracy::plan(arguments, &read, target)).transpose() {
@@ -106,7 +106,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         let history = run.history.iter().map(|history| ("history.csv", history.csv()));
         write_files(folder, history.chain(run.pictures(scene)))
     })?;
-    // A run that failed has nothing whose error could be estimated.
+    // The error of a failed run cannot be estimated.
     let wanted = arguments.estimate_error && run.failure.is_none();
     let budget = wanted.then(|| accuracy::budget(arguments, scene)).transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
@@ -121,7 +121,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     })
 }
 
-/// Runs the scene, with a bar of the time reached, and a history where files are wanted.
+/// Runs the scene, with a bar of the time reached, and a history if files are requested.
 fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::Result<Run> {
     let recording = match &arguments.flags.out {
         Some(folder) => {

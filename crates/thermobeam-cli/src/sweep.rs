@@ -64,7 +64,7 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<u
     });
     bar.finish_and_clear();
     match outcome {
-        // A reader that stops early, such as `head`, is no error.
+        // A reader that stops early, such as `head`, is not an error.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
         _ => Ok(state.into_inner().unwrap_or_else(PoisonError::into_inner).1),
     }
@@ -101,7 +101,7 @@ fn to_folder(
     Ok(failed)
 }
 
-/// What `sweep --out DIR --format json` prints beside the verdict.
+/// The keys of `sweep --out DIR --format json` in addition to the verdict.
 #[derive(serde::Serialize)]
 struct SweepObject<'a> {
     sweep: &'a str,

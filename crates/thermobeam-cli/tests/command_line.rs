@@ -1,4 +1,4 @@
-//! The command line as a whole: every command of it keeps these laws.
+//! Laws of the whole command line, for every command.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use convergence_study::cli::command_line;
 use thermobeam_cli::{GROUPS, Thermobeam, project};
 
-/// The name of the program that exists in a checkout only.
+/// The name of the program that exists only in a checkout.
 const ELSEWHERE: &str = "xtask";
 
 fn program() -> clap::Command {
@@ -16,7 +16,7 @@ fn program() -> clap::Command {
     program
 }
 
-/// The commands of users: what the program calls itself by is hidden.
+/// The commands for users: the program's internal commands are hidden.
 fn commands(program: &clap::Command) -> impl Iterator<Item = &clap::Command> {
     program.get_subcommands().filter(|command| !command.is_hide_set())
 }
@@ -60,7 +60,7 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     let mut read = 0;
     for name in ["convergence-study", "thermobeam", "thermobeam-exact", "thermobeam-study", "thermobeam-cli"] {
         for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src")) {
-            // A text that is not UTF-8 is no text.
+            // A file that is not UTF-8 counts as empty.
             let text = fs::read_to_string(&path).unwrap_or_default();
             let found = naming(&text);
             assert!(found.is_empty(), "{}: {}", path.display(), found.join("\n"));
@@ -71,7 +71,7 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     assert_eq!(naming("let a = \"now  cargo xtask run\"; // or cargo xtask\n/// as `cargo xtask`\n").len(), 1);
 }
 
-/// Commands that answer with something else than a result, and why.
+/// Commands whose answer is not a result, and why.
 const WITHOUT_FLAGS: [&str; 2] = ["completions", "help"];
 
 #[test]

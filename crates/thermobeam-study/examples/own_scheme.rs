@@ -1,6 +1,6 @@
-//! A time scheme of one's own, judged by the studies that judge the others.
+//! Your own time scheme, judged by the studies that judge the others.
 //!
-//! A scheme is a row of data. What fits no row is judged by its errors, as in the example `own_rates`.
+//! A scheme is a row of data. A method outside this form is judged by its errors, as in the example `own_rates`.
 //!
 //! `cargo run -p thermobeam-study --example own_scheme`
 
@@ -18,7 +18,7 @@ use thermobeam::solve::Settings;
 use thermobeam_study::kinds::convergence::Convergence;
 
 /// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new velocity, and contact by the
-/// discrete gradient. It damps half as much as the paper's, and is of first order all the same.
+/// discrete gradient. It damps half as much as the paper's and is still of first order.
 const MINE: Scheme = Scheme {
     name: "three-quarters",
     order: 1.0,

@@ -1,4 +1,4 @@
-//! A manufactured solution of one's own, in Rust and in TOML: the same study.
+//! Your own manufactured solution, in Rust and in TOML: the same study.
 //!
 //! `cargo run -p thermobeam-study --example own_solution`
 

@@ -1,4 +1,4 @@
-//! Convergence studies for the [`thermobeam`] solver: does it keep what theory promises?
+//! Convergence studies for the [`thermobeam`] solver: does it have the properties that theory predicts?
 //!
 //! # From a file to a verdict
 //!
@@ -7,10 +7,10 @@
 //!                          cases            threads            Outcome
 //! ```
 //!
-//! A study is data, and so is a [`scene`], whose functions are [`expression`]s. Each of the [`kinds`] of study says what its cases
-//! compute and how their results are judged; [`run`] steps problems, [`mod@error`] measures errors against exact solutions and finer
-//! runs, [`predict`] predicts cost and error. Threads, rates, verdicts, baseline, records and reports are the harness's:
-//! [`convergence_study`].
+//! Studies are data, and so are [`scene`]s, whose functions are [`expression`]s. Each of the [`kinds`] of study defines what its
+//! cases compute and how their results are judged; [`run`] steps problems, [`mod@error`] measures errors against exact solutions and
+//! finer runs, [`predict`] predicts cost and error. The harness, [`convergence_study`], provides threads, rates, verdicts, baseline,
+//! records and reports.
 //!
 //! ```
 //! use convergence_study::judge::verdict::Verdict;
@@ -32,7 +32,7 @@
 //! # Ok::<(), convergence_study::input::InputError>(())
 //! ```
 //!
-//! What the solver must obey is derived in [`thermobeam::theory`].
+//! The properties of the solver are derived in [`thermobeam::theory`].
 
 pub mod error;
 pub mod figures;
@@ -46,7 +46,7 @@ pub mod timing;
 pub use thermobeam_exact as exact;
 pub use thermobeam_exact::expression;
 
-/// The code of the README, held by the doc tests.
+/// The code of the README, compiled as doc tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

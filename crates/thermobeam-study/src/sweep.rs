@@ -1,4 +1,4 @@
-//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene, of a one-step scheme or of any order.
+//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene, for one-step schemes and any order.
 //!
 //! ```toml
 //! [sweep]
@@ -14,7 +14,7 @@
 //! obstacles.epsilon = { from = 1e-4, to = 1e-2, count = 3, scale = "log" }
 //! ```
 //!
-//! or, in place of `[grid]`,
+//! or, instead of `[grid]`,
 //!
 //! ```toml
 //! [latin]                                   # as many cases as samples, each key stratified into as many slices
@@ -24,9 +24,9 @@
 //! mesh.elements = { from = 20, to = 200, scale = "log" }
 //! ```
 //!
-//! Cases are numbered from 0. A case's results are a function of the files alone: any number of threads, of shares and of
-//! interruptions gives the same bytes. Computed numbers are rounded to 9 digits, so that a different mathematical library
-//! does not move a case to another share.
+//! Cases are numbered from 0. A case's results depend on the files alone: any number of threads, shares and interruptions
+//! gives the same bytes. Computed numbers are rounded to 9 digits, so that a different mathematical library cannot move a
+//! case to another share.
 
 mod case;
 mod design;
@@ -61,12 +61,12 @@ pub struct Sweep {
     fingerprint: u64,
 }
 
-/// The base scene, as text: every case reads it with its own values in place of the scene's.
+/// The base scene, as text: every case reads it with its own values instead of the scene's.
 #[derive(Debug, Clone)]
 struct Base {
     file: String,
     text: String,
-    /// What every case has in common: TOML in which `{key}` stands for the case's value.
+    /// The part common to all cases: TOML in which `{key}` stands for the case's value.
     set: String,
 }
 
@@ -88,20 +88,20 @@ impl Sweep {
     /// Reads a sweep file and the scene that it names.
     ///
     /// # Errors
-    /// [`InputError`] with file, line and field. A number that no scene can have is refused here; whether the numbers of a
-    /// case are compatible with each other is found when it is run.
+    /// [`InputError`] with file, line and field. A number that no scene can have is refused here; the compatibility of a
+    /// case's numbers with each other is checked when it is run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = input::read_text(path)?;
         input::parse_beside(&text, path, |root, folder| reader::read(root, &text, path, folder))
     }
 
-    /// How many cases there are.
+    /// Number of cases.
     pub fn cases(&self) -> usize {
         self.design.cases()
     }
 
-    /// The keys that vary, in the order of a case's values.
+    /// The varied keys, in the order of a case's values.
     pub fn keys(&self) -> &[Key] {
         &self.keys
     }
@@ -114,7 +114,7 @@ impl Sweep {
     /// The scene of a case.
     ///
     /// # Errors
-    /// [`InputError`] where the case's numbers are incompatible, such as a dt that does not divide t_end.
+    /// [`InputError`] if the case's numbers are incompatible, such as a dt that does not divide t_end.
     pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
         self.base.scene(case.parameters())
     }

@@ -1,6 +1,6 @@
-//! Error over seconds, for benchmarks: measured on this machine and only where runs were done, nothing extrapolated.
+//! Error over seconds, for benchmarks: only measured runs on this machine, without extrapolation.
 //!
-//! Every method of a study of what errors cost, and dG against a general integrator on the same elements.
+//! Compares all methods of a work-precision study, and dG with a general integrator on the same elements.
 
 use convergence_study::plots;
 use convergence_study::study::{CaseFailure, Kind, Table};
@@ -15,13 +15,13 @@ use crate::run::dg::nodal;
 use crate::run::family::Family;
 use crate::scene::Scene;
 
-/// Errors whose cost is shown, where a run reaches them.
+/// Errors whose cost is shown if a run reaches them.
 const TARGETS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-/// The same against the integrator.
+/// The same for the comparison with the integrator.
 const SMALL: [f64; 7] = [1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
-/// Runs; the fastest counts, since other load on the machine only makes a run slower.
+/// Number of repetitions; the fastest counts, since other load on the machine only slows a run.
 const REPEATS: usize = 3;
-/// The same against the integrator.
+/// The same for the comparison with the integrator.
 const SHORT_REPEATS: usize = 5;
 
 /// A run with its time.
@@ -31,9 +31,9 @@ pub struct Timed {
     pub method: &'static str,
     /// Elements and steps, or degrees and largest step.
     pub resolution: String,
-    /// In the order of [`ErrorMeasure::ALL`]; NaN where not measured.
+    /// Errors in the order of [`ErrorMeasure::ALL`]; NaN if not measured.
     pub errors: [f64; 3],
-    /// Of the solver alone.
+    /// Seconds in the solver alone.
     pub seconds: f64,
 }
 
@@ -53,10 +53,10 @@ fn fastest<'r>(runs: &'r [Timed], method: &str, quantity: ErrorMeasure, error: f
     runs.iter().filter(is_good).min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
-/// All runs of a study with their seconds, on this thread, one after the other; no outcome holds them.
+/// All runs of a study with their seconds, one after the other on this thread; they are in no outcome.
 ///
 /// # Errors
-/// [`CaseFailure`] of the first run that does not come to its end.
+/// [`CaseFailure`] of the first run that does not finish.
 pub fn timed(study: &WorkPrecision) -> Result<Vec<Timed>, CaseFailure> {
     let mut best: Vec<Timed> = vec![];
     for repeat in 0..REPEATS {
@@ -79,7 +79,7 @@ pub fn timed(study: &WorkPrecision) -> Result<Vec<Timed>, CaseFailure> {
     Ok(best)
 }
 
-/// What each error costs in milliseconds: for each method the fastest of the runs whose error is at most that.
+/// The cost of each error in milliseconds: for each method that of its fastest run with at most that error.
 pub fn table(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> Table {
     let methods: Vec<&str> = study.methods().map(|method| method.name).collect();
     let line = |error: f64| {
@@ -97,7 +97,7 @@ pub fn table(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> 
     Table::new(title, head, TARGETS.into_iter().filter_map(line))
 }
 
-/// Error over seconds: for each method the runs that no other run of it beats.
+/// Error over seconds: for each method the runs that none of its other runs beats.
 pub fn figure(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> String {
     let series = study.methods().map(|method| {
         let own = timed.iter().filter(|run| run.method == method.name);
@@ -111,7 +111,7 @@ pub fn figure(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) ->
     })
 }
 
-/// Viscosity, nodes, and the degree at which dG's own error in space is gone.
+/// Viscosity, nodes, and a degree for which dG's error in space is negligible.
 const CASES: [(f64, &[f64], usize); 2] = [(0.1, &[0.0, 1.0], 32), (0.01, &[0.0, 0.8, 1.0], 32)];
 
 /// Runs of dG whose errors fall from 1e-6 to 1e-13.
@@ -131,7 +131,7 @@ const RUNS: [(usize, usize, f64); 13] = [
     (24, 5, 0.005),
 ];
 
-/// What `studies/programs/cvode.cpp` prints, for the paper's first experiment.
+/// The output of `studies/programs/cvode.cpp` for the paper's first experiment.
 #[derive(Debug, Deserialize)]
 pub struct Rival {
     runs: Vec<RivalRun>,
@@ -147,15 +147,15 @@ struct RivalRun {
 }
 
 impl Rival {
-    /// Reads what the program has printed.
+    /// Reads the output of the program.
     ///
     /// # Errors
-    /// With line and column of what is not as expected.
+    /// An error with the line and column of unexpected text.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
     }
 
-    /// Its runs with a viscosity; the answer is `exact`.
+    /// Its runs with one viscosity; `exact` is the exact answer.
     fn timed(&self, zeta: f64, exact: f64) -> Vec<Timed> {
         let timed = |run: &RivalRun| {
             let how = format!("p = {}, {:e}", run.degree, run.tolerance);
@@ -165,10 +165,10 @@ impl Rival {
     }
 }
 
-/// A table for each viscosity, of the paper's first experiment.
+/// A table for each viscosity, for the paper's first experiment.
 ///
 /// # Errors
-/// [`CaseFailure`] of a run that does not come to its end.
+/// [`CaseFailure`] of a run that does not finish.
 pub fn beside(scene: &Scene, rival: Option<&Rival>) -> Result<Vec<Table>, CaseFailure> {
     let of_case = |&(zeta, nodes, degree): &(f64, &[f64], usize)| {
         let family = Family::of_scene(&Scene { beam: Beam { zeta, ..scene.beam }, t_end: 1.0, ..scene.clone() });
@@ -195,7 +195,7 @@ fn seconds_and_tip(family: &Family, nodes: &[f64], how: Degrees) -> Result<(f64,
     Ok((spent.seconds, tip))
 }
 
-/// * `is_measured`: whether the runs hold those of the integrator.
+/// * `is_measured`: whether the runs include those of the integrator.
 fn against(zeta: f64, elements: usize, runs: &[Timed], is_measured: bool) -> Table {
     let theirs = |text: String| if is_measured { text } else { "not measured".to_owned() };
     let cell = |run: Option<&Timed>| run.map_or("-".to_owned(), |run| run.cell(2));

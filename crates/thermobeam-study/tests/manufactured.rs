@@ -1,4 +1,4 @@
-//! The three designs against numbers of an independent implementation, and against mistakes made on purpose.
+//! The three designs, compared with an independent implementation and tested with deliberate mistakes.
 
 use std::path::Path;
 
@@ -48,8 +48,8 @@ fn the_errors_are_those_of_the_independent_implementation() {
 
 #[test]
 fn isolation_is_exact_whatever_the_other_axis() {
-    // In the time design the space error is zero: the errors do not depend on how coarse the mesh is, but for what the
-    // coarse interpolant itself is. With as good as no time error they vanish.
+    // In the time design the space error is zero: the errors depend on the mesh only through the interpolant of the
+    // exact solution. With negligible time error they vanish.
     let mut study = convergence("midpoint-time.toml");
     study.refine.t_end = 1e-3;
     let found = errors(&study, 8, 200, None);
@@ -58,7 +58,7 @@ fn isolation_is_exact_whatever_the_other_axis() {
 
 #[test]
 fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
-    // No time error at all: with a tenth of the steps the errors are of the same size, not ten times larger.
+    // No time error at all: with a tenth of the steps the errors keep their size instead of growing tenfold.
     let study = convergence("theorem-3.4-space.toml");
     let (few, many) = (errors(&study, 64, 4, None), errors(&study, 64, 40, None));
     for (norm, few) in few.iter() {

@@ -1,4 +1,4 @@
-//! Figures of beams: the laws of all figures, and their own.
+//! Figures of beams: the laws of all figures, and special ones.
 
 mod figures;
 #[path = "../../convergence-study/tests/plots/laws.rs"]
@@ -51,7 +51,7 @@ fn the_same_data_give_the_same_bytes() {
 #[test]
 fn every_figure_is_in_the_gallery() {
     let (module, gallery) = (include_str!("../src/figures/mod.rs"), include_str!("figures/mod.rs"));
-    // The pictures of a run are made of figures that have their place in a gallery.
+    // The pictures of a run consist of figures that are in a gallery.
     let exported = module.lines().filter_map(|line| line.strip_prefix("pub use ")?.split("::").next());
     let exported = exported.filter(|name| *name != "scene");
     let figures: Vec<_> = exported.collect();
@@ -126,7 +126,7 @@ fn stable_branches_are_solid_and_unstable_ones_dashed() {
         let svg = bifurcation(&[branch(stable)], vec![], &Series::default());
         elements(&parse(&svg), "g").filter(|n| n.attribute("stroke-dasharray").is_some()).count()
     };
-    // Guides, of which there are none here, are dashed too.
+    // Guides are dashed too, but there are none here.
     assert_eq!(count(false), count(true) + 2);
 }
 
@@ -164,7 +164,7 @@ fn prediction_and_markers_are_filled_where_the_fixed_point_converges_only() {
 #[test]
 fn the_beam_of_an_animation_is_bent_where_nothing_moves() {
     let mut moving = figures::motion();
-    // Straight at the start, as beams at rest are.
+    // Straight at the start, like a beam at rest.
     moving.frames[0] = vec![0.0; moving.nodes.len()];
     let svg = animation(&moving);
     let doc = parse(&svg);

@@ -1,5 +1,5 @@
-//! Laws of errors and of accuracies asked for: held against exact answers, and where the tip is in contact against much finer runs
-//! that share neither mesh nor steps with what is judged.
+//! Laws of error estimates and chosen runs, tested against exact answers, and with contact against much finer runs that share
+//! neither mesh nor steps with the tested ones.
 
 use convergence_study::run::time_limit;
 use thermobeam::dg::Stepping;
@@ -16,7 +16,7 @@ use thermobeam_study::run::motion::Sample;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::{Method, Scene};
 
-/// Within the usual limit of work.
+/// Runs a search with the usual limit of work.
 fn limited<T>(find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
     let mut told = |part: f64| assert!((0.0..=1.0).contains(&part));
     let mut work = Work::new(MOST_WORK, &mut told);
@@ -56,7 +56,7 @@ fn samples(run: &Run) -> Vec<Sample> {
     run.history.iter().flat_map(|history| &history.rows).map(|row| row.sample).collect()
 }
 
-/// Ten digits and more, from a discretisation that the search never tries.
+/// A reference with ten digits or more, from a discretisation that the search never tries.
 fn reference(scene: &Scene) -> Run {
     let mesh = Mesh::from_nodes(vec![0.0, 0.7, 0.9, 0.97, 1.0]).expect("nodes");
     let stepping = Stepping { degree: 5, dt: 0.003, restart_dt: 1e-4, growth: 1.12, ..Stepping::default() };
@@ -82,7 +82,7 @@ fn parsed(text: &str) -> Scene {
     Scene::parse(text, "s.toml").unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Of the first steps and of contact, on elements that resolve their layers.
+/// A reference for the first steps and for contact, on elements that resolve their layers.
 fn layered_reference(scene: &Scene) -> Run {
     let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.8, 0.95, 0.99, 0.998, 1.0]).expect("nodes");
     let stepping = Stepping { degree: 4, dt: 0.0035, restart_dt: 1e-6, growth: 1.18, ..Stepping::default() };
@@ -92,7 +92,7 @@ fn layered_reference(scene: &Scene) -> Run {
 
 #[test]
 fn the_layer_at_the_start_keeps_the_error_asked_for() {
-    // Initial data that break the condition at x = 1: the error of u(1, t) has its peak inside the first step.
+    // Initial data that violate the condition at x = 1: the error of u(1, t) peaks inside the first step.
     for (zeta, target) in [(0.01, 1e-9), (0.1, 1e-8)] {
         let scene = parsed(&format!(
             "[beam]\nzeta = {zeta}\nbeta = -0.5\n[initial]\nu_t = \"2*x*sin(3*x)\"\ntheta = \"sin(pi*x)\"\n\
@@ -101,7 +101,7 @@ fn the_layer_at_the_start_keeps_the_error_asked_for() {
         let choice = chosen(&scene, target);
         for t_end in [2e-4, 4e-3] {
             let begun = |scene: &Scene| Scene { t_end, ..scene.clone() };
-            // The run's own steps: it goes on, and its history ends.
+            // The chosen run, with its own steps, goes on while the history ends.
             let own = run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES);
             let own = samples(&own);
             let exact = samples(&layered_reference(&begun(&scene)));
@@ -115,7 +115,7 @@ fn the_layer_at_the_start_keeps_the_error_asked_for() {
 
 #[test]
 fn short_waves_that_grow_while_the_axial_force_is_below_minus_one_do_not_exceed_the_error_asked_for() {
-    // Degrees 9 and 13 on four elements agree to 4e-5, and both are wrong by 7e-4.
+    // Degrees 9 and 13 on four elements agree to 4e-5, but both have errors of 7e-4.
     let scene = parsed(
         "[beam]\nzeta = 0.003763\na = 0.3124\nrho = 1.038\nbeta = -1.8925\ntheta_a = -4.325\n\
          [obstacles]\nepsilon = 0.0027\ng1 = -0.07874\ng2 = 0.02022\n\
@@ -222,7 +222,7 @@ fn the_error_asked_for_is_made_inside_steps_too_and_the_checks_cost_a_few_runs()
             let made = largest_difference(&run(&choice.scene, TIMES), &exact);
             assert!(made <= target, "{beam}, {target:e}: {made:e} with {choice:?}");
             assert!(choice.error <= target);
-            // The belief is no flattery: it is the error within a factor of two.
+            // The estimate is honest: it is correct within a factor of two.
             assert!(made <= 2.0 * choice.error && choice.error <= 10.0 * made, "{made:e} with {choice:?}");
             let ratio = spent.work / choice.run.work;
             assert!(ratio <= 8.0, "{beam}, {target:e}: the checks cost {ratio:.1} runs");
@@ -276,7 +276,7 @@ fn what_cannot_be_reached_is_refused_with_what_can() {
         }
         other => panic!("{other:?}"),
     }
-    // Work for two rounds: what they have reached is said, with the limit.
+    // Enough work for two rounds: the message gives the error reached and the limit.
     let mut told = |_: f64| ();
     let mut work = Work::new(2e6, &mut told);
     let error = predict::choice::choose(&scene, Quantity::Tip, 1e-12, &mut work).unwrap_err();
@@ -316,11 +316,11 @@ fn named<'b>(budget: &'b Budget, name: &str) -> &'b Estimate {
 
 const ZETA: f64 = 0.1;
 
-/// A damped mode of the linear beam as a scene: U and Φ written out, released with U(1) = 1.
+/// A damped mode of the linear beam as a scene: U and Φ in full, released with U(1) = 1.
 fn vibration(index: usize, stepping: &str) -> (DampedMode, Scene) {
     let mode = Mode::new(index);
     let omega = mode.omega();
-    // At x = 0 the formulas of the mode say U' = -2ωA and Φ' = 2ωB.
+    // At x = 0 the formulas of the mode give U' = -2ωA and Φ' = 2ωB.
     let (a, b) = (-mode.u_x(0.0) / (2.0 * omega), mode.phi_x(0.0) / (2.0 * omega));
     let [plus, minus] = [(omega * omega - omega).sqrt(), (omega * omega + omega).sqrt()];
     let text = format!(
@@ -341,7 +341,7 @@ fn is_the_error_of_the_vibration(index: usize, stepping: &str, source: Option<So
     let factor = exact.factor(scene.t_end);
     for (name, truth) in [("u(1) at the end", factor), ("phi(1) at the end", exact.mode().phi(1.0) * factor)] {
         let of = named(&budget, name);
-        // Two digits of the error, not its order of magnitude.
+        // Two digits of the error, not just its order of magnitude.
         assert!((of.total - (of.value - truth).abs()).abs() <= 0.02 * of.total, "{name} {truth:?}: {budget}");
     }
     assert_eq!(budget.dominant, source, "{budget}");
@@ -383,7 +383,7 @@ fn the_errors_of_a_one_step_scheme_in_contact_are_those_to_the_exact_motion() {
                 (of.total - made.abs()).abs() <= 2.0 * of.reference + 0.01 * made.abs(),
                 "{name} {made:e}: {budget}"
             );
-            // The own error of the reference is a tenth of that of the curve that the number is on.
+            // The reference's own error is at most a tenth of that of the number's curve.
             let curve = format!(
                 "{} over time",
                 name.split(' ').next().filter(|n| n.len() > 4 && *n != "largest").unwrap_or("u(1)")
@@ -418,7 +418,7 @@ fn vibrating(modes: &[usize], t_end: f64) -> Family {
     Family::of_free_solution(free_vibration::vibration(&modes, ZETA).unwrap(), free_vibration::beam(ZETA), t_end)
 }
 
-/// The error made over all time levels, and its norm, of a vibration with one mode.
+/// The actual error over all time levels, and its norm, for a vibration with one mode.
 fn made(choice: &Choice) -> [f64; 2] {
     let family = vibrating(&[0], choice.scene.t_end);
     let (on, steps) = (family.on(choice.scene.mesh.elements()).unwrap(), choice.scene.steps());
@@ -479,7 +479,7 @@ fn the_cheapest_is_dg_and_the_scenes_own_scheme_would_need_what_it_then_takes() 
     let needed = choice.needed.expect("what midpoint needs");
     let kept = keep(&scene, Quantity::Tip, 1e-5);
     let ratio = kept.run.work / needed.node_steps();
-    // It aims at three quarters of the target, in which the reference has its share.
+    // It aims at three quarters of the target, including the error of the reference.
     assert!((0.5..=1.8).contains(&ratio), "{ratio}: {needed:?}");
     assert!(kept.is_kept && kept.needed.is_none() && choice.run.work < kept.run.work);
     let Method::Dg(_) = choice.scene.method else { panic!("{:?}", choice.scene.method) };
@@ -494,7 +494,7 @@ fn in_the_norm_dg_makes_the_error_asked_for() {
     let choice = found.expect("a run");
     let (finer, _) = limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-5, work));
     let finer = finer.expect("a run");
-    // The norm bounds the shear, and so the free end's distance but for the rotation's.
+    // The norm bounds the shear, and so the free end's distance except for the rotation's part.
     let [one, other] = [&choice, &finer].map(|choice| run(&choice.scene, TIMES));
     let made = largest_difference(&one, &other);
     assert!(choice.error <= 1e-3 && made <= 2.0 * choice.error && made > 1e-8, "{made:e}");

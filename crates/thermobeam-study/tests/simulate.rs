@@ -105,7 +105,7 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
     let limit = Duration::from_millis(1);
     let (stopped, up) = within(Some(limit), || {
         let simulator = Simulator::new(&scene).unwrap();
-        // Each step hears that it is done, and this one dawdles.
+        // The callback of each step delays the run.
         simulator.run(Recording::Summary, &mut |_, _| std::thread::sleep(limit))
     });
     let Some(RunError::TimeUp(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
@@ -172,7 +172,7 @@ fn every_bit_of_the_history_can_be_read_back() {
 fn a_run_by_any_method_stops_at_the_step_that_breaks_the_law_of_the_energy() {
     let start = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[time]\nt_end = 2.0\ndt = 0.1\n";
     for method in ["scheme = \"dg\"\nrestart_dt = 0.1", "scheme = \"midpoint\""] {
-        // Steps that are not solved.
+        // Steps that cannot be solved.
         let loose = Scene::parse(&format!("{start}{method}\ntolerance = 100.0"), "loose.toml").unwrap();
         let alone = run(&loose, Recording::Summary);
         assert_eq!(serde_json::to_value(Object::new(&loose, &alone)).unwrap()["failure"]["kind"], "unsound");
@@ -187,7 +187,7 @@ fn a_run_by_any_method_stops_at_the_step_that_breaks_the_law_of_the_energy() {
     }
 }
 
-/// The bound on a rise of the energy is a share of the energy: an infinite one let everything pass.
+/// The bound on a rise is a share of the energy: an infinite energy used to let everything pass.
 #[test]
 fn a_run_whose_energy_is_infinite_fails() {
     for scheme in ["dg", "euler-crank-nicolson", "midpoint"] {
@@ -258,7 +258,7 @@ fn the_first_experiment_by_dg_comes_out_to_seven_digits_with_its_events() {
     let phases = run_curve.contact_phases();
     assert!((phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7);
     assert_eq!(phases[1].1, 1.0);
-    // Each time once, whatever the steps.
+    // Each time once, for any steps.
     let rows = &run_curve.history.as_ref().unwrap().rows;
     assert_eq!(rows.len(), 101);
     assert!(rows.windows(2).all(|pair| (pair[1].sample.t - pair[0].sample.t - 0.01).abs() < 1e-12));

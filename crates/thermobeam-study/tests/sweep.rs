@@ -1,4 +1,4 @@
-//! A sweep's cases run side by side wherever they can, and no line shows it.
+//! The cases of a sweep run together wherever possible, and their lines do not show it.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -30,7 +30,7 @@ fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, L
     lines.into_inner().unwrap()
 }
 
-/// With a limit each case runs alone.
+/// With a limit each case runs on its own.
 const HOUR: Option<Duration> = Some(Duration::from_secs(3600));
 
 #[test]
@@ -134,7 +134,7 @@ fn a_whole_line_of_another_sweep_or_share_is_refused() {
     }
 }
 
-/// Scenes of any order: a case whose first step is above its largest has no scene, one without iterations fails in a step.
+/// Scenes of any order: a case with a first step above its largest has no scene, one without iterations fails.
 const ANY_ORDER: [&str; 2] = [
     "[obstacles]\n[initial]\nu_t = \"20*x*(x-1)^2\"\n[mesh]\ndegree = 8\n\
      [time]\nscheme = \"dg\"\ndt = 0.02\nrestart_dt = 0.01\nt_end = 0.3\n",
@@ -148,7 +148,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("base.toml", ANY_ORDER[0]);
     write("sweep.toml", ANY_ORDER[1]);
-    // Of the cases with dt = 0.013, those with restart_dt = 0.015 have no scene; a sweep refuses only what no case can have.
+    // With dt = 0.013, cases with restart_dt = 0.015 have no scene; a sweep refuses only values that no case can have.
     let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
     let alone = all(&sweep, 1, HOUR);
     let with = |piece: &str| alone.values().filter(|line| line.json.contains(piece)).count();
@@ -160,7 +160,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
         assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
     }
     assert_eq!(all(&sweep, 2, HOUR), alone);
-    // Each case belongs to one share; a journal of half of the lines is gone on with, and refused once one is altered.
+    // Each case belongs to one share; a half-written journal is continued, and refused if a line is altered.
     let shares: Vec<Share> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
     let held = |case: usize| shares.iter().filter(|share| share.holds(sweep.case(case).hash())).count();
     assert!((0..sweep.cases()).all(|case| held(case) == 1));

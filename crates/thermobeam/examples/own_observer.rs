@@ -1,4 +1,4 @@
-//! An observer that finds the impacts of the tip and the energy that each of them dissipates.
+//! An observer that finds the impacts of the tip and the energy lost in each.
 //!
 //! `cargo run -p thermobeam --example own_observer`
 

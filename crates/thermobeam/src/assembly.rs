@@ -1,7 +1,7 @@
 //! The matrices of (3.7) for the P1 hat functions N_0..N_n, tridiagonal, over all n + 1 nodes.
 //!
-//! The solver works element by element without them. They serve the manufactured solutions that isolate the time error,
-//! the studies of vibrations, and the tests.
+//! The solver works element by element without them. The manufactured solutions that isolate the time error, the
+//! studies of vibrations, and the tests use them.
 
 use crate::mesh::Mesh;
 
@@ -60,14 +60,14 @@ impl Tridiagonal {
 
 /// Consistent mass matrix, `M_ij = (N_j, N_i)`.
 ///
-/// Symmetric positive definite; its entries add up to 1, the beam's length. Source: first term of (3.7).
+/// Symmetric positive definite; its entries sum to 1, the beam's length. Source: first term of (3.7).
 pub fn mass(mesh: &Mesh) -> Tridiagonal {
     Tridiagonal::assemble(mesh, |h| [[h / 3.0, h / 6.0], [h / 6.0, h / 3.0]])
 }
 
 /// Stiffness matrix, `K_ij = (N_j', N_i')`.
 ///
-/// Symmetric, constants in its kernel. Source: `(u_x, w_x)` in (3.7).
+/// Symmetric, with the constants in its kernel. Source: `(u_x, w_x)` in (3.7).
 pub fn stiffness(mesh: &Mesh) -> Tridiagonal {
     Tridiagonal::assemble(mesh, |h| [[1.0 / h, -1.0 / h], [-1.0 / h, 1.0 / h]])
 }

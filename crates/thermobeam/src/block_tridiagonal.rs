@@ -26,7 +26,7 @@ pub(crate) struct Factor<T, const B: usize> {
     pub(crate) nodes: Vec<Node<T, B>>,
 }
 
-// The loops below write arrays in place, which the compiler keeps in registers; with `std::array::from_fn` it does not.
+// The loops below write arrays in place, which the compiler keeps in registers, unlike those of `std::array::from_fn`.
 
 /// `matrix * vector`.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! Bisection for a root in a bracket, and golden section search for a maximum in a bracket.
 //!
 //! Both methods are slow and cannot fail. They are used where the bracket comes from a proof; faster methods would save
-//! microseconds there and need safeguards.
+//! only microseconds and need safeguards.
 
 /// More bisections than any bracket of two floats allows: exponent range and mantissa.
 const HALVINGS: usize = 2200;

@@ -28,10 +28,10 @@ impl Obstacles {
         self.depth(u) / self.epsilon
     }
 
-    /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε where viscosity is too small to matter (ζ < ε).
+    /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε if viscosity is negligible (ζ < ε).
     ///
-    /// The penetration is largest at 1.65 t*; contact lasts longer, whatever ε. `THEORY.md`, "Penetration of an impact"; without
-    /// viscosity the tip obeys `p' = c - p/ε`, p being its penetration.
+    /// The penetration is largest at 1.65 t*; contact lasts longer, for every ε. `THEORY.md`, "Penetration of an impact";
+    /// without viscosity the penetration p of the tip obeys `p' = c - p/ε`.
     pub fn impact_time(&self, zeta: f64) -> f64 {
         (self.epsilon * zeta.sqrt()).powf(2.0 / 3.0).max(self.epsilon)
     }
@@ -66,7 +66,7 @@ impl Obstacles {
         } else if depth == 0.0 && depth0 == 0.0 {
             0.0
         } else {
-            // One obstacle lies between u and u0: their difference is not zero and at least as large as each depth.
+            // One obstacle lies between u and u0: their difference is nonzero and at least as large as each depth.
             (depth.abs() - depth0.abs()) * (depth.abs() + depth0.abs()) / (double * (u - u0))
         }
     }
@@ -194,7 +194,7 @@ mod tests {
             let rule = if gradient { ContactRule::DiscreteGradient } else { ContactRule::Implicit };
             let tip = |r| obstacles.solve_tip(rule, r, 10f64.powf(log_c), u0);
             let (low, high) = (tip(r - 1e-7), tip(r + 1e-7));
-            // No derivative at a kink, and only a one-sided one where the end of the step coincides with its start.
+            // No derivative at a kink, and only a one-sided one if the end of the step coincides with its start.
             let side = |u: f64| (u > obstacles.g2, u < obstacles.g1);
             prop_assume!(side(low.u) == side(high.u) && (tip(r).u - u0).abs() > 1e-2);
             let quotient = (high.force - low.force) / (high.u - low.u);

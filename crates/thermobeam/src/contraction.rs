@@ -26,7 +26,7 @@ use crate::tridiagonal::TridiagonalFactor;
 ///
 /// * `lengths`: length of each element.
 /// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
-/// * Returns infinity if A_u is not positive definite: then the fixed point cannot do the step.
+/// * Returns infinity if A_u is not positive definite: then the fixed point cannot perform the step.
 pub fn contact_contraction(
     beam: &Beam,
     obstacles: &Obstacles,
@@ -51,7 +51,7 @@ pub fn contact_contraction(
 const ITERATIONS: usize = 300;
 const RELATIVE_CHANGE: f64 = 1e-13;
 
-/// Contraction factor of the fixed point by the coupling of rotation and displacement.
+/// Contraction factor of the fixed point due to the coupling of rotation and displacement.
 ///
 /// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as
 /// `s C W`. The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
@@ -75,11 +75,11 @@ pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f
     of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, s, &of_u, &of_phi))
 }
 
-/// Contraction factor of the fixed point by the coupling of rotation and temperature.
+/// Contraction factor of the fixed point due to the coupling of rotation and temperature.
 ///
 /// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ enters the second as `a C Θ`. The
-/// factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes its sign.
-/// A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + s (1 + k²)))`, at most about `a² dt/(√c + √(2s))²` with the
+/// factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes sign. A
+/// wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + s (1 + k²)))`, at most about `a² dt/(√c + √(2s))²` with the
 /// inertia c: larger than that of rotation and displacement where `a² > s (1 + √(2s))²/2` (c = 1), and above 1 for a large a.
 ///
 /// * `lengths`: length of each element.
@@ -94,14 +94,14 @@ pub fn heat_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64) 
     of_phi.zip(of_theta).map_or(f64::INFINITY, |(of_phi, of_theta)| round_trip(lengths, beam.a, &of_phi, &of_theta))
 }
 
-/// Contraction factor of the fixed point by the axial force of the previous iterate, `ρ dt (K u)ᵀ A_u⁻¹ K u`.
+/// Contraction factor of the fixed point due to the axial force of the previous iterate, `ρ dt (K u)ᵀ A_u⁻¹ K u`.
 ///
-/// The mean axial force ½(N(u) + N(u0)) changes by `ρ dt (K u)ᵀ V` with an error of V, and the first equation by that times `K u`:
-/// a rank-one map, whose one eigenvalue is -1 times the factor.
+/// An error of V changes the mean axial force ½(N(u) + N(u0)) by `ρ dt (K u)ᵀ V`, and the first equation by that times `K u`: a
+/// rank-one map, whose only nonzero eigenvalue is -1 times the factor.
 ///
 /// * `lengths`: length of each element.
 /// * `n_value`: the mean axial force of the step.
-/// * `u`: the displacement at the nodes; that of the old and of the new level are taken as one.
+/// * `u`: the displacement at the nodes, used for both the old and the new level.
 /// * Returns infinity if A_u is not positive definite.
 pub fn axial_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64, u: &[f64]) -> f64 {
     let n = lengths.len();
@@ -119,11 +119,11 @@ pub fn axial_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64,
     beam.rho * dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
 }
 
-/// The contraction factor of the fixed point: that of the largest of the four loops.
+/// The contraction factor of the fixed point: the largest factor of the four loops.
 ///
 /// * `obstacles`: `None` without contact.
 /// * `lengths`: length of each element.
-/// * `u`: the displacement at the nodes, from which the axial force is taken.
+/// * `u`: the displacement at the nodes, which determines the axial force.
 pub fn contraction(
     beam: &Beam,
     obstacles: Option<&Obstacles>,

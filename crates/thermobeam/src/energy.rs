@@ -7,7 +7,7 @@
 //! gap = F (u(1) - u0(1)) - (G(u(1)) - G(u0(1))) >= 0,
 //! ```
 //!
-//! V and W are the velocities that carry the step, F is its contact force. The balance follows from (3.7) with the test
+//! V and W are the velocities of the step, F is its contact force. The balance follows from (3.7) with the test
 //! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, with each inequality kept as an equation.
 //! In the `midpoint` scheme the terms ½ (‖v - v0‖² + ‖w - w0‖²) and gap are zero. For θ_A ≠ 0 the energy is (3.9) with
 //! the lifted temperature θ~ plus the term `-a θ_A ∫φ`, without which it need not decrease.
@@ -88,16 +88,16 @@ pub(crate) struct Tip {
 pub struct Balance {
     /// E^n - E^{n-1}, computed from the differences of the fields, without cancellation.
     pub change: f64,
-    /// dt ζ (‖V_x - W‖² + ‖W_x‖²); by dG its integral over the step.
+    /// dt ζ (‖V_x - W‖² + ‖W_x‖²); for dG its integral over the step.
     pub viscous: f64,
-    /// dt ‖θ~_x‖² at n-½; by dG its integral over the step.
+    /// dt ‖θ~_x‖² at n-½; for dG its integral over the step.
     pub thermal: f64,
-    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`. By dG that of the jumps at the
-    /// start of the step, of the temperature too.
+    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`. For dG that of the jumps at
+    /// the start of the step, including the temperature.
     pub inertial: f64,
-    /// The gap of the contact energy; by dG round-off, unless the free end grazes an obstacle.
+    /// The gap of the contact energy; for dG round-off, unless the free end grazes an obstacle.
     pub contact: f64,
-    /// Minus the work of the loads; left out, and zero, for one-step schemes.
+    /// Minus the work of the loads; omitted, and zero, for one-step schemes.
     pub load: f64,
     /// The sum of the other terms.
     pub residual: f64,
@@ -116,7 +116,7 @@ impl AddAssign for Balance {
 }
 
 impl Balance {
-    /// The balance where no step was done.
+    /// The balance if no step was done.
     pub(crate) const NAN: Self = Self {
         change: f64::NAN,
         viscous: f64::NAN,
@@ -160,13 +160,13 @@ impl Balance {
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
         // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule
-        // none.
+        // nothing.
         let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
         let residual = change + viscous + thermal + inertial + gap;
         Self { change, viscous, thermal, inertial, contact: gap, load: 0.0, residual }
     }
 
-    /// [`Balance::change`] alone, at half the cost.
+    /// Only [`Balance::change`], at half the cost.
     pub fn change_of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], old: &Level, new: &Level) -> f64 {
         // The weight only enters the dissipation, which is not computed here.
         change(beam, &Sums::over::<false>(lengths, 0.5, old, new), contact_change(obstacles, tip(old), tip(new)))

@@ -1,6 +1,6 @@
-//! Several simulations side by side in lanes: for sweeps, maps and random scenes.
+//! Several simulations in parallel lanes: for sweeps, maps and random scenes.
 //!
-//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers in place of one. The
+//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers instead of one. The
 //! results of a case are bitwise those of a single run. A case that fails keeps its last level and does not affect the
 //! others.
 
@@ -27,7 +27,7 @@ pub struct Ensemble {
     dt: Vec<f64>,
     groups: Vec<Group>,
     step: usize,
-    /// The step in which a case failed, if it has.
+    /// The step in which a case failed, if any.
     failed: Vec<Option<usize>>,
     heated: Vec<bool>,
 }
@@ -46,8 +46,8 @@ impl Ensemble {
     /// * `dt`: the time step of each problem.
     ///
     /// # Errors
-    /// [`SetupError`] as for a single simulation, for the first case that has one; [`SetupError::Length`] if the numbers of
-    /// elements differ, if there is no problem, or if the number of time steps is not that of the problems.
+    /// [`SetupError`] as for a single simulation, for the first invalid case; [`SetupError::Length`] if the numbers of
+    /// elements differ, if there is no problem, or if the number of time steps differs from that of the problems.
     pub fn new(mut problems: Vec<Problem>, dt: &[f64], scheme: Scheme, settings: Settings) -> Result<Self, SetupError> {
         if dt.len() != problems.len() {
             return Err(SetupError::Length { field: "dt", found: dt.len(), expected: problems.len() });
@@ -107,7 +107,7 @@ impl Ensemble {
         })
     }
 
-    /// Copies the present level of case k into `level`; the last one before the failure if the case has failed.
+    /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
     pub fn observe(&self, k: usize, level: &mut Level) {
         self.groups[k / WIDTH].stepper.read(k % WIDTH, level);
     }
@@ -130,17 +130,17 @@ impl Ensemble {
         groups.for_each(|(group, balances)| group.stepper.balances(balances));
     }
 
-    /// u(1) of the present level of case k; of the last one before the failure if the case has failed.
+    /// u(1) at the current level of case k; if the case has failed, at the last level before the failure.
     pub fn tip(&self, k: usize) -> f64 {
         self.groups[k / WIDTH].stepper.tip(k % WIDTH)
     }
 
-    /// The contact force of the step that led to the present level of case k.
+    /// The contact force of the step that led to the current level of case k.
     pub fn contact_force(&self, k: usize) -> f64 {
         self.groups[k / WIDTH].stepper.contact_force(k % WIDTH)
     }
 
-    /// The scale of the energy of a level of case k, without signs.
+    /// The scale of the energy of a level of case k, from absolute values.
     pub fn energy_scale(&self, k: usize, level: &Level) -> f64 {
         let problem = &self.problems[k];
         energy::scale(&problem.beam, problem.obstacles.as_ref(), &self.lengths[k], level)
@@ -157,12 +157,12 @@ impl Ensemble {
         self.groups.iter().map(|group| group.stepper.work()).fold(Work::default(), Work::plus)
     }
 
-    /// Counts of the work for case k so far: as much as it would take alone.
+    /// Counts of the work for case k so far, the same as in a single run.
     pub fn work_of(&self, k: usize) -> Work {
         self.groups[k / WIDTH].stepper.work_of(k % WIDTH)
     }
 
-    /// Whether anything heats case k: alone, its temperature would be computed.
+    /// Whether anything heats case k: in a single run, its temperature would then be computed.
     pub fn is_heated(&self, k: usize) -> bool {
         self.heated[k]
     }

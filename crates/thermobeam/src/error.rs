@@ -1,4 +1,4 @@
-//! The errors of a simulation, by whatever method: what failed, where and when, and what to change.
+//! The errors of a simulation, for any method: what failed, where and when, and what to change.
 
 use std::fmt;
 
@@ -82,18 +82,18 @@ pub enum StepFailure {
         "{events} contact events within {within:.3e} (take a smaller restart_dt: the tip's motion is not resolved)"
     )]
     EventsTooClose {
-        /// How many.
+        /// Number of events.
         events: usize,
-        /// In which time.
+        /// The time in which they occurred.
         within: f64,
     },
-    /// A contact event that a step of dG shows by its own polynomial, and that no length of the step meets.
+    /// A contact event that the polynomial of a dG step predicts, but that no step length hits.
     #[error("no step ends on the obstacle: the tip misses it by {miss:.3e} (take a smaller dt)")]
     EventNotFound {
         /// Distance of the tip from the obstacle at the end of the last attempt.
         miss: f64,
     },
-    /// What the free end touches by dG contradicts its motion: closed contact pulls, or the open free end penetrates.
+    /// The contact phase of dG contradicts the motion: closed contact pulls, or the open free end penetrates.
     #[error(
         "contact contradicts the motion of the free end by a force of {force:.3e}: it pulls where it is closed, or penetrates \
          where it is open (rounding errors of the position are a force of {noise:.3e}: take a larger epsilon)"
@@ -106,7 +106,7 @@ pub enum StepFailure {
     },
 }
 
-/// What else helps a fixed point that diverges.
+/// Other remedies for a fixed point that diverges.
 fn other_advice(of: Option<Loop>) -> &'static str {
     match of {
         Some(Loop::Contact) => ", a larger epsilon, or the solver \"newton\"",
@@ -115,7 +115,7 @@ fn other_advice(of: Option<Loop>) -> &'static str {
     }
 }
 
-/// What to change where a pivot was lost: one that is not a number tells of an overflow, not of buckling.
+/// What to change after a lost pivot: NaN indicates an overflow, not buckling.
 fn advice(pivot: f64) -> &'static str {
     if pivot.is_finite() {
         "take a smaller dt, because the beam is loaded beyond its buckling force"
@@ -184,7 +184,7 @@ pub enum SetupError {
         /// The value.
         found: f64,
     },
-    /// A method that cannot do what is asked for.
+    /// A method that cannot do what is requested.
     #[error("scheme: expected {allowed}, found {found}")]
     Method {
         /// Its name.
@@ -207,13 +207,13 @@ pub enum SetupError {
 /// A loop by which an error of an iterate returns to its field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loop {
-    /// Of the free end and the contact force.
+    /// Between the free end and the contact force.
     Contact,
-    /// Of displacement and rotation.
+    /// Between displacement and rotation.
     Rotation,
-    /// Of rotation and temperature.
+    /// Between rotation and temperature.
     Heat,
-    /// Of displacement and axial force.
+    /// Between displacement and axial force.
     AxialForce,
 }
 

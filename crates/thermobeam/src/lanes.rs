@@ -1,13 +1,13 @@
-//! The numbers with which a time step is computed: one case (`f64`) or several cases side by side ([`Lanes`]).
+//! The numbers with which a time step is computed: one case (`f64`) or several cases in parallel ([`Lanes`]).
 //!
 //! Lanes do not interact: the operations of lane k are those of a single run of case k, in the same order, so the
 //! results are bitwise equal.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// `a * b + c`, with one rounding on a machine with fused multiply-add, else with two.
+/// `a * b + c`, with one rounding on a machine with fused multiply-add, otherwise with two.
 ///
-/// `f64::mul_add` without the instruction is a library call, a hundred times slower.
+/// Without the instruction, `f64::mul_add` is a library call, a hundred times slower.
 #[inline(always)]
 pub(crate) fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) { a.mul_add(b, c) } else { a * b + c }
@@ -64,7 +64,7 @@ impl Lane for f64 {
     }
 }
 
-/// W cases side by side; the compiler turns the loops over W into vector instructions.
+/// W cases in parallel; the compiler turns the loops over W into vector instructions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lanes<const W: usize>([f64; W]);
 

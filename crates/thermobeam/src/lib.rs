@@ -41,11 +41,10 @@
 //!
 //! # From data to levels
 //!
-//! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) →
-//! one [`scheme`] and one [solver](solve) → [`Level`](solve::Level)s → [`energy`] and [`norms`]. The same equations
-//! to any order in space and time: [`dg`]. Exact solutions for comparison: [`equilibrium`], [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The
-//! crate does no input or output and starts no threads. Every failure is a value of a type in [`error`], and a failed
-//! step leaves the simulation at its last level.
+//! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) → one [`scheme`] and one [solver](solve) →
+//! [`Level`](solve::Level)s → [`energy`] and [`norms`]. [`dg`] solves the same equations to any order in space and time. Exact solutions for comparison: [`equilibrium`],
+//! [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The crate does no input or output and starts no threads. Every failure is a value of a type
+//! in [`error`], and a failed step leaves the simulation at its last level.
 //!
 //! ```
 //! use thermobeam::mesh::Mesh;

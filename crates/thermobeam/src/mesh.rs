@@ -8,7 +8,7 @@ pub enum MeshError {
     /// Fewer than one element.
     #[error("mesh: expected at least 1 element, found {elements}")]
     TooFew {
-        /// Elements asked for.
+        /// Requested number of elements.
         elements: usize,
     },
     /// The first node is not 0 or the last not 1.
@@ -31,7 +31,7 @@ pub enum MeshError {
         /// Position of the second node.
         found: f64,
     },
-    /// An element so short that its slopes, differences over h, are beyond floating-point numbers.
+    /// An element so short that its slopes, which are differences over h, overflow.
     #[error(
         "nodes {} and {index}: expected a distance whose inverse is finite, found {previous:?} and {found:?}: put them further \
          apart", index - 1

@@ -56,7 +56,7 @@ pub struct TheoremSquares {
 }
 
 impl TheoremSquares {
-    /// Of the P1 functions with these nodal values, n + 1 each.
+    /// Computes them for the P1 functions with these nodal values, n + 1 each.
     pub fn of(lengths: &[f64], v: &[f64], u: &[f64], w: &[f64], phi: &[f64], theta: &[f64]) -> Self {
         Self {
             velocity: l2_squared(lengths, v),

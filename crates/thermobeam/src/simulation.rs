@@ -1,4 +1,4 @@
-//! Problems, and simulations that do one time step at a time; the loop over the steps is the caller's.
+//! Problems, and simulations that do one time step at a time; the caller loops over the steps.
 
 use crate::energy::{self, Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
@@ -72,7 +72,7 @@ pub const BYTES_PER_ELEMENT: usize = 392;
 
 /// A simulation at one time level.
 ///
-/// It holds [`BYTES_PER_ELEMENT`] by Newton's method, 256 without temperature, and 248 by the fixed point.
+/// It takes [`BYTES_PER_ELEMENT`] with Newton's method, 256 without temperature, and 248 with the fixed point.
 pub struct Simulation {
     problem: Problem,
     lengths: Vec<f64>,
@@ -100,7 +100,7 @@ impl Simulation {
         Ok(Self { problem, lengths, stepping, heated, stepper, step: 0, loads: 0, observations: 0 })
     }
 
-    /// Number n of the present time level.
+    /// Number n of the current time level.
     pub fn step(&self) -> usize {
         self.step
     }
@@ -126,10 +126,10 @@ impl Simulation {
         Some(self.stepper.load_mut())
     }
 
-    /// Does one step, (3.7)-(3.8) or its relative `midpoint`, without allocating memory.
+    /// Does one step, by (3.7)-(3.8) or by `midpoint`, without allocating memory.
     ///
     /// # Errors
-    /// [`StepError`] with step, time and cause. The simulation then stays at its level.
+    /// [`StepError`] with step, time and cause. The simulation then stays at its old level.
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
         let mut outcome = [Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN })];
         self.stepper.advance(&mut outcome);
@@ -140,13 +140,13 @@ impl Simulation {
         Ok(report)
     }
 
-    /// Copies the present level into `level`, which must have n + 1 nodes.
+    /// Copies the current level into `level`, which must have n + 1 nodes.
     pub fn observe(&mut self, level: &mut Level) {
         self.observations += 1;
         self.stepper.read(0, level);
     }
 
-    /// A copy of the present level.
+    /// A copy of the current level.
     pub fn level(&mut self) -> Level {
         let mut level = Level::new(self.lengths.len() + 1);
         self.observe(&mut level);
@@ -164,12 +164,12 @@ impl Simulation {
         Balance::of(&self.problem.beam, obstacles, &self.stepping.scheme, self.stepping.dt, &self.lengths, old, new)
     }
 
-    /// The change of the energy from one level to another: [`Balance::change`] alone, at half the cost.
+    /// The change of the energy from one level to another: only [`Balance::change`], at half the cost.
     pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
         Balance::change_of(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, old, new)
     }
 
-    /// The scale of a level's energy, without signs, to which a residual of the balance is compared.
+    /// The scale of a level's energy, from absolute values, to which a residual of the balance is compared.
     pub fn energy_scale(&self, level: &Level) -> f64 {
         energy::scale(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)
     }
@@ -195,8 +195,7 @@ impl Simulation {
         Work { loads: self.loads, observations: self.observations, ..self.stepper.work() }
     }
 
-    /// Whether the temperature is computed. Newton's method leaves it out if nothing heats the beam and there are no
-    /// loads.
+    /// Whether the temperature is computed. Newton's method omits it if nothing heats the beam and there are no loads.
     pub fn is_heated(&self) -> bool {
         self.heated
     }

@@ -1,4 +1,4 @@
-//! The sources cite equations of the paper, and only those that it has.
+//! The sources cite equations of the paper, and only those that exist.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -52,7 +52,7 @@ const EQUATIONS: [(&str, &str); 44] = [
     ("5.5", "initial temperature of the second experiment"),
 ];
 
-/// The equations that the crate implements: each is cited in the file that does so, which is not lib.rs.
+/// The equations that the crate implements: each is cited in the implementing file, not just in lib.rs.
 const IMPLEMENTED: [(&str, &str); 14] = [
     ("1.1", "parameters.rs"),
     ("1.2", "simulation.rs"),
@@ -70,7 +70,7 @@ const IMPLEMENTED: [(&str, &str); 14] = [
     ("4.5", "solve/fixed_point.rs"),
 ];
 
-/// Equation numbers `(chapter.number)` in a text; the argument of a call such as `f(2.5)` is none.
+/// Equation numbers `(chapter.number)` in a text; the argument of a call such as `f(2.5)` does not count.
 fn numbers(text: &str) -> impl Iterator<Item = &str> {
     text.match_indices('(').filter_map(|(at, _)| {
         let is_call = text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
@@ -108,7 +108,7 @@ fn citations() -> BTreeMap<PathBuf, BTreeSet<String>> {
     let mut paths = vec![];
     files(root, &mut paths);
     files(&root.join("../thermobeam-exact"), &mut paths);
-    // This file lists numbers that the paper has not.
+    // This file lists numbers that the paper does not have.
     paths.retain(|path| !path.ends_with("tests/citations.rs"));
     let cited = |path: PathBuf| {
         let set = numbers(&prose(&path)).map(str::to_owned).collect();

@@ -18,7 +18,7 @@ fn bits(balance: &Balance) -> [u64; 6] {
     [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
 }
 
-/// Four different beams: some need a second pass or the safeguarded iteration in steps in which others do not.
+/// Four different beams: in some steps only some of them need a second pass or the safeguarded iteration.
 fn problem(k: usize) -> Problem {
     let grading = 0.1 * k as f64;
     let mesh = Mesh::mapped(N, |s| (1.0 - grading) * s + grading * s * s).unwrap();
@@ -77,7 +77,7 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
     }
 }
 
-/// A pass is shared by the four lanes of a group; each lane has its own factorisations.
+/// The four lanes of a group share a pass; each lane has its own factorisations.
 #[test]
 fn an_ensemble_counts_a_pass_once_per_group() {
     let dt = [DT, DT].concat();

@@ -102,9 +102,9 @@ fn problem() -> impl Strategy<Value = Problem> {
 /// Bound on the residual of the balance that the fixed point leaves, from its last increment η in the norm of (3.14):
 /// `‖δu_x‖ <= 2η`, `‖δφ_x‖ <= η`.
 ///
-/// The first equation of (4.2) takes N(u) from the previous iterate, an error of `2ρ ‖u_x‖ 2η`; the second the
-/// displacement, `½ δu + ζ δV`; the third the rate of rotation, δφ/dt. Each is multiplied by the test function of the
-/// balance.
+/// The first equation of (4.2) takes N(u) from the previous iterate, with an error of `2ρ ‖u_x‖ 2η`; the second takes
+/// the displacement, `½ δu + ζ δV`; the third the rate of rotation, δφ/dt. Each is multiplied by the test function of
+/// the balance.
 fn lag(simulation: &Simulation, dt: f64, eta: f64, old: &Level, new: &Level) -> f64 {
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
     let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();
@@ -180,7 +180,7 @@ proptest! {
                 prop_assert!(matches!(error.failure, StepFailure::Indefinite { .. }), "{}", error);
                 prop_assert!(!definite(&problem.beam, dt), "expected a solution, because the matrix is definite: {}", error);
             }
-            // The fixed point may fail in every way, but only with an error.
+            // The fixed point may fail in any way, but only with an error.
             run(&problem, scheme, Solver::FixedPoint, dt)?;
         }
     }

@@ -26,13 +26,13 @@ pub(crate) enum Quantity {
     Theorem34,
 }
 
-/// A target error, as it is given on the command line.
+/// A target error from the command line.
 pub(super) fn target(text: &str) -> Result<f64, String> {
     let target = text.parse().ok().filter(|target: &f64| *target > 0.0 && target.is_finite());
     target.ok_or_else(|| "expected a finite number > 0".to_owned())
 }
 
-/// What was asked for, and the run that was chosen.
+/// The request, and the chosen run.
 pub(crate) struct Planned {
     quantity: choice::Quantity,
     target: f64,
@@ -42,7 +42,7 @@ pub(crate) struct Planned {
     spent: Cost,
 }
 
-/// Searches with a limit of work and a bar that shows how much of it is spent; ends at the time limit as well.
+/// Searches with a limit of work and a bar that shows the part used; also ends at the time limit.
 fn search<T>(arguments: &Arguments, scene: &Scene, limit: f64, find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
     let unit = "thousandths of the work allowed";
     let bar = running::counting(&format!("{}: its error", scene.name), TICKS as usize, unit, arguments.flags.quiet);
@@ -55,7 +55,7 @@ fn search<T>(arguments: &Arguments, scene: &Scene, limit: f64, find: impl FnOnce
     (found, spent)
 }
 
-/// The run that makes the error asked for.
+/// The run with the requested error.
 pub(super) fn plan(arguments: &Arguments, scene: &Scene, target: f64) -> Result<Planned, Unreachable> {
     let quantity = match arguments.quantity {
         Quantity::Tip => choice::Quantity::Tip,
@@ -77,7 +77,7 @@ pub(super) fn budget(arguments: &Arguments, scene: &Scene) -> Result<Budget, Unr
 pub(super) struct Object<'a> {
     quantity: &'static str,
     target_error: f64,
-    /// The error that the run makes, as far as it is known.
+    /// The error of the run, as far as it is known.
     believed_error: f64,
     space_error: f64,
     time_error: f64,
@@ -93,7 +93,7 @@ pub(super) struct Object<'a> {
     own_scheme: Option<OwnScheme>,
 }
 
-/// What the scene's own scheme would need.
+/// The needs of the scene's own scheme.
 #[derive(Debug, Serialize)]
 struct OwnScheme {
     scheme: &'static str,
@@ -104,7 +104,7 @@ struct OwnScheme {
 }
 
 impl Planned {
-    /// The scene with the run chosen.
+    /// The scene with the chosen run.
     pub(super) fn scene(&self) -> &Scene {
         &self.choice.scene
     }

@@ -1,4 +1,4 @@
-//! A run for people.
+//! The summary of a run for human readers.
 
 use convergence_study::text::number::counted;
 use std::fmt::Write;
@@ -16,11 +16,11 @@ use thermobeam_study::scene::Scene;
 /// A line of the summary: name, value, meaning.
 pub(super) type Line = (&'static str, String, String);
 
-/// What is said of a run whose errors are not known.
+/// The note on a run whose errors are not known.
 pub(super) const UNKNOWN: &str =
     "Six digits are shown; --estimate-error says how many are right, --format json has all.";
 
-/// What happened, in aligned columns; all quantities are dimensionless but for times on the clock.
+/// The results in aligned columns; all quantities are dimensionless except times on the clock.
 pub(super) fn summary(scene: &Scene, run: &Run, accuracy: Option<Vec<Line>>, written: &[PathBuf]) -> String {
     let mut text = headline(scene, run);
     if let Some(lines) = accuracy {
@@ -101,7 +101,7 @@ fn work(scene: &Scene, run: &Run) -> Vec<Line> {
     lines
 }
 
-/// No more digits than a coarse mesh may have; an error budget has its own.
+/// Digits as appropriate for a coarse mesh; an error budget has its own format.
 fn number(value: f64) -> String {
     format!("{value:.5e}")
 }
@@ -126,7 +126,7 @@ fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
     lines
 }
 
-/// How far the free end went.
+/// The range of the free end.
 fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Line> {
     let [low, high] = match obstacles {
         Some(obstacles) => {

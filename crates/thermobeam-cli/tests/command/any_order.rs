@@ -10,7 +10,7 @@ pub(crate) fn thrown(mesh: &str, time: &str) -> String {
     )
 }
 
-/// Keys of the object of any scene of any order; those of inner objects begin with an underscore.
+/// Keys of the object of any scene of any order; keys of inner objects begin with an underscore.
 const CONTRACT: &str = "schema verdict scene elements steps dt t_end iterations _total _max wall_seconds \
     final _t _u_tip _phi_tip _u_t_tip _phi_t_tip _theta_mid _energy extremes _u_tip_min _u_tip_max \
     energy _initial _final _largest_increase _largest_balance_residual \
@@ -32,7 +32,7 @@ fn the_keys_and_their_order_are_the_contract() {
     assert_eq!(bare(&ended.stdout), expected(CONTRACT));
     assert_eq!((json["scheme"].as_str(), json["scene"].as_str()), (Some("dg"), Some("thrown")));
     assert_eq!([&json["elements"], &json["degree"], &json["time_degree"]], [1, 16, 4]);
-    // The first touch, of experiments-exact.
+    // The first touch, from experiments-exact.
     let events = json["events"].as_array().expect("a list");
     assert_eq!(events.len(), 1, "{events:?}");
     let t = events[0]["t"].as_f64().expect("a time");
@@ -139,7 +139,7 @@ fn the_error_budget_has_space_and_time() {
         let keys = ["reference", "total", "finer_space", "finer_steps"];
         let [reference, total, space, time] = keys.map(|key| of[key].as_f64().expect(key));
         assert!(0.0 < reference && reference <= total, "{of}");
-        // A single number may be right by chance.
+        // A single number may be accurate by chance.
         assert!(of["kind"] != "curve" || time < 0.5 * total && space > 0.5 * total, "{of}");
     }
     assert_eq!(quantities[0]["value"], value["final"]["u_tip"]);

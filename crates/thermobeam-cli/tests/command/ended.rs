@@ -1,8 +1,8 @@
-//! Commands run to their end; the tests of `cargo xtask dev` use this file, too.
+//! Commands run to their end; also used by the tests of `cargo xtask dev`.
 
 use std::process::{Command, Output};
 
-/// What a command left behind.
+/// The output and status of a command.
 pub(crate) struct Ended {
     pub(crate) status: Option<i32>,
     pub(crate) stdout: String,

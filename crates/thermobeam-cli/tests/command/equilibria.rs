@@ -1,6 +1,6 @@
 use crate::{Folder, ended, keys, thermobeam};
 
-/// The paper's beam between its obstacles at β, with the time table that a scene must have.
+/// The paper's beam between its obstacles at β, with the `[time]` table that a scene must have.
 fn scene(beta: f64) -> String {
     format!("[beam]\nbeta = {beta:?}\n[obstacles]\n[time]\ndt = 0.1\nt_end = 1\n")
 }
@@ -44,7 +44,7 @@ fn a_list_that_is_not_complete_says_so() {
 #[test]
 fn a_question_without_an_answer_fails() {
     let folder = Folder::new();
-    // The linear beam at its second buckling force in contact with nothing: a continuum of states.
+    // The linear beam without contact at its second buckling force: a continuum of states.
     let beta = -(1.5 * std::f64::consts::PI).powi(2) / (1.0 + (1.5 * std::f64::consts::PI).powi(2));
     let text = format!("[beam]\nrho = 0\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
     let ended = ended(thermobeam().arg("equilibria").arg(folder.file("linear.toml", &text)));

@@ -56,7 +56,7 @@ fn a_missing_scene_and_a_wrong_argument_are_unusable_too() {
 #[test]
 fn a_place_that_cannot_be_written_to_is_told_before_computing() {
     let folder = Folder::new();
-    // A year's work, were it begun.
+    // It would take a year to run.
     let scene = folder.file("scene.toml", &thrown("dt = 1e-10"));
     let taken = folder.file("taken", "");
     let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&taken));
@@ -95,7 +95,7 @@ fn a_diverging_iteration_keeps_what_was_done() {
 #[test]
 fn a_number_that_is_none_is_null() {
     let folder = Folder::new();
-    // Gives up in the first step: there is no largest increase of the energy, and no second increment to compare.
+    // Fails in the first step: there is no largest increase of the energy, and no second increment to compare.
     let scene = folder.file("short.toml", &thrown("dt = 0.1\nsolver = \"fixed-point\"\nmax_iterations = 1"));
     let (ended, json) = run_json(&scene);
     assert_eq!(ended.status, Some(1));

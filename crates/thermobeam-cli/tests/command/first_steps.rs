@@ -80,7 +80,7 @@ fn studies_norms_reasons_and_files_are_explained() {
         "{}",
         contents.stdout
     );
-    // From anywhere in the workspace, not only from its root.
+    // From any folder in the workspace, not only from its root.
     let below = ended(thermobeam().args(["explain", "energy-decay"]).current_dir(studies.join("scenes")));
     assert_eq!(below.status, Some(0), "{}", below.stderr);
 }

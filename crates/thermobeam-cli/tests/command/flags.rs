@@ -1,4 +1,4 @@
-//! The flags that all commands share, tried with each.
+//! The common flags, tested with every command.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,7 +11,7 @@ use thermobeam_cli::{GROUPS, Thermobeam, project};
 use crate::workspace::{quick, workspace};
 use crate::{Ended, Folder, ended, thermobeam, thrown};
 
-/// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` gets.
+/// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` produces.
 const COMMANDS: [(&[&str], i32, &str); 12] = [
     // Every number is new.
     (&["verify"], 1, "results.json"),
@@ -20,7 +20,7 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["explain", "too-low"], 0, "explain.json"),
     (&["rates", "rates.csv", "--order", "2"], 0, "rates.json"),
     (&["compare", "record.json", "record.json"], 0, "compare.json"),
-    // Its object is about the report; the record is the file that it was given.
+    // Its object describes the report; the record is its input file.
     (&["report", "reported/results.json"], 0, "index.html"),
     (&["run", "scene.toml"], 0, "run.json"),
     (&["equilibria", "scene.toml"], 0, "equilibria.json"),
@@ -29,7 +29,7 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["new", "study", "begun"], 0, "begun.toml"),
 ];
 
-/// What [`COMMANDS`] leaves out: a script for a shell; times, of minutes; the help.
+/// Commands missing from [`COMMANDS`]: a script for a shell; times, which take minutes; the help.
 const OTHERS: [&str; 3] = ["completions", "bench", "help"];
 
 fn place(folder: &Folder) -> PathBuf {
@@ -68,7 +68,7 @@ fn every_json_has_a_schema_and_the_verdict_and_every_out_its_file() {
         let object: Value =
             serde_json::from_str(&stdout).unwrap_or_else(|error| panic!("{arguments:?}: {error}: {stdout}"));
         assert!(object["schema"].as_u64().is_some_and(|schema| schema >= 1), "{arguments:?}: {stdout}");
-        // The list has a study that never ran; everything else says in the verdict what it says by its exit status.
+        // The list contains a study that never ran; for all other commands verdict and exit status agree.
         let verdict = match (arguments[0], status) {
             ("list", _) => "inconclusive",
             (_, 0) => "pass",
@@ -98,7 +98,7 @@ fn quiet_leaves_the_verdict_and_what_went_wrong() {
         let root = place(&again);
         let quiet = ended(thermobeam().args(arguments).args(out).arg("-q").current_dir(&root));
         assert_eq!(quiet.status, Some(status), "{arguments:?}: {}", quiet.stderr);
-        // A verdict ends what passes and begins what does not, so that its cause is read at once.
+        // The verdict comes last if it passes and first if it fails, so that the cause is read at once.
         let line = if status == 0 { quiet.stdout.lines().last() } else { quiet.stdout.lines().next() };
         let line = line.unwrap_or_default();
         assert!(

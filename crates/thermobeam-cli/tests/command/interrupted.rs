@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 use crate::workspace::{all, endless, quick, set, verify, workspace};
 use crate::{Ended, Folder, ended, thermobeam, thrown};
 
-/// How long an interrupted program may take to end; twice what is promised, for a machine that is busy.
+/// How long an interrupted program may take to end: twice the promised time, for a busy machine.
 const PROMPT: Duration = Duration::from_secs(2);
 
-/// Starts a program, interrupts it as Ctrl-C does, and waits for its end.
+/// Starts a program, interrupts it like Ctrl-C, and waits for its end.
 fn interrupted(command: &mut Command, after: Duration) -> Ended {
     let mut command = listening(command);
     let mut child: Child =
@@ -30,8 +30,8 @@ fn interrupted(command: &mut Command, after: Duration) -> Ended {
     Ended { status: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
 }
 
-/// The command, in whose process an interruption is not ignored. Shells have the jobs that they put into the background
-/// ignore it, and processes inherit that; a program that is to ignore it does, as it should.
+/// The command, in whose process interruption is not ignored. Shells make background jobs ignore it, and processes
+/// inherit that; a program started that way rightly ignores it.
 fn listening(command: &Command) -> Command {
     let mut listening = Command::new("env");
     if is_deaf() {
@@ -50,14 +50,14 @@ fn listening(command: &Command) -> Command {
     listening
 }
 
-/// Whether this process ignores interruptions: bit 1 of the mask that Linux tells.
+/// Whether this process ignores interruptions: bit 1 of the mask reported by Linux.
 fn is_deaf() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 2 != 0)
 }
 
-/// Long enough for the program to be at its work.
+/// Long enough for the program to be working.
 const AT_WORK: Duration = Duration::from_millis(1500);
 
 #[cfg(unix)]
@@ -94,7 +94,7 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
     assert!(journal.ends_with('\n') || journal.is_empty(), "a torn line");
     let said = sweep.stderr.trim().strip_prefix("interrupted: ").and_then(|rest| rest.split(' ').next());
     let said: usize = said.and_then(|count| count.parse().ok()).expect("a count");
-    // A case whose line is there may not have been counted yet, one a thread at most.
+    // A case whose line exists may not be counted yet, at most one per thread.
     assert!((said..said + 65).contains(&journal.lines().count()), "{said}: {}", journal.lines().count());
 }
 

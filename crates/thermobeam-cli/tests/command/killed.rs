@@ -1,4 +1,4 @@
-//! `verify` killed at any moment, and several at once.
+//! `verify` killed at any moment, and several runs at the same time.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use crate::workspace::{all, quick, set, verify, with_studies, workspace};
 use crate::{Folder, ended};
 
-/// Kills of a test run; `THERMOBEAM_KILLS` sets another number.
+/// Number of kills; `THERMOBEAM_KILLS` overrides it.
 const KILLS: u32 = 12;
 
 type Set = BTreeMap<String, Vec<u8>>;
@@ -17,16 +17,16 @@ fn studies(ids: [&'static str; 3]) -> Vec<(&'static str, String)> {
     ids.into_iter().map(|id| (id, quick(id))).collect()
 }
 
-/// The set that an undisturbed run writes, and how long that takes.
+/// The set that an undisturbed run writes, and its duration.
 fn undisturbed(folder: &Folder, name: &str, studies: &[(&str, String)]) -> (Set, Duration) {
     let root = workspace(folder, name, studies);
     let start = Instant::now();
-    // There is no baseline, so that every number is new: a fail, with reports.
+    // Without a baseline every number is new: a fail, with reports.
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
     (set(&root.join("reports")), start.elapsed())
 }
 
-/// Did a run that was killed come as far as moving the new set to its place, which the next run completes?
+/// Was a run killed while moving the new set to its place, which the next run completes?
 fn is_pending(root: &Path) -> bool {
     root.join("reports/local/workshop/quick/pending/manifest.txt").is_file()
 }
@@ -48,7 +48,7 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         with_studies(&root, &both[turn]);
         let mut command = verify(&root, &["--quiet"]);
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program starts");
-        // Spread over the run and a little beyond, in an order that does not repeat.
+        // Spread over the run and slightly beyond, in an order that does not repeat.
         std::thread::sleep(times[turn] * (1 + kill * 37 % 101) / 80);
         child.kill().expect("it can be killed");
         child.wait().expect("it ends");
@@ -57,7 +57,7 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
             completed += 1;
             let found = set(&reports);
             mixed += u32::from(!is_old(&found) && found != sets[turn]);
-            // Any run completes it, even one of another scope.
+            // Any run completes it, even a run of different scope.
             ended(&mut verify(&root, &[both[turn][0].0]));
             assert!(!is_pending(&root));
             assert_eq!(set(&reports), sets[turn], "kill {kill}");

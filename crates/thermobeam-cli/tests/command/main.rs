@@ -1,4 +1,4 @@
-//! The commands as scripts use them: arguments, exit status, standard output and error, files.
+//! The commands as used by scripts: arguments, exit status, standard output and error, files.
 
 mod accuracy;
 mod any_order;
@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ended::{Ended, ended};
 
-/// A folder of one test, removed at its end.
+/// A folder for one test, removed at its end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -52,7 +52,7 @@ impl Drop for Folder {
     }
 }
 
-/// The program, to be given arguments.
+/// The program, ready for arguments.
 fn thermobeam() -> Command {
     Command::new(env!("CARGO_BIN_EXE_thermobeam"))
 }
@@ -72,7 +72,7 @@ fn thrown(time: &str) -> String {
     )
 }
 
-/// Keys of a JSON text printed one to a line, in their order, with those of inner objects indented.
+/// Keys of a JSON text printed one per line, in their order, with those of inner objects indented.
 fn keys(json: &str) -> Vec<String> {
     let key = |line: &str| {
         let (name, _) = line.trim_start().strip_prefix('"')?.split_once("\":")?;

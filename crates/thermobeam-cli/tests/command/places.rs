@@ -1,4 +1,4 @@
-//! Places that cannot be written to, disks that are full, readers that leave.
+//! Unwritable places, full disks, and readers that stop early.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn reports_that_cannot_be_written_are_named_and_the_old_ones_stay() {
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
     let before = set(&reports);
 
-    // A folder where the lock would be.
+    // A folder in the place of the lock.
     fs::remove_file(reports.join("local/lock")).expect("a lock");
     fs::create_dir(reports.join("local/lock")).expect("a folder");
     let refused = ended(&mut verify(&root, &[]));
@@ -40,7 +40,7 @@ fn a_study_folder_that_cannot_be_read_is_named() {
     assert!(!root.join("reports").exists());
 }
 
-/// The program where no file may grow beyond a few kilobytes, as on a disk that is full.
+/// The program with a file size limit of a few kilobytes, as on a full disk.
 #[cfg(unix)]
 fn on_a_full_disk(command: &Command, folder: &Path) -> Command {
     let mut limited = Command::new("sh");
@@ -53,7 +53,7 @@ fn on_a_full_disk(command: &Command, folder: &Path) -> Command {
 #[test]
 fn on_a_full_disk_nothing_is_half_written() {
     let folder = Folder::new();
-    // The second history is so short that it reaches the disk only when the file is closed.
+    // The second history is so short that it is written to disk only when the file is closed.
     for dt in ["dt = 1e-3", "dt = 5e-2"] {
         let scene = folder.file("scene.toml", &thrown(dt));
         let out = folder.path("out");

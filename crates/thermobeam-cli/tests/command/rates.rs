@@ -31,7 +31,7 @@ fn a_sound_table_passes_in_either_order_with_any_separator() {
         (&value["rates"][0]["verdict"], &value["rates"][1]["verdict"]),
         (&"pass".into(), &"inconclusive".into())
     );
-    // A column without a claim decides where --all is given.
+    // With --all a column without a claim decides the verdict.
     assert_eq!((json.status, &value["verdict"], &value["schema"]), (Some(0), &"pass".into(), &2.into()));
     assert_eq!(judge(&folder, text, &["--order", "L2=2", "--all"]).status, Some(1));
 }
@@ -57,7 +57,7 @@ fn a_table_that_fools_never_passes() {
         assert_eq!((ended.status, ended.stderr.as_str()), (Some(1), ""), "{text}{}", ended.stdout);
         assert!(!ended.stdout.contains(": pass"), "{text}{}", ended.stdout);
     }
-    // No level at all, and two levels that cannot both be right, are no table.
+    // A table without levels, or with two contradictory levels, is refused.
     for text in [none, twice] {
         let ended = judge(&folder, &text, &["--order", "2"]);
         assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{text}");

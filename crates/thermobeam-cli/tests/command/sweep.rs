@@ -5,17 +5,17 @@ use std::time::{Duration, Instant};
 
 use crate::{Ended, Folder, ended, thermobeam, thrown};
 
-/// A sweep over a small scene of its own.
+/// A sweep over its own small scene.
 fn sweep(folder: &Folder, design: &str) -> PathBuf {
     folder.file("base.toml", &thrown("dt = 1e-2"));
     folder.file("sweep.toml", &format!("[sweep]\nscene = \"base.toml\"\n{design}"))
 }
 
-/// 48 cases, two of which cannot be.
+/// 48 cases; two of them are impossible.
 const GRID: &str = "[grid]\nbeam.beta = { from = -0.6, to = 5.0, count = 8 }\nobstacles.epsilon = [1e-3, 1e-2]\n\
     time.dt = [0.01, 0.02, 0.03]\ntime.t_end = [0.06, 0.08]\n";
 
-/// 400 samples, long enough to be killed in.
+/// 400 samples, enough time to kill it.
 const LATIN: &str = "[latin]\nsamples = 400\nseed = 3\nbeam.beta = { from = -0.6, to = 5.0 }\n\
     obstacles.epsilon = { from = 1e-4, to = 1e-2, scale = \"log\" }\ntime.dt = { from = 1e-3, to = 1e-2, scale = \"log\" }\n\
     mesh.elements = { from = 10, to = 60 }\n";
@@ -152,7 +152,7 @@ fn killed_at_any_moment_and_resumed_it_ends_in_the_same_bytes() {
             let mut command = thermobeam();
             command.arg("sweep").arg(&file).arg("--out").arg(&out).args(["--resume", "--jobs", "2"]);
             let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program starts");
-            // A moment that differs from kill to kill and from machine to machine.
+            // A moment that differs between kills and between machines.
             std::thread::sleep(
                 took * (1 + (7 * kills + 3 * round) % 11) / 40 + Duration::from_micros(u64::from(round)),
             );
@@ -200,7 +200,7 @@ fn shares_are_disjoint_and_complete_and_merge_to_the_bytes_of_one_run() {
     let folder = Folder::new();
     let file = sweep(&folder, GRID);
     let whole = ended(thermobeam().arg("sweep").arg(&file)).stdout;
-    // With 150 shares many have no case at all.
+    // With 150 shares many have no cases.
     for n in [1, 2, 5, 150] {
         let shares: Vec<PathBuf> = (1..=n).map(|k| folder.path(&format!("share-{k}-of-{n}"))).collect();
         let mut seen = BTreeSet::new();

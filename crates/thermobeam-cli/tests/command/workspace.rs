@@ -1,4 +1,4 @@
-//! A small workspace for `verify`, and what is in it afterwards.
+//! A small workspace for `verify`, and its contents afterwards.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -26,7 +26,7 @@ fn study(id: &str, steps: &str) -> String {
     )
 }
 
-/// Makes these the studies of a workspace.
+/// Installs these as the studies of a workspace.
 pub(crate) fn with_studies(root: &Path, studies: &[(&str, String)]) {
     let folder = root.join("studies");
     let _ = fs::remove_dir_all(&folder);
@@ -51,10 +51,10 @@ pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Files below a folder with their bytes, but for what tells of machine and time.
+/// Files below a folder with their bytes, except those with machine and time.
 pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = all(reports);
-    // A run killed while it tried the folder leaves an empty file, which is no part of the set; the next run removes it.
+    // A run killed while testing the folder leaves an empty file outside the set, which the next run removes.
     files.retain(|name, _| !name.starts_with("local/") && !name.starts_with(".probe."));
     for (_, page) in files.iter_mut().filter(|(name, _)| name.ends_with("index.html")) {
         let text = String::from_utf8_lossy(page);

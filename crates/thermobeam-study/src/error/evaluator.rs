@@ -1,7 +1,7 @@
 //! The error of a discrete level: in the norm of Theorem 3.4, to the interpolant (superclose), and at the tip.
 //!
-//! Against an exact solution, or against a run of any order ([`Traced`]), whose own error does not matter. The reference's mesh must
-//! contain the nodes of the mesh measured; a coarse P1 function is then one on the fine mesh, and all norms are exact.
+//! Against an exact solution, or against a run of any order ([`Traced`]), whose own error is negligible. The reference's mesh must
+//! contain the nodes of the measured mesh; a coarse P1 function is then P1 on the fine mesh, and all norms are exact.
 
 use crate::error::reference::Traced;
 use crate::exact::errors::ErrorMeter;
@@ -25,7 +25,7 @@ pub enum ErrorMeasure {
 }
 
 impl ErrorMeasure {
-    /// All of them, in the order of [`Evaluator::measure`].
+    /// All measures, in the order of [`Evaluator::measure`].
     pub const ALL: [ErrorMeasure; 3] = [ErrorMeasure::Theorem34, ErrorMeasure::Superclose, ErrorMeasure::Tip];
 
     /// The name in files, reports and on the command line.
@@ -50,10 +50,10 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Against `reference`, or else against the family's exact solution.
+    /// Measures against `reference`, or against the family's exact solution if there is no reference.
     ///
     /// # Errors
-    /// [`CaseFailure`] without either, or where the reference's mesh does not contain the nodes.
+    /// [`CaseFailure`] if there is neither, or if the reference's mesh does not contain the nodes.
     pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Traced>) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
         let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
@@ -75,7 +75,7 @@ impl<'a> Evaluator<'a> {
         Ok(Self { answer })
     }
 
-    /// Of u(1) alone, against its values at the times of observation.
+    /// Measures only u(1), against its values at the times of observation.
     pub(crate) fn of_tip(tip: &'a [f64]) -> Self {
         Self { answer: Answer::Tip(tip) }
     }

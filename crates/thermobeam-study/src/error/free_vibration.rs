@@ -1,7 +1,7 @@
 //! Free vibrations of the linear beam as exact solutions in the form of the manufactured ones.
 //!
-//! For a = β = ρ = 0 and no obstacles each damped mode solves (1.1) without any load, and so does `sin kπx e^{-κ²t}`,
-//! κ = kπ, as a temperature. Sums of such products serve every reader of manufactured solutions; their loads are zero.
+//! For a = β = ρ = 0 and no obstacles each damped mode solves (1.1) without any load, and so does `sin kπx e^{-κ²t}`, κ
+//! = kπ, as a temperature. Sums of such products work wherever manufactured solutions do; their loads are zero.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, ParameterError};
 use thermobeam::vibration::{Mode, TimeFactor};
 
-/// The beam that vibrates freely with viscosity ζ: everything else is switched off.
+/// The freely vibrating beam with viscosity ζ: all other terms are switched off.
 pub fn beam(zeta: f64) -> Beam {
     Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 }
 }
@@ -31,7 +31,7 @@ pub(crate) fn piecewise_linear(mesh: &Mesh, values: Vec<f64>) -> Factor {
 /// T of a mode of frequency ω with T(0) and T'(0); its second derivative by `T'' = -ω² (T + ζ T')`.
 ///
 /// # Errors
-/// [`ParameterError`] for ω or ζ that is negative or not finite.
+/// [`ParameterError`] if ω or ζ is negative or not finite.
 pub(crate) fn damped(omega: f64, zeta: f64, start: [f64; 2]) -> Result<Factor, ParameterError> {
     let factor = TimeFactor::new(omega, zeta, start[0], start[1])?;
     Ok(Factor::new(move |t: f64| {
@@ -51,7 +51,7 @@ pub(crate) fn decay(rate: f64, start: f64) -> Factor {
 /// Adds a mode by its index from 0, with its tip displacement and velocity at t = 0.
 ///
 /// # Errors
-/// [`ParameterError`] for a ζ that is negative or not finite.
+/// [`ParameterError`] if ζ is negative or not finite.
 pub(crate) fn add_mode(
     exact: &mut Manufactured,
     index: usize,
@@ -81,7 +81,7 @@ pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64
 /// The exact solution made of `modes`, each with its index from 0 and its tip displacement at t = 0, released at rest.
 ///
 /// # Errors
-/// [`ParameterError`] for a ζ that is negative or not finite.
+/// [`ParameterError`] if ζ is negative or not finite.
 pub fn vibration(modes: &[(usize, f64)], zeta: f64) -> Result<Manufactured, ParameterError> {
     let mut exact = Manufactured::default();
     modes.iter().try_for_each(|&(index, amplitude)| add_mode(&mut exact, index, zeta, [amplitude, 0.0]))?;
@@ -92,7 +92,7 @@ pub fn vibration(modes: &[(usize, f64)], zeta: f64) -> Result<Manufactured, Para
 mod tests {
     use super::*;
 
-    /// Derivatives against central differences, far from round-off.
+    /// Compares derivatives with central differences, to a tolerance far above round-off.
     #[track_caller]
     fn check(function: &Factor, at: f64, size: f64) {
         const H: f64 = 1e-4;
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn derivatives_are_those_of_the_functions() {
-        // Two modes that ring and one, of index 20, that creeps.
+        // Two oscillating modes, and an overdamped one of index 20.
         let mut exact = vibration(&[(0, 1.0), (3, 0.2), (20, 1e-4)], 0.1).expect("a vibration");
         add_temperature(&mut exact, 3, 2.0);
         for x in [0.1, 0.37, 0.8] {

@@ -1,4 +1,4 @@
-//! Errors of runs against what is known: exact vibrations, and runs of any order.
+//! Errors of runs against known solutions: exact vibrations, and runs of any order.
 
 pub mod evaluator;
 pub mod free_vibration;

@@ -1,9 +1,9 @@
-//! A scene by dG(q), as a reference for one-step schemes: exact to many digits, and by another discretisation, so that a fault
-//! that all runs of one scheme share shows.
+//! A scene by dG(q), as a reference for one-step schemes: it is accurate to many digits, and its discretisation is different,
+//! so that it reveals a fault that all runs of one scheme share.
 //!
 //! * On one element of high degree: the solution of the equations themselves.
 //! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements of degree 1 are those of
-//!   (3.7)-(3.8) and their initial data the same.
+//!   (3.7)-(3.8), with the same initial data.
 
 use std::ops::ControlFlow;
 
@@ -18,26 +18,26 @@ use crate::run::rerun::resampled;
 use crate::run::simulate::{Recording, Simulator};
 use crate::scene::Scene;
 
-/// Elements on which polynomials are kept as linear functions, for one of the finest mesh compared. What they leave out is
-/// orthogonal to that mesh's error in slopes, and of its square a 16th squared: a 512th of the error.
+/// Polynomials are kept as linear functions, on this many elements for each of the finest mesh compared. The interpolation
+/// error is orthogonal to that mesh's error in slopes, its square smaller by 16²: a 512th of the error.
 pub(crate) const FINER: usize = 16;
 
-/// The mesh on which the polynomials of a scene are kept for comparison with runs on `finest` elements and fewer.
+/// The mesh on which the polynomials of a scene are stored, for comparison with runs on at most `finest` elements.
 ///
 /// # Errors
-/// [`MeshError`] where its elements are too small.
+/// [`MeshError`] if its elements are too small.
 pub fn fine_mesh(scene: &Scene, finest: usize) -> Result<Mesh, MeshError> {
     resampled(&scene.mesh, FINER * finest)
 }
 
-/// A run kept at equidistant times by its values at the nodes of a mesh.
+/// A run at equidistant times, stored as its values at the nodes of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// The mesh; where it is finer than that of a run of any order, its linear functions stand for the run's polynomials.
+    /// The mesh; if it is finer than the mesh of a run of any order, its linear functions represent the polynomials.
     pub mesh: Mesh,
-    /// At `t_end k / samples`, k = 1 ...; of a run of any order without contact force.
+    /// At `t_end k / samples`, k = 1 ...; for a run of any order without the contact force.
     pub levels: Vec<Level>,
-    /// Energies (3.9) at the same times, of a run of any order those of the polynomials.
+    /// Energies (3.9) at the same times; for a run of any order those of the polynomials.
     pub energies: Vec<f64>,
     /// Smallest and largest u(1) over all time levels.
     pub tip_range: [f64; 2],
@@ -46,11 +46,11 @@ pub struct Traced {
 impl Traced {
     /// Runs a scene by dG over [0, t_end].
     ///
-    /// * `mesh`: where its values are kept; a mesh that contains the nodes of all that is compared.
+    /// * `mesh`: where the values are stored; it contains the nodes of every mesh compared.
     /// * `samples`: times of comparison, each the end of a step.
     ///
     /// # Errors
-    /// [`CaseFailure`] where the run does not come to its end.
+    /// [`CaseFailure`] if the run does not finish.
     pub fn compute(scene: &Scene, mesh: Mesh, samples: usize) -> Result<Self, CaseFailure> {
         let t_end = scene.t_end;
         let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
@@ -70,7 +70,7 @@ impl Traced {
         Ok(Self { mesh, levels, energies, tip_range })
     }
 
-    /// The largest distance of two references at their times, in the norm of Theorem 3.4; NaN where they cannot be compared.
+    /// The largest distance between two references over their times, in the norm of Theorem 3.4; NaN if not comparable.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.mesh != other.mesh || self.levels.len() != other.levels.len() || self.levels.is_empty() {
             return f64::NAN;
@@ -80,8 +80,8 @@ impl Traced {
         pairs.map(|(one, other)| distance(&lengths, one, other)).fold(0.0, max_or_nan)
     }
 
-    /// The distances of a level of a coarser mesh, whose nodes are nodes here, to that at time `k` from 0, in the norm of Theorem 3.4:
-    /// as functions, where a coarse P1 function is one on the fine mesh, and at the nodes of the coarser mesh.
+    /// Distances in the norm of Theorem 3.4 between a level of a coarser mesh, whose nodes are nodes here, and the level at time `k`
+    /// (from 0): as functions, since a coarse P1 function is also one on the fine mesh, and at the nodes of the coarser mesh.
     pub(crate) fn errors_of(&self, level: &Level, mesh: &Mesh, k: usize) -> [f64; 2] {
         let (fine, [few, many]) =
             (&self.levels[k], [mesh, &self.mesh].map(|mesh| mesh.lengths().collect::<Vec<f64>>()));
@@ -91,7 +91,7 @@ impl Traced {
     }
 }
 
-/// Distance of two levels of one mesh in the norm of Theorem 3.4.
+/// Distance between two levels of one mesh in the norm of Theorem 3.4.
 pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
     let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
     let [v, u, w, phi, theta] = [(&a.v, &b.v), (&a.u, &b.u), (&a.w, &b.w), (&a.phi, &b.phi), (&a.theta, &b.theta)]
@@ -99,7 +99,7 @@ pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
     TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
 }
 
-/// Largest difference of two curves at the same times; NaN where there is one, or where the curves do not match.
+/// Largest difference of two curves at the same times; NaN if a value is NaN or the lengths differ.
 pub(crate) fn distance_of_curves(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() || a.is_empty() {
         return f64::NAN;
@@ -137,7 +137,7 @@ fn restrict(level: &Level, stride: usize) -> Level {
     map_fields(level, |y| y.iter().step_by(stride).copied().collect())
 }
 
-/// The same P1 functions by their values at the nodes of another mesh, which must contain the old nodes.
+/// The same P1 functions on another mesh, which must contain the old nodes.
 fn prolong(level: &Level, nodes: &[f64], fine: &[f64]) -> Level {
     map_fields(level, |y| {
         let mut left = 0;

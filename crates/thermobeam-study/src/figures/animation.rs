@@ -1,4 +1,4 @@
-//! The beam between its obstacles, moving: SVG that animates itself.
+//! Self-animating SVG of the beam moving between its obstacles.
 
 use convergence_study::plots::Scale;
 use convergence_study::plots::canvas::{Anchor, Canvas, Layer, Pen, grid};
@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 use crate::run::driver::thinned;
 
-/// Frames and points per frame at most; their product bounds the size of the document.
+/// Maximum numbers of frames and of points per frame; their product bounds the size of the document.
 const MOST_FRAMES: usize = 120;
 const MOST_POINTS: usize = 61;
 
@@ -22,7 +22,7 @@ const HEIGHT: f64 = 530.0;
 /// A motion of the beam.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
-    /// Above the beam.
+    /// Shown above the beam.
     pub title: Option<String>,
     /// Times of the frames, ascending; the motion is shown in proportion to them.
     pub times: Vec<f64>,
@@ -30,14 +30,14 @@ pub struct Animation {
     pub nodes: Vec<f64>,
     /// `frames[n][i]`: displacement at `times[n]` and `nodes[i]`.
     pub frames: Vec<Vec<f64>>,
-    /// Lower and upper obstacle, at the beam's free end.
+    /// Lower and upper obstacle, at the free end of the beam.
     pub obstacles: Option<(f64, f64)>,
-    /// Seconds that one run takes; 8 where it is not positive.
+    /// Duration of one cycle in seconds; 8 if not positive.
     pub seconds: f64,
 }
 
-/// Draws the clamped wall, the obstacles and the moving beam. Where nothing moves, the beam
-/// stands as in the frame in which it is bent most.
+/// Draws the clamped wall, the obstacles and the moving beam. If nothing moves, the beam is drawn as in its most bent
+/// frame.
 pub fn animation(figure: &Animation) -> String {
     let frames = drawable_frames(figure);
     let stage = Stage::new(figure, &frames);
@@ -48,7 +48,7 @@ pub fn animation(figure: &Animation) -> String {
     canvas.finish(&title, "")
 }
 
-/// `(t, displacement at the points to draw)`, thinned, without frames that are incomplete.
+/// `(t, displacement at the points to draw)`, thinned, without incomplete frames.
 fn drawable_frames(figure: &Animation) -> Vec<(f64, Vec<f64>)> {
     let is_complete = |frame: &&Vec<f64>| {
         frame.len() == figure.nodes.len() && frame.iter().all(|&v| on_scale(Scale::Linear, v).is_some())
@@ -61,7 +61,7 @@ fn drawable_frames(figure: &Animation) -> Vec<(f64, Vec<f64>)> {
     thinned(all.len(), MOST_FRAMES).into_iter().map(pick).collect()
 }
 
-/// Where things are.
+/// Layout of the drawing.
 struct Stage {
     x: Ruler,
     u: Ruler,
@@ -119,7 +119,7 @@ impl Stage {
 
     fn draw_obstacles(&self, pen: &Pen<'_>, figure: &Animation) {
         let Some((g1, g2)) = figure.obstacles else { return };
-        // The obstacles are there for the free end alone.
+        // Only the free end meets the obstacles.
         let (left, right) = (PLOT.right - 8.0, PLOT.right + 34.0);
         for (name, g, far) in [("g₁", g1, PLOT.bottom), ("g₂", g2, PLOT.top)] {
             let Some(near) = self.u.px(g) else { continue };
@@ -147,7 +147,7 @@ impl Stage {
     /// The beam, its tip and the time mark, each with its animation.
     fn moving_parts(&self, figure: &Animation, frames: &[(f64, Vec<f64>)]) -> String {
         let bent = |frame: &(f64, Vec<f64>)| frame.1.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-        // The first of several that are bent alike.
+        // The first of several frames with the same deflection.
         let most = frames.iter().enumerate().rev().max_by(|a, b| bent(a.1).total_cmp(&bent(b.1)));
         let Some((still, shown)) = most else { return String::new() };
         let blue = look(0).colour;
@@ -189,7 +189,7 @@ impl Stage {
         self.nodes.iter().zip(u).map(place).collect()
     }
 
-    /// Duration and key times, which SMIL wants to rise from 0 to 1.
+    /// Duration and key times, which must rise from 0 to 1 in SMIL.
     fn clock(&self, figure: &Animation, frames: &[(f64, Vec<f64>)]) -> String {
         let seconds = if figure.seconds > 0.0 && figure.seconds.is_finite() { figure.seconds } else { 8.0 };
         let (start, end) = (frames[0].0, frames[frames.len() - 1].0);

@@ -5,8 +5,8 @@ use convergence_study::plots::style::{self, Dash};
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{Axis, Series};
 
-/// Draws measured over predicted contraction, log-log, with the identity as far as it is claimed, and the region without
-/// convergence, where markers are open: there the ratio of successive increments is measured, which no longer falls.
+/// Draws measured over predicted contraction, log-log, with the identity up to where it is claimed, and the region
+/// without convergence. Markers there are open: they show a ratio of successive increments that no longer falls.
 ///
 /// * `series`: `(predicted, measured)`, one for each kind of case.
 pub fn contraction(series: &[Series]) -> String {
@@ -29,7 +29,7 @@ pub fn contraction(series: &[Series]) -> String {
     xy.draw()
 }
 
-/// A series on both sides of α = 1, under one entry of the legend, whose marker is open where all points are.
+/// A series on both sides of α = 1, under one legend entry, whose marker is open if all points are.
 fn curves((k, series): (usize, &Series)) -> Vec<Curve> {
     let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
     let side = |(points, marks)| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };

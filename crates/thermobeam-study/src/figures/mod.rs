@@ -32,8 +32,8 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     obstacles.map_or(vec![], |obstacles| vec![line("g₁", obstacles.g1), line("g₂", obstacles.g2)])
 }
 
-/// For each scene of a figure, which [`look`](convergence_study::plots::look::look) it has: an experiment of the paper its own,
-/// any other scene one that no experiment has, by its place in the figure.
+/// The [`look`](convergence_study::plots::look::look) of each scene of a figure: an experiment of the paper has its own; any
+/// other scene gets, by its place in the figure, one that no experiment has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
     let look =
         |(place, name): (usize, &str)| PAPER.iter().position(|known| *known == name).unwrap_or(PAPER.len() + place);
@@ -42,7 +42,7 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
 
 impl Run {
     /// Names of files and their SVG documents: u over space and time, the beam in motion, tip displacement with the obstacles, tip
-    /// rotation, energy with its limit β²/(4ρ). None where no frames were kept.
+    /// rotation, energy with its limit β²/(4ρ). None if no frames were kept.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
         let Some(history) = self.history.as_ref().filter(|history| !history.frames.times.is_empty()) else {
             return vec![];
@@ -91,7 +91,7 @@ impl Run {
     }
 }
 
-/// β²/(4ρ), the energy of the straight beam at rest; `None` without a Kirchhoff term.
+/// Energy β²/(4ρ) of the straight beam at rest; `None` without a Kirchhoff term.
 pub fn energy_at_rest(beam: &Beam) -> Option<f64> {
     (beam.rho > 0.0).then(|| beam.beta * beam.beta / (4.0 * beam.rho))
 }

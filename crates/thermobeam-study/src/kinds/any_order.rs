@@ -52,10 +52,10 @@ pub const ROW: KindRow = KindRow {
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;
 
-/// Where inside a step the errors are measured: no Gauss or Radau point, where they are smaller.
+/// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors are smaller.
 const INSIDE: [f64; 2] = [0.13, 0.61];
 
-/// Error below which a further degree gains nothing: round-off of the loads and the initial data.
+/// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
 const ROUND_OFF: f64 = 2e-12;
 
 /// What is refined.
@@ -82,7 +82,7 @@ pub struct Resolution {
     pub steps: usize,
 }
 
-/// The errors of one run that are judged, each with its name; those in the fields at the end come first.
+/// The judged errors of one run, each with its name; errors in the fields at the end come first.
 pub type NamedErrors = Vec<(&'static str, f64)>;
 
 /// Runs that are judged together.
@@ -90,7 +90,7 @@ pub type NamedErrors = Vec<(&'static str, f64)>;
 struct RunsOfDegree {
     /// The runs, coarse to fine.
     runs: Vec<Resolution>,
-    /// How far a rate may be from its order; for runs over p the factor by which the error falls for each degree.
+    /// Tolerance of a rate; for runs over p the factor by which the error falls for each degree.
     tolerance: f64,
 }
 
@@ -100,7 +100,7 @@ pub struct AnyOrder {
     header: Header,
     /// Coefficients from which the loads are derived.
     pub(super) theory: Coefficients,
-    /// The solver's own; where they differ, the study must fail.
+    /// The solver's own coefficients; if they differ, the study must fail.
     pub(super) solver: Coefficients,
     exact: Manufactured,
     /// Whether loads keep the exact solution in place; a free vibration needs none.
@@ -138,7 +138,7 @@ impl FromFile for AnyOrder {
     }
 }
 
-/// Free vibrations: the beam whose modes are exact, and the modes, each released from a tip displacement of 0.1.
+/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement of 0.1.
 fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
     const AMPLITUDE: f64 = 0.1;
     section.allow(&["zeta", "modes"])?;
@@ -152,7 +152,7 @@ fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputErro
 }
 
 impl Over {
-    /// The keys of a table `[[series]]`: what is listed, what the series has of its own, and what it is judged by. The rest is in `[run]`.
+    /// The keys of a table `[[series]]`: the refined parameter, the fixed one, and the criterion. The rest is in `[run]`.
     fn keys(self) -> (&'static str, &'static [&'static str], &'static str) {
         match self {
             Over::Space => ("elements", &["degree"], "tolerance"),
@@ -162,7 +162,7 @@ impl Over {
     }
 }
 
-/// A table `[[series]]`, and what the runs of all series have in common.
+/// A table `[[series]]`, and the settings that all series share.
 fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOfDegree, InputError> {
     let (listed, own, key) = over.keys();
     section.allow(&[&[listed, key], own].concat())?;
@@ -212,11 +212,11 @@ impl Kind for AnyOrder {
         self.series.iter().flat_map(|series| &series.runs).map(case).collect()
     }
 
-    /// Roots of the sums of the squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes; of a study over time in
-    /// place of the slopes the largest L2 errors of u and u_t inside steps.
+    /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes. A study over time has the
+    /// largest L2 errors of u and u_t inside steps instead of the slopes.
     fn run(&self, resolution: &Resolution) -> Result<NamedErrors, CaseFailure> {
         let mut simulation = self.simulation(*resolution)?;
-        // The temperature that the solver means: what it computes is lifted by its own.
+        // The solver's temperature: its unknown is lifted by the solver's own θ_A.
         let theta_a = self.solver.beam.theta_a;
         let mut level = simulation.level().clone();
         let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
@@ -251,7 +251,7 @@ impl Kind for AnyOrder {
         let completion = completion(ran, |errors| not_finite(errors));
         let (mut rest, mut runs) = (ran, vec![]);
         for series in &self.series {
-            // Fewer where some are missing.
+            // Fewer if some are missing.
             let (mine, others) = rest.split_at(series.runs.len().min(rest.len()));
             rest = others;
             runs.push((series, mine));
@@ -272,7 +272,7 @@ impl AnyOrder {
         let dt = self.t_end / steps as f64;
         let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
         let (Coefficients { beam, obstacles }, theory) = (self.solver, &self.theory);
-        // A wrong temperature of the clamped end is one from the start: the initial data meet it, or no step would be done.
+        // The clamped end is wrong from the start: the initial data must match its temperature, or the first step fails.
         let shift = beam.theta_a - theory.beam.theta_a;
         let exact = any_order::initial(&self.exact);
         let theta = exact.theta;
@@ -287,7 +287,7 @@ impl AnyOrder {
         Ok(Simulation::with_load(problem, stepping, load)?)
     }
 
-    /// Rates over h or dt, a figure for each degree's errors together.
+    /// Rates over h or dt; one figure shows each degree's errors together.
     fn over_steps(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
         let mut all = Outcome::new("", vec![], vec![completion]);
         for (series, runs) in runs {

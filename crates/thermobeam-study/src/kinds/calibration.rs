@@ -1,4 +1,4 @@
-//! The rules that judge rates, error bars and grids, judged themselves: on errors whose order, and values whose limit, is known.
+//! The rules that judge rates, error bars and grids are judged themselves, on data whose order or limit is known.
 //!
 //! ```toml
 //! [[measure]]            # what is counted
@@ -34,14 +34,14 @@ pub const ROW: KindRow = KindRow {
     failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
 };
 
-/// What can be counted.
+/// A quantity that can be counted.
 #[derive(Debug)]
 struct Part {
     /// Its name in files.
     name: &'static str,
-    /// Tables of all laws and meshes, for each of `tables`; measured.
+    /// Measured cost in tables of all laws and meshes, for each of `tables`.
     cost: usize,
-    /// What is counted on that many tables, drawn from a seed.
+    /// Counts on this number of tables, drawn from a seed.
     sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
 }
 
@@ -71,7 +71,7 @@ impl Measure {
     }
 }
 
-/// A share that is bounded.
+/// A share with a bound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
     sheet: String,
@@ -191,10 +191,10 @@ fn table(sheet: &Sheet) -> Table {
     Table::new(&sheet.title, head, sheet.rows.iter().map(cells))
 }
 
-/// What is drawn of a row.
+/// The points that a row contributes.
 type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 
-/// What each rule pays for the true claims that it passes, and how often a term of lower order goes unnoticed.
+/// The power that each rule loses on true claims, and how often a term of lower order goes unnoticed.
 fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
     let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;

@@ -1,8 +1,8 @@
-//! Where long runs end, against exact steady states, which no source term keeps in place.
+//! The ends of long runs, compared with exact steady states, which no source term keeps in place.
 //!
-//! A beam at rest solves the discrete static problem to round-off, whatever the time step was: what is left is the error
-//! of P1 elements, O(h²) at the nodes in u and in φ; by elements of high degree and dG(q) next to nothing. A beam whose steady state is
-//! straight has no such error and is only known to end straight, up to the motion left.
+//! A beam at rest solves the discrete static problem to round-off for any time step. What remains is the error of P1 elements, O(h²) at
+//! the nodes in u and in φ; with elements of high degree and dG(q) it nearly vanishes. A straight steady state has no such error: the
+//! beam is only checked to end straight, up to the remaining motion.
 
 use convergence_study::judge::richardson;
 use convergence_study::text::number::decimals;
@@ -27,10 +27,10 @@ pub const ROW: KindRow = KindRow {
 /// Order of the elements in u and φ.
 const ORDER: f64 = 2.0;
 
-/// What is left of the tip's error when it is extrapolated from two meshes: the next term of the expansion, and the motion.
+/// Remaining share of the tip's error after extrapolation from two meshes: the next term of the expansion, and the motion.
 const EXTRAPOLATED: f64 = 1e-2;
 
-/// An error is known above this multiple of the velocity at rest: below, it is motion.
+/// Errors below this multiple of the velocity at rest are motion.
 const MOTION: f64 = 10.0;
 
 /// Relative changes that the baseline tolerates in the tips of discrete and of exact states.
@@ -47,18 +47,18 @@ pub struct EndStates {
     /// At least three numbers of elements, ascending.
     elements: Vec<usize>,
     dt: f64,
-    /// The largest velocity of a beam at rest.
+    /// The largest velocity that counts as rest.
     speed: f64,
     t_max: f64,
-    /// How far the observed rate may be from the order 2.
+    /// Allowed deviation of the observed rate from the order 2.
     tolerance: f64,
     /// The error allowed on the finest mesh.
     error: f64,
-    /// The scenes by the scheme of any order as well: how, until when, and the error allowed.
+    /// The scenes by the scheme of any order in addition: discretisation, final time, and allowed error.
     any_order: Option<(Discretisation, f64, f64)>,
 }
 
-/// A beam at rest, and the exact stable state next to it. Pairs are of u and of φ.
+/// A beam at rest, and the nearest exact stable state. Pairs are of u and of φ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RestingEnd {
     /// When it came to rest.
@@ -100,7 +100,7 @@ impl FromFile for EndStates {
 }
 
 impl Kind for EndStates {
-    /// A scene, by its place in the list, and its linear elements; `None` for the run of any order.
+    /// Index of a scene, and its number of linear elements; `None` for the run of any order.
     type Data = (usize, Option<usize>);
     type Found = RestingEnd;
 
@@ -141,7 +141,7 @@ impl Kind for EndStates {
     fn judge(&self, ran: &[Ran<(usize, Option<usize>), RestingEnd>]) -> Outcome {
         let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
         let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
-        // What lies below the floor is known to the last of the motion only.
+        // Errors below the floor cannot be told from the remaining motion.
         let floor = MOTION * self.speed;
         let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
         let mut checks = vec![completion(ran, |RestingEnd { t, tip, exact_tip, error, .. }| {
@@ -178,7 +178,7 @@ impl Kind for EndStates {
     }
 }
 
-/// The end of a run, and the stable state next to it.
+/// The end of a run, and the nearest stable state.
 fn end(scene: &Scene, mesh: &Mesh, t: f64, level: &Level) -> Result<RestingEnd, CaseFailure> {
     let stable: Vec<_> = exact_states(scene)?.into_iter().filter(|state| state.stable).collect();
     let none = || CaseFailure { reason: "there is no stable steady state".to_owned() };
@@ -212,7 +212,7 @@ impl EndStates {
     }
 }
 
-/// The ends of one scene, one for each mesh; `None` where the run failed.
+/// The ends of one scene, one for each mesh; `None` if the run failed.
 struct Ends<'a> {
     study: &'a EndStates,
     scene: &'a Scene,
@@ -231,7 +231,7 @@ impl<'a> Ends<'a> {
         self.ends.last().copied().flatten()
     }
 
-    /// A number of the finest end; NaN where that run failed.
+    /// A number of the finest end; NaN if that run failed.
     fn number(&self, of: impl Fn(&RestingEnd) -> f64) -> f64 {
         self.finest().map_or(f64::NAN, of)
     }
@@ -241,12 +241,12 @@ impl<'a> Ends<'a> {
         self.number(|end| max_or_nan(end.error[0], end.error[1]))
     }
 
-    /// Whether the beam ends straight, where the mesh makes no error.
+    /// Whether the beam ends straight, in which case the mesh causes no error.
     fn is_straight(&self) -> bool {
         self.finest().is_some_and(|end| end.exact_tip == [0.0, 0.0])
     }
 
-    /// The tip that the two finest meshes give for vanishing mesh width.
+    /// The tip extrapolated from the two finest meshes to vanishing mesh width.
     fn extrapolated(&self, field: usize) -> f64 {
         let (&[.., coarse, fine], &[.., Some(before), Some(last)]) = (&self.study.elements[..], &self.ends[..]) else {
             return f64::NAN;
@@ -258,7 +258,7 @@ impl<'a> Ends<'a> {
     fn check(&self) -> Check {
         let allowed = self.study.error;
         let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip[0]));
-        // The beam may buckle to either side, but the errors are comparable only where all meshes agree on one.
+        // The beam may buckle to either side, but errors are comparable only if it is the same side on all meshes.
         let contact = self.finest().map(|end| end.contact);
         let same_side = self.ends.iter().all(|end| end.is_some() && end.map(|end| end.contact) == contact);
         Check::that(
@@ -275,7 +275,7 @@ impl<'a> Ends<'a> {
         )
     }
 
-    /// The run of any order ends in the exact state, whichever stable one that is.
+    /// The run of any order must end in an exact state, whichever of the stable ones it is.
     fn check_any_order(&self) -> Option<Check> {
         let (how, _, allowed) = self.study.any_order.as_ref()?;
         let [u, phi] = self.any_order.map_or([f64::NAN; 2], |end| end.error);
@@ -296,7 +296,7 @@ impl<'a> Ends<'a> {
         vec![
             Reading::text("at rest", self.finest().map_or("?", |end| name_of(end.contact))),
             tip(shown("u(1)", self.number(|end| end.tip[0])), "u_tip", discrete),
-            // The table shows the extrapolated one in its place.
+            // The table shows the extrapolated value instead.
             tip(Reading::new("φ(1)", self.number(|end| end.tip[1])), "phi_tip", discrete),
             shown("extrapolated", self.extrapolated(0)),
             tip(shown("exact", self.number(|end| end.exact_tip[0])), "exact_u_tip", exact),

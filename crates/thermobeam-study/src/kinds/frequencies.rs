@@ -1,7 +1,7 @@
 //! Frequencies of the beam on elements of degree p against the exact ones: order 2p, from above.
 //!
-//! Rayleigh and Ritz: the frequencies of a subspace lie above those of the beam, and their error is the square of the
-//! modes' error in the energy, h^2p. On linear elements `ω_h - ω` is `ω³h²/24` to leading order for high modes.
+//! Rayleigh-Ritz: the frequencies of a subspace lie above those of the beam, and their error is the square of the
+//! modes' error in the energy norm, h^2p. On linear elements `ω_h - ω` is `ω³h²/24` to leading order for high modes.
 //!
 //! ```toml
 //! [frequencies]
@@ -33,17 +33,17 @@ pub const ROW: KindRow = KindRow {
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
-/// Between neighbours the determinant is of order 1, near a frequency its slope is of order 1 too: 16 of them mean 14 digits.
+/// Between frequencies the determinant is of order 1, as is its slope near one: 16 rounding errors mean 14 digits.
 const ROUNDING_ERRORS: f64 = 16.0;
 
-/// Relative error of frequencies that are not judged by their rates.
+/// Allowed relative error of frequencies without a judged rate.
 const MET: f64 = 1e-8;
 
 /// A study of frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frequencies {
     header: Header,
-    /// The lowest mode that is judged, from 1.
+    /// The lowest judged mode, from 1.
     first: usize,
     /// The highest.
     count: usize,
@@ -62,7 +62,7 @@ impl FromFile for Frequencies {
         let increasing = ("a whole number >", (|before, level| level > before) as fn(usize, usize) -> bool);
         let elements = section.sequence(("elements", allowed, 1), tables::elements, increasing)?;
         let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
-        // A mesh has twice as many frequencies, but the upper ones approximate nothing.
+        // A mesh has twice as many frequencies, but the upper ones are not approximations.
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
         let claim = read_claim(&section, "order")?;
         Ok(Self {
@@ -88,13 +88,13 @@ impl Kind for Frequencies {
     }
 
     fn cases(&self) -> Vec<Case<usize>> {
-        // Bisection to the last bit is some 60 counts for each frequency.
+        // Bisection to the last bit takes some 60 counts per frequency.
         let cost = |n: usize| 60.0 * (n * self.degree.pow(3) * self.count) as f64;
         self.elements.iter().map(|&n| Case { label: format!("n = {n}"), cost: cost(n), data: n }).collect()
     }
 
     fn run(&self, &elements: &usize) -> Result<Vec<f64>, CaseFailure> {
-        // Each count of the bisection goes over all elements, as a step does.
+        // Each count of the bisection traverses all elements, like a step.
         let mut patience = Patience::new(elements * self.degree.pow(3));
         let mesh = self.layout.mesh(elements)?;
         Ok(discrete_frequencies_until(&mesh, self.degree, self.count, |known| patience.check(known, || 0.0))??)
@@ -174,7 +174,7 @@ impl Frequencies {
         )
     }
 
-    /// Frequencies that are too near to round-off for a rate: they must be met on the finest mesh.
+    /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
     fn met_below_first(&self, found: Option<&Vec<f64>>) -> Check {
         let error = |(mode, omega): (usize, f64)| {
             let found = found.and_then(|found| found.get(mode)).copied().unwrap_or(f64::NAN);
@@ -189,7 +189,7 @@ impl Frequencies {
     }
 
     fn lie_above(&self, levels: &Levels) -> Check {
-        // A NaN must stay, and so must a mode that was not found.
+        // A NaN and a missing mode must stay visible.
         let errors = levels.columns.iter().flat_map(|column| &column.errors).map(|error| error.unwrap_or(f64::NAN));
         let least = errors.fold(f64::INFINITY, min_or_nan);
         Check::that(

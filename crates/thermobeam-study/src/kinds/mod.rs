@@ -1,7 +1,7 @@
-//! The kinds of study of the beam: a file each, or a folder where the mathematics is long.
+//! The kinds of study of the beam: one file each, or a folder if the mathematics is long.
 //!
-//! A study is a TOML file: data. Its kind reads the file (`from_document`), lists its cases and computes each, and judges what they
-//! found: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
+//! A study is data in a TOML file. Its kind reads the file (`from_document`), lists and computes its cases, and judges their
+//! results: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
 
 pub mod any_order;
 pub mod bifurcation;
@@ -34,7 +34,7 @@ use convergence_study::program;
 use convergence_study::study::{KindRow, Study, StudyFile};
 use std::path::Path;
 
-/// One row for each kind; the first is that of a file without `kind`.
+/// One row for each kind; the first is the default, for a file without `kind`.
 pub const KINDS: [KindRow; 18] = [
     convergence::ROW,
     any_order::ROW,

@@ -1,4 +1,4 @@
-//! What every kind of study is written with.
+//! Common imports and helpers of all kinds of study.
 
 pub(crate) use std::ops::ControlFlow;
 pub(crate) use std::path::Path;
@@ -32,12 +32,12 @@ pub(crate) use crate::run::rerun::resampled;
 pub(crate) use crate::run::simulate;
 pub(crate) use crate::scene::{Method, Scene, limits, tables};
 
-/// Whether each value is larger than the one before.
+/// Whether each value is larger than its predecessor.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
     list.windows(2).all(|pair| pair[0] < pair[1])
 }
 
-/// What the case of these data has found; `None` where it failed or was not run.
+/// The result of the case with these data; `None` if it failed or was not run.
 pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Option<&'r F> {
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
 }

@@ -1,8 +1,8 @@
-//! Estimated errors, and runs chosen for an accuracy, of random scenes with contact: against runs that share neither mesh nor steps
-//! with the search.
+//! Random scenes with contact: their estimated errors, and the runs chosen for an accuracy, against runs that share neither mesh
+//! nor steps with the search.
 //!
-//! A mistake that all runs by dG share would not show. So for some scenes linear elements and steps of `midpoint` are refined as well:
-//! they must tend to the run that was chosen.
+//! Such runs would not reveal a mistake that all dG runs share. So for some scenes linear elements and steps of `midpoint` are refined
+//! in addition: they must converge to the chosen run.
 //!
 //! ```toml
 //! [random-errors]
@@ -34,16 +34,16 @@ pub const ROW: KindRow = KindRow {
 /// An error may be this many times its estimate.
 const EXCEEDED: f64 = 2.0;
 
-/// How much the error of linear elements must fall with four times the elements and steps: contact leaves first order.
+/// Required ratio of linear elements' errors for four times the elements and steps: contact costs first order.
 const FALL: f64 = 4.0;
 
-/// Elements of the coarsest mesh of linear elements, and its steps in a unit of time.
+/// Elements of the coarsest linear mesh, and its steps per unit of time.
 const COARSEST: [usize; 2] = [80, 2500];
 
 /// Which of the numbers is the curve of u(1, t).
 const TIP: usize = 3;
 
-/// Relative change of the work that the baseline tolerates: a round more or less of a search.
+/// Tolerance of the baseline on the work: one round more or less of a search.
 const WORK_TOLERANCE: f64 = 0.2;
 
 /// Final time of all scenes.
@@ -59,16 +59,16 @@ pub struct RandomErrors {
     seed: u64,
 }
 
-/// What a scene shows.
+/// The results of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
     /// The largest error of a number, in units of its estimate.
     pub over_estimate: f64,
-    /// The largest error of a chosen run, in units of the target.
+    /// The largest error of a chosen run, in units of its target.
     pub over_target: f64,
-    /// Why a search was given up.
+    /// Why a search was abandoned.
     pub refused: Option<String>,
-    /// Errors of linear elements, and of four times as many in four times the steps.
+    /// Errors of linear elements, and of four times as many with four times the steps.
     pub linear: Option<[f64; 2]>,
     /// Work of the searches.
     pub work: f64,
@@ -90,7 +90,7 @@ impl FromFile for RandomErrors {
 }
 
 impl RandomErrors {
-    /// A scene: moderate coefficients, obstacles that are hit, smooth initial data.
+    /// A scene: moderate coefficients, obstacles that the beam hits, smooth initial data.
     fn scene(&self, number: usize) -> Result<Scene, InputError> {
         // Far from the seeds of other studies, which are small.
         let mut random = SplitMix::new((self.seed << 32) + number as u64);
@@ -127,7 +127,7 @@ impl RandomErrors {
         Ok(Scene { mesh, degree: 16, method: Method::Dg(stepping), ..scene.clone() })
     }
 
-    /// Errors of linear elements and of finer ones.
+    /// Errors on linear elements and on finer ones.
     fn linear(
         scene: &Scene,
         errors: &mut impl FnMut(&Scene) -> Result<[f64; 8], CaseFailure>,

@@ -1,4 +1,4 @@
-//! What an item of a study of the beam exercises: the settings by which a diagnosis tells what fails from what passes.
+//! The settings that an item of a study exercises; by these a diagnosis separates failing from passing items.
 
 use convergence_study::study::Header;
 use convergence_study::study::settings::{Setting, field, study};
@@ -6,10 +6,10 @@ use thermobeam::parameters::Beam;
 
 use crate::exact::norm::Norm;
 
-/// Below this a viscosity is small.
+/// A viscosity below this is small.
 const SMALL_ZETA: f64 = 0.02;
 
-/// Where to look for the cause, by the words of a setting or by the field that moved first.
+/// Where to look for the cause, by the name of a setting or by the field that changed first.
 pub const PLACES: [(&str, &str); 18] = [
     ("one-step schemes", "crates/thermobeam/src/solve"),
     ("any order", "crates/thermobeam/src/dg; THEORY.md, \"Any order\""),
@@ -31,9 +31,9 @@ pub const PLACES: [(&str, &str); 18] = [
     ("rotation-rate", "the second equation of (3.7)"),
 ];
 
-/// The settings of an item: a rate by its norm, a check by its claim, a guarded number by its name.
+/// The settings of an item, found by a rate's norm, a check's claim, or a guarded number's name.
 ///
-/// Of a study with named cases they are those of the case that the item's name begins with.
+/// In a study with named cases: the settings of the case whose name the item's name begins with.
 pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
     let of = Of { header, item, case: case(header, item) };
     let field = field(item);
@@ -52,12 +52,12 @@ pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
         settings.push(("mesh", of.mesh()));
     }
     let settings = settings.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned()));
-    // A study alone says of what kind it is: that is where to look.
+    // A study on its own: its kind tells where to look.
     let (key, alone) = study(header);
     std::iter::once((key, format!("{alone} ({})", of.kind()))).chain(settings).collect()
 }
 
-/// The dotted path of the case that an item is about, such as `case[2].`; empty where there is none.
+/// The dotted path of the item's case, such as `case[2].`; empty without a case.
 fn case(header: &Header, item: &str) -> String {
     let name =
         item.trim_start_matches("error ").trim_start_matches("rate ").split_once(": ").map_or("", |(name, _)| name);
@@ -83,7 +83,7 @@ impl Of<'_> {
         self.header.settings.iter().any(|(known, _)| known.starts_with(&path) || known.starts_with(table))
     }
 
-    /// Whether the item or the file speaks of something.
+    /// Whether the item or the file mentions a word.
     fn speaks_of(&self, word: &str) -> bool {
         let time = ["time.scheme", "time.solver", "refine.scheme", "refine.solver", "scheme", "solver"];
         self.item.contains(word) || time.iter().any(|key| self.text(key) == Some(word))
@@ -104,7 +104,7 @@ impl Of<'_> {
     }
 
     fn method(&self) -> [(&'static str, &'static str); 3] {
-        // A method without the choice is named in place of one.
+        // A method without this choice is named instead.
         let all = |method: &'static str| ["method", "scheme", "solver"].map(|key| (key, method));
         let kind = self.header.kind.as_str();
         let any_order = matches!(kind, "any-order" | "exact-experiments") || self.has("any-order.studies");
@@ -124,7 +124,7 @@ impl Of<'_> {
         [("method", "one-step schemes"), ("scheme", scheme), ("solver", solver)]
     }
 
-    /// The terms of the equations that are at work; scenes in other files are those of the paper, whose beam is the default.
+    /// The active terms of the equations; scenes in other files are those of the paper, whose beam is the default.
     fn beam(&self) -> [(&'static str, &'static str); 5] {
         let free = self.kind() == "free vibrations";
         let default = if free { Beam { a: 0.0, rho: 0.0, ..Beam::default() } } else { Beam::default() };

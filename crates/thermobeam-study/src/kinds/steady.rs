@@ -1,4 +1,4 @@
-//! Scenes that a study file lists, their runs to rest, and the exact steady states that they should end in.
+//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they should end.
 
 use thermobeam::equilibrium::{EquilibriumError, equilibria};
 
@@ -19,15 +19,15 @@ pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
     Ok(scene)
 }
 
-/// How beams are run that have to come to rest: with these β, on a uniform mesh, until they are slow.
+/// Settings of the runs to rest: with these β, on a uniform mesh, until the beam is slow.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ToRest {
     pub(super) betas: Vec<f64>,
     elements: usize,
     dt: f64,
-    /// Largest velocity of a beam at rest.
+    /// Largest velocity that counts as rest.
     speed: f64,
-    /// A run that lasts longer fails.
+    /// A longer run fails.
     t_max: f64,
 }
 
@@ -35,7 +35,7 @@ impl ToRest {
     /// The keys of a table.
     pub(super) const KEYS: [&str; 5] = ["beta", "elements", "dt", "speed", "t_max"];
 
-    /// From a table that has [`ToRest::KEYS`], and may have others.
+    /// Reads a table that has [`ToRest::KEYS`], and possibly others.
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let fits = |list: &[f64]| !list.is_empty() && increases(list);
         let betas = section.list("beta", "a list of numbers, ascending", Field::number, fits)?;
@@ -49,10 +49,10 @@ impl ToRest {
         cost_to_rest(self.elements, self.dt)
     }
 
-    /// The scene with the β of that place in the list, at rest.
+    /// Runs the scene with the β of this index to rest.
     ///
     /// # Errors
-    /// As [`settle`], and where the steady states cannot be told.
+    /// As [`settle`], and if the steady states cannot be found.
     pub(super) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
         let beta = self.betas[place];
         let mut scene = scene.at(Mesh::uniform(self.elements)?, self.dt);
@@ -77,19 +77,19 @@ pub(super) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputEr
     Ok((dt, t_max))
 }
 
-/// The key `elements`: the meshes over which a rate is observed.
+/// The key `elements`: the meshes over which the rate is observed.
 pub(super) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least three numbers of elements, ascending";
     section.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))
 }
 
-/// The key `tolerance`: how far a rate may be from its order.
+/// The key `tolerance`: the allowed deviation of a rate from its order.
 pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
     let allowed = "a number > 0 and < 0.5";
     section.require("tolerance", allowed)?.number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
 }
 
-/// What it costs until a beam has come to rest, at about t = 200.
+/// The cost until a beam has come to rest, at about t = 200.
 pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
     200.0 / dt * elements as f64
 }
@@ -103,14 +103,14 @@ pub struct AtRest {
     pub stable: usize,
     /// u(1) at rest.
     pub u_tip: f64,
-    /// When the beam has come to rest.
+    /// Time at which the beam came to rest.
     pub t_rest: f64,
     /// The nearest exact steady state; `None` if there is none.
     pub nearest: Option<Nearest>,
 }
 
 impl AtRest {
-    /// Distance to the nearest exact steady state; NaN where there is none.
+    /// Distance to the nearest exact steady state; NaN if there is none.
     pub(super) fn distance(&self) -> f64 {
         self.nearest.map_or(f64::NAN, |nearest| nearest.distance)
     }
@@ -121,14 +121,14 @@ impl AtRest {
     }
 }
 
-/// A beam is at rest when it has been slow for that long: at the turning points of an oscillation it is slow for a moment,
-/// and the slowest oscillation of a beam near buckling differs from rest by its speed alone.
+/// A beam is at rest when it has been slow for this time: at the turning points of an oscillation it is slow for a moment,
+/// and near buckling the slowest oscillation differs from rest by its speed alone.
 const QUIET: f64 = 5.0;
 
-/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns the time and the level then.
+/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and level.
 ///
 /// # Errors
-/// A step that cannot be done, or motion that lasts longer than `t_max`.
+/// A step that fails, or motion beyond `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     let (mut driver, mut moved) = (simulate::driver(scene)?, 0.0);
     loop {
@@ -163,7 +163,7 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// `None` where there is no state.
+    /// `None` if there is no state.
     pub(super) fn of(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<Self> {
         let measured = states.iter().map(|&state| {
             let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {

@@ -6,7 +6,7 @@ use thermobeam::energy::{Balance, Rounding};
 use super::prelude::*;
 use crate::run::together::EnsembleDriver;
 
-/// Increment at which a step counts as solved: the balance holds for the exact solution of a step only.
+/// Increment at which a step counts as solved: only the exact solution of a step satisfies the balance.
 pub(super) const SOLVED: f64 = 1e-14;
 
 /// Share of the energy within which the balance of a step closes, unless rounding errors explain more.
@@ -17,16 +17,16 @@ pub(super) const CLOSED: f64 = 1e-12;
 pub struct Worst {
     /// Residual of a step, in units of the energy's size.
     pub residual: f64,
-    /// Change of the energy in a step, in the same units; negative where it falls in every step, -∞ without a step.
+    /// Change of the energy in a step, in the same units; negative if it falls in every step, -∞ without steps.
     pub rise: f64,
-    /// Residual in units of its bound: at most 1 where every balance closes.
+    /// Residual in units of its bound: at most 1 if every balance closes.
     pub open: f64,
-    /// Rise in units of its bound: at most 1 where the energy never rises.
+    /// Rise in units of its bound: at most 1 if the energy never rises.
     pub risen: f64,
 }
 
 impl Default for Worst {
-    /// Of no step.
+    /// The values before the first step.
     fn default() -> Self {
         Self { residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0 }
     }
@@ -43,14 +43,14 @@ impl Worst {
         }
     }
 
-    /// The numbers with their names.
+    /// The numbers and their names.
     pub(super) fn named(&self) -> [(&'static str, f64); 4] {
         let Self { residual, rise, open, risen } = *self;
         [("residual", residual), ("rise", rise), ("residual over its bound", open), ("rise over its bound", risen)]
     }
 }
 
-/// A share of what is allowed, in words.
+/// A fraction of the allowed value, in words.
 pub(super) fn of_allowed(share: f64) -> String {
     if share > 1.0 {
         return format!("{} times what is allowed", short_text(share));
@@ -59,7 +59,7 @@ pub(super) fn of_allowed(share: f64) -> String {
     format!("{share} of what is allowed")
 }
 
-/// What a run has shown so far; NaN stays.
+/// What a run has recorded so far; NaN stays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EnergyWatch {
     /// The largest size of the energy.
@@ -70,12 +70,12 @@ pub(super) struct EnergyWatch {
 }
 
 impl EnergyWatch {
-    /// From a level whose energy has the given size.
+    /// Starts from a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {
         Self { scale, worst: Worst::default(), drift: 0.0 }
     }
 
-    /// Takes in a step; `rounding` is asked for only where it matters.
+    /// Adds a step; `rounding` is evaluated only if needed.
     pub(super) fn step(&mut self, balance: &Balance, scale: f64, rounding: impl FnOnce() -> Rounding) {
         self.scale = max_or_nan(self.scale, scale);
         let scale = max_or_nan(self.scale, f64::MIN_POSITIVE);
@@ -95,17 +95,17 @@ impl EnergyWatch {
     }
 }
 
-/// A problem after it was run in a group.
+/// The results of a problem that was run in a group.
 pub(super) struct Watched {
-    /// Rise of the energy and residual of its balance, over the steps that were done.
+    /// Rise of the energy and residual of its balance, over the completed steps.
     pub(super) worst: Worst,
     /// Why it ended early, if it did.
     pub(super) failure: Option<StepError>,
 }
 
-/// Runs problems with the same number of elements side by side by Newton's method, each to its last step or to the one that fails.
+/// Runs problems with the same number of elements in lanes by Newton's method, each to its last or failing step.
 ///
-/// * `see`: is shown each step that was done: the problem's place in the list, the step's iterations, and the new level.
+/// * `see`: receives each completed step: index of the problem, iterations of the step, and the new level.
 pub(super) fn watched(
     problems: Vec<Problem>,
     dts: &[f64],

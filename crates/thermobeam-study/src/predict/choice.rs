@@ -1,9 +1,9 @@
-//! Ask for an accuracy: the cheapest run with an error no larger than wanted, or the scene's own scheme with such an error.
+//! Runs chosen by accuracy: the cheapest run with at most the wanted error, or such a run by the scene's own scheme.
 //!
-//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: any other run would have to be compared with such
-//! a run to know its error. What the scene's own scheme would need follows from two constants: with n elements and s steps its
-//! error is about `S (n0/n)^p + T (s0/s)^q`, and S and T are what halving h alone and dt alone takes away from a coarse run,
-//! divided by `1 - 2^-p` and `1 - 2^-q`.
+//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: the error of any other run could only be found by
+//! comparison with such a run. The needs of the scene's own scheme follow from two constants: with n elements and s steps its error
+//! is about `S (n0/n)^p + T (s0/s)^q`. S and T are the reductions of a coarse run's error by halving only h and only dt, divided by
+//! `1 - 2^-p` and `1 - 2^-q`.
 //!
 //! ```
 //! use thermobeam_study::predict::choice::{Quantity, choose};
@@ -28,25 +28,25 @@ use crate::scene::{Method, Scene};
 /// Elements of the coarsest run by the scene's own scheme.
 const ELEMENTS: f64 = 16.0;
 
-/// Steps of the runs that tell what the scene's own scheme would need, at most: some milliseconds.
+/// Maximum number of steps in runs that predict the needs of the scene's own scheme: some milliseconds.
 const MOST_STEPS: f64 = 4000.0;
 
-/// Part of the target that a one-step scheme aims at: what is left is for constants that change from level to level.
+/// Part of the target that a one-step scheme aims at; the rest allows for constants that change from level to level.
 const AIM: f64 = 0.75;
 
-/// Part of the target that the reference of a one-step scheme may be off.
+/// Allowed error of the reference of a one-step scheme, as part of the target.
 const TENTH: f64 = 0.1;
 
-/// Elements and steps grow in one go by at most this: constants of coarse runs do not reach further.
+/// Maximum growth of elements and steps in one round: constants of coarse runs reach no further.
 const MOST_GROWTH: f64 = 8.0;
 
 /// Rounds of refinement.
 const ROUNDS: usize = 16;
 
-/// Runs that may fail.
+/// Allowed number of failed runs.
 const FAILURES: usize = 4;
 
-/// What an error is about.
+/// The quantity whose error is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Maximum over [0, T] of the error of u(1, t).
@@ -64,7 +64,7 @@ impl Quantity {
         }
     }
 
-    /// What it is, in words.
+    /// Its meaning, in words.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Tip => "maximum over [0, T] of the error of u(1, t), inside steps included",
@@ -79,19 +79,19 @@ impl Quantity {
         }
     }
 
-    /// What is compared by dG: in the norm on a mesh that is graded towards x = 1.
+    /// The comparison of dG runs: for the norm on a mesh that is graded towards x = 1.
     fn wanted(self, target: f64) -> Result<Wanted, Unreachable> {
         let mesh = Mesh::mapped(20, |s| s * (2.0 - s)).map_err(|error| none(target, Reason::of_run(error)))?;
         Ok(Wanted { rows: self.rows(&mesh), tolerance: [target; 3] })
     }
 }
 
-/// What the scene's own scheme would need for the error asked for, by its two constants.
+/// Predicted discretisation and cost of the scene's own scheme for the wanted error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Needed {
     /// Elements and steps.
     pub at: [f64; 2],
-    /// Seconds, at the speed of the runs that told.
+    /// Seconds, at the speed of the coarse runs.
     pub seconds: f64,
 }
 
@@ -102,31 +102,31 @@ impl Needed {
     }
 }
 
-/// The run chosen.
+/// The chosen run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// The scene with the mesh, the method and the steps chosen.
+    /// The scene with the chosen mesh, method and steps.
     pub scene: Scene,
-    /// The parts of space and of time in the error.
+    /// The parts of space and time in the error.
     pub parts: [f64; 2],
-    /// Where they come from, in words.
+    /// The origin of these parts, in words.
     pub parts_by: String,
-    /// What the run itself costs.
+    /// The cost of the run itself.
     pub run: Cost,
-    /// What the scene's own scheme would need; `None` where it is what was chosen, or where its coarse runs fail.
+    /// The needs of the scene's own scheme; `None` if it is the chosen one, or if its coarse runs fail.
     pub needed: Option<Needed>,
-    /// The error that the run makes.
+    /// The error of the run.
     pub error: f64,
-    /// Whether the scheme is the scene's own, as [`keep_scheme`] chooses it.
+    /// Whether the scheme is the scene's own, as in [`keep_scheme`].
     pub is_kept: bool,
 }
 
 /// The cheapest run with an error no larger than `target`.
 ///
-/// * `scene`: its own mesh and steps do not matter, nor does its method.
+/// * `scene`: its own mesh, steps and method have no influence.
 ///
 /// # Errors
-/// [`Unreachable`]: why there is no such run, and the error that was reached.
+/// [`Unreachable`]: why there is no such run, and the error reached.
 pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_>) -> Result<Choice, Unreachable> {
     let Reference { scene: chosen, space, time, run, finer_space, .. } =
         reference(scene, None, &quantity.wanted(target)?, work)?;
@@ -145,7 +145,7 @@ pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_
     })
 }
 
-/// The scene's own scheme with the elements and steps that it needs; its error is the difference to a run of any order.
+/// The scene's own scheme with the required elements and steps; its error is the difference to a run of any order.
 ///
 /// # Errors
 /// As [`choose`].
@@ -169,7 +169,7 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
             .and_then(|()| Own::run(&scene, quantity, work))
             .and_then(|own| {
                 let error = own.error(&reference, work)?;
-                // A law for the first run, and for each that has missed the target.
+                // A law for the first run, and after each run that misses the target.
                 if law.is_none() || error > target {
                     law = Some(Law::of(&scene, &own, work)?);
                 }
@@ -185,12 +185,12 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
                 if error < best.0 {
                     best = (error, law.parts(size(&scene)));
                 }
-                // What is clearly too much is not begun.
+                // A run that is clearly too expensive is not started.
                 let [elements, steps] = law.cheapest(AIM * target);
                 work.leaves(0.25 * elements * steps).map_err(|reason| not_reached(best, reason))?;
                 law.next(size(&scene), target)
             }
-            // Coarse steps may fail where finer ones do not.
+            // Coarse steps may fail although finer ones succeed.
             (Err(Reason::Run(_)), _) if failures < FAILURES => {
                 failures += 1;
                 size(&scene).map(|count| 2.0 * count)
@@ -203,7 +203,7 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
     Err(not_reached(best, Reason::Rounds))
 }
 
-/// The scene with a one-step scheme of its own on coarse levels; `None` of a scene by dG.
+/// The scene with its own one-step scheme on coarse levels; `None` for a scene by dG.
 fn own_scheme(scene: &Scene, target: f64, most_steps: f64) -> Option<Scene> {
     let Method::OneStep(mut stepping) = scene.method else { return None };
     stepping.settings.tolerance = stepping.settings.tolerance.min((1e-4 * target).clamp(1e-13, 1e-9));
@@ -215,7 +215,7 @@ fn size(scene: &Scene) -> [f64; 2] {
     [scene.mesh.elements() as f64, scene.steps() as f64]
 }
 
-/// The scene with these numbers of elements and steps; `None` where there is no such mesh.
+/// The scene with these numbers of elements and steps; `None` if there is no such mesh.
 fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
     let mesh = resampled(&scene.mesh, elements.ceil() as usize).ok()?;
     Some(at(scene, mesh, steps.ceil() as usize, scene.t_end))
@@ -235,7 +235,7 @@ impl Own {
         Ok(Self { rows, curves })
     }
 
-    /// Its error, that of the reference included.
+    /// Its error, including that of the reference.
     fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, Reason> {
         Ok(self.apart(&self.other(&reference.scene, work)?) + reference.error(0))
     }
@@ -254,19 +254,19 @@ impl Own {
 #[derive(Debug, Clone, Copy)]
 struct Law {
     at: [f64; 2],
-    /// Errors of space and time there.
+    /// Errors of space and time on that level.
     parts: [f64; 2],
     orders: [f64; 2],
     seconds_per_node_step: f64,
 }
 
 impl Law {
-    /// From twice the elements alone and half of dt alone.
+    /// From two runs: one with twice the elements, one with half of dt.
     fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
         let [space, time] = finer(scene).map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));
         let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
-        // In the norm the error of the mesh is orthogonal to that of a finer one, so that squares add.
+        // In the norm, the error of the mesh is orthogonal to that of a finer one, so squares add.
         let (p, left) = match own.rows {
             Rows::Norm(_) => (1.0, 0.75_f64.sqrt()),
             _ => (2.0, 0.75),
@@ -285,14 +285,14 @@ impl Law {
         [self.parts[0] * (n / elements).powf(p), self.parts[1] * (s / steps).powf(q)]
     }
 
-    /// The fewest node-steps with an error: there the parts of space and time are as q to p.
+    /// The fewest node-steps with a given error: there the errors of space and time are in the ratio q to p.
     fn cheapest(&self, error: f64) -> [f64; 2] {
         let ([n, s], [p, q]) = (self.at, self.orders);
         let wanted = [error * q / (p + q), error * p / (p + q)];
         [n * (self.parts[0] / wanted[0]).powf(1.0 / p), s * (self.parts[1] / wanted[1]).powf(1.0 / q)]
     }
 
-    /// The size after one that has missed the target: larger, but not further than the law reaches.
+    /// The size after a run that misses the target: larger, but within the range of the law.
     fn next(&self, now: [f64; 2], target: f64) -> [f64; 2] {
         let best = self.cheapest(AIM * target);
         let next: [f64; 2] = std::array::from_fn(|k| best[k].clamp(now[k], MOST_GROWTH * now[k]));

@@ -1,4 +1,4 @@
-//! Runs by their curves alone: numbers over time, of any method, and how far two such runs are apart.
+//! Runs reduced to their curves: numbers over time, by any method, and the distance between two such runs.
 
 use std::f64::consts::PI;
 
@@ -14,31 +14,31 @@ use crate::run::motion::Motion;
 use crate::run::simulate;
 use crate::scene::{Method, Scene};
 
-/// Times of comparison in a step of dG, its end among them: dense at its ends, since a layer at the start of a step is shorter than that.
+/// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the start may be shorter than the step.
 const POINTS: usize = 12;
 
-/// Steps of the largest length that are compared, at most: the others of a longer run are left out evenly.
+/// Maximum number of compared steps of the largest length; longer runs skip steps evenly.
 const MOST_LONG_STEPS: f64 = 20_000.0;
 
-/// Times at which a one-step scheme is read, at most.
+/// Maximum number of times at which a one-step scheme is read.
 const TIMES: usize = 4000;
 
-/// Numbers that a run by a one-step scheme keeps, at most.
+/// Maximum number of values kept from a run by a one-step scheme.
 const MOST_KEPT: usize = 4_000_000;
 
-/// What is read off a run at a time: a row of numbers.
+/// The row of numbers read from a run at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Rows {
     /// u(1).
     Tip,
     /// u(1), φ(1) and the energy.
     Numbers,
-    /// What the norm of Theorem 3.4 is made of, at points x; the second number is the root of the weight of a point.
+    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of a weight.
     Norm(Vec<(f64, f64)>),
 }
 
 impl Rows {
-    /// Those of the norm, exact for linear functions on the mesh.
+    /// The points for the norm, exact for linear functions on the mesh.
     pub(super) fn of_norm(mesh: &Mesh) -> Self {
         let gauss = 0.5 / 3.0_f64.sqrt();
         let points = mesh.nodes().windows(2).flat_map(|x| {
@@ -57,7 +57,7 @@ impl Rows {
         }
     }
 
-    /// The distance of two rows in units of a tolerance: of each number, or of all in the norm.
+    /// The distance of two rows in units of a tolerance: the largest for single numbers, or that of the norm.
     fn distance(&self, one: &[f64], other: &[f64], tolerance: &[f64; 3]) -> f64 {
         let differences = one.iter().zip(other).map(|(a, b)| a - b);
         match self {
@@ -66,7 +66,7 @@ impl Rows {
         }
     }
 
-    /// Adds the part of a row that belongs to a point, from u_x, φ, φ_x, v, w and θ there.
+    /// Adds the entries of one point to a row, from u_x, φ, φ_x, v, w and θ there.
     fn push(row: &mut Vec<f64>, weight: f64, [u_x, phi, phi_x, v, w, theta]: [f64; 6]) {
         row.extend([v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
     }
@@ -111,28 +111,28 @@ impl Rows {
     }
 }
 
-/// A time of comparison of a run's own.
+/// One of a run's own times of comparison.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Instance {
     pub(super) t: f64,
-    /// Time since the start or the last contact event; 0 of a one-step scheme.
+    /// Time since the start or the last contact event; 0 for a one-step scheme.
     pub(super) since: f64,
-    /// Whether the step is longer than steps far from an event are at its distance from the last one: a smaller `restart_dt` shortens it.
+    /// Whether the step is longer than normal steps at that distance from the last event: a smaller `restart_dt` shortens it.
     pub(super) early: bool,
 }
 
 /// A run's curves.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Curves {
-    /// Where they were read, unless the times were asked for.
+    /// Times at which they were read, unless these were given.
     pub(super) times: Vec<Instance>,
     /// Numbers in a row.
     pub(super) width: usize,
-    /// Row by row, one for each time.
+    /// One row for each time.
     pub(super) values: Vec<f64>,
-    /// Smallest and largest u(1, t); by dG between all those times as well.
+    /// Smallest and largest u(1, t); for dG also between these times.
     pub(super) range: [f64; 2],
-    /// What the run has cost.
+    /// The cost of the run.
     pub(super) cost: Cost,
 }
 
@@ -141,7 +141,7 @@ impl Curves {
         Self { width: rows.width(), range: u_tip, ..Self::default() }
     }
 
-    /// The times of its own.
+    /// Its own times.
     pub(super) fn own_times(&self) -> Vec<f64> {
         self.times.iter().map(|instance| instance.t).collect()
     }
@@ -158,11 +158,11 @@ impl Curves {
 
 /// Runs a scene.
 ///
-/// * `at`: times, which increase, at which it is read, of a one-step scheme ends of steps; `None` for times of its own: by dG inside
-///   steps too, by a one-step scheme at the last level and those at most [`TIMES`] that lie evenly before.
+/// * `at`: increasing times of reading, for a one-step scheme ends of steps. `None` selects the run's own times: by dG also inside
+///   steps, by a one-step scheme the last level and at most [`TIMES`] evenly spaced levels before.
 ///
 /// # Errors
-/// The scene is refused, a step fails, or a limit of time or work is reached.
+/// The scene is refused, a step fails, or the limit of time or work is reached.
 pub(super) fn curves(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
     let curves = match scene.method {
         Method::OneStep(_) => by_one_step(scene, rows, at, work),
@@ -214,7 +214,7 @@ fn by_dg(
     Ok(curves)
 }
 
-/// Times in the last step; steps closer than `early` to the start or an event are early.
+/// Times in the last step; a step is early if it is closer than `early` to the start or an event.
 fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
     let (from, to) = (simulation.old_level().t, simulation.t());
     let event = simulation.events().iter().rev().map(|event| event.t).find(|t| *t <= from).unwrap_or(0.0);
@@ -237,7 +237,7 @@ fn by_one_step(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'
         let t = simulation.t();
         let is_read = match at {
             None => n % every == 0 || n == steps,
-            // Steps of half the length end there up to rounding.
+            // Up to rounding, steps of half the length end there.
             Some(at) => at.get(curves.times.len()).is_some_and(|time| t >= time - 0.5 * simulation.dt()),
         };
         if is_read {
@@ -250,19 +250,19 @@ fn by_one_step(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'
     Ok(curves)
 }
 
-/// The largest differences between a run, at the times of its own, and another, in units of the tolerance.
+/// The largest differences between a run, at its own times, and another, in units of the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Apart {
     /// In early steps.
     pub(super) early: f64,
-    /// In the others.
+    /// In the other steps.
     pub(super) late: f64,
-    /// Time since the last event, or the start, where the difference is largest.
+    /// Time of the largest difference since the last event, or the start.
     pub(super) since: f64,
 }
 
 impl Apart {
-    /// Between `own` and `other`, which was read at the times of `own`; NaN where the curves do not match.
+    /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not match.
     pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
             return Self { early: f64::NAN, late: f64::NAN, since: 0.0 };

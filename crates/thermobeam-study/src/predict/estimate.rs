@@ -1,8 +1,8 @@
 //! The errors of a scene's numbers: their differences to a run of any order whose own error is at most a tenth of them.
 //!
-//! What to refine first is measured as well: the scene is run with a finer space alone and with finer steps alone, and both are
-//! compared with the same reference. Of a one-step scheme these are twice the elements and half of dt, of dG p + 4 and half the steps.
-//! No rate is assumed: where impacts make errors fall by fits and starts, they do so in the table.
+//! What to refine first is measured as well: the scene is run with only space refined and with only steps refined, and both runs are
+//! compared with the same reference. A one-step scheme gets twice the elements or half of dt, dG gets p + 4 or half the steps. No rate
+//! is assumed: if impacts make errors fall irregularly, the table shows it.
 
 use std::fmt;
 
@@ -17,19 +17,19 @@ use crate::scene::{Method, Scene};
 /// Error of the first reference, in units of the largest value of a curve.
 const ROUGH: f64 = 1e-4;
 
-/// What the reference's error may be of the error that it measures.
+/// Allowed error of the reference, relative to the error that it measures.
 const TENTH: f64 = 0.1;
 
-/// Error that any reference may have, in units of the largest value of a curve: round-off.
+/// Allowed error of any reference, in units of the largest value of a curve: round-off.
 const FLOOR: f64 = 1e-11;
 
-/// References that are tried, each at least ten times better.
+/// Maximum number of references, each at least ten times better than the last.
 const ROUNDS: usize = 8;
 
-/// Part of an error that refining has to take away to be worth its cost.
+/// Refinement pays if it removes at least this part of the error.
 const GAIN: f64 = 0.1;
 
-/// Where an error comes from.
+/// The source of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
@@ -39,11 +39,11 @@ pub enum Source {
     Time,
 }
 
-/// What an error is of.
+/// The kind of quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// A curve: the largest error over the whole time; by dG inside steps too, by a one-step scheme at its time levels.
+    /// A curve: the largest error over time; for dG also inside steps, for a one-step scheme at its time levels.
     Curve,
     /// The largest value of u(1, t).
     Largest,
@@ -56,26 +56,26 @@ pub enum Kind {
 /// The error in one number or curve.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Estimate {
-    /// What it is the error of.
+    /// Name of the quantity.
     pub name: &'static str,
     /// A number or a curve.
     pub kind: Kind,
-    /// The number itself; of a curve its largest absolute value.
+    /// The number itself, or the largest absolute value of a curve.
     pub value: f64,
-    /// The error: the difference to the reference, and the reference's own error.
+    /// The error: the difference to the reference, plus the reference's own error.
     pub total: f64,
     /// The reference's own error.
     pub reference: f64,
-    /// The error with a finer space alone; `None` where that run failed.
+    /// The error with only space refined; `None` if that run failed.
     pub finer_space: Option<f64>,
-    /// The error with finer steps alone.
+    /// The error with only steps refined.
     pub finer_steps: Option<f64>,
 }
 
-/// The errors in the numbers that a run shows.
+/// The errors in the numbers of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Budget {
-    /// What to refine first; `None` where refining one alone lowers no error.
+    /// What to refine first; `None` if refining only one lowers no error.
     pub dominant: Option<Source>,
     /// The same in a sentence.
     pub advice: String,
@@ -97,7 +97,7 @@ const OBSERVABLES: [(&str, Kind, usize); 8] = [
 /// Estimates the errors of a scene by any method.
 ///
 /// # Errors
-/// [`Unreachable`]: the scene's own run fails, or there is no reference that is good enough.
+/// [`Unreachable`]: the scene's own run fails, or no reference is accurate enough.
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
     let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
@@ -117,10 +117,10 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
     Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
 }
 
-/// The differences of a scene's numbers to those of another run, which is by dG, in the order of [`Budget::quantities`].
+/// The differences of a scene's numbers to those of another run by dG, in the order of [`Budget::quantities`].
 ///
 /// # Errors
-/// [`Reason`]: one of the runs did not come to its end.
+/// [`Reason`]: one of the runs did not finish.
 pub fn differences(scene: &Scene, other: &Scene, work: &mut Work<'_>) -> Result<[f64; OBSERVABLES.len()], Reason> {
     let own = curves(scene, &Rows::Numbers, None, work)?;
     let other = curves(other, &Rows::Numbers, Some(&own.own_times()), work)?;
@@ -129,7 +129,7 @@ pub fn differences(scene: &Scene, other: &Scene, work: &mut Work<'_>) -> Result<
 
 /// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
 ///
-/// A better one is looked for until there is; where there is none, the last is taken if its error is no larger than the scene's.
+/// The reference is improved until it qualifies; otherwise the last one is taken if its error does not exceed the scene's.
 fn against(
     scene: &Scene,
     own: &Curves,
@@ -166,7 +166,7 @@ fn against(
     Err(none(wanted.tolerance[0], Reason::Rounds))
 }
 
-/// Nothing was reached at all.
+/// The result if no comparison was made.
 pub(super) fn none(target: f64, reason: Reason) -> Unreachable {
     Unreachable::NotReached { target, reached: f64::INFINITY, space: f64::NAN, time: f64::NAN, reason }
 }
@@ -188,7 +188,7 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
     (value, (value - truth).abs())
 }
 
-/// What lowers the errors of the curves more if refined alone; those of single numbers may be small by chance.
+/// The refinement that lowers the errors of the curves more; errors of single numbers may be small by chance.
 fn dominant(quantities: &[Estimate]) -> Option<Source> {
     let gain = |finer: fn(&Estimate) -> Option<f64>| -> f64 {
         let curves = quantities.iter().filter(|of| of.kind == Kind::Curve);

@@ -1,12 +1,12 @@
-//! How large an error is, and what makes it as small as wanted: both against a run of any order whose own error is known.
+//! Error estimates, and runs that reach a wanted error: both against a run of any order whose own error is known.
 //!
 //! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough. Its error is the difference to degree
 //!   p + 4 and to half the steps.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
-//! * [`choice`]: the cheapest run with the error asked for, and what the scene's own scheme would need.
+//! * [`choice`]: the cheapest run with the wanted error, and the needs of the scene's own scheme.
 //!
-//! All of it is limited in work, which is counted: unknowns times linear solves of dG, elements times steps of a one-step scheme.
-//! A unit of either takes about 20 ns.
+//! All searches have a limit on their work, which is counted: unknowns times linear solves for dG, elements times steps for a
+//! one-step scheme. A unit of either takes about 20 ns.
 
 pub mod choice;
 mod curves;
@@ -20,13 +20,13 @@ use thiserror::Error;
 /// Work after which a search ends: about half a minute.
 pub const MOST_WORK: f64 = 1.5e9;
 
-/// The same where the scene's own scheme is kept: some seven minutes.
+/// The same if the scene's own scheme is kept: some seven minutes.
 pub const MOST_WORK_KEPT: f64 = 2e10;
 
-/// What runs have cost.
+/// The cost of runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cost {
-    /// Unknowns of a step times linear solves by dG, elements times steps by a one-step scheme: the same on every machine.
+    /// For dG unknowns times linear solves, for a one-step scheme elements times steps: the same on every machine.
     pub work: f64,
     /// Seconds in steps.
     pub seconds: f64,
@@ -42,7 +42,7 @@ impl AddAssign for Cost {
     }
 }
 
-/// What a search has done so far and may do.
+/// The work that a search has done, and its limit.
 pub struct Work<'a> {
     limit: f64,
     done: f64,
@@ -51,13 +51,13 @@ pub struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// * `limit`: what may be done.
-    /// * `told`: hears after every step which part of the limit is done.
+    /// * `limit`: the allowed work.
+    /// * `told`: called after every step with the part of the limit that is used.
     pub fn new(limit: f64, told: &'a mut dyn FnMut(f64)) -> Self {
         Self { limit, done: 0.0, spent: Cost::default(), told }
     }
 
-    /// What the runs that came to their ends have cost.
+    /// The cost of the completed runs.
     pub fn spent(&self) -> Cost {
         self.spent
     }
@@ -68,7 +68,7 @@ impl<'a> Work<'a> {
         self.leaves(0.0)
     }
 
-    /// Refuses a run of so much work.
+    /// Refuses a run that needs more work than is left.
     fn leaves(&self, work: f64) -> Result<(), Reason> {
         let Self { limit, done, .. } = *self;
         if done + work <= limit { Ok(()) } else { Err(Reason::Work { limit }) }
@@ -79,16 +79,16 @@ impl<'a> Work<'a> {
     }
 }
 
-/// What stops a search.
+/// The reason why a search stops.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Reason {
-    /// No finer elements are to be had.
+    /// Finer elements are not possible.
     #[error("the elements are as fine as they get")]
     Finest,
-    /// Refining has not helped.
+    /// Refinement did not help.
     #[error("it was refined as often as is sensible")]
     Rounds,
-    /// The limit of work.
+    /// The limit of work was reached.
     #[error("finer runs would exceed the limit of {limit:.1e} unknowns times solves (about {:.0} s)", 2e-8 * limit)]
     Work {
         /// Unknowns times solves, or elements times steps.
@@ -100,7 +100,7 @@ pub enum Reason {
     /// A curve is infinite or NaN.
     #[error("a curve is not finite")]
     NotFinite,
-    /// A run did not come to its end.
+    /// A run did not finish.
     #[error("a run failed: {0}")]
     Run(String),
 }
@@ -111,35 +111,35 @@ impl Reason {
     }
 }
 
-/// Why an error cannot be reached, or not be known.
+/// Why an error cannot be reached or determined.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unreachable {
     /// The target is not a positive number.
     #[error("target error {target}: expected a finite number > 0")]
     Target {
-        /// As asked for.
+        /// The given target.
         target: f64,
     },
-    /// The scene's own run did not come to its end.
+    /// The scene's own run did not finish.
     #[error("the scene itself: {0}")]
     Own(Reason),
-    /// Refinement came to its end.
+    /// Refinement stopped.
     #[error("an error of {target:.3e} was not reached: {reason}{}", reachable(*reached, *space, *time))]
     NotReached {
-        /// As asked for.
+        /// The given target.
         target: f64,
-        /// The smallest target that the comparisons would have met; infinite where there were none.
+        /// The smallest target that the comparisons would have met; infinite without comparisons.
         reached: f64,
-        /// Its part of space.
+        /// The part of space in it.
         space: f64,
-        /// Its part of time.
+        /// The part of time in it.
         time: f64,
-        /// What stopped it.
+        /// The reason for stopping.
         reason: Reason,
     },
 }
 
-/// What can be reached, in words; nothing before the first comparison.
+/// The reachable error, in words; empty before the first comparison.
 fn reachable(reached: f64, space: f64, time: f64) -> String {
     if reached.is_finite() {
         format!("; about {reached:.1e} can be reached (space {space:.1e}, time {time:.1e})")

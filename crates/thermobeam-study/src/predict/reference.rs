@@ -1,21 +1,21 @@
 //! A run of any order whose own error is known: degrees, elements and steps are refined until it is small enough.
 //!
-//! A discretisation is judged by two comparisons of its curves, at several times inside each of its steps: with a finer
-//! space (p + 4, or the longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt,
-//! `restart_dt` and `growth - 1` are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long;
-//! `restart_dt` is halved twice. The difference estimates the error of the coarser run: p + 4 leaves up to a third of the error where
-//! elements do not resolve a layer, half the steps leave less. If a difference exceeds half of the target, space or time is refined
-//! according to their ratio, and both runs are compared again. The first two steps are refined for on their own before.
+//! Two comparisons judge a discretisation by its curves, at several times inside each of its steps: with a finer space (p + 4, or the
+//! longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt, `restart_dt` and `growth - 1`
+//! are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long; `restart_dt` is halved twice. The
+//! difference estimates the error of the coarser run: p + 4 leaves up to a third of the error where elements do not resolve a layer,
+//! half the steps leave less. If a difference exceeds half of the target, space or time is refined according to their ratio, and both
+//! runs are compared again. Before that, the first two steps are refined on their own.
 //!
-//! * The start: initial data that break the condition at x = 1 make u(1, t) like t^(3/2). The error has its peak inside the first
-//!   steps, which `restart_dt` alone makes shorter, and in the element at x = 1, which is split.
-//! * Steps: at the peak of an impact, of the time scale (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error inside steps has its peak,
-//!   which ends of steps do not show. The degree q helps between impacts, short steps within.
-//! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; its width is √(ζ t) after the time t.
-//! * Short waves: u ~ e^(λt) sin(kx) has λ² + ζk²λ + (1 + N)k² = 0. While N < -1 every wave grows, the shorter the faster, up to the
-//!   rate s/ζ, s = -(1 + N), which those with k > √s/ζ come close to. What no element resolves grows most, and p and p + 4 agree about
-//!   waves that both lack: errors 300 times the difference were seen. N ≥ β, so that this takes β < -1. There the first mesh
-//!   resolves k = √s/ζ, in elements no longer than 2p/k, and the first steps are at most 2ζ/s long, with s at N = β.
+//! * The start: initial data that violate the condition at x = 1 make u(1, t) behave like t^(3/2). The error peaks inside the
+//!   first steps, which only `restart_dt` makes shorter, and in the element at x = 1, which is split.
+//! * Steps: at the peak of an impact, on the time scale (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error peaks inside steps, and is
+//!   not visible at their ends. The degree q helps between impacts, short steps during them.
+//! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; after time t its width is √(ζ t).
+//! * Short waves: u ~ e^(λt) sin(kx) has λ² + ζk²λ + (1 + N)k² = 0. While N < -1 every wave grows, shorter waves faster, up to the
+//!   rate s/ζ, s = -(1 + N), which waves with k > √s/ζ come close to. Unresolved waves grow most, and p and p + 4 agree on waves that
+//!   both lack: errors of 300 times the difference were observed. N ≥ β, so this requires β < -1. Then the first mesh resolves k =
+//!   √s/ζ, in elements no longer than 2p/k, and the first steps are at most 2ζ/s long, with s at N = β.
 
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
@@ -27,62 +27,62 @@ use crate::error::reference::distance_of_curves;
 use crate::run::rerun::{at, resampled};
 use crate::scene::{Method, Scene};
 
-/// Share of the target that each of the two differences may take.
+/// Share of the target allowed for each of the two differences.
 const SHARE: f64 = 0.5;
 
-/// The error in x falls at least by this for each degree, in the worst of the scenes measured: a front after an impact.
+/// Least factor by which each degree lowers the error in x, measured in the worst scene: a front after an impact.
 const FALL_PER_DEGREE: f64 = 1.8;
 
 /// Rate of the error inside steps near a contact event, where u_tt behaves like t^(1/2).
 const EVENT_RATE: f64 = 2.5;
 
-/// Rate of the error in the first steps after the start, where data that break a condition at x = 1 make u_tt like t^(-1/2).
+/// Rate of the error in the first steps, where data that violate a condition at x = 1 make u_tt behave like t^(-1/2).
 const START_RATE: f64 = 1.5;
 
-/// What `restart_dt` is divided by in one go, at least and at most.
+/// Smallest and largest divisor of `restart_dt` in one round.
 const SHORTENED: [f64; 2] = [2.0, 32.0];
 
-/// A layer at x = 1 is resolved if its width is at least this multiple of the finest detail an element shows there, its length / p².
+/// A layer at x = 1 is resolved if its width is at least this multiple of length / p², the finest detail of an element.
 const RESOLVED: f64 = 12.0;
 
-/// What all steps are multiplied by in one go, at least and at most: a difference that is too large tells no more.
+/// Smallest and largest factor of all steps in one round: a large difference gives no reliable factor.
 const SHORTER: [f64; 2] = [0.25, 0.8];
 
-/// A difference that has to fall by more than this takes a higher degree in time as well.
+/// A difference that must fall by more than this also raises the degree in time.
 const MUCH: f64 = 4.0;
 
-/// Degrees that the finer space has more: with two, the difference is half of the error where a layer is not resolved.
+/// Extra degrees of the finer space: two would give only half of the error where a layer is not resolved.
 const FINER_DEGREES: usize = 4;
 
-/// Degrees added in one go, and the degree from which on elements are halved instead.
+/// Degrees added in one round, and the degree above which elements are halved instead.
 const MOST_DEGREES: usize = 8;
 const HIGHEST_DEGREE: usize = 27;
 
-/// Growth of steps below which it is kept: they would never reach dt.
+/// Growth of steps below which it is kept: slower growth would never reach dt.
 const LEAST_GROWTH: f64 = 1.02;
 
 /// Ratio of the distances of neighbouring nodes from x = 1.
 const GRADING: f64 = 6.0;
 
-/// Part of the longest element from which on elements are halved: shorter ones wait until the others have come closer.
+/// Elements longer than this part of the longest are halved; shorter ones wait until the lengths are closer.
 const LONG: f64 = 0.25;
 
-/// Most elements that are tried.
+/// Maximum number of elements.
 const MOST_ELEMENTS: usize = 64;
 
 /// Rounds of refinement: each at least halves something.
 const ROUNDS: usize = 14;
 
-/// A round that lowers the difference by less than this has not paid.
+/// A round that lowers the difference by less than this factor has stalled.
 const STALLED: f64 = 0.7;
 
-/// Difference below which a round that has not paid has met round-off: that of the solver's own stopping rule, 1e-14 a step.
+/// Below this difference a stalled round has reached round-off: that of the solver's stopping rule, 1e-14 per step.
 const ROUND_OFF: f64 = 1e-11;
 
-/// Time steps at first, at most, in units of the time in which the fastest wave grows by e.
+/// Upper bound on the first time steps, in units of the time in which the fastest wave grows by e.
 const RISE: f64 = 2.0;
 
-/// Shortest of the equal elements of a mesh at first.
+/// Shortest of the equal elements of the first mesh.
 const SHORTEST: f64 = 1.0 / 48.0;
 
 /// Longest step for an error of 1e-5: a tenth of the shortest period that carries much energy.
@@ -91,7 +91,7 @@ const LONGEST: f64 = 0.02;
 /// Axial force below which short waves grow.
 const SHORT_WAVES_GROW: f64 = -1.0;
 
-/// What is compared, and the difference that is to be reached: in u(1), φ(1) and the energy, or in the norm.
+/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the norm.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wanted {
     pub(super) rows: Rows,
@@ -101,7 +101,7 @@ pub(super) struct Wanted {
 /// A run whose own error is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// The scene with the mesh, the degrees and the steps chosen.
+    /// The scene with the chosen mesh, degrees and steps.
     pub scene: Scene,
     /// Largest difference to a finer space: of u(1, t), φ(1, t) and the energy, or once in the norm.
     pub space: [f64; 3],
@@ -109,7 +109,7 @@ pub struct Reference {
     pub time: [f64; 3],
     /// Both together at the end, in units of the largest value of the curve; the largest of all curves.
     pub(super) end: f64,
-    /// What the run costs.
+    /// The cost of the run.
     pub run: Cost,
     /// The finer space of the last comparison, in words.
     pub finer_space: String,
@@ -124,11 +124,11 @@ impl Reference {
 
 /// Refines until both differences are at most half of the tolerance.
 ///
-/// * `scene`: its own mesh, degrees and steps do not matter.
-/// * `start`: where to begin, if not with a guess.
+/// * `scene`: its own mesh, degrees and steps have no influence.
+/// * `start`: the first discretisation; without it, a guess.
 ///
 /// # Errors
-/// [`Unreachable`]: why there is no such run, and the error that was reached.
+/// [`Unreachable`]: why there is no such run, and the error reached.
 pub(super) fn reference(
     scene: &Scene,
     start: Option<&Scene>,
@@ -148,7 +148,7 @@ pub(super) fn reference(
     })
 }
 
-/// Two finer runs and how far they are from a run.
+/// Two finer runs and their distances from a run.
 struct Compared {
     finer: Curves,
     shorter: Curves,
@@ -156,7 +156,7 @@ struct Compared {
     time: Apart,
 }
 
-/// What a search for a discretisation keeps.
+/// The state of a search for a discretisation.
 struct Search<'s, 'w> {
     wanted: &'s Wanted,
     work: &'s mut Work<'w>,
@@ -167,15 +167,15 @@ struct Search<'s, 'w> {
 }
 
 impl Search<'_, '_> {
-    /// Refines for the first two steps alone, which cost little: the start often needs the shortest steps of all.
+    /// Refines for the first two steps only, which cost little: the start often needs the shortest steps of all.
     ///
-    /// Returns the discretisation given where that finds none.
+    /// Returns the given discretisation if that fails.
     fn begin(&mut self, first: &Scene) -> Scene {
         let mut scene = first.clone();
         for _ in 0..ROUNDS {
             let Stepping { dt, restart_dt, .. } = scene.dg_stepping();
             let t_end = 2.0 * restart_dt;
-            // Shorter steps only: room is made for each length, and these are all that occur.
+            // Only shorter steps: each step length needs memory, and only these lengths occur.
             let method = Method::Dg(Stepping { dt: t_end.min(dt), ..scene.dg_stepping() });
             let short = Scene { t_end: t_end.min(scene.t_end), method, ..scene.clone() };
             let compared = self.run(&short, None).and_then(|base| self.compare(&short, &base));
@@ -228,7 +228,7 @@ impl Search<'_, '_> {
         found
     }
 
-    /// The two comparisons of a scene, `base` being its run.
+    /// The two comparisons of a scene; `base` is its run.
     fn compare(&mut self, scene: &Scene, base: &Curves) -> Result<Compared, Reason> {
         let times = base.own_times();
         let [finer, shorter] = finer(scene);
@@ -239,16 +239,16 @@ impl Search<'_, '_> {
         Ok(Compared { finer, shorter, space, time })
     }
 
-    /// Runs a scene, to be compared with the run whose times are `at`.
+    /// Runs a scene for comparison with the run whose times are `at`.
     fn run(&mut self, scene: &Scene, at: Option<&[f64]>) -> Result<Curves, Reason> {
-        // A run has at most four times the steps of the one before it; degrees that are raised as well add to that.
+        // A run has at most four times the steps of its predecessor; higher degrees cost more on top.
         self.work.leaves(2.0 * self.last)?;
         let run = curves(scene, &self.wanted.rows, at, self.work)?;
         self.last = run.cost.work;
         Ok(run)
     }
 
-    /// Notes what a round has found; stops where refining has met round-off.
+    /// Records the result of a round; stops if refinement has reached round-off.
     fn judge(&mut self, space: f64, time: f64) -> Result<(), Reason> {
         let ([best_space, best_time], found) = (self.best, space + time);
         let stalled = !(found <= STALLED * (best_space + best_time));
@@ -262,13 +262,13 @@ impl Search<'_, '_> {
     }
 }
 
-/// Duration of an impact; without obstacles the longest step stands in for it.
+/// Duration of an impact; without obstacles, the longest step.
 pub(super) fn impact(scene: &Scene) -> f64 {
     scene.obstacles.map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }
 
-/// The discretisation tried first, from what scenes of the paper needed: two degrees in space for every decimal digit, half
-/// a degree in time, and steps that shrink by two for every four digits.
+/// The first discretisation, from experience with the scenes of the paper: two degrees in space for every decimal digit,
+/// half a degree in time, and steps that shrink by two for every four digits.
 fn first(scene: &Scene, wanted: &Wanted) -> Scene {
     let digits = (-wanted.tolerance[0].log10()).clamp(1.0, 11.0);
     let shrink = 10.0_f64.powf(-(digits - 5.0).max(0.0) / 11.0);
@@ -282,10 +282,10 @@ fn first(scene: &Scene, wanted: &Wanted) -> Scene {
         growth: 1.0 + 0.5 * shrink,
         ..Stepping::default()
     };
-    // The layer at x = 1 some four impacts after a touch.
+    // Width of the layer at x = 1 some four impacts after a touch.
     let layer = (2.0 * (scene.beam.zeta * 4.0 * impact).sqrt()).clamp(1e-3, 0.5);
     let nodes = if scene.obstacles.is_some() { graded(layer) } else { vec![0.0, 1.0] };
-    // An odd degree has as many unknowns as the even one below it: odd ones only.
+    // An odd degree has as many unknowns as the even one below it, so only odd degrees are used.
     let degree = (4.0 + 1.2 * digits).round() as usize | 1;
     let nodes = no_longer(&nodes, 2.0 * degree as f64 * wave);
     // Nodes that increase from 0 to 1.
@@ -294,13 +294,13 @@ fn first(scene: &Scene, wanted: &Wanted) -> Scene {
 }
 
 /// 1/k of the shortest wave that still grows faster, and the time in which it grows by e, at the axial force at rest: infinite
-/// where no wave grows.
+/// if no wave grows.
 fn short_waves(beam: &Beam) -> [f64; 2] {
     let beyond = (SHORT_WAVES_GROW - beam.beta).max(0.0);
     [beam.zeta / beyond.sqrt(), beam.zeta / beyond]
 }
 
-/// The nodes, and more of them at equal distances where they are further apart than `length`.
+/// The nodes, with equidistant nodes added wherever they are further apart than `length`.
 fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
     let length = length.max(SHORTEST);
     let between = |x: &[f64]| {
@@ -311,7 +311,7 @@ fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
     nodes.windows(2).flat_map(between).chain([1.0]).collect()
 }
 
-/// Elements towards x = 1 that grow by [`GRADING`] away from it, the last one of the width given.
+/// Elements towards x = 1 that grow by [`GRADING`] away from it; the last one has the given width.
 fn graded(layer: f64) -> Vec<f64> {
     let widths = std::iter::successors(Some(layer), |width| Some(GRADING * width));
     let inner: Vec<f64> = widths.take_while(|width| *width <= 0.5).map(|width| 1.0 - width).collect();
@@ -319,7 +319,7 @@ fn graded(layer: f64) -> Vec<f64> {
     ends.chain([1.0]).collect()
 }
 
-/// Refined where a difference exceeds its share; `None` where the elements are as fine as they get.
+/// The scene, refined where a difference exceeds its share; `None` if no finer elements are possible.
 fn refined(scene: &Scene, space: &Apart, time: &Apart) -> Option<Scene> {
     let (mut next, mut stepping) = (scene.clone(), scene.dg_stepping());
     if !(space.most() <= SHARE) {
@@ -335,8 +335,8 @@ fn refined(scene: &Scene, space: &Apart, time: &Apart) -> Option<Scene> {
     Some(Scene { method: Method::Dg(stepping), ..next })
 }
 
-/// The scene with a finer space alone, and with finer steps alone: p + 4 or the longest elements halved, and half the steps, the first
-/// ones shorter still, since the error there falls more slowly; of a one-step scheme twice the elements, and half of dt.
+/// The scene with only space refined, and with only steps refined: p + 4 or the longest elements halved, and half the steps, with even
+/// shorter first steps, since the error there falls more slowly; for a one-step scheme twice the elements, and half of dt.
 pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
     let Method::Dg(stepping) = scene.method else {
         let (elements, steps) = (scene.mesh.elements(), scene.steps());
@@ -370,7 +370,7 @@ fn on(scene: &Scene, nodes: Vec<f64>) -> Option<Scene> {
     Some(Scene { mesh, ..scene.clone() })
 }
 
-/// Space refined for an error smaller by `factor`, the difference being `apart`.
+/// Space refined for an error smaller by `factor`; `apart` is the difference.
 fn more_space(scene: &Scene, apart: &Apart, factor: f64) -> Option<Scene> {
     let layer = (scene.beam.zeta * apart.since).sqrt();
     let last = scene.mesh.lengths().last().unwrap_or(1.0);
@@ -395,7 +395,7 @@ fn shorter(stepping: Stepping, part: f64) -> Stepping {
     Stepping { dt: part * dt, restart_dt: part * restart_dt, growth, ..stepping }
 }
 
-/// What `restart_dt` is divided by, for an error in the first steps smaller by `factor`.
+/// The divisor of `restart_dt` for an error in the first steps smaller by `factor`.
 fn shortening(factor: f64) -> f64 {
     let wanted = (1.5 * factor).powf(1.0 / START_RATE);
     if wanted.is_finite() { wanted.clamp(SHORTENED[0], SHORTENED[1]) } else { SHORTENED[1] }

@@ -13,7 +13,7 @@ use thermobeam::solve::Level;
 use super::motion::{Motion, Report, RunError, Sample, Solves};
 use crate::scene::Scene;
 
-/// Times of a history by dG: more than a figure has columns.
+/// Maximum number of times of a history by dG: more than a figure has columns.
 const ROWS: usize = 4000;
 
 /// Points of a frame by dG.
@@ -30,16 +30,16 @@ pub(crate) struct DgMotion {
 }
 
 impl DgMotion {
-    /// Stands at t = 0.
+    /// Starts at t = 0.
     ///
     /// # Errors
-    /// [`SetupError`] where the solver refuses the scene's numbers.
+    /// [`SetupError`] if the solver refuses the scene's numbers.
     pub(crate) fn new(scene: &Scene, stepping: dg::Stepping) -> Result<Self, SetupError> {
         let simulation = dg::Simulation::new(scene.dg_problem(), stepping)?;
         Ok(Self::of(simulation, &scene.beam, scene.obstacles, stepping))
     }
 
-    /// A simulation under way.
+    /// Continues a given simulation.
     pub(crate) fn of(simulation: dg::Simulation, beam: &Beam, obstacles: Option<Obstacles>, by: dg::Stepping) -> Self {
         Self {
             level: simulation.level().clone(),
@@ -141,7 +141,7 @@ impl Motion for DgMotion {
     }
 }
 
-/// A level of any order by its values at the nodes; without contact force.
+/// A level of any order by its values at the nodes, without the contact force.
 pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
     let at = |field| nodes.iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
     Level {

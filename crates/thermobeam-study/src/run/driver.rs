@@ -1,4 +1,4 @@
-//! A simulation by a one-step scheme under way: time limit, loads, step, levels shown to an observer.
+//! A running simulation by a one-step scheme: time limit, loads, step, levels shown to an observer.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use thermobeam::solve::{Level, StepReport};
 use super::motion::{Motion, Report, RunError, Sample, Solves};
 use super::tally::EnergySummary;
 
-/// A step that was done.
+/// A completed step.
 pub(crate) struct Step<'s> {
     /// Iterations and contraction of the step.
     pub(crate) report: StepReport,
@@ -25,15 +25,15 @@ pub(crate) struct Step<'s> {
     pub(crate) simulation: &'s Simulation,
 }
 
-/// Steps from one look at the energy to the next in [`Driver::stepped`]: an energy costs a fifth of a step, one in sixteen a hundredth.
+/// Steps between checks of the energy in [`Driver::stepped`]: one evaluation costs a fifth of a step, one in sixteen steps a hundredth.
 const CHECKED: usize = 16;
 
-/// A simulation under way.
+/// A running simulation.
 pub(crate) struct Driver {
     simulation: Simulation,
-    /// The level before the last step that was shown.
+    /// The level before the last observed step.
     old: Level,
-    /// The last level that was shown.
+    /// The last observed level.
     new: Level,
     /// The energy at t = 0.
     initial: f64,
@@ -44,10 +44,10 @@ pub(crate) struct Driver {
 }
 
 impl Driver {
-    /// Stands at t = 0.
+    /// Starts at t = 0.
     ///
     /// # Errors
-    /// [`SetupError`] where the solver refuses the problem.
+    /// [`SetupError`] if the solver refuses the problem.
     pub(crate) fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
@@ -57,7 +57,7 @@ impl Driver {
         Ok(Self { simulation, old, new, initial, middle, patience, wall: Duration::ZERO, is_timed: false })
     }
 
-    /// Reads the clock before and after each step, which takes some 50 ns.
+    /// Reads the clock before and after each step, at a cost of some 50 ns.
     pub(crate) fn timed(self) -> Self {
         Self { is_timed: true, ..self }
     }
@@ -67,28 +67,28 @@ impl Driver {
         &self.simulation
     }
 
-    /// The present level.
+    /// The current level.
     pub(crate) fn level(&mut self) -> &Level {
         self.present().1
     }
 
-    /// The simulation and its present level.
+    /// The simulation and its current level.
     pub(crate) fn present(&mut self) -> (&Simulation, &Level) {
         self.simulation.observe(&mut self.new);
         (&self.simulation, &self.new)
     }
 
-    /// Time that the solver has taken, if [`Driver::timed`].
+    /// Time spent in the solver, if [`Driver::timed`].
     pub(crate) fn wall(&self) -> Duration {
         self.wall
     }
 
     /// Does one step.
     ///
-    /// * `fill`: the loads of the step, asked for at its middle t_{n-½} if [`Stepping::loaded`] is set.
+    /// * `fill`: computes the loads of the step at its middle t_{n-½}, if [`Stepping::loaded`] is set.
     ///
     /// # Errors
-    /// [`RunError`]; the simulation then stands where it stood.
+    /// [`RunError`]; the simulation then remains at its old level.
     pub(crate) fn advance(&mut self, fill: impl FnOnce(f64, &mut [[f64; 3]])) -> Result<StepReport, RunError> {
         let Self { simulation, patience, .. } = self;
         patience.check(simulation.step(), || simulation.t())?;
@@ -102,13 +102,13 @@ impl Driver {
         Ok(outcome?)
     }
 
-    /// Does a step without loads and shows it.
+    /// Does a step without loads and returns it for observation.
     ///
-    /// A u(1) that is not finite is refused, and so is an energy that has risen since t = 0 or is not finite, which is looked at
-    /// after 1, 2, 4, 8 steps and every [`CHECKED`]: no exactly solved step raises it.
+    /// Refuses a u(1) that is not finite, and an energy that is not finite or has risen since t = 0. The energy is checked after
+    /// 1, 2, 4, 8 steps and every [`CHECKED`] steps: no exactly solved step raises it.
     ///
     /// # Errors
-    /// [`RunError`]; the simulation then stands at the last level shown.
+    /// [`RunError`]; the simulation then stands at the last observed level.
     pub(crate) fn stepped(&mut self) -> Result<Step<'_>, RunError> {
         let report = self.shown()?;
         let (u_tip, n) = (self.new.u[self.new.u.len() - 1], self.simulation.step());
@@ -118,7 +118,7 @@ impl Driver {
         Ok(Step { report, old: &self.old, new: &self.new, simulation: &self.simulation })
     }
 
-    /// Refuses an energy that is not finite, or larger than it was.
+    /// Refuses an energy that is not finite or has risen.
     fn check(&self) -> Result<(), RunError> {
         let initial = self.initial;
         let last = self.simulation.energy(&self.new).total();
@@ -136,13 +136,13 @@ impl Driver {
     }
 }
 
-/// Rows of a history at most: every step up to that many, beyond it every second, third, ... step.
+/// Maximum number of rows of a history: every step up to this number, then every second, third, ... step.
 pub(crate) const MOST_ROWS: usize = 200_000;
 
-/// Nodes of a frame at most: twice the rows of a picture over space and time.
+/// Maximum number of nodes of a frame: twice the rows of a picture over space and time.
 const MOST_POINTS: usize = 281;
 
-/// At most `most` of `0..len`, evenly, both ends included.
+/// At most `most` of `0..len`, evenly spaced, including both ends.
 pub(crate) fn thinned(len: usize, most: usize) -> Vec<usize> {
     if len <= most {
         return (0..len).collect();
@@ -173,7 +173,7 @@ impl Motion for Driver {
         let Problem { beam, obstacles, .. } = simulation.problem();
         let energy = simulation.energy(level).total();
         let sample = Sample::of(level, simulation.t(), self.middle, beam.theta_a, energy);
-        // No step has led to the start, so that its contact force is that of the law.
+        // No step leads to the start, so its contact force is that of the law.
         if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
     }
 
@@ -231,19 +231,19 @@ impl Motion for Driver {
     }
 }
 
-/// Where x = 1/2 lies in a mesh.
+/// Position of x = 1/2 in a mesh.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Middle {
     /// The node left of it, or at it.
     node: usize,
-    /// How far on the way to the next node.
+    /// The fraction of the way to the next node.
     fraction: f64,
 }
 
 impl Middle {
     pub(super) fn of(mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
-        // The first node is 0 and the last 1, so that there is always one on either side.
+        // The first node is 0 and the last is 1, so there is always one on either side.
         let node = nodes.partition_point(|&x| x <= 0.5) - 1;
         Self { node, fraction: (0.5 - nodes[node]) / (nodes[node + 1] - nodes[node]) }
     }
@@ -262,9 +262,9 @@ impl Sample {
             phi_tip: level.phi[tip],
             u_t_tip: level.v[tip],
             phi_t_tip: level.w[tip],
-            // The lifting θ_A (1 - x) is linear, so that adding its value in the middle is exact on any mesh.
+            // The lifting θ_A (1 - x) is linear, so adding its midpoint value is exact on any mesh.
             theta_mid: middle.value(&level.theta) + 0.5 * theta_a,
-            // The solver gives a free tip the sign of zero that its displacement has: -0 + 0 is 0.
+            // For a free tip the solver returns a zero with the sign of the displacement: -0 + 0 is 0.
             contact_force: level.contact_force + 0.0,
             energy,
         }
@@ -285,7 +285,7 @@ mod tests {
 
     #[test]
     fn a_run_without_an_end_ends_soon_after_the_energy_has_risen() {
-        // Steps that are not solved.
+        // Steps that cannot be solved.
         let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\n\
                     t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n";
         let mut driver = driver(&Scene::parse(text, "loose.toml").expect("a scene")).expect("a driver");

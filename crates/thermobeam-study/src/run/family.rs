@@ -1,9 +1,8 @@
-//! One problem on any mesh and with any step: what everything that trades cost against error runs.
+//! One problem on any mesh and with any step: the basis of everything that trades cost against error.
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
-//! vibration. [`Family::on`] puts it on a mesh, [`OnMesh::start`] gives it a scheme and a step. A [`FamilyRun`] is
-//! advanced from outside, so that several can go side by side and be compared at the times they share. It counts its cost
-//! as it goes: [`Spent`].
+//! vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step. The caller advances a [`FamilyRun`], so
+//! that several can proceed together and be compared at common times. A run counts its cost: [`Spent`].
 
 use crate::exact::any_order::{self, ManufacturedLoad};
 use crate::exact::factors::Factors;
@@ -23,7 +22,7 @@ use thermobeam::scheme::Scheme;
 use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings};
 
-/// What a computation has cost. The first two are the same on every machine, the third never is.
+/// The cost of a computation. The first two numbers are the same on every machine, the third never is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spent {
     /// Elements times time steps.
@@ -42,14 +41,14 @@ impl std::ops::AddAssign for Spent {
     }
 }
 
-/// Where the initial data come from.
+/// The source of the initial data.
 #[derive(Debug, Clone)]
 enum Start {
     Scene(Box<Scene>),
     Exact(Manufactured),
 }
 
-/// A problem on [0, `t_end`], still without mesh and time step.
+/// A problem on [0, `t_end`], without mesh and time step.
 #[derive(Debug, Clone)]
 pub struct Family {
     /// Coefficients of (1.1).
@@ -61,12 +60,12 @@ pub struct Family {
     start: Start,
     /// Whether the exact solution needs loads; a free vibration needs none.
     loaded: bool,
-    /// The mesh after which all others are laid out; `None` where they are uniform.
+    /// The mesh whose grading all others follow; `None` for uniform meshes.
     grading: Option<Mesh>,
 }
 
 impl Family {
-    /// The problem of a scene; its own dt and number of elements do not matter, the grading of its mesh is kept.
+    /// The problem of a scene; its dt and number of elements have no influence, the grading of its mesh is kept.
     pub fn of_scene(scene: &Scene) -> Self {
         let nodes = scene.mesh.nodes();
         let n = scene.mesh.elements() as f64;
@@ -91,7 +90,7 @@ impl Family {
         Self { loaded: false, ..Self::of_solution(exact, beam, None, t_end) }
     }
 
-    /// The exact solution, where there is one.
+    /// The exact solution, if there is one.
     pub fn exact(&self) -> Option<&Manufactured> {
         match &self.start {
             Start::Exact(exact) => Some(exact),
@@ -102,7 +101,7 @@ impl Family {
     /// The problem on elements of any degree, by dG, at t = 0.
     ///
     /// # Errors
-    /// [`SetupError`] where the solver refuses the numbers.
+    /// [`SetupError`] if the solver refuses the numbers.
     pub(crate) fn dg(&self, mesh: Mesh, degree: usize, stepping: dg::Stepping) -> Result<DgMotion, SetupError> {
         let Self { beam, obstacles, .. } = *self;
         let exact = match &self.start {
@@ -122,10 +121,10 @@ impl Family {
         Ok(DgMotion::of(simulation, &beam, obstacles, stepping))
     }
 
-    /// The problem on a mesh of `elements` elements, graded as the scene's.
+    /// The problem on a mesh of `elements` elements, graded like the scene's.
     ///
     /// # Errors
-    /// [`CaseFailure`] where there is no such mesh.
+    /// [`CaseFailure`] if there is no such mesh.
     pub fn on(&self, elements: usize) -> Result<OnMesh<'_>, CaseFailure> {
         let mesh = match &self.grading {
             None => Mesh::uniform(elements),
@@ -146,7 +145,7 @@ impl Family {
     }
 }
 
-/// A problem on a mesh: what runs with different steps share.
+/// A problem on a mesh, shared by runs with different steps.
 pub struct OnMesh<'a> {
     of: &'a Family,
     problem: Problem,
@@ -159,7 +158,7 @@ impl OnMesh<'_> {
         &self.problem.mesh
     }
 
-    /// Writes the loads at time t; does nothing where there are none.
+    /// Writes the loads at time t; does nothing if there are none.
     fn fill(&self, t: f64, factors: &mut Factors, load: &mut [[f64; 3]]) {
         let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else { return };
         factors.at(exact, t);
@@ -168,10 +167,10 @@ impl OnMesh<'_> {
         sources.fill(factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
     }
 
-    /// Stands at t = 0 with a scheme and `steps` steps to go.
+    /// Starts at t = 0 with a scheme and `steps` steps to do.
     ///
     /// # Errors
-    /// [`CaseFailure`] where the solver refuses the numbers.
+    /// [`CaseFailure`] if the solver refuses the numbers.
     pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<FamilyRun<'_>, CaseFailure> {
         let dt = self.of.t_end / steps as f64;
         let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
@@ -180,7 +179,7 @@ impl OnMesh<'_> {
     }
 }
 
-/// A simulation under way that counts what it costs.
+/// A running simulation that counts its cost.
 pub struct FamilyRun<'a> {
     on: &'a OnMesh<'a>,
     driver: Driver,
@@ -188,10 +187,10 @@ pub struct FamilyRun<'a> {
 }
 
 impl FamilyRun<'_> {
-    /// Does `steps` steps. The clock runs while the solver does.
+    /// Does `steps` steps. The clock runs only in the solver.
     ///
     /// # Errors
-    /// [`CaseFailure`] with the solver's own words.
+    /// [`CaseFailure`] with the solver's message.
     pub fn advance(&mut self, steps: usize) -> Result<(), CaseFailure> {
         let Self { on, driver, factors } = self;
         for _ in 0..steps {
@@ -200,17 +199,17 @@ impl FamilyRun<'_> {
         Ok(())
     }
 
-    /// The present level.
+    /// The current level.
     pub fn level(&mut self) -> &Level {
         self.driver.level()
     }
 
-    /// The present time.
+    /// The current time.
     pub fn t(&self) -> f64 {
         self.driver.simulation().t()
     }
 
-    /// What it has cost so far.
+    /// Its cost so far.
     pub fn spent(&self) -> Spent {
         let simulation = self.driver.simulation();
         let elements = simulation.lengths().len() as f64;

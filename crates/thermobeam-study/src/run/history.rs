@@ -1,4 +1,4 @@
-//! What is kept of a run for tables and pictures.
+//! What is kept from a run for tables and pictures.
 
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -7,7 +7,7 @@ use thermobeam::energy::Balance;
 
 use super::motion::{Motion, Report, RunError, Sample, Watch};
 
-/// Frames at most: twice the columns of a picture over space and time.
+/// Maximum number of frames: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;
 
 /// A row of the history.
@@ -15,36 +15,36 @@ const FRAMES: usize = 440;
 pub struct Row {
     /// The state.
     pub sample: Sample,
-    /// The terms of the energy's balance, added up over the steps that ended since the row before; zeros at the start, and where no pictures are wanted.
+    /// The terms of the energy's balance, summed over the steps since the previous row; zeros at the start and without pictures.
     pub balance: Balance,
 }
 
-/// u(x, t), thinned to what a picture can show.
+/// u(x, t), thinned to the resolution of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Frames {
     /// Times of the frames.
     pub times: Vec<f64>,
-    /// Points x, both ends among them.
+    /// Points x, including both ends.
     pub points: Vec<f64>,
     /// `u[n][i]` belongs to `times[n]` and `points[i]`.
     pub u: Vec<Vec<f64>>,
 }
 
-/// The history of a run: start and end always, in between evenly thinned.
+/// The history of a run: start, end, and evenly thinned steps in between.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunHistory {
     /// The rows.
     pub rows: Vec<Row>,
-    /// The displacement; empty where no pictures are wanted.
+    /// The displacement; empty without pictures.
     pub frames: Frames,
     t_end: f64,
-    /// Parts of the time at whose ends there are rows.
+    /// Number of equal time intervals, with a row at the end of each.
     parts: usize,
     since_row: Balance,
 }
 
 impl RunHistory {
-    /// * `parts`: how many rows follow the first, about; `None` for what suits the method, and frames.
+    /// * `parts`: approximate number of rows after the first; `None` chooses one for the method, and adds frames.
     pub(super) fn new(motion: &dyn Motion, t_end: f64, parts: Option<usize>, first: Sample) -> Self {
         let rows = vec![Row { sample: first, balance: Balance::default() }];
         let mut frames = Frames::default();
@@ -55,7 +55,7 @@ impl RunHistory {
         Self { rows, frames, t_end, parts, since_row: Balance::default() }
     }
 
-    /// Adds the last level, unless it is there already.
+    /// Adds the last level unless it is already there.
     pub(super) fn finish(&mut self, motion: &dyn Motion, last: Sample) {
         if self.rows.last().is_none_or(|row| row.sample.t < last.t) {
             self.push_row(last);
@@ -95,7 +95,7 @@ impl RunHistory {
             let terms = [d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual];
             for (k, value) in sample.iter().chain(&terms).enumerate() {
                 let comma = if k == 0 { "" } else { "," };
-                // Debug, unlike Display, writes 1e-14 as such. Writing to a string cannot fail.
+                // Unlike Display, Debug writes 1e-14 in this form. Writing to a string cannot fail.
                 let _ = write!(csv, "{comma}{value:?}");
             }
             csv.push('\n');

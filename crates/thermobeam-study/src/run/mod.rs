@@ -1,4 +1,4 @@
-//! Scenes and problems, stepped: whatever moves, what looks at it, and what is recorded, repeated or run side by side.
+//! Runs of scenes and problems: motions, watches, records, repetition, and runs in lanes.
 
 pub(crate) mod dg;
 pub mod driver;

@@ -1,4 +1,4 @@
-//! A beam in motion, whatever the method: what it does in a step, what can be read off it, and why it ends before its time.
+//! A beam in motion, by any method: what a step does, what can be read from it, and why it ends early.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -21,25 +21,25 @@ pub struct Sample {
     pub u_tip: f64,
     /// φ(1).
     pub phi_tip: f64,
-    /// u_t(1); of a one-step scheme û(1).
+    /// u_t(1); for a one-step scheme û(1).
     pub u_t_tip: f64,
-    /// φ_t(1); of a one-step scheme φ̂(1).
+    /// φ_t(1); for a one-step scheme φ̂(1).
     pub phi_t_tip: f64,
     /// The physical temperature at x = 1/2.
     pub theta_mid: f64,
-    /// The contact force, positive on the upper obstacle: g(u(1)); of a one-step scheme that of the step that led here.
+    /// The contact force, positive on the upper obstacle: g(u(1)); for a one-step scheme that of the last step.
     #[serde(skip)]
     pub contact_force: f64,
     /// The energy (3.9), with the term of θ_A.
     pub energy: f64,
 }
 
-/// Counts of the solver's work, of whatever method.
+/// Counts of the solver's work, for any method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Solves {
     /// Solves of a step's linear system.
     pub passes: usize,
-    /// Factorisations of it.
+    /// Factorisations of that system.
     pub factorizations: usize,
 }
 
@@ -49,18 +49,18 @@ impl From<thermobeam::solve::Work> for Solves {
     }
 }
 
-/// What a step took.
+/// A completed step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
     /// Its length.
     pub dt: f64,
-    /// Iterations that it took.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, in the whole step by dG.
+    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout a step of dG.
     pub in_contact: bool,
 }
 
-/// Why a problem was not stepped to its end.
+/// Why a problem did not reach its end.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
     /// The solver refuses the problem.
@@ -78,7 +78,7 @@ pub enum RunError {
         t: f64,
         /// Its length.
         dt: f64,
-        /// What it did.
+        /// What is wrong with it.
         unsound: Unsound,
     },
     /// The time limit of the case was reached.
@@ -87,7 +87,7 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Of step number `step`, which ended at `t`.
+    /// For step number `step`, which ended at `t`.
     pub(super) fn unsound(step: usize, t: f64, dt: f64, unsound: Unsound) -> Self {
         Self::Unsound { step, t: t - dt, dt, unsound }
     }
@@ -99,16 +99,16 @@ impl From<MeshError> for RunError {
     }
 }
 
-/// Why the numbers of a run mean nothing, although every step of it was done.
+/// Why the results of a run are invalid, although every step of it was done.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Unsound {
     /// The energy is infinite or NaN.
     #[error("the energy is {0}: {EXPECTED}")]
     NotFinite(f64),
-    /// The energy rose by this.
+    /// The energy rose by this amount.
     #[error("the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}")]
     Rise(f64),
-    /// The balance of the energy is violated by this.
+    /// The balance of the energy is violated by this amount.
     #[error(
         "the balance of the energy is violated by {0:.3e} in a step, where every exactly solved step keeps it: {EXPECTED}"
     )]
@@ -118,25 +118,25 @@ pub enum Unsound {
 const EXPECTED: &str =
     "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
-/// A beam in motion, one step at a time. What is read of a step is computed when it is read.
+/// A beam in motion, one step at a time. Observed values are computed only on request.
 pub trait Motion {
-    /// Does one step, at most to `until`; `None` where it stands there. Whole steps of a one-step scheme: `until` is the end of one.
+    /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until` is the end of a step.
     ///
     /// # Errors
-    /// [`RunError`]; the state stays where it was.
+    /// [`RunError`]; the state is then unchanged.
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError>;
 
-    /// The present time.
+    /// The current time.
     fn t(&self) -> f64;
 
     /// Steps done.
     fn steps(&self) -> usize;
 
-    /// The state at a time in the last step; of a one-step scheme at its end.
+    /// The state at a time in the last step; for a one-step scheme at its end.
     fn at(&mut self, t: f64) -> Sample;
 
-    /// Ends in the last step of `count` equal parts of the time to `t_end`: the first time is `t_end / count`. A
-    /// one-step scheme shows levels at equal numbers of steps, at most `count` of them.
+    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the first is `t_end /
+    /// count`. A one-step scheme shows levels at equal numbers of steps, at most `count` of them.
     fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
 
     /// Times of a history.
@@ -148,10 +148,10 @@ pub trait Motion {
     /// Displacement at those points, at a time in the last step.
     fn shape(&self, t: f64) -> Vec<f64>;
 
-    /// The values of the present level at the nodes of a mesh, without contact force.
+    /// The values of the current level at the nodes of a mesh, without the contact force.
     fn on(&self, mesh: &Mesh) -> Level;
 
-    /// Smallest and largest u(1) in the last step; of a one-step scheme at its end.
+    /// Smallest and largest u(1) in the last step; for a one-step scheme at its end.
     fn extremes(&self) -> [f64; 2];
 
     /// The energy's balance over the last step.
@@ -168,15 +168,15 @@ pub trait Motion {
         true
     }
 
-    /// What the free end touches, and where contact began and ended; `None` where a method does not locate that.
+    /// What the free end touches, and where contact began and ended; `None` if the method does not locate events.
     fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
         None
     }
 }
 
-/// What looks at a motion after each of its steps.
+/// Observes a motion after each of its steps.
 pub trait Watch {
-    /// Looks at the step just done, and reads what it needs.
+    /// Observes the last step, and reads what it needs.
     ///
     /// # Errors
     /// [`RunError`] ends the run at this step.
@@ -191,10 +191,10 @@ impl<F: FnMut(&mut dyn Motion, &Report) -> Result<ControlFlow<()>, RunError>> Wa
 
 /// Steps a motion to `until`, or until a watch ends it.
 ///
-/// * `ends`: times, which increase, at which a step ends; of a one-step scheme they are ends of steps.
+/// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of steps.
 ///
 /// # Errors
-/// [`RunError`] of the step that fails, or of a watch; the motion then stands at the last level.
+/// [`RunError`] of the failed step, or of a watch; the motion then stands at the last level.
 pub fn run(motion: &mut dyn Motion, until: f64, ends: &[f64], watches: &mut [&mut dyn Watch]) -> Result<(), RunError> {
     let mut passed = 0;
     loop {
@@ -205,7 +205,7 @@ pub fn run(motion: &mut dyn Motion, until: f64, ends: &[f64], watches: &mut [&mu
             if passed >= ends.len() {
                 return Ok(());
             }
-            // A one-step scheme stands there up to rounding.
+            // A one-step scheme reaches this time up to rounding.
             passed += 1;
             continue;
         };

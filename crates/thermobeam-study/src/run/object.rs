@@ -1,4 +1,4 @@
-//! A run as a JSON object. Names and order of the keys are a contract, more may be added.
+//! A run as a JSON object. Names and order of the keys are a contract; keys may be added.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use thermobeam::dg::{ContactEvent, Phase};
@@ -8,7 +8,7 @@ use super::motion::RunError;
 use super::simulate::Run;
 use crate::scene::Scene;
 
-/// The object that `run --format json` prints: everything there is to say about a run.
+/// The object that `run --format json` prints: all information about a run.
 #[derive(Debug)]
 pub struct Object<'a> {
     scene: &'a Scene,
@@ -54,12 +54,12 @@ pub fn phase_name(phase: Phase) -> &'static str {
 }
 
 impl<'a> Object<'a> {
-    /// With the time on the clock.
+    /// Includes the time on the clock.
     pub fn new(scene: &'a Scene, run: &'a Run) -> Self {
         Self { scene, run, is_timed: true }
     }
 
-    /// Without the time on the clock: the same run gives the same bytes.
+    /// Excludes the time on the clock: the same run gives the same bytes.
     pub fn reproducible(scene: &'a Scene, run: &'a Run) -> Self {
         Self { scene, run, is_timed: false }
     }
@@ -71,7 +71,7 @@ impl Serialize for Object<'_> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("scene", &scene.name)?;
         map.serialize_entry("elements", &scene.mesh.elements())?;
-        // Steps done: fewer than asked for where the run failed.
+        // Completed steps: fewer than requested if the run failed.
         map.serialize_entry("steps", &run.steps)?;
         map.serialize_entry("dt", &scene.dt())?;
         map.serialize_entry("t_end", &scene.t_end)?;

@@ -9,10 +9,10 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
 
-/// What was seen on the way.
+/// The results of the run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trace<S> {
-    /// Smallest and largest u(1) over all time levels, the start included; NaN once a level was.
+    /// Smallest and largest u(1) over all time levels including the start; NaN once a level was NaN.
     pub(crate) tip: [f64; 2],
     /// At `t_end k / samples`, k = 1..samples.
     pub(crate) samples: Vec<S>,
@@ -25,10 +25,10 @@ pub(crate) fn at(scene: &Scene, mesh: Mesh, steps: usize, t_end: f64) -> Scene {
 
 /// Runs a scene to its end.
 ///
-/// * `samples`: how often `sample` is asked, at equal distances of time; it must divide the number of steps.
+/// * `samples`: number of equidistant calls of `sample`; it must divide the number of steps.
 ///
 /// # Errors
-/// [`RunError`] where the solver refuses the problem, or a step fails.
+/// [`RunError`] if the solver refuses the problem, or a step fails.
 pub(crate) fn traced<S>(
     scene: &Scene,
     samples: usize,
@@ -49,17 +49,17 @@ pub(crate) fn traced<S>(
     Ok(trace)
 }
 
-/// `elements` elements laid out as those of `mesh`: its nodes x_i as a function of i/n, linear in between, taken at j/m.
+/// `elements` elements graded like `mesh`: its nodes x_i as a function of i/n, linear in between, at j/m.
 ///
-/// Where m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
+/// If m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
 pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError> {
     if elements == 0 {
-        // The error that every mesh without elements is refused with.
+        // The error for every mesh without elements.
         return Mesh::uniform(0);
     }
     let (nodes, n) = (mesh.nodes(), mesh.elements());
     let node = |j: usize| {
-        // In whole numbers: a rounded j/m would put nested nodes a bit apart.
+        // In integers: a rounded j/m would shift nested nodes by a bit.
         let (index, rest) = (j * n / elements, j * n % elements);
         if rest == 0 {
             return nodes[index];

@@ -1,11 +1,10 @@
-//! A scene, run from its initial state to its end, by whatever method.
+//! A scene, run from its initial state to its end, by any method.
 //!
-//! Every step is observed: the energy's balance, its change and the extremes are over the whole time, not over what a report
-//! happens to look at. The clock runs only while the solver steps, so that the time is the solver's alone; reading the clock twice a
-//! step costs some 50 ns of it.
+//! Every step is observed: the energy's balance, its change and the extremes cover the whole time, whatever a report shows. The
+//! clock runs only during steps, so the time is that of the solver alone; reading the clock twice a step adds some 50 ns.
 //!
-//! A step that cannot be done ends the run, and so do a step that breaks the law of the energy and a
-//! [limit on its time](convergence_study::run::time_limit). What was computed up to there is kept: [`Run::failure`] says why it ended.
+//! A run ends early at a step that fails, at a step that violates the law of the energy, and at a [limit on its
+//! time](convergence_study::run::time_limit). The results so far are kept: [`Run::failure`] says why it ended.
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
@@ -37,26 +36,26 @@ use super::tally::{EnergySummary, Extremes, Iterations, Tally};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};
 
-/// What to keep in addition to the summary.
+/// What to record in addition to the summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
-    /// This number of rows at equal distances of time, without pictures; of a one-step scheme at most this number, at its levels.
+    /// This number of equidistant rows, without pictures; for a one-step scheme at most this number, at its levels.
     Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`].
     History,
 }
 
-/// A finished run, or the part of it that could be done.
+/// A finished run, or the completed part of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// Steps done.
     pub steps: usize,
-    /// Iterations that they took.
+    /// Iterations of these steps.
     pub iterations: Iterations,
-    /// Time spent stepping, without any observing.
+    /// Time spent stepping, without observation.
     pub wall: Duration,
     /// The start.
     pub first: Sample,
@@ -70,13 +69,13 @@ pub struct Run {
     pub energy: EnergySummary,
     /// Counts of the solver's work.
     pub work: Solves,
-    /// Whether the temperature was computed: it is left out where nothing heats the beam.
+    /// Whether the temperature was computed: it is omitted if nothing heats the beam.
     pub is_heated: bool,
-    /// Where contact began and ended, of a method that locates it.
+    /// Where contact began and ended, if the method locates it.
     pub contact: Option<Contact>,
     /// Why the run ended early, if it did.
     pub failure: Option<RunError>,
-    /// History and frames, if they were asked for.
+    /// History and frames, if requested.
     pub history: Option<RunHistory>,
 }
 
@@ -90,7 +89,7 @@ pub struct Contact {
 }
 
 impl Run {
-    /// The sums of the steps from `first` to `last`, and what is known of the motion.
+    /// The sums over the steps from `first` to `last`, and the properties of the motion.
     pub(super) fn of(
         tally: &Tally,
         [first, last]: [Sample; 2],
@@ -116,15 +115,15 @@ impl Run {
         }
     }
 
-    /// Why the numbers of the run cannot be used, in words.
+    /// Why the results of the run cannot be used, in words.
     pub fn complaint(&self) -> Option<String> {
         self.failure.as_ref().map(ToString::to_string)
     }
 
-    /// The run, if it came to its end.
+    /// The run, if it finished.
     ///
     /// # Errors
-    /// [`RunError`] that ended it.
+    /// The [`RunError`] that ended it.
     pub fn finished(self) -> Result<Self, RunError> {
         match self.failure {
             Some(failure) => Err(failure),
@@ -137,7 +136,7 @@ impl Run {
         self.history.as_ref().map_or(vec![], RunHistory::tip)
     }
 
-    /// Intervals of time in contact: as located, or from the rows of the history.
+    /// Time intervals in contact: as located, or from the rows of the history.
     pub fn contact_phases(&self) -> Vec<(f64, f64)> {
         match (&self.contact, &self.history) {
             (Some(contact), _) => contact.phases(self.first.t, self.last.t),
@@ -148,7 +147,7 @@ impl Run {
 }
 
 impl Contact {
-    /// Intervals of time in contact, between the start and the end of a run.
+    /// Time intervals in contact, between the start and the end of a run.
     fn phases(&self, start: f64, end: f64) -> Vec<(f64, f64)> {
         let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
         for event in &self.events {
@@ -165,8 +164,8 @@ impl Contact {
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
 ///
-/// Boundary values are set exactly. The scene has checked that its functions meet them up to their round-off, which for
-/// a function such as sin(1000πx) is more than the solver would accept unseen.
+/// Boundary values are set exactly. The scene has checked that its functions satisfy them up to their round-off, which
+/// for a function such as sin(1000πx) exceeds what the solver accepts.
 pub fn problem(scene: &Scene) -> Problem {
     Problem {
         beam: scene.beam,
@@ -176,10 +175,10 @@ pub fn problem(scene: &Scene) -> Problem {
     }
 }
 
-/// The scene at t = 0, to be stepped.
+/// The scene at t = 0, ready to be stepped.
 ///
 /// # Errors
-/// [`SetupError`] where the solver cannot work with the scene's numbers.
+/// [`SetupError`] if the solver refuses the scene's numbers.
 pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
     Driver::new(problem(scene), scene.one_step()?)
 }
@@ -187,7 +186,7 @@ pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
 /// A scene at t = 0.
 ///
 /// # Errors
-/// [`RunError`] where the solver refuses the scene's numbers.
+/// [`RunError`] if the solver refuses the scene's numbers.
 pub fn motion(scene: &Scene) -> Result<Box<dyn Motion>, RunError> {
     Ok(match scene.method {
         Method::OneStep(_) => Box::new(driver(scene)?.timed()),
@@ -195,7 +194,7 @@ pub fn motion(scene: &Scene) -> Result<Box<dyn Motion>, RunError> {
     })
 }
 
-/// A scene's initial data on any mesh, boundary values set as in [`problem`].
+/// A scene's initial data on any mesh, with boundary values set as in [`problem`].
 pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
     let nodes = mesh.nodes();
     let at_nodes = |function: &Option<Expression>, start: f64| -> Vec<f64> {
@@ -226,12 +225,12 @@ impl Simulator {
     /// Sets the scene up at t = 0.
     ///
     /// # Errors
-    /// [`RunError`] where the solver cannot work with the scene's numbers.
+    /// [`RunError`] if the solver refuses the scene's numbers.
     pub fn new(scene: &Scene) -> Result<Self, RunError> {
         Ok(Self { motion: motion(scene)?, t_end: scene.t_end })
     }
 
-    /// Steps to the end; `progress` hears the number of steps done and the time after each of them.
+    /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
         let mut told = |motion: &mut dyn Motion, _: &Report| {
             progress(motion.steps(), motion.t());
@@ -240,7 +239,7 @@ impl Simulator {
         self.watched(recording, &[], &mut told)
     }
 
-    /// The same with a further watch; a step ends at each of the times `ends`, see [`run`].
+    /// The same with an additional watch; a step ends at each of the times `ends`, see [`run`].
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.at(0.0);

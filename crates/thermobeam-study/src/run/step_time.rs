@@ -1,7 +1,7 @@
-//! Time per element and step: of the ways to solve a step, of what a scene has, and over the number of elements.
+//! Time per element and step: for ways to solve a step, for features of a scene, and over the number of elements.
 //!
-//! Times vary, so nothing of this enters a committed record; the counts of work next to them are exact. Every time is the
-//! best of several runs: other load on the machine only makes a run slower.
+//! Times vary, so they never enter a committed record; the counts of work next to them are exact. Every time is the best
+//! of several runs, since other load on the machine only slows a run.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -19,12 +19,12 @@ use crate::scene::Scene;
 
 /// Elements times steps of one timed run: some ten milliseconds.
 const RUN: usize = 500_000;
-/// Runs; the best one counts.
+/// Number of runs; the best one counts.
 const REPEATS: usize = 9;
 /// Cases in lanes.
 const LANES: usize = 4;
 
-/// What is timed.
+/// A timed configuration.
 #[derive(Clone)]
 struct Timed {
     problem: Problem,
@@ -41,7 +41,7 @@ struct StepTime {
     nanoseconds: f64,
     /// Passes per step.
     passes: f64,
-    /// Factorisations in all.
+    /// Total number of factorisations.
     factorizations: usize,
 }
 
@@ -68,7 +68,7 @@ impl Timed {
         })
     }
 
-    /// Seconds, steps and work, to the end or to the step that fails; none of the paper's scenes fails.
+    /// Seconds, steps and work, to the end or to a failing step; none of the paper's scenes fails.
     fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
         if self.in_lanes {
             let (problems, dt) = (vec![self.problem.clone(); LANES], [self.stepping.dt; LANES]);
@@ -100,10 +100,10 @@ impl Timed {
     }
 }
 
-/// What changes a setting.
+/// A change of the configuration.
 type Alteration = fn(&mut Timed);
 
-/// The ways to solve a step, and what a scene saves by what it does not have.
+/// The ways to solve a step, and the savings from omitted features.
 const WAYS: [(&str, Alteration); 10] = [
     ("Newton, extrapolated start", |_| ()),
     ("Newton from the level before", |s| {
@@ -129,10 +129,10 @@ fn cold(setting: &mut Timed) {
     setting.problem.initial.theta.fill(0.0);
 }
 
-/// The ways to solve a step, and what a scene pays for, with `elements` elements.
+/// Times of the ways to solve a step and of the features of a scene, with `elements` elements.
 ///
 /// # Errors
-/// [`SetupError`] where the scene cannot be set up on that mesh.
+/// [`SetupError`] if the scene cannot be set up on that mesh.
 pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     let whole = Timed::new(scene, Mesh::uniform(elements)?)?;
     let mut against = f64::NAN;
@@ -159,10 +159,10 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     Ok(Table { title, head: head.map(str::to_owned).to_vec(), rows })
 }
 
-/// Cost and memory over the number of elements, of one case and of each of four in lanes.
+/// Cost and memory over the number of elements, for a single case and for each of four in lanes.
 ///
 /// # Errors
-/// [`SetupError`] where the scene cannot be set up.
+/// [`SetupError`] if the scene cannot be set up.
 pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
     let line = |&n: &usize| {
         let alone = Timed::new(scene, Mesh::uniform(n)?)?;

@@ -1,4 +1,4 @@
-//! What is summed up over the steps of a run, by whatever method.
+//! Sums over the steps of a run, by any method.
 
 use std::ops::ControlFlow;
 
@@ -13,11 +13,11 @@ use super::motion::{Motion, Report, RunError, Sample, Unsound, Watch};
 pub struct Iterations {
     /// Their sum.
     pub total: usize,
-    /// Those of the step that took most.
+    /// The largest number in a step.
     pub max: usize,
 }
 
-/// The free end's range over all times looked at, the start included.
+/// The free end's range over all observed times, including the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Extremes {
     /// Smallest u(1).
@@ -34,19 +34,19 @@ pub struct EnergySummary {
     /// E^n of the last level.
     #[serde(rename = "final")]
     pub last: f64,
-    /// Largest `E^n - E^{n-1}`; negative where the energy always falls, NaN where no step was done.
+    /// Largest `E^n - E^{n-1}`; negative if the energy always falls, NaN without steps.
     pub largest_increase: f64,
     /// Largest defect of the exact discrete balance, over all steps.
     pub largest_balance_residual: f64,
 }
 
-/// The part of the energy, at the start or at the end, or of 1 where both are less, that neither round-off nor a loose tolerance
-/// explains: every step of every scheme lowers the energy, or leaves it, and balances what it loses. Without a term in ρ the
-/// energy of a buckled beam falls without bound, and rounding errors grow with it.
+/// Bound on errors of the energy that round-off and a loose tolerance cannot explain, relative to the larger of the energies at
+/// start and end, or to 1 if both are less: every step of every scheme keeps or lowers the energy, and balances its loss.
+/// Without a term in ρ the energy of a buckled beam falls without bound, and rounding errors grow with it.
 const UNEXPLAINED: f64 = 1e-3;
 
 impl EnergySummary {
-    /// Whether the energy is finite, rose, or has its balance violated, far beyond what rounding and tolerance explain.
+    /// Checks that the energy is finite, does not rise, and keeps its balance, allowing for rounding and tolerance.
     ///
     /// # Errors
     /// [`Unsound`], with the number.
@@ -62,14 +62,14 @@ impl EnergySummary {
     }
 }
 
-/// The sums of the steps done so far.
+/// The sums over the completed steps.
 #[derive(Debug, Clone)]
 pub(super) struct Tally {
     pub(super) iterations: Iterations,
     pub(super) extremes: Extremes,
     pub(super) contact_steps: usize,
     initial: f64,
-    /// The energy now: that at the start and its changes.
+    /// The current energy: its initial value plus the changes.
     now: f64,
     largest_increase: Option<f64>,
     largest_residual: f64,
@@ -88,17 +88,17 @@ impl Tally {
         }
     }
 
-    /// A step: what it took, its balance, and the range of u(1).
+    /// Adds a step: its report, its balance, and the range of u(1).
     ///
     /// # Errors
-    /// [`Unsound`] where it raised the energy, broke its balance, or left it infinite or NaN.
+    /// [`Unsound`] if it raised the energy, violated its balance, or made it infinite or NaN.
     pub(super) fn add(&mut self, report: &Report, balance: &Balance, [low, high]: [f64; 2]) -> Result<(), Unsound> {
         self.iterations.total += report.iterations;
         self.iterations.max = self.iterations.max.max(report.iterations);
         self.contact_steps += usize::from(report.in_contact);
         self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, high);
         self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
-        // Not the difference of two totals, which would lose the digits that tell a small fall from a small rise.
+        // Not the difference of two totals, which would lose the digits that separate a small fall from a small rise.
         let (change, residual) = (balance.change, balance.residual.abs());
         self.largest_increase = Some(self.largest_increase.map_or(change, |most| max_or_nan(most, change)));
         self.largest_residual = max_or_nan(self.largest_residual, residual);

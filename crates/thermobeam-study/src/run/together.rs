@@ -1,4 +1,4 @@
-//! Scenes that run side by side in lanes, twice as fast as one after the other, each with the bits that it gets alone.
+//! Scenes that run together in lanes, twice as fast as one after the other, each with the same bits as on its own.
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ use super::simulate::{Run, problem};
 use super::tally::Tally;
 use crate::scene::Scene;
 
-/// What scenes must have in common to run side by side.
+/// What scenes must have in common to run together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Together {
     elements: usize,
@@ -26,7 +26,7 @@ pub struct Together {
 }
 
 impl Together {
-    /// Of a scene; `None` where it can only run alone.
+    /// For a scene; `None` if it can only run alone.
     pub fn of(scene: &Scene) -> Option<Self> {
         let Stepping { scheme, settings, .. } = scene.one_step().ok()?;
         let common = Self { elements: scene.mesh.elements(), steps: scene.steps(), scheme, settings };
@@ -34,13 +34,13 @@ impl Together {
     }
 }
 
-/// Runs scenes that agree in [`Together::of`] to their ends, as [`Simulator::run`](super::simulate::Simulator::run) does each of
-/// them, without a history. A scene that fails does not touch the others.
+/// Runs scenes that agree in [`Together::of`] to their ends, as [`Simulator::run`](super::simulate::Simulator::run) does with
+/// each, without a history. A scene that fails does not affect the others.
 ///
-/// A run's time is its share of the time that all of them took.
+/// The time of a run is its share of their total time.
 ///
 /// # Errors
-/// [`RunError::Setup`] of the first scene that cannot be set up, and where the scenes do not agree; [`RunError::TimeUp`].
+/// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree; [`RunError::TimeUp`].
 pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let Some(common) = scenes.first().and_then(Together::of) else { return Ok(vec![]) };
     let dt: Vec<f64> = scenes.iter().map(Scene::dt).collect();
@@ -68,7 +68,7 @@ struct LaneRun<'s> {
     scene: &'s Scene,
     first: Sample,
     tally: Tally,
-    /// Its run, once it has failed or come to its end.
+    /// Its run, after its failure or its end.
     ended: Option<Run>,
 }
 
@@ -78,7 +78,7 @@ impl<'s> LaneRun<'s> {
         Self { k, scene, first, tally: Tally::new(&first), ended: None }
     }
 
-    /// Adds a step; the run ends where it failed, or broke the law of the energy.
+    /// Adds a step; the run ends if it fails or violates the law of the energy.
     fn see(&mut self, ensemble: &Ensemble, balance: &Balance, level: &mut Level) {
         if self.ended.is_some() {
             return;
@@ -115,7 +115,7 @@ fn sample(k: usize, scene: &Scene, ensemble: &Ensemble, level: &mut Level, step:
     Sample::of(level, t, Middle::of(&scene.mesh), scene.beam.theta_a, energy)
 }
 
-/// Simulations under way side by side: time limit, step, energy balances shown to an observer.
+/// Simulations running in lanes: time limit, step, energy balances shown to an observer.
 pub(crate) struct EnsembleDriver {
     ensemble: Ensemble,
     balances: Vec<Balance>,
@@ -126,7 +126,7 @@ pub(crate) struct EnsembleDriver {
 }
 
 impl EnsembleDriver {
-    /// Stands at t = 0; arguments as for [`Ensemble::new`].
+    /// Starts at t = 0; arguments as for [`Ensemble::new`].
     ///
     /// # Errors
     /// [`SetupError`] as for [`Ensemble::new`].
@@ -147,7 +147,7 @@ impl EnsembleDriver {
         &self.ensemble
     }
 
-    /// Time that the solver has taken.
+    /// Time spent in the solver.
     pub(crate) fn wall(&self) -> Duration {
         self.wall
     }
@@ -155,7 +155,7 @@ impl EnsembleDriver {
     /// Does one step of every simulation that has not failed.
     ///
     /// # Errors
-    /// [`TimeUp`] where the time limit of the case is reached.
+    /// [`TimeUp`] if the time limit of the case is reached.
     pub(crate) fn advance(&mut self) -> Result<(), TimeUp> {
         let step = self.ensemble.step();
         self.patience.check(step, || step as f64 * self.dt)?;
@@ -165,7 +165,7 @@ impl EnsembleDriver {
         Ok(())
     }
 
-    /// Does one step of every simulation that has not failed and shows it with the energy balances; `None` where all have failed.
+    /// Does one step of every simulation that has not failed, and returns it with the energy balances; `None` if all have failed.
     ///
     /// # Errors
     /// As [`EnsembleDriver::advance`].

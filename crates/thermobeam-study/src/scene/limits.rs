@@ -1,19 +1,19 @@
-//! What a file may ask for: all limits in one place, each with its reason. How large it may be
-//! itself is for `document` to say.
+//! Limits on what a file may request: all in one place, each with its reason. `document` limits the size of the file
+//! itself.
 //!
-//! Every number is far beyond use and far below what brings a machine down. They are checked when a file is read, so that
-//! a typing error is a complaint with its line, and not a process that the operating system ends after an hour.
+//! All limits are far beyond practical use and far below what overloads a machine. They are checked when a file is read:
+//! a typing error gives a message with its line, not a process that the operating system kills after an hour.
 
 use convergence_study::input::{Field, InputError};
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a typing error.
 pub(crate) const STEPS: usize = 10_000_000_000;
 
-/// Time steps of a run that keeps numbers of each of them: some 64 bytes, 640 MB.
+/// Time steps of a run that records every step: some 64 bytes each, 640 MB.
 pub(crate) const RECORDED_STEPS: usize = 10_000_000;
 
-/// Bytes that a run needs per element: blocks of the matrix and of its factors, and the vectors of three fields.
-/// Measured: 486 at a million elements, everything included.
+/// Bytes per element of a run: blocks of the matrix and of its factors, and the vectors of three fields. Measured: 486
+/// at a million elements, everything included.
 const BYTES_PER_ELEMENT: usize = 500;
 
 /// Bytes that a run may need.
@@ -22,16 +22,16 @@ const RUN_BYTES: usize = 4 << 30;
 /// Cases of a study, each with a label, a result and a row in the report.
 const CASES: usize = 1_000_000;
 
-/// Bytes of such a case, its curves left out.
+/// Bytes of such a case, excluding its curves.
 const BYTES_PER_CASE: usize = 1000;
 
-/// Points along an axis of a map: a figure has fewer pixels for more, and each point keeps eight numbers.
+/// Points along an axis of a map: more would exceed the pixels of a figure, and each point keeps eight numbers.
 pub(crate) const MAP_POINTS: usize = 400;
 
 /// Elements of a mesh whose modes are found by a dense method: six matrices of (2n)² numbers, 1.5 GiB.
 pub(crate) const DENSE_ELEMENTS: usize = 3000;
 
-/// Modes of vibration: the mesh has ten times as many nodes, and beyond some thousand a mode is the next one's neighbour.
+/// Modes of vibration: the mesh has ten times as many nodes, and beyond some thousand, neighbouring modes hardly differ.
 pub(crate) const MODES: usize = 10_000;
 
 /// Largest number of cases of a sweep.
@@ -40,19 +40,19 @@ pub(crate) const SWEEP_CASES: usize = 100_000_000;
 /// Values of one key of a sweep's grid.
 pub(crate) const SWEEP_VALUES: usize = 1_000_000;
 
-/// Samples of a sweep drawn at random: all are drawn when the file is read, 16 bytes a key each.
+/// Randomly drawn samples of a sweep: all are drawn when the file is read, 16 bytes per key each.
 pub(crate) const SWEEP_SAMPLES: usize = 10_000_000;
 
-/// Bytes that a sweep keeps of a case while it runs: its number, whether it is done, where its line is.
+/// Bytes that a running sweep keeps for each case: its number, whether it is done, and the position of its line.
 const BYTES_PER_SWEEP_CASE: usize = 40;
 
-/// So many bytes, in words.
+/// A number of bytes, in words.
 pub(crate) fn memory(bytes: f64) -> String {
     const GIB: f64 = (1u64 << 30) as f64;
     format!("about {:.1} GiB of memory", bytes / GIB)
 }
 
-/// The most elements that a mesh may have.
+/// Maximum number of elements of a mesh.
 pub(crate) const ELEMENTS: usize = RUN_BYTES / BYTES_PER_ELEMENT;
 
 /// A number of elements that fits into memory.
@@ -65,12 +65,12 @@ pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
     Err(field.refuse(found, format!("a whole number >= 1 and <= {ELEMENTS} ({} GiB)", RUN_BYTES >> 30)))
 }
 
-/// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; `field` is what is to blame.
+/// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message names `field`.
 ///
 /// A block of the unknowns takes 29 (q + 1) + 20 numbers, a matrix of the elimination 9 (q + 1)²: three for each node, and
-/// 14 + 3p for each length of elements, of at least two factorisations.
+/// 14 + 3p for each length of elements, in at least two factorisations.
 ///
-/// * `lengths`: how many different lengths the elements have.
+/// * `lengths`: the number of different element lengths.
 pub(crate) fn any_order_memory(
     field: &Field<'_>,
     elements: usize,
@@ -90,12 +90,12 @@ pub(crate) fn any_order_memory(
         .refuse(found, format!("a mesh that takes at most {} GiB with degree p = {p} and q = {q}", RUN_BYTES >> 30)))
 }
 
-/// The memory that a run with `elements` elements takes, in words.
+/// The memory of a run with `elements` elements, in words.
 pub(crate) fn memory_of_elements(elements: f64) -> String {
     memory(elements * BYTES_PER_ELEMENT as f64)
 }
 
-/// Refuses the steps from 0 to `t_end` where there are more than `most`; `field` is what is to blame.
+/// Refuses more than `most` steps from 0 to `t_end`; the message names `field`.
 pub(crate) fn steps_until(field: &Field<'_>, t_end: f64, dt: f64, most: usize) -> Result<(), InputError> {
     let steps = (t_end / dt).round();
     if steps <= most as f64 {
@@ -105,7 +105,7 @@ pub(crate) fn steps_until(field: &Field<'_>, t_end: f64, dt: f64, most: usize) -
     Err(field.refuse(found, format!("at most {:e} steps", most as f64)))
 }
 
-/// Refuses a mesh that is too fine for a dense method; `field` is what is to blame.
+/// Refuses a mesh that is too fine for a dense method; the message names `field`.
 pub(crate) fn dense(field: &Field<'_>, elements: usize) -> Result<(), InputError> {
     if elements <= DENSE_ELEMENTS {
         return Ok(());
@@ -115,7 +115,7 @@ pub(crate) fn dense(field: &Field<'_>, elements: usize) -> Result<(), InputError
     Err(field.refuse(found, format!("at most {DENSE_ELEMENTS}, where time is isolated by the modes of the mesh")))
 }
 
-/// Refuses a study of more cases than can be listed; `field` is what is to blame.
+/// Refuses a study with too many cases; the message names `field`.
 pub(crate) fn cases(field: &Field<'_>, factors: &[usize]) -> Result<(), InputError> {
     let cases: f64 = factors.iter().map(|&factor| factor as f64).product();
     if cases <= CASES as f64 {
@@ -129,7 +129,7 @@ pub(crate) fn cases(field: &Field<'_>, factors: &[usize]) -> Result<(), InputErr
     Err(field.refuse(found, format!("at most {CASES} cases")))
 }
 
-/// What is said of a sweep with too many cases: what was found, and what is allowed.
+/// The message for a sweep with too many cases: found and allowed number.
 pub(crate) fn sweep_refusal(cases: f64) -> (String, String) {
     let bytes = memory(cases * BYTES_PER_SWEEP_CASE as f64);
     (format!("{cases:.3e} cases, which would take {bytes}"), format!("at most {SWEEP_CASES} cases"))

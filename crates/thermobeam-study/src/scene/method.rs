@@ -1,4 +1,4 @@
-//! How a scene is stepped: the table `[time]`, and the degree of the elements that goes with it.
+//! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
 use convergence_study::input::{InputError, POSITIVE, Section};
 use thermobeam::dg::{self, MAX_DEGREE, MAX_TIME_DEGREE};
@@ -13,16 +13,16 @@ use super::{limits, tables};
 /// The value of `time.scheme` for elements of any degree and dG(q).
 pub const DG: &str = "dg";
 
-/// Degree p of a scene that does not say: 1e-8 for the paper's first experiment on one element.
+/// Default degree p: 1e-8 for the paper's first experiment on one element.
 const DEGREE: usize = 13;
 
-/// Largest step of a scene that does not say.
+/// Default for the largest step.
 const DT: f64 = 0.02;
 
-/// Growth of the steps of a scene that does not say.
+/// Default growth of the steps.
 const GROWTH: f64 = 1.5;
 
-/// First step of a scene that does not say, in units of the time scale of an impact's peak.
+/// Default first step, in units of the time scale of an impact's peak.
 const RESTART: f64 = 0.2;
 
 const DG_KEYS: [&str; 8] = ["scheme", "degree", "dt", "restart_dt", "growth", "t_end", "tolerance", "max_iterations"];
@@ -45,7 +45,7 @@ impl Method {
         }
     }
 
-    /// The value of `time.solver`; dG has one.
+    /// The value of `time.solver`; dG has a single one.
     pub fn solver(&self) -> &'static str {
         match self {
             Self::OneStep(stepping) => stepping.settings.solver.name(),
@@ -53,7 +53,7 @@ impl Method {
         }
     }
 
-    /// The steps of dG; `None` of a one-step scheme.
+    /// The steps of dG; `None` for a one-step scheme.
     pub fn dg(&self) -> Option<dg::Stepping> {
         match self {
             Self::OneStep(_) => None,
@@ -69,7 +69,7 @@ impl Method {
         }
     }
 
-    /// The time step; of dG the largest.
+    /// The time step; for dG the largest.
     pub fn dt(&self) -> f64 {
         match self {
             Self::OneStep(stepping) => stepping.dt,
@@ -85,7 +85,7 @@ impl Method {
         }
     }
 
-    /// Elements of a scene that does not say: the paper's number, or one.
+    /// Default number of elements: the paper's number, or one.
     pub(super) fn default_elements(&self) -> usize {
         match self {
             Self::OneStep(_) => 100,
@@ -93,7 +93,7 @@ impl Method {
         }
     }
 
-    /// `mesh.degree`. One-step schemes work on linear elements; others must fit into memory.
+    /// `mesh.degree`. One-step schemes use linear elements; higher degrees must fit into memory.
     pub(super) fn degree(&self, root: &Section<'_>, mesh: &Mesh) -> Result<usize, InputError> {
         let section = root.section("mesh")?;
         let get = |key: &str| section.as_ref().and_then(|section| section.get(key));
@@ -115,7 +115,7 @@ impl Method {
 /// The table `[time]`: the method, and t_end.
 ///
 /// # Errors
-/// That no scheme has the name is said first, since the keys depend on it.
+/// An unknown scheme is reported first, since the keys depend on it.
 pub(super) fn read(
     root: &Section<'_>,
     beam: &Beam,
@@ -137,7 +137,7 @@ fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
     Ok((Method::OneStep(Stepping { scheme, settings, dt, loaded: false }), t_end))
 }
 
-/// dt and t_end, which dt divides.
+/// dt and t_end; dt must divide t_end.
 fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
     // Each of dt, t_end and their quotient is rounded once.
     const SLACK: f64 = 4.0 * f64::EPSILON;
@@ -191,7 +191,7 @@ fn dg(time: &Section<'_>, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<
     Ok((Method::Dg(stepping), t_end))
 }
 
-/// The steps of a scene that leaves all keys out.
+/// The steps of a scene that specifies none.
 pub(super) fn default_stepping(beam: &Beam, obstacles: Option<&Obstacles>, t_end: f64) -> dg::Stepping {
     let dt = DT.min(t_end);
     dg::Stepping { dt, restart_dt: first_step(beam, obstacles, dt), growth: GROWTH, ..dg::Stepping::default() }

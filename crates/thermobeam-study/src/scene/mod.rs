@@ -1,4 +1,4 @@
-//! Scene files: one beam, its initial state, mesh and time steps, by whatever method.
+//! Scene files: one beam, its initial state, mesh and time steps, for any method.
 //!
 //! ```toml
 //! [beam]                      # all have defaults: (5.1), beta = 0, theta_a = 0
@@ -19,7 +19,7 @@
 //! t_end = 10.0
 //! ```
 //!
-//! With `scheme = "dg"` the elements have degree p in space, dG(q) steps in time, and steps end where contact begins or ends:
+//! With `scheme = "dg"` elements have degree p, steps are dG(q), and they end where contact begins or ends:
 //!
 //! ```toml
 //! [mesh]
@@ -84,7 +84,7 @@ pub struct Scene {
     pub beam: Beam,
     /// The obstacles, if any.
     pub obstacles: Option<Obstacles>,
-    /// Initial data; they meet the boundary conditions up to round-off and are finite at every node.
+    /// Initial data, which satisfy the boundary conditions up to round-off and are finite at every node.
     pub initial: Initial,
     /// The mesh.
     pub mesh: Mesh,
@@ -114,7 +114,7 @@ impl Scene {
         input::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
     }
 
-    /// Reads a scene from `text` with the values of `overlay` in place of its own: TOML as well.
+    /// Reads a scene from `text`; values of `overlay`, also TOML, replace its own.
     pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
         input::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
     }
@@ -124,7 +124,7 @@ impl Scene {
         Self::from_tables(root, name)
     }
 
-    /// The scene of the tables in a section, which may hold other keys.
+    /// The scene given by the tables in a section, which may hold other keys.
     pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
         let Coefficients { beam, obstacles } = Coefficients::read(root)?;
         let (method, t_end) = method::read(root, &beam, obstacles.as_ref())?;
@@ -134,7 +134,7 @@ impl Scene {
         Ok(Self { name, beam, obstacles, initial, mesh, degree, method, t_end })
     }
 
-    /// The scene of a file that a field names, by a one-step scheme.
+    /// The scene of a file named in a field, by a one-step scheme.
     pub(crate) fn read_one_step(field: &Field<'_>, folder: &Path) -> Result<Self, InputError> {
         let scene = Self::read(field.file(folder)?)?;
         match scene.one_step() {
@@ -143,12 +143,12 @@ impl Scene {
         }
     }
 
-    /// Its time step; of dG the largest.
+    /// Its time step; for dG the largest.
     pub fn dt(&self) -> f64 {
         self.method.dt()
     }
 
-    /// Steps of length dt to the end: all steps of a one-step scheme, the fewest of dG.
+    /// Steps of length dt to the end: all steps of a one-step scheme, the minimum for dG.
     pub fn steps(&self) -> usize {
         let quotient = self.t_end / self.dt();
         let steps = match self.method {
@@ -166,7 +166,7 @@ impl Scene {
     /// The one-step scheme, its solver and its step.
     ///
     /// # Errors
-    /// [`SetupError::Method`] of a scene by dG.
+    /// [`SetupError::Method`] for a scene by dG.
     pub fn one_step(&self) -> Result<Stepping, SetupError> {
         match self.method {
             Method::OneStep(stepping) => Ok(stepping),
@@ -174,7 +174,7 @@ impl Scene {
         }
     }
 
-    /// The steps of dG; of a scene by a one-step scheme those of a scene that leaves all keys out.
+    /// The steps of dG; for a scene by a one-step scheme the default steps of dG.
     pub fn dg_stepping(&self) -> dg::Stepping {
         let default = || method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end);
         self.method.dg().unwrap_or_else(default)
@@ -196,7 +196,7 @@ impl Scene {
         }
     }
 
-    /// dG's view of the scene.
+    /// The scene as a problem for dG.
     pub fn dg_problem(&self) -> dg::Problem {
         let function = |function: &Option<Expression>| -> dg::Function {
             match function.clone() {
@@ -297,7 +297,7 @@ fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, Inpu
     Ok(initial)
 }
 
-/// Initial data are interpolated, so that every node counts, not only the samples.
+/// Initial data are interpolated, so every node is checked, not only the samples.
 fn finite_at_nodes(field: &Field<'_>, function: &Expression, mesh: &Mesh) -> Result<(), InputError> {
     let values = mesh.nodes().iter().map(|&at| (at, function.eval(at)));
     match values.into_iter().find(|(_, value)| !value.is_finite()) {
@@ -306,10 +306,10 @@ fn finite_at_nodes(field: &Field<'_>, function: &Expression, mesh: &Mesh) -> Res
     }
 }
 
-/// A boundary condition, up to the rounding error of the function.
+/// Checks a boundary condition, up to the rounding error of the function.
 fn meets(field: &Field<'_>, function: &Expression, key: &str, at: f64, expected: f64) -> Result<(), InputError> {
     let found = function.eval(at);
-    // The rounding error takes thousands of evaluations, which a sweep would pay in every case.
+    // The rounding error takes thousands of evaluations, too expensive for every case of a sweep.
     if found == expected || (found - expected).abs() <= function.roundoff(1.0) {
         return Ok(());
     }

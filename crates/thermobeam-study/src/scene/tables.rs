@@ -1,4 +1,4 @@
-//! What scenes and study files have in common: functions, the tables `[beam]` and `[obstacles]`, the mesh, the stepping keys.
+//! Common parts of scenes and study files: functions, the tables `[beam]` and `[obstacles]`, the mesh, the stepping keys.
 
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -15,12 +15,12 @@ pub(crate) const BEAM_KEYS: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];
 /// The keys of `[obstacles]`.
 pub(crate) const OBSTACLE_KEYS: [&str; 3] = ["epsilon", "g1", "g2"];
 
-/// The coefficients of (1.1) and (1.3), which files and negative controls know by name.
+/// The coefficients of (1.1) and (1.3), which files and negative controls address by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients {
     /// Of the beam.
     pub beam: Beam,
-    /// Of the obstacles, if there are any.
+    /// Of the obstacles, if any.
     pub obstacles: Option<Obstacles>,
 }
 
@@ -30,7 +30,7 @@ impl Coefficients {
         BEAM_KEYS.into_iter().chain(OBSTACLE_KEYS)
     }
 
-    /// The coefficient of that name; `None` where it would be that of obstacles and there are none.
+    /// The coefficient with that name; `None` if it belongs to obstacles and there are none.
     pub(crate) fn get_mut(&mut self, name: &str) -> Option<&mut f64> {
         let (beam, obstacles) = (&mut self.beam, self.obstacles.as_mut());
         match name {
@@ -46,19 +46,19 @@ impl Coefficients {
         }
     }
 
-    /// The same with one of them off by a relative amount; `None` where there is none of that name, or it is zero.
+    /// The same with a relative error in one of them; `None` if there is none of that name, or it is zero.
     pub(crate) fn off(mut self, name: &str, relative: f64) -> Option<Self> {
         let coefficient = self.get_mut(name).filter(|coefficient| **coefficient != 0.0)?;
         *coefficient *= 1.0 + relative;
         Some(self)
     }
 
-    /// The names of those that differ.
+    /// The names of the coefficients that differ.
     pub(crate) fn differing(mut self, mut other: Self) -> impl Iterator<Item = &'static str> {
         Self::names().filter(move |name| self.get_mut(name) != other.get_mut(name))
     }
 
-    /// The tables `[beam]` and `[obstacles]`, each key with its default; no table, no obstacles.
+    /// The tables `[beam]` and `[obstacles]`, each key with its default; obstacles need a table.
     pub(crate) fn read(root: &Section<'_>) -> Result<Self, InputError> {
         let obstacles = root.get("obstacles").map(|_| Obstacles::default());
         let mut read = Self { beam: Beam::default(), obstacles };
@@ -75,7 +75,7 @@ impl Coefficients {
         Ok(read)
     }
 
-    /// Refuses what the solver would, with the key of `section`.
+    /// Refuses what the solver would refuse, with the key of `section`.
     pub(crate) fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
         let obstacles = self.obstacles.map_or(Ok(()), |obstacles| obstacles.validate());
         self.beam.validate().and(obstacles).map_err(|error| match section.get(error.name) {
@@ -109,7 +109,7 @@ pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
     Ok(settings)
 }
 
-/// A mesh whose nodes come from the map in `field`.
+/// A mesh whose nodes are given by the map in `field`.
 pub(crate) fn checked_mesh(mesh: Result<Mesh, MeshError>, field: &Field<'_>) -> Result<Mesh, InputError> {
     mesh.map_err(|error| match error {
         MeshError::Ends { found, expected, .. } => {
@@ -127,15 +127,15 @@ pub(crate) fn checked_mesh(mesh: Result<Mesh, MeshError>, field: &Field<'_>) -> 
     })
 }
 
-/// What a field says as a function.
+/// A field read as a function.
 pub(crate) trait FunctionField {
-    /// A function of `variable`; a complaint points into the text.
+    /// A function of `variable`; a message points into the text.
     fn expression(&self, variable: Variable) -> Result<Expression, InputError>;
 
-    /// Refuses a function that is not finite on [0, end], nor its derivatives up to `order`.
+    /// Refuses a function that is not finite on [0, end], or whose derivatives up to `order` are not.
     fn finite(&self, function: &Expression, end: f64, order: usize) -> Result<(), InputError>;
 
-    /// The complaint about a function that is not finite somewhere.
+    /// The message about a function that is not finite somewhere.
     fn not_finite(&self, found: NotFinite) -> InputError;
 }
 

@@ -1,4 +1,4 @@
-//! The numbers of a scene that a sweep may vary, a case with its number and their values, and the share that these determine.
+//! The numbers of a scene that a sweep may vary, a case with its number and their values, and the share derived from them.
 
 use std::fmt;
 use std::str::FromStr;
@@ -23,7 +23,7 @@ const fn key(table: &'static str, name: &'static str, is_whole: bool) -> Key {
     Key { table, name, is_whole }
 }
 
-/// All of them, in the order in which a case lists them.
+/// All keys, in the order in which a case lists them.
 pub(super) const KEYS: [Key; 17] = [
     key("beam", "zeta", false),
     key("beam", "a", false),
@@ -53,7 +53,7 @@ impl Key {
         format!("{}.{}", self.table, self.name)
     }
 
-    /// Whether it is the key of that table and name.
+    /// Whether it is the key with that table and name.
     pub(super) fn is(self, table: &str, name: &str) -> bool {
         self.table == table && self.name == name
     }
@@ -64,7 +64,7 @@ impl Key {
     }
 }
 
-/// A case; its JSON is that of its parameters, keys in the fixed order of a scene file.
+/// A case; its JSON is that of its parameters, with keys in the fixed order of a scene file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepCase<'s> {
     /// Its number, from 0.
@@ -78,7 +78,7 @@ impl<'s> SweepCase<'s> {
         Self { index, keys, values }
     }
 
-    /// The keys that vary, each with this case's value.
+    /// The varied keys, each with this case's value.
     pub fn parameters(&self) -> impl Iterator<Item = (Key, f64)> + '_ {
         self.keys.iter().copied().zip(self.values.iter().copied())
     }
@@ -99,7 +99,7 @@ impl Serialize for SweepCase<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.values.len()))?;
         for (key, value) in self.parameters() {
-            // Whole numbers were read as such and are far below 2^53.
+            // Integers were read as such and are far below 2^53.
             if key.is_whole {
                 map.serialize_entry(&key.path(), &(value as u64))?;
             } else {
@@ -128,7 +128,7 @@ impl Share {
     /// The whole sweep.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
-    /// Whether a case with this [`content_hash`](convergence_study::store::content_hash) belongs to it: to exactly one of n shares.
+    /// Whether it holds a case with this [`content_hash`](convergence_study::store::content_hash): exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.of == self.number - 1
     }
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn the_hash_never_changes() {
-        // Computed by an independent program; shares of runs that are under way depend on it.
+        // Computed by an independent program; running shares depend on it.
         assert_eq!(content_hash(b""), 0xC381_7C01_6BA4_FF30);
         assert_eq!(content_hash(b"{\"beam.beta\":0.5}"), 0xC5F6_866D_E049_E3BB);
     }

@@ -1,4 +1,4 @@
-//! The values of each key, as the sweep file writes them, and how they are combined into cases.
+//! The values of each key in the sweep file, and their combination into cases.
 
 use super::{Key, MOST_CASES};
 use crate::scene::limits::SWEEP_VALUES;
@@ -9,14 +9,14 @@ use convergence_study::store::content_hash;
 /// The values of each key: those of a grid, or a number for each sample of a Latin hypercube.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Design {
-    /// Every combination, the last key running fastest.
+    /// Every combination; the last key varies fastest.
     Grid(Vec<Vec<f64>>),
-    /// Samples drawn beforehand, and the dt and t_end of all cases where the one must divide the other.
+    /// Samples drawn beforehand, and the dt and t_end of all cases if dt must divide t_end.
     Latin { samples: usize, values: Vec<Vec<f64>>, steps: Option<(f64, f64)> },
 }
 
 impl Design {
-    /// The number of cases; more than [`MOST_CASES`] where it would overflow.
+    /// The number of cases; more than [`MOST_CASES`] on overflow.
     pub(super) fn cases(&self) -> usize {
         match self {
             Self::Grid(values) => {
@@ -49,7 +49,7 @@ impl Design {
     }
 }
 
-/// Rounds a drawn dt, or t_end where it alone varies, so that dt divides t_end.
+/// Rounds a drawn dt, or t_end if only t_end varies, so that dt divides t_end.
 fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) -> Vec<f64> {
     let place = |name| keys.iter().position(|key| key.is("time", name));
     let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
@@ -61,13 +61,13 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) 
     drawn
 }
 
-/// `samples` numbers in [0, 1), one in each of as many slices, in random order.
+/// `samples` numbers in [0, 1), one in each of `samples` equal slices, in random order.
 ///
-/// The order depends on the seed and the key alone: adding a key does not change the numbers of the others.
+/// The order depends only on the seed and the key: a new key does not change the numbers of the others.
 pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
     let mut random = SplitMix::new(SplitMix::new(seed).next_u64() ^ content_hash(key.path().as_bytes()));
     let mut slices: Vec<usize> = (0..samples).collect();
-    // The shuffle of Fisher and Yates.
+    // Fisher-Yates shuffle.
     for last in (1..samples).rev() {
         slices.swap(last, random.below(last + 1));
     }
@@ -103,29 +103,29 @@ impl Range {
         Ok(Self { from, to, is_log })
     }
 
-    /// The value at `share` of the way, 0 to 1.
+    /// The value at the fraction `share` of the range, from 0 to 1.
     fn at(&self, share: f64, key: Key) -> f64 {
         let Self { from, to, is_log } = *self;
         let value = if is_log { from * (to / from).powf(share) } else { from + (to - from) * share };
-        // To 9 digits, on which the mathematical libraries of all machines agree.
+        // Rounded to 9 digits, on which the mathematical libraries of all machines agree.
         if key.is_whole { value.round() } else { format!("{value:.8e}").parse().unwrap_or(value) }
     }
 }
 
 fn number(field: &Field<'_>, key: Key) -> Result<f64, InputError> {
     if key.is_whole {
-        // Larger ones are refused by the scene; these are exact as f64.
+        // The scene refuses larger numbers; these are exact as f64.
         return Ok(field.count(1..=1 << 53)? as f64);
     }
-    // -0 and 0 are one value; the sum is 0 for both.
+    // -0 and 0 are the same value; adding 0 gives 0 for both.
     field.number().map(|value| value + 0.0)
 }
 
-/// A key that varies, its values, and where they are written.
+/// A varied key, its values, and their place in the file.
 pub(super) struct VariedKey<'a> {
     pub(super) key: Key,
     pub(super) values: Vec<f64>,
-    /// Values that a scene must accept, and the fields to name if it does not.
+    /// Values that a scene must accept, with the fields to name otherwise.
     pub(super) probes: Vec<(f64, Field<'a>)>,
 }
 
@@ -158,7 +158,7 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, Inpu
     Ok(VariedKey { key, probes: vec![(values[0], field.clone()), (values[number - 1], field)], values })
 }
 
-/// `{ from, to, scale }`, a Latin hypercube's share of it.
+/// `{ from, to, scale }`, and the values of a Latin hypercube in it.
 pub(super) fn latin<'a>(field: Field<'a>, key: Key, samples: usize, seed: u64) -> Result<VariedKey<'a>, InputError> {
     if !field.is_table() {
         return Err(field.refuse_as_written("a range { from, to }"));

@@ -1,13 +1,13 @@
-//! The folder of a sweep: the sweep it belongs to, the cases done, and at the end the results in order.
+//! The folder of a sweep: the identity of the sweep, the completed cases, and finally the results in order.
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `sweep.json` | the sweep, its share, the number of cases: a [`Manifest`] |
-//! | `journal.jsonl` | a line for each case that is done, in the order of completion; removed when all are done |
-//! | `results.jsonl` | the same lines in the order of the cases, when all are done |
+//! | `sweep.json` | identifies the sweep, its share, the number of cases: a [`Manifest`] |
+//! | `journal.jsonl` | a line for each completed case, in the order of completion; removed at the end |
+//! | `results.jsonl` | the same lines in the order of the cases, once all are completed |
 //!
-//! A line is written by one call of the operating system as soon as its case, and those side by side with it, are done. A
-//! process that is killed loses the cases under way and leaves at most one incomplete line, which the next process removes.
+//! One call of the operating system writes the lines of a group of cases as soon as these are completed. A process that is
+//! killed loses its running cases and leaves at most one incomplete line, which the next process removes.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -23,7 +23,7 @@ use convergence_study::store::writing;
 /// Identifies the sweep of the folder.
 const MANIFEST: &str = "sweep.json";
 
-/// Numbers of missing cases that are listed.
+/// Maximum number of missing cases in a message.
 const LISTED: usize = 10;
 
 /// Lines in the order of completion.
@@ -32,14 +32,14 @@ const JOURNAL: &str = "journal.jsonl";
 /// Lines in the order of the cases: the result.
 pub const RESULTS: &str = "results.jsonl";
 
-/// Identifies the sweep of a folder of results.
+/// Identifies the sweep to which a folder of results belongs.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
     /// The sweep's name.
     pub sweep: String,
     /// Hash of sweep file and scene.
     pub fingerprint: String,
-    /// Version of the program: another one may compute other bits.
+    /// Version of the program: another version may compute other bits.
     pub version: String,
     /// Cases of the whole sweep.
     pub cases: usize,
@@ -59,7 +59,7 @@ impl Manifest {
         }
     }
 
-    /// Reads the manifest of a folder; `None` where there is none.
+    /// Reads the manifest of a folder; `None` if there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
         let damaged = |reason: String| SweepError::Damaged {
@@ -70,7 +70,7 @@ impl Manifest {
         match std::fs::read(&path) {
             Ok(bytes) => {
                 let read: Self = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
-                // Messages quote it, and control characters would act on the terminal.
+                // Messages quote it, and control characters would affect the terminal.
                 let texts = [&read.sweep, &read.fingerprint, &read.version, &read.share];
                 match texts.iter().find(|text| text.contains(char::is_control)) {
                     Some(text) => Err(damaged(format!("control characters in {text:?}"))),
@@ -92,7 +92,7 @@ impl Manifest {
         Self::read(folder)?.ok_or_else(missing)
     }
 
-    /// Refuses the folder of another sweep, or of another share of it.
+    /// Refuses the folder of another sweep or share.
     fn agrees(&self, expected: &Self, share: &str, folder: &Path) -> Result<(), SweepError> {
         let pairs = [
             ("the sweep", &*self.sweep, &*expected.sweep),
@@ -118,7 +118,7 @@ pub struct Journal {
     path: PathBuf,
     results: PathBuf,
     file: File,
-    /// Which cases are done.
+    /// Which cases are completed.
     done: Vec<bool>,
     failed: usize,
 }
@@ -126,10 +126,10 @@ pub struct Journal {
 impl Journal {
     /// Opens the folder of a share, and creates it if necessary.
     ///
-    /// * `resume`: whether to continue what the folder holds; every line must belong to a case of this share.
+    /// * `resume`: whether to continue the work in the folder; every line must belong to a case of this share.
     ///
     /// # Errors
-    /// [`SweepError`]; nothing has been written then, except where the disk fails.
+    /// [`SweepError`]; nothing has been written then, unless the disk fails.
     pub fn open(folder: &Path, sweep: &Sweep, share: Share, resume: bool) -> Result<Self, SweepError> {
         let manifest = &Manifest::new(sweep, share);
         let found = Manifest::read(folder)?;
@@ -167,7 +167,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Reads which cases are done, and removes an incomplete last line.
+    /// Reads which cases are completed, and removes an incomplete last line.
     fn read_done(&mut self, sweep: &Sweep, share: Share) -> Result<(), SweepError> {
         let is_complete = self.results.exists();
         let source = if is_complete { &self.results } else { &self.path };
@@ -178,7 +178,7 @@ impl Journal {
             if share.holds(case.hash()) { Ok(()) } else { Err(of_another()) }
         };
         let (places, end) = lines::places(std::slice::from_ref(source), self.done.len(), is_of_the_share)?;
-        // A process killed after writing the results leaves a journal; the results hold all of it.
+        // A process killed after writing the results leaves a journal; the results contain all of it.
         self.file.set_len(if is_complete { 0 } else { end }).map_err(|error| atomic::naming(&self.path, &error))?;
         places.iter().for_each(|place| self.count(place.case, place.passed));
         Ok(())
@@ -189,17 +189,17 @@ impl Journal {
         self.failed += usize::from(!passed);
     }
 
-    /// Whether a case is done.
+    /// Whether a case is completed.
     pub fn has(&self, case: usize) -> bool {
         self.done[case]
     }
 
-    /// Cases done that failed.
+    /// Number of failed cases so far.
     pub fn failed(&self) -> usize {
         self.failed
     }
 
-    /// Appends a line. Once this returns, killing the process does not lose it.
+    /// Appends a line. After the return, killing the process no longer loses it.
     ///
     /// # Errors
     /// The error of the operating system.
@@ -225,18 +225,18 @@ impl Journal {
     }
 }
 
-/// What [`merge`] has joined.
+/// The result of [`merge`].
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Merged {
     /// Cases of the sweep.
     pub cases: usize,
-    /// Those of them that failed.
+    /// Number of failed cases.
     pub failed: usize,
-    /// The file with a line for each.
+    /// The file with a line for each case.
     pub results: PathBuf,
 }
 
-/// Joins the shares in `folders` into the file that one run would have written, [`RESULTS`] in the folder `out`.
+/// Joins the shares in `folders` into [`RESULTS`] in the folder `out`, the file that a single run would have written.
 ///
 /// # Errors
 /// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing
@@ -261,7 +261,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count(), results })
 }
 
-/// Refuses sorted places without one for every case.
+/// Refuses sorted places unless every case has one.
 fn none_missing(found: &[Place], cases: usize, shares: &str) -> Result<(), SweepError> {
     if found.len() == cases {
         return Ok(());

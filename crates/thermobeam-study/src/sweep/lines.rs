@@ -1,8 +1,8 @@
-//! Lines of results in files: finding, checking, sorting and copying them.
+//! Lines of results in files: finding, checking, sorting and copying.
 //!
-//! A line ends with the hash of what comes before, so that one that was changed since it was written is noticed.
+//! A line ends with the hash of the text before it, which reveals later changes.
 //!
-//! The lines stay on disk; memory holds their positions, 40 bytes a case.
+//! The lines stay on disk; memory holds their positions, 40 bytes per case.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
@@ -15,25 +15,25 @@ use super::SweepCase;
 use convergence_study::store::atomic;
 use convergence_study::store::content_hash;
 
-/// A folder or a file of results that cannot be used.
+/// The reason why a folder or a file of results cannot be used.
 #[derive(Debug, Error)]
 pub enum SweepError {
-    /// The operating system's, with the path named in front of it.
+    /// An error of the operating system, prefixed with the path.
     #[error(transparent)]
     Io(#[from] io::Error),
     /// The folder holds results, and `--resume` was not given.
     #[error("{}: expected a folder without results, found those of a sweep; continue it with --resume, or choose another folder", .0.display())]
     Taken(PathBuf),
-    /// The folder holds results of something else.
+    /// The folder holds other results.
     #[error("{}: expected {what} {expected}, found {found}", .folder.display())]
     Other {
         /// The folder.
         folder: PathBuf,
         /// What differs.
         what: &'static str,
-        /// What the folder has.
+        /// The value in the folder.
         found: String,
-        /// What was asked for.
+        /// The expected value.
         expected: String,
     },
     /// Another process writes to the folder.
@@ -44,9 +44,9 @@ pub enum SweepError {
     Damaged {
         /// The file.
         file: PathBuf,
-        /// The line, from 1, where it is one.
+        /// The line number from 1, if it is about a line.
         line: Option<usize>,
-        /// What was expected and found.
+        /// The expected and the found content.
         reason: String,
     },
     /// A case has two lines.
@@ -62,18 +62,18 @@ pub enum SweepError {
     /// Cases are missing.
     #[error("expected {cases} cases, of which {count} are missing: {named}; found the shares {shares}")]
     Missing {
-        /// How many.
+        /// Number of missing cases.
         count: usize,
-        /// How many there should be.
+        /// Expected number of cases.
         cases: usize,
-        /// The first of them.
+        /// The first missing cases.
         named: String,
         /// The shares found.
         shares: String,
     },
 }
 
-/// Where a line is.
+/// The position of a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) case: usize,
@@ -83,7 +83,7 @@ pub(super) struct Place {
     bytes: u64,
 }
 
-/// The part of a line that is read.
+/// The part of a line that is parsed.
 #[derive(Deserialize)]
 struct LineHead<'a> {
     case: usize,
@@ -96,7 +96,7 @@ pub(super) fn sealed(object: &str) -> String {
     format!("{content},\"hash\":\"{:016x}\"}}", content_hash(content.as_bytes()))
 }
 
-/// Refuses a line whose hash is not that of its content.
+/// Refuses a line whose hash does not match its content.
 fn is_as_written(line: &[u8]) -> Result<(), String> {
     const BESIDES: usize = ",\"hash\":\"0123456789abcdef\"}\n".len();
     let content = &line[..line.len().saturating_sub(BESIDES)];
@@ -111,7 +111,7 @@ fn is_as_written(line: &[u8]) -> Result<(), String> {
 }
 
 impl Place {
-    /// Refuses a line that is not one of this case: the numbers that vary are those of the sweep.
+    /// Refuses a line of another case: its varied numbers must be those of the sweep.
     pub(super) fn is_of(&self, line: &[u8], case: &SweepCase<'_>) -> Result<(), String> {
         let parameters = serde_json::to_string(case).map_err(|error| error.to_string())?;
         let status = if self.passed { "done" } else { "failed" };
@@ -125,13 +125,13 @@ impl Place {
     }
 }
 
-/// The places of all complete lines of these files, in the order of their cases, and the offset at which those of the last file end;
-/// an incomplete line may follow.
+/// The places of all complete lines of these files, in the order of their cases, and the offset at which the lines of the last file
+/// end; an incomplete line may follow.
 ///
-/// * `check`: what else a line has to meet, or what is wrong with it.
+/// * `check`: an additional check of a line, which returns what is wrong with it.
 ///
 /// # Errors
-/// [`SweepError`]: a file that cannot be read, a line that is not as it was written, or a second one of a case.
+/// [`SweepError`]: a file that cannot be read, a line that has been changed, or a second line of a case.
 pub(super) fn places(
     files: &[PathBuf],
     cases: usize,
@@ -186,7 +186,7 @@ pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Resul
     atomic::write_with(out, |output: &mut BufWriter<File>| {
         for place in places {
             let reader = &mut readers[place.file];
-            // Relative, so that neighbours come from the buffer.
+            // Relative, so that adjacent lines come from the buffer.
             let here = reader.stream_position()?;
             reader.seek_relative(place.offset.wrapping_sub(here) as i64)?;
             let copied = io::copy(&mut reader.take(place.bytes), output)?;

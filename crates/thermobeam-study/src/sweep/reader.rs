@@ -9,7 +9,7 @@ use crate::scene::{Scene, limits, stem};
 use convergence_study::input::{self, Complaint, Field, InputError, Section};
 use convergence_study::store::content_hash;
 
-/// Keys that depend on each other: dt must divide t_end.
+/// Interdependent keys: dt must divide t_end.
 const STEPS: [&str; 2] = ["dt", "t_end"];
 
 /// Functions of a scene that may depend on the case.
@@ -22,7 +22,7 @@ const TEXTS: [(&str, &str); 6] = [
     ("mesh", "map"),
 ];
 
-/// A value that `[set]` gives all cases: dotted name, value as TOML, place.
+/// A value from `[set]` for all cases: dotted name, value as TOML, place.
 type Common<'a> = (String, String, Field<'a>);
 
 pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -> Result<Sweep, InputError> {
@@ -74,7 +74,7 @@ fn set<'a>(root: &Section<'a>) -> Result<Vec<Common<'a>>, InputError> {
     Ok(set)
 }
 
-/// A number as TOML; a whole one stays whole.
+/// A number as TOML; an integer stays an integer.
 fn written_number(field: &Field<'_>) -> Result<String, InputError> {
     let value = field.number()?;
     Ok(field.count(0..=1 << 53).map_or_else(|_| format!("{value:?}"), |count| count.to_string()))
@@ -88,7 +88,7 @@ fn quoted(field: &Field<'_>) -> Result<String, InputError> {
     Ok(format!("\"{text}\""))
 }
 
-/// The keys that vary, of `[grid]` or `[latin]`, and the samples of the latter.
+/// The varied keys of `[grid]` or `[latin]`, and the samples of the latter.
 fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>), InputError> {
     let either = "either [grid] or [latin]";
     let (name, section, others) = match (root.section("grid")?, root.section("latin")?) {
@@ -136,9 +136,9 @@ fn check_placeholders(set: &[Common<'_>], varied: &[VariedKey<'_>]) -> Result<()
     Ok(())
 }
 
-/// Builds a scene with every number that the file lists, the other keys at their first value; returns the one with first values alone.
+/// Builds a scene for every number in the file, with the other keys at their first value; returns the scene with only first values.
 ///
-/// Where dt and t_end both vary, each case checks whether dt divides t_end; drawn ones are rounded so that it does.
+/// If dt and t_end both vary, each case checks that dt divides t_end; drawn values are rounded so that it does.
 fn probe(base: &Base, set: &[Common<'_>], varied: &[VariedKey<'_>], is_drawn: bool) -> Result<Scene, InputError> {
     let is_step = |varied: &&VariedKey<'_>| STEPS.iter().any(|name| varied.key.is("time", name));
     let together = is_drawn || varied.iter().filter(is_step).count() == STEPS.len();
@@ -160,7 +160,7 @@ fn probe(base: &Base, set: &[Common<'_>], varied: &[VariedKey<'_>], is_drawn: bo
     Ok(common)
 }
 
-/// The error of a scene as an error of the field of the sweep file that it comes from.
+/// Converts an error of a scene into an error of the sweep file's field that caused it.
 fn traced(error: &InputError, set: &[Common<'_>], varied: &[&VariedKey<'_>]) -> InputError {
     let named = |name: &str| error.field.as_deref() == Some(name);
     let of_set = set.iter().find(|(name, ..)| named(name)).map(|(.., field)| field);

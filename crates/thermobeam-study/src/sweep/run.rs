@@ -18,9 +18,9 @@ use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
 use convergence_study::run::time_limit;
 
-/// Cases that run side by side: one group of lanes.
+/// Cases that run together: one group of lanes.
 const LANES: usize = 4;
-/// Cases that a thread takes at a time, and groups into those that can run side by side.
+/// Cases that a thread takes at a time, and groups into those that can run together.
 const BATCH: usize = 16;
 
 /// The result of one case: a line of JSON without its newline.
@@ -34,7 +34,7 @@ pub struct Line {
     pub json: String,
 }
 
-/// The JSON object of a line; names are a contract, more may be added.
+/// The JSON object of a line; names are a contract, keys may be added.
 #[derive(Serialize)]
 struct Content<'a> {
     case: usize,
@@ -55,7 +55,7 @@ impl Line {
         Self::of(&Content { case: case.index, status: "failed", parameters: case, reason: Some(reason), result: None })
     }
 
-    /// Of a run, or of the part of it that was done.
+    /// From a run, or from the completed part of one.
     fn of_run(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Self {
         let (case, reason) = (sweep.case(index), run.complaint());
         let status = if reason.is_none() { "done" } else { "failed" };
@@ -70,7 +70,7 @@ impl Line {
     }
 }
 
-/// The result of a computation; `None` where it panics, so that the other cases are not lost.
+/// The result of a computation; `None` if it panics, so that the other cases are not lost.
 fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
     panic::catch_unwind(AssertUnwindSafe(compute)).ok()
 }
@@ -86,7 +86,7 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     })
 }
 
-/// A case alone.
+/// A case on its own.
 fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     let simulated = || match Simulator::new(scene) {
         Ok(simulator) => Line::of_run(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_, _| ())),
@@ -95,14 +95,14 @@ fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     caught(simulated).unwrap_or_else(|| Line::panicked(sweep, index))
 }
 
-/// Cases that run side by side: at most [`LANES`], and their scenes agree; or one that runs alone.
+/// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
 struct Group {
     together: Option<Together>,
     cases: Vec<usize>,
     scenes: Vec<Scene>,
 }
 
-/// Groups cases, and gives the lines of those without a scene.
+/// Groups cases, and returns the lines of cases without a scene.
 fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
     let (mut groups, mut failed): (Vec<Group>, Vec<Line>) = (vec![], vec![]);
     for &index in indices {
@@ -124,7 +124,7 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
     (groups, failed)
 }
 
-/// The lines of a group: its cases side by side, or one after the other where that fails.
+/// The lines of a group: its cases together, or one after the other if that fails.
 fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
     let each = || cases.iter().copied().zip(scenes);
     let together = || {
@@ -136,14 +136,14 @@ fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
 }
 
 /// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes each line to `sink` on
-/// completion. A failure is a line too; with a limit it says where its case was stopped.
+/// completion. A failure also gives a line; with a limit the line says where its case was stopped.
 ///
-/// Cases start in the order given, so that lines come nearly in that order; `sink` is called from every thread. Scenes with
-/// equal numbers of elements and steps run side by side, four at a time; with a limit each runs alone, so that the limit
-/// applies to one case. A line is the same either way.
+/// Cases start in the given order, so that lines arrive nearly in that order; `sink` is called from every thread. Scenes
+/// with equal numbers of elements and steps run together, four at a time; with a limit each runs on its own, so that the
+/// limit applies to a single case. Lines are the same either way.
 ///
 /// # Errors
-/// The error of `sink`, which ends the sweep, or of threads that cannot be started.
+/// The error of `sink`, which ends the sweep, or the failure to start threads.
 pub fn run(
     sweep: &Sweep,
     cases: &[usize],
@@ -152,7 +152,7 @@ pub fn run(
     sink: impl Fn(Line) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs).build().map_err(io::Error::other)?;
-    // Batches small enough that every thread has work.
+    // Batches are small enough that every thread has work.
     let batch = if limit.is_some() { 1 } else { cases.len().div_ceil(pool.current_num_threads()).clamp(1, BATCH) };
     let compute = |batch: &[usize]| {
         let compute = || {
@@ -165,7 +165,7 @@ pub fn run(
     pool.install(|| cases.chunks(batch).par_bridge().try_for_each(compute))
 }
 
-/// Writes lines in the order of their cases; those that come early are kept until their turn.
+/// Writes lines in the order of their cases; lines that arrive early are kept until their turn.
 pub struct InOrder<W> {
     output: W,
     /// Cases whose lines have not been written, in order.
@@ -174,7 +174,7 @@ pub struct InOrder<W> {
 }
 
 impl<W: Write> InOrder<W> {
-    /// * `expected`: the cases of all lines to come, increasing.
+    /// * `expected`: the increasing case numbers of all lines to come.
     pub fn new(output: W, expected: Vec<usize>) -> Self {
         Self { output, expected: expected.into_iter().peekable(), early: BTreeMap::new() }
     }
@@ -208,7 +208,7 @@ mod tests {
         let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
         let indices: Vec<usize> = (0..sweep.cases()).collect();
         let (groups, failed) = groups(&sweep, &indices);
-        // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others differ in their number of steps.
+        // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others have different numbers of steps.
         let four = |case: usize| vec![case, case + 4, case + 8, case + 12];
         let expected = [four(0), four(1), four(2), vec![16], vec![17], vec![18]];
         assert_eq!(groups.iter().map(|group| group.cases.clone()).collect::<Vec<_>>(), expected);

@@ -1,4 +1,4 @@
-//! Made-up data that look like the real thing, one set per figure.
+//! Made-up but realistic data, one set per figure.
 
 use convergence_study::plots::{Guide, Series};
 use thermobeam_study::figures::*;

@@ -1,15 +1,15 @@
-//! Inputs that are worth keeping: each was refused badly once, or looks as if it could be.
+//! Inputs worth keeping: each was once refused badly, or looks as if it could be.
 
 use std::path::{Path, PathBuf};
 
 use crate::readers::Reading;
 
-/// Where they are; a name begins with the kind of file.
+/// Their folder; the names of files begin with the kind of file.
 pub(crate) fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus")
 }
 
-/// All of them: path, kind and bytes.
+/// All inputs: path, kind and bytes.
 pub(crate) fn inputs() -> Vec<(PathBuf, Reading, Vec<u8>)> {
     let entries = std::fs::read_dir(folder()).expect("the corpus");
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an input").path()).collect();

@@ -1,6 +1,6 @@
 //! Ways to damage a file.
 
-/// Random numbers, the same everywhere: splitmix64.
+/// Random numbers that are the same on every machine: splitmix64.
 pub(crate) struct Dice(u64);
 
 impl Dice {
@@ -26,7 +26,7 @@ impl Dice {
     }
 }
 
-/// What a number may be replaced by.
+/// Replacements for a number.
 const NUMBERS: [&str; 38] = [
     "nan",
     "inf",
@@ -68,13 +68,13 @@ const NUMBERS: [&str; 38] = [
     "4294967296",
 ];
 
-/// What a piece of text may be replaced by.
+/// Replacements for a piece of text.
 const PIECES: [&str; 24] = [
     "\u{0}", "\u{feff}", "é", "π", "😀", "\u{202e}", "\r", "\r\n", "\t", "\"", "'''", "\"\"\"", "\\", "\\u0000", "=",
     "[", "]", "[[", "#", "{", "}", ",", ".", "x",
 ];
 
-/// The file after one to four mishaps.
+/// The file after one to four kinds of damage.
 pub(crate) fn damaged(file: &[u8], dice: &mut Dice) -> Vec<u8> {
     let mut bytes = file.to_vec();
     for _ in 0..=dice.below(4) {
@@ -106,7 +106,7 @@ fn truncated(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
     bytes
 }
 
-/// A line dropped, doubled, swapped with another, or moved to the end.
+/// A line is dropped, doubled, swapped with another, or moved to the end.
 fn lines(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     let mut lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').collect();
     if lines.is_empty() {
@@ -132,7 +132,7 @@ fn inserted(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
     bytes
 }
 
-/// Brackets by the thousand, or a part of the file put into itself.
+/// Thousands of brackets, or a part of the file inserted into itself.
 fn nested(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     let at = dice.below(bytes.len() + 1);
     let piece = match dice.below(4) {
@@ -158,7 +158,7 @@ fn words(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     damaged
 }
 
-/// One number, or three, replaced.
+/// Replaces one number, or three.
 fn numbers(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     let mut damaged = bytes.to_vec();
     for _ in 0..=dice.below(3) {

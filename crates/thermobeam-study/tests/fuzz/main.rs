@@ -1,8 +1,8 @@
-//! The files of the project, damaged in every way that a program, an editor or a person can: each is read or refused.
+//! The files of the project, damaged as a program, an editor or a person might damage them: each is read or refused.
 //!
-//! Every reader of files gets every file. No panic, no hang, and a refusal is one message that begins with the file's
-//! name and says where. `THERMOBEAM_FUZZ` sets the number of inputs, `THERMOBEAM_FUZZ_SEED` where they begin; what fails
-//! is written beside the corpus, to be kept there.
+//! Every reader of files gets every file. It must not panic or hang, and a refusal is one message that begins with the
+//! file's name and states the place. `THERMOBEAM_FUZZ` sets the number of inputs, `THERMOBEAM_FUZZ_SEED` the first seed;
+//! failing inputs are written next to the corpus, to be kept there.
 
 mod corpus;
 mod damage;
@@ -17,17 +17,17 @@ use readers::{Bench, Reading, seeds};
 /// Inputs of a test run: about a second.
 const INPUTS: u64 = 1_500;
 
-/// An input that takes longer to be read hangs; the largest mesh that is allowed takes about a second.
+/// An input that takes longer to read counts as a hang; the largest allowed mesh takes about a second.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|text| text.parse().expect("a whole number"))
 }
 
-/// Reads one input with every reader it is for.
+/// Reads one input with every reader for its kind.
 ///
 /// # Errors
-/// What went wrong, in words.
+/// A description of the failure.
 fn tried(bench: &Bench, reading: Reading, bytes: &[u8]) -> Result<bool, String> {
     let start = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| bench.read(reading, bytes)));
@@ -41,7 +41,7 @@ fn tried(bench: &Bench, reading: Reading, bytes: &[u8]) -> Result<bool, String> 
     }
 }
 
-/// What became of the inputs of one kind.
+/// The results for the inputs of one kind.
 #[derive(Default, Clone, Copy)]
 struct Tally {
     inputs: u64,
@@ -81,11 +81,11 @@ fn damaged_files_are_read_or_refused_with_their_place() {
         }
         tally.slowest = tally.slowest.max(start.elapsed());
     }
-    // On a line of its own, whatever the test harness has begun.
+    // On a line of its own, after any output of the test harness.
     println!();
     Reading::ALL.iter().zip(&tallies).for_each(|(reading, tally)| tally.print(reading.name()));
     assert!(failures.is_empty(), "{} of {count} failed:\n{}", failures.len(), failures.join("\n"));
-    // Were all refused, the readers would not be reached; were none, the files would not be damaged.
+    // If all were refused, the readers would not be reached; if none were, the files would not be damaged.
     let read: u64 = tallies.iter().map(|tally| tally.read).sum();
     assert!(read > count / 50 && read < count, "{read} of {count} read");
 }

@@ -1,4 +1,4 @@
-//! The readers of files, each as the commands use it, and the files that they are for.
+//! The readers of files, each used as in the commands, and the files that they read.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,11 +21,11 @@ pub(crate) enum Reading {
     Sweep,
     Rates,
     Baseline,
-    /// The folder of a sweep: what it is of.
+    /// The identity of a sweep's folder.
     Manifest,
-    /// The lines that a sweep has done.
+    /// The completed lines of a sweep.
     Journal,
-    /// No reader at all, to see that a panic is seen.
+    /// No reader at all, to check that a panic is noticed.
     Panic,
 }
 
@@ -75,14 +75,14 @@ const TABLES: [&str; 2] = [
 const SMALL: &str = "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[set]\ntime.dt = 0.1\ntime.t_end = 0.2\n\
     [grid]\nbeam.beta = [0.0, 5.0]\n";
 
-/// Every file, with what it is read as; kinds with few files several times.
+/// Every file with its kind; kinds with few files appear several times.
 pub(crate) fn seeds() -> Vec<(Reading, String)> {
     let of = |reading: Reading, texts: Vec<String>| texts.into_iter().map(move |text| (reading, text));
     let several = |texts: &[&str]| texts.iter().cycle().take(8).map(|text| (*text).to_owned()).collect::<Vec<_>>();
     let sweeps =
         texts(&studies().join("cluster")).into_iter().map(|text| text.replace("../scenes", "scenes")).collect();
     let baseline = fs::read_to_string(studies().join("baseline.json")).expect("the baseline");
-    // A part of it, for one damage in a hundred thousand lines would rarely meet a number.
+    // A part of it, since a single damage in a hundred thousand lines would rarely hit a number.
     let mut small: serde_json::Value = serde_json::from_str(&baseline).expect("JSON");
     for table in ["claims", "studies"] {
         let studies = small[table].as_object_mut().expect("studies");
@@ -107,7 +107,7 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// With the scenes that studies and sweeps name.
+    /// Creates it with the scenes that studies and sweeps name.
     pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let scenes = folder.path().join("scenes");
@@ -116,7 +116,7 @@ impl Bench {
             let path = entry.expect("a scene").path();
             fs::copy(&path, scenes.join(path.file_name().expect("a name"))).expect("a copy");
         }
-        // Studies name each other's solutions, too.
+        // Studies also refer to each other's solutions.
         for entry in fs::read_dir(studies()).expect("the studies").map(|entry| entry.expect("a study").path()) {
             if entry.extension().is_some_and(|extension| extension == "toml") {
                 fs::copy(&entry, folder.path().join(entry.file_name().expect("a name"))).expect("a copy");
@@ -126,7 +126,7 @@ impl Bench {
         Self { folder }
     }
 
-    /// Where the damaged file is.
+    /// Path of the damaged file.
     pub(crate) fn path(&self) -> PathBuf {
         self.folder.path().join("damaged")
     }
@@ -150,12 +150,12 @@ impl Bench {
             *lines.lock().expect("a text") += &(line.json + "\n");
             Ok(())
         };
-        // A limit has each case run alone, one after the other.
+        // With a limit, cases run one after the other.
         sweep::run(&self.small(), &[0, 1], 1, Some(std::time::Duration::from_secs(60)), kept).expect("two lines");
         lines.into_inner().expect("a text")
     }
 
-    /// Reads it as the command does; the message of a refusal.
+    /// Reads it as the command does; returns the message of a refusal.
     pub(crate) fn read(&self, reading: Reading, bytes: &[u8]) -> Result<(), String> {
         let path = self.path();
         fs::write(&path, bytes).expect("a writable folder");
@@ -190,7 +190,7 @@ impl Bench {
         Ok(())
     }
 
-    /// Goes on with a sweep whose folder holds these files.
+    /// Continues a sweep whose folder holds these files.
     fn resumed(&self, manifest: &[u8], journal: &[u8]) -> Result<(), String> {
         let _ = fs::remove_dir_all(self.share());
         fs::create_dir(self.share()).expect("a folder");
@@ -201,13 +201,13 @@ impl Bench {
         journal.finish().map(drop).map_err(|error| error.to_string())
     }
 
-    /// Does a refusal begin with the name of a file that was read, and say something of it?
+    /// Does a refusal begin with the name of a file that was read, and describe a problem in it?
     pub(crate) fn is_located(&self, message: &str) -> Result<(), String> {
         let folder = self.folder.path().display().to_string();
-        // A file of the folder, or one that the input names by its whole path.
+        // A file of the folder, or one that the input names by its full path.
         let is_file = |place: &str| place.starts_with(&folder) || (place.starts_with('/') && Path::new(place).exists());
         let said = message.split_once(": ").is_some_and(|(place, said)| is_file(place) && !said.is_empty());
-        // Of a control byte the terminal would make what it likes.
+        // Control characters could have any effect on a terminal.
         let plain = message.chars().all(|c| c == '\n' || !c.is_control());
         match (said, plain) {
             (true, true) => Ok(()),

@@ -1,4 +1,4 @@
-//! What no machine can give is refused when it is read, with what it would take.
+//! A request beyond the capacity of any machine is refused on reading, with its requirements.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use thermobeam_study::sweep::Sweep;
 
 use crate::says;
 
-/// A study of the project with some lines replaced, read from a folder where its scenes are.
+/// A study of the project with some lines replaced, read from a folder that contains its scenes.
 #[track_caller]
 fn refusal(name: &str, changes: &[(&str, &str)]) -> String {
     let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");

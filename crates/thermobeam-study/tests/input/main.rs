@@ -1,11 +1,11 @@
-//! Everything that a user can write: scenes, study files, and what is said when they are wrong.
+//! All user input: scenes, study files, and the messages about their errors.
 
 mod limits;
 mod scene;
 mod study_file;
 mod unreadable;
 
-/// Asserts that a message holds each of these pieces, in this order.
+/// Asserts that a message contains each of these pieces, in this order.
 #[track_caller]
 fn says(message: &str, pieces: &[&str]) {
     let mut rest = message;

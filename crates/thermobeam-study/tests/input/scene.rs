@@ -181,7 +181,7 @@ fn the_dt_that_a_refusal_names_is_accepted() {
         let nearest: f64 = nearest.and_then(|dt| dt.parse().ok()).unwrap_or_else(|| panic!("{message}"));
         let steps = scene(&text(nearest)).steps() as f64;
         assert!((steps * nearest - t_end).abs() <= 1e-15 * t_end);
-        // Neither neighbour is nearer to what was written.
+        // Neither neighbour is closer to the written value.
         for neighbour in [steps - 1.0, steps + 1.0].into_iter().filter(|steps| *steps > 0.0) {
             assert!((t_end / neighbour - dt).abs() >= (nearest - dt).abs(), "{message}");
         }
@@ -209,7 +209,7 @@ fn a_mistake_in_a_function_is_shown_inside_its_text() {
     let message = refusal(&format!("[initial]\ntheta = \"x*(1-y)\"\n{TIME}"));
     says(&message, &["dir/beam.toml:2:15: initial.theta: unknown name `y`; expected one of x pi e", "\n    x*(1-y)\n"]);
     assert_eq!(message.lines().nth(2), Some("         ^"));
-    // An escape moves the text: then the value as a whole is pointed at.
+    // An escape shifts the text: the message then points at the whole value.
     says(&refusal(&format!("[initial]\nu = \"\\u0078+y\"\n{TIME}")), &["2:5: initial.u: unknown name `y`"]);
     says(&refusal(&format!("[initial]\nu = '''\nx+y'''\n{TIME}")), &["3:3: initial.u: unknown name `y`"]);
 }
@@ -245,7 +245,7 @@ fn round_off_at_the_boundary_is_fine_whatever_the_size_of_the_function() {
     for theta in ["sin(pi*x)", "sin(1000*pi*x)", "1e9*sin(pi*x)", "1e-9*sin(pi*x)", "cos(pi*x/2) - (1-x)"] {
         scene(&format!("[initial]\ntheta = \"{theta}\"\n{TIME}"));
     }
-    // A small function gets a small slack.
+    // Small functions have small slack.
     let small = format!("[initial]\ntheta = \"1e-20*(1+x)\"\n{TIME}");
     says(&refusal(&small), &["initial.theta: found theta(0) = 1e-20"]);
 }

@@ -130,7 +130,7 @@ fn a_perturbed_mesh_is_the_same_every_time_and_different_for_every_seed_and_leve
         nodes.iter().enumerate().map(|(i, x)| x * n - i as f64).collect()
     };
     let coarse = moves(&first);
-    // At most 0.3 h / 2, and no bias to either side: 63 numbers of standard deviation 0.15 / sqrt(3).
+    // At most 0.3 h / 2, and unbiased: 63 numbers of standard deviation 0.15 / sqrt(3).
     assert!(coarse.iter().all(|m| m.abs() <= 0.15 + 1e-13) && coarse.iter().any(|m| m.abs() > 0.12));
     assert!((coarse.iter().sum::<f64>() / 63.0).abs() < 4.0 * 0.15 / (3.0f64 * 63.0).sqrt());
     let fine = moves(&nodes("perturb = 0.3\nseed = 1", 128));

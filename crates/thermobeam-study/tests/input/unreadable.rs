@@ -10,7 +10,7 @@ use proptest::prelude::*;
 
 use crate::says;
 
-/// A file in a folder of this test's own.
+/// A file in this test's own folder.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::write(&path, bytes).expect("a writable folder");
@@ -38,7 +38,7 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
         if path.extension().is_none_or(|extension| extension != "toml") {
             continue;
         }
-        // Alone in a folder, a study lacks the scenes and studies that it names.
+        // On its own in a folder, a study lacks the scenes and studies that it names.
         let folder = tempfile::tempdir().expect("a folder");
         let alone = folder.path().join("alone.toml");
         fs::copy(&path, &alone).expect("a copy");

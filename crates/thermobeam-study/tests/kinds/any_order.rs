@@ -1,4 +1,4 @@
-//! Laws of studies of orders by the scheme of any order: they pass, and planted defects make them fail.
+//! Laws of studies of orders for the scheme of any order: they pass, and planted defects make them fail.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
@@ -33,7 +33,7 @@ fn time() -> AnyOrder {
 fn orders_in_time_pass_and_planted_errors_fail() {
     let study = time();
     let sound = passes_but_not_without_each_case(&study);
-    // A floor, an error of the wrong order, a lucky run and numbers that are not finite, in each error by itself.
+    // A floor, a wrong order, a lucky run and numbers that are not finite, in each error separately.
     for k in 0..3 {
         let floor = changed::<AnyOrder>(&sound, |_, found| found[k].1 += 1e-4);
         assert_eq!(study.judge(&floor).verdict, Verdict::Fail, "a floor under error {k}");
@@ -65,7 +65,7 @@ fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
             assert_eq!(study.judge(&wrong).verdict, Verdict::Fail, "error {k} by an order {power}");
         }
     }
-    // Errors inside steps are those of time and are not measured here.
+    // Errors inside steps are time errors and are not measured here.
     assert!(
         sound.iter().all(|ran| ran.found.as_ref().expect("errors").iter().all(|(name, _)| !name.contains("inside")))
     );

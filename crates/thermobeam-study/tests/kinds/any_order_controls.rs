@@ -20,7 +20,7 @@ fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
     assert_eq!(sound[0].case.data.1, Fault::None);
     for (index, ran) in sound.iter().enumerate() {
         let judged = ran.ok().expect("a verdict");
-        // The error of a wrong coefficient is far from round-off, that of none is round-off.
+        // A wrong coefficient gives an error far above round-off; without one the error is round-off.
         assert!(if index == 0 { judged.error < 2e-12 } else { judged.error > 1e-8 }, "{}: {judged:?}", ran.case.label);
         let other = if index == 0 { Verdict::Fail } else { Verdict::Pass };
         for wrong in [other, Verdict::Inconclusive] {
@@ -32,7 +32,7 @@ fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
         assert_eq!(outcome.verdict, Verdict::Fail);
         assert!(report(&outcome).contains("planted"));
     }
-    // The study that does not pass is named: the fault is there.
+    // The study that does not pass is named, since the fault is in it.
     let mut broken = sound.clone();
     if let Ok(judged) = &mut broken[0].found {
         judged.verdict = Verdict::Fail;
@@ -48,7 +48,7 @@ fn files_with_errors_are_refused_with_the_field() {
         ("relative = 1e-4", "relative = 0", "any-order.relative"),
         ("\"any-order-coefficients.toml\"", "\"theorem-3.4-space.toml\"", "unknown key `refine`"),
         ("[\"any-order-coefficients.toml\"]", "[]", "any-order.studies"),
-        // theta_a is zero there.
+        // There, theta_a is zero.
         ("\"any-order-coefficients.toml\"", "\"any-order-space.toml\"", "theta_a, which any-order-space"),
         ("\"zeta\", ", "\"zetta\", ", "any-order.coefficients"),
         ("[any-order]", "[controls]\n[any-order]", "one of the tables"),

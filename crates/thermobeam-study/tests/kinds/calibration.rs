@@ -7,7 +7,7 @@ use crate::file;
 use crate::refused::refusal;
 use crate::typed::{changed, report};
 
-/// Every value of a sheet is bounded by a check where the file expects something of it, from the side that it says.
+/// Where the file has an expectation, a check bounds the value of a sheet from the stated side.
 #[test]
 fn each_share_can_be_too_large_or_too_small() {
     for name in ["rule-calibration.toml", "error-bars.toml"] {

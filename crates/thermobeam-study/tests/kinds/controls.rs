@@ -17,7 +17,7 @@ fn controls() -> Controls {
 
 static SOUND: LazyLock<Runs<Controls>> = LazyLock::new(|| run_cases_here(&controls()));
 
-/// The errors under one fault replaced by those under another.
+/// The errors under one fault, replaced by those under another.
 fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
     changed::<Controls>(&SOUND, |_, found| {
         let errors = found.iter().find(|(fault, _)| *fault == from).map(|(_, errors)| *errors);
@@ -32,7 +32,7 @@ fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
 fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_one() {
     let study = controls();
     assert_eq!(study.judge(&SOUND).verdict, Verdict::Pass, "{}", report(&study.judge(&SOUND)));
-    // The wrong rho is given the errors of the honest run.
+    // The wrong rho gets the errors of the run without a fault.
     let rho = Fault::Coefficient("rho");
     let blind = study.judge(&replaced(Fault::None, rho));
     assert_eq!(blind.verdict, Verdict::Fail);
@@ -41,7 +41,7 @@ fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_on
     assert!(undetected[0].claim.contains("rho"));
     let broken = study.judge(&replaced(rho, Fault::None));
     assert_eq!(broken.verdict, Verdict::Fail);
-    // The studies that do not pass are named: the fault is there.
+    // The studies that do not pass are named, since the fault is in them.
     let honest = broken.checks.iter().find(|check| check.claim.starts_with("without a fault")).unwrap();
     assert!(honest.evidence.contains(" pass; not ") && honest.evidence.contains("theorem-3.4-space"), "{honest:?}");
 }

@@ -1,4 +1,4 @@
-//! Levels that are added until it is decided.
+//! Levels that are added until there is a verdict.
 
 use std::path::{Path, PathBuf};
 
@@ -31,14 +31,14 @@ fn levels_are_added_until_every_rate_is_decided() {
     let count = hard.levels.len();
     assert!((5..=8).contains(&count) && hard.verdict == Verdict::Pass, "{}", hard.summary);
     assert!(hard.summary.contains(&format!("; decided after {count} levels; ")), "{}", hard.summary);
-    // The same levels, listed, have the same rates; one level fewer decides less.
+    // The same levels, listed, have the same rates; with one level fewer the verdict is weaker.
     let listed = |count: u32| {
         let elements: Vec<String> = (0..count).map(|level| (8 << level).to_string()).collect();
         outcome(&format!("elements = [{}]", elements.join(", ")), "tolerance = 0.005")
     };
     assert_eq!(listed(count as u32).rates, hard.rates);
     assert_eq!(listed(count as u32 - 1).verdict, Verdict::Inconclusive);
-    // The numbers of the first levels are guarded, and no rate.
+    // The numbers of the first levels are guarded, but no rate.
     assert!(hard.quantities.iter().all(|quantity| quantity.name.starts_with("error ")));
     assert_eq!(hard.quantities.len(), easy.quantities.len());
 }

@@ -12,7 +12,7 @@ fn runs(name: &str) -> EnergyRuns {
     EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A change of what a case found, with its name.
+/// A change of a case's results, with its name.
 type Defect<F> = (&'static str, fn(&mut F));
 
 #[test]
@@ -44,7 +44,7 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
 
 #[test]
 fn the_samples_of_a_run_end_with_its_last_step() {
-    // 1000 steps, of which every third is a sample.
+    // 1000 steps; every third is a sample.
     for ran in run_cases_here(&runs("energy-decay.toml")) {
         let found = ran.found.expect("a run");
         let last = found.samples.last().expect("samples");

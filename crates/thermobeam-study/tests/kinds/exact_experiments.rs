@@ -36,7 +36,7 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
         fails("phi_t(1)", &|found| found.states[0].phi_t_tip += by);
         fails("theta(1/2)", &|found| found.states[1].theta_mid += by);
         fails("E", &|found| found.states[1].energy += by);
-        // Times of events may differ by ten times as much.
+        // The tolerance for times of events is ten times larger.
         fails("the time of an event", &|found| found.events[1].t += 10.0 * by);
     }
     fails("a missing event", &|found| _ = found.events.pop());
@@ -45,9 +45,9 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
     fails("a balance that does not close", &|found| found.balance[0] = 1e-11);
     fails("an energy that grows", &|found| found.balance[1] = 1e-15);
     fails("a curve with a hole", &|found| found.tip[7].1 = f64::NAN);
-    // Well below the tolerance nothing is complained about.
+    // Changes well below the tolerance give no complaint.
     assert_eq!(verdict_with(&study, &sound, 0, |found| found.states[0].u_tip += 1e-12), Verdict::Pass);
-    // Both wrong in the same way is what this study cannot see, but nothing known at all is a failure.
+    // This study cannot notice the same error in both runs, but empty results are a failure.
     let empty = changed::<ExactExperiments>(&sound, |_, found| found.states.clear());
     assert_eq!(study.judge(&empty).verdict, Verdict::Fail);
 }

@@ -66,7 +66,7 @@ fn each_claim_of_section_5_can_fail() {
         ("to rest, beta = -0.72", rest(|rest| rest.u_tip = 0.0)),
         ("to rest, beta = -0.72", rest(|rest| state(&mut rest.nearest).stable = false)),
         ("to rest, beta = -0.72", rest(|rest| rest.nearest = None)),
-        // No number may be NaN, whether a claim rests on it or not.
+        // No number may be NaN, whether or not a claim depends on it.
         (resting, run(|run| run.t_steady = f64::NAN)),
         (resting, run(|run| run.energy = f64::NAN)),
         (resting, run(|run| run.u_tip = f64::NAN)),

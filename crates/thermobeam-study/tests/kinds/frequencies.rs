@@ -52,7 +52,7 @@ fn each_frequency_can_fail() {
         assert_eq!(verdict(&|_, omega| omega), Verdict::Pass);
         assert_eq!(verdict(&|case, omega| if case == 0 { f64::NAN } else { omega }), Verdict::Fail);
         assert_eq!(verdict(&|case, omega| if case == 4 { omega - 1e-2 } else { omega }), Verdict::Fail, "from below");
-        // The wrong frequency to converge to.
+        // Convergence to a wrong frequency.
         assert_ne!(verdict(&|_, omega| omega + 1e-3), Verdict::Pass, "mode {}", mode + 1);
     }
     let short = changed::<Frequencies>(&sound, |case, found| found.truncate(if case == 2 { 7 } else { 8 }));

@@ -7,7 +7,7 @@ use crate::refused::refusal;
 use crate::text;
 use crate::typed::{changed, passes_but_not_without_each_case};
 
-/// Two of the scenes of the file, one of them on linear elements as well.
+/// Two scenes of the file; for one of them linear elements are compared too.
 fn study() -> RandomErrors {
     let small = text("random-errors.toml").replace("scenes = 10", "scenes = 2");
     RandomErrors::parse(&small, "small.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))

@@ -5,7 +5,7 @@ use convergence_study::study::{Header, KindRow};
 
 use crate::{file, text};
 
-/// The complaint about a study file with `from` replaced by `to`.
+/// The message about a study file with `from` replaced by `to`.
 #[track_caller]
 pub(crate) fn refusal(row: &KindRow, name: &str, from: &str, to: &str) -> String {
     let changed = text(name).replacen(from, to, 1);

@@ -1,4 +1,4 @@
-//! Laws of whole scenes: planted differences fail, and every key that a scene can have is at work in some case.
+//! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in some case.
 
 use convergence_study::input::Complaint;
 use convergence_study::judge::verdict::Verdict;
@@ -40,7 +40,7 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
     assert_eq!((0..sound.len()).filter(|&index| answered(index)).count(), 7);
 }
 
-/// The keys that the readers of scenes know, table by table: they name them to a user who writes another.
+/// The keys known to the readers of scenes, table by table: their messages about other keys list them.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
     let allowed = |text: &str| match Scene::parse(text, "s.toml").map_err(|error| *error.complaint) {
         Err(Complaint::UnknownKey { allowed, .. }) => allowed.split(", ").map(str::to_owned).collect::<Vec<_>>(),
@@ -57,7 +57,7 @@ fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
     allowed("nosuchkey = 1\n").iter().flat_map(|table| of(table)).collect()
 }
 
-/// The study with one key of a case left out; `None` where the case does not have it.
+/// The study without one key of a case; `None` if the case lacks it.
 fn without(cases: &[&str], index: usize, table: &str, key: &str) -> Option<String> {
     let head = format!("[case.{table}]\n");
     let (before, rest) = cases[index].split_once(&head)?;
@@ -73,7 +73,7 @@ fn without(cases: &[&str], index: usize, table: &str, key: &str) -> Option<Strin
     Some(cases.join("[[case]]"))
 }
 
-/// Whether a guarded number moves, or a check fails.
+/// Whether a guarded number changes, or a check fails.
 fn differs(sound: &Outcome, found: &Outcome) -> bool {
     let moved = |one: &Quantity, other: &Quantity| (one.value - other.value).abs() > one.tolerance * one.value.abs();
     found.verdict != Verdict::Pass

@@ -14,7 +14,7 @@ fn parse(name: &str, change: impl Fn(String) -> String) -> SelfConvergence {
     SelfConvergence::parse(&change(text), &name).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A field of a level: its name, a place in it, and how to reach it.
+/// A field of a level: its name, an index, and an accessor.
 type FieldAt = (&'static str, usize, fn(&mut Level) -> &mut Vec<f64>);
 
 #[test]
@@ -109,7 +109,7 @@ fn a_tip_that_stays_free_is_no_study_of_contact() {
 
 #[test]
 fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
-    // The scheme's runs are those of a scene whose viscosity is off; the references are sound.
+    // The scheme's runs use a scene with a wrong viscosity; the references are correct.
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::create_dir(folder.path().join("scenes")).expect("a folder");
     let scene = text("scenes/paper-1-beta-0.toml").replace("zeta = 0.1", "zeta = 0.1005");
@@ -124,7 +124,7 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
         let outcome = study.judge(&planted);
         assert_ne!(outcome.verdict, Verdict::Pass, "{name}");
         for (quantity, rate) in &outcome.rates {
-            // In the theorem's norm the interpolation error, of first order in h, hides so small a defect.
+            // In the theorem's norm the interpolation error, of first order in h, hides such a small defect.
             let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
             let expected = hidden || quantity.ends_with("successive");
             assert_eq!(rate.verdict == Verdict::Pass, expected, "{name}: {quantity}: {}", rate.reason);

@@ -1,4 +1,4 @@
-//! The two solvers: each part's own studies pass, and fail on each of their claims.
+//! The two solvers: the studies of each part pass, and fail on each of their claims.
 
 use crate::planted::verdict_with;
 use crate::typed::{Runs, passes_but_not_without_each_case};
@@ -67,7 +67,7 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     lines_fail(&study, &sound, 12);
 }
 
-/// Each boundary must be where α = 1; the results from `first` on are lines.
+/// Each boundary must be at α = 1; the results from `first` onwards are lines.
 fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
     for index in first..sound.len() {
         let with = |change: &dyn Fn(&mut Boundary)| verdict_with(study, sound, index, |found| change(boundary(found)));

@@ -75,7 +75,7 @@ fn five_points_are_enough_and_steps_of_no_size_are_named() {
     }
 }
 
-/// The iteration gives up from every start; what it has then is no minimum.
+/// The iteration stops from every start before it reaches a minimum.
 #[test]
 fn a_fit_that_does_not_converge_is_none() {
     let (least, largest) = (5e-324, 1e308);

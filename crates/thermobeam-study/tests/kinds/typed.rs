@@ -1,4 +1,4 @@
-//! What every typed kind of study is held to, and defects planted in its results.
+//! Requirements on every typed kind of study, and defects planted in its results.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::kind::run_cases_here;
@@ -7,7 +7,7 @@ use convergence_study::study::{CaseFailure, Kind, Outcome, Ran};
 /// The results of a study: every case, run on this thread.
 pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
 
-/// The results with what every case found changed by `change`, which receives the number of the case.
+/// The results after `change` was applied to each; it also receives the number of the case.
 pub(crate) fn changed<K: Kind>(sound: &Runs<K>, change: impl Fn(usize, &mut K::Found)) -> Runs<K>
 where
     K::Data: Clone,
@@ -20,9 +20,9 @@ where
     runs
 }
 
-/// The study passes as it is, and fails once a case has failed or is missing.
+/// The study passes unchanged, and fails if a case has failed or is missing.
 ///
-/// * Returns the results, which a test may go on with.
+/// * Returns the results for further tests.
 #[track_caller]
 pub(crate) fn passes_but_not_without_each_case<K: Kind>(study: &K) -> Runs<K>
 where
@@ -44,7 +44,7 @@ where
     sound
 }
 
-/// Figures and tables that the report can take, and numbers that the baseline can guard.
+/// Figures and tables are valid for the report, and numbers for the baseline.
 #[track_caller]
 pub(crate) fn check_shape(id: &str, outcome: &Outcome) {
     assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
@@ -63,7 +63,7 @@ pub(crate) fn check_shape(id: &str, outcome: &Outcome) {
     assert_eq!(names.len(), outcome.quantities.len());
 }
 
-/// All that was judged, with its evidence.
+/// All judged items, with their evidence.
 pub(crate) fn report(outcome: &Outcome) -> String {
     let rates = outcome.rates.iter().map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
     let checks = outcome.checks.iter().map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));

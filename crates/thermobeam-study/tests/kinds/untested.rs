@@ -1,4 +1,4 @@
-//! Laws of what a manufactured solution is no test of.
+//! Laws about what a manufactured solution does not test.
 
 use convergence_study::study::{FromFile, Kind, Untested};
 use thermobeam_study::kinds::convergence::Convergence;
@@ -18,7 +18,7 @@ fn of(text: &str, expected: &[(&str, &str)]) {
     assert!(alike, "{found:?}");
 }
 
-/// A study of space at few levels with the values of `[beam]`, `[obstacles]` and the exact solution given.
+/// A study of space on few levels, with the given values of `[beam]`, `[obstacles]` and the exact solution.
 fn own(beam: &str, obstacles: &str, u: &str, theta: &str) -> String {
     format!(
         "[study]\nid = \"own\"\nclaim = \"mine\"\ntier = \"quick\"\n[beam]\n{beam}\n{obstacles}\n[exact]\n\
@@ -37,7 +37,7 @@ const WARM: &str = "(1+x)*sin(pi*x)";
 #[test]
 fn a_solution_that_exercises_every_term_leaves_only_what_is_zero() {
     of(&own(BEAM, OBSTACLES, WAVE, WARM), &[("theta_a", "it is zero")]);
-    // As it stands in the repository.
+    // Unchanged from the repository.
     of(&text("theorem-3.4-space.toml"), &[("theta_a", "it is zero")]);
 }
 
@@ -55,14 +55,14 @@ fn obstacles_that_the_free_end_never_touches_are_not_tested() {
 
 #[test]
 fn a_coefficient_whose_error_passes_is_not_tested() {
-    // A force of a millionth moves nothing that is judged, nor does its error.
+    // A force of a millionth changes no judged number, and neither does an error in it.
     let slight = BEAM.replace("beta = 0.5", "beta = 1e-6");
     of(&own(&slight, OBSTACLES, WAVE, WARM), &[("beta", "an error of 1e-4"), ("theta_a", "it is zero")]);
 }
 
 #[test]
 fn a_norm_in_which_the_solution_has_no_error_is_not_tested() {
-    // Without coupling a linear temperature is in the space of the scheme, and nothing disturbs it.
+    // Without coupling the scheme's space contains a linear temperature, and nothing disturbs it.
     let cold = BEAM.replace("a = 0.5\n", "a = 0.0\ntheta_a = 1.0\n");
     let steady = own(&cold, OBSTACLES, WAVE, "1-x").replace("exp(-t)", "1");
     of(&steady, &[("a", "it is zero"), ("temperature", "round-off")]);

@@ -13,7 +13,7 @@ fn study(name: &str) -> Vibration {
     Vibration::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The study with one coefficient of the solver off.
+/// The study with one wrong coefficient in the solver.
 fn defective(name: &str, coefficient: &str) -> Vibration {
     let text = format!("{}\n[control]\n{coefficient}\n", text(name));
     Vibration::parse(&text, name.as_ref()).unwrap_or_else(|error| panic!("{error}"))

@@ -1,4 +1,4 @@
-//! Laws of work-precision studies: they pass, they repeat, and planted defects make them fail.
+//! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them fail.
 
 use crate::file;
 use crate::typed::passes_but_not_without_each_case;
@@ -61,7 +61,7 @@ fn planted_defects_fail() {
         assert_eq!(plant("richardson, n = 16", &|_, run| run.spent.node_steps = wrong), Verdict::Fail);
     }
     assert_eq!(plant("midpoint", &|_, run| run.errors[tip] = run.errors[tip].max(1e-3)), Verdict::Fail, "a floor");
-    // Second order lost: 256 and 1024 steps give the error of 64.
+    // Loss of second order: 256 and 1024 steps give the error of 64.
     let first_order = |steps: usize, run: &mut Measurement| {
         run.errors[superclose] *= match steps {
             256 => 8.0,
@@ -77,7 +77,7 @@ fn planted_defects_fail() {
     assert!(outcome.checks[0].evidence.contains("planted"), "{}", outcome.checks[0].evidence);
 }
 
-/// dG beside midpoint along a diagonal, with half of midpoint's runs: the finest take seconds here.
+/// dG compared with midpoint along a diagonal, with half of midpoint's runs: the finest take seconds here.
 fn along_a_diagonal() -> (WorkPrecision, Results) {
     let text = crate::text("any-order-cost.toml").replace(", 500, 1000]", "]").replace(", 4000, 8000]", "]");
     let study = read(&text).unwrap();
@@ -100,7 +100,7 @@ fn a_thousandth_of_the_cost_by_dg_and_planted_defects_fail() {
     assert_eq!(plant("dg", &|run| run.errors[tip] *= 100.0), 1, "inaccurate");
     assert_eq!(plant("dg", &|run| run.spent.node_solves *= 10.0), 1, "dear");
     assert!(plant("dg", &|run| run.errors[tip] = f64::NAN) > 0, "not finite");
-    // Twice the error in the coarser run is a fall of eight, in the finer one a fall of two.
+    // Twice the error in the coarser run gives a ratio of eight, in the finer one a ratio of two.
     for worse in ["midpoint, n = 125", "midpoint, n = 250"] {
         assert_eq!(plant(worse, &|run| run.errors[tip] *= 2.0), 1, "no second order");
     }
@@ -122,7 +122,7 @@ fn dg_is_measured_as_the_others_are() {
     };
     let (verdict, points) = fronts(&honest);
     assert_eq!(verdict, Verdict::Pass);
-    // A run as dear as all others together is in no figure, and costs dG its advantage.
+    // A run as expensive as all others together appears in no figure, and removes dG's advantage.
     let mut planted = honest.clone();
     for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with("dg, p = 10")) {
         ran.found.as_mut().unwrap()[0].spent.node_solves *= 1e3;
@@ -154,7 +154,7 @@ fn references_that_do_not_agree_fail() {
         ran.into_iter().filter_map(|ran| ran.found.err()).map(|failure| failure.reason).collect()
     };
     assert_eq!(reasons(&text), Vec::<String>::new());
-    // Two elements of degree 3 are no reference.
+    // Two elements of degree 3 do not qualify as a reference.
     let coarse = reasons(&text.replace("degree = 26", "degree = 3"));
     assert_eq!(coarse.len(), 16, "eight of one-step methods, eight of dG");
     assert!(coarse.iter().all(|reason| reason.contains("the two references are")), "{coarse:?}");

@@ -1,9 +1,9 @@
-//! Blocks of a step's linear system: three fields times q + 1 coefficients in time, and dense matrices between them.
+//! Blocks of a step's linear system, three fields times q + 1 coefficients in time, and dense matrices between them.
 
 /// Coefficients in time of (v, w, θ~) at one block of the space.
 pub(super) type Block<const S: usize> = [[f64; S]; 3];
 
-/// A matrix from blocks to blocks, column by column: `matrix[field][stage]` is a column.
+/// A matrix that maps blocks to blocks, column by column: `matrix[field][stage]` is a column.
 pub(super) type Matrix<const S: usize> = [[Block<S>; S]; 3];
 
 /// The zero matrix.
@@ -69,11 +69,11 @@ fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {
 
 /// Replaces a matrix by its inverse, by Gauss-Jordan elimination without pivoting.
 ///
-/// While the elastic energy with the axial force held is positive, the symmetric part of the matrices here has no negative
+/// While the elastic energy at fixed axial force is positive, the symmetric part of the matrices here has no negative
 /// eigenvalue, and no pivot is negative.
 ///
 /// # Errors
-/// The first pivot that is not.
+/// The first pivot that is not positive.
 pub(super) fn invert<const S: usize>(matrix: &mut Matrix<S>) -> Result<(), f64> {
     let columns = matrix.as_flattened_mut();
     for k in 0..3 * S {
@@ -98,7 +98,7 @@ pub(super) fn invert<const S: usize>(matrix: &mut Matrix<S>) -> Result<(), f64> 
     Ok(())
 }
 
-/// Makes a coefficient that does not exist, or is prescribed, an equation of its own: `x = 0`.
+/// Gives a coefficient that does not exist, or is prescribed, the equation `x = 0`.
 pub(super) fn isolate<const S: usize>(matrix: &mut Matrix<S>, field: usize) {
     clear_column(matrix, field);
     clear_row(matrix, field);

@@ -1,15 +1,15 @@
-//! What the free end touches, and where in a step that ceases to be true.
+//! The contact phase of the free end, and where in a step it changes.
 //!
-//! Between events the contact force is linear in u(1) or zero. u(1, t) is a polynomial of degree q + 1 in a step, so that
-//! its first crossing of an obstacle, extrema included, is found exactly: between two neighbouring zeros of its
-//! derivative it is monotone.
+//! Between events the contact force is zero or linear in u(1). In a step u(1, t) is a polynomial of degree q + 1, so its
+//! first crossing of an obstacle is found exactly, including extrema: between neighbouring zeros of its derivative it is
+//! monotone.
 
 use super::legendre;
 use super::time::MAX_STAGES;
 use crate::bracket::bisect;
 use crate::parameters::Obstacles;
 
-/// What the free end touches.
+/// The contact phase of the free end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Phase {
     /// Nothing: `g_1 <= u(1) <= g_2`.
@@ -21,7 +21,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// The phase of a free end at u, taken as free where it just touches; with `g_1 = g_2` there is no free phase.
+    /// The phase of a free end at u, which is free if it just touches; with `g_1 = g_2` there is no free phase.
     pub(super) fn of(u: f64, obstacles: Option<&Obstacles>) -> Self {
         match obstacles {
             Some(obstacles) if u > obstacles.g2 => Phase::Upper,
@@ -31,7 +31,7 @@ impl Phase {
         }
     }
 
-    /// Position of the obstacle that is touched.
+    /// Position of the touched obstacle.
     pub(super) fn obstacle(self, obstacles: Option<&Obstacles>) -> Option<f64> {
         match self {
             Phase::Free => None,
@@ -44,11 +44,11 @@ impl Phase {
 /// A change of phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactEvent {
-    /// When.
+    /// Time of the change.
     pub t: f64,
-    /// What the free end touched before.
+    /// The phase before.
     pub from: Phase,
-    /// What it touches from now on.
+    /// The phase from now on.
     pub to: Phase,
 }
 
@@ -75,7 +75,7 @@ impl Polynomial {
         Self { coefficients, degree: self.degree.saturating_sub(1) }
     }
 
-    /// The zeros in (0, 1) at which the sign changes, in increasing order, and how many.
+    /// The zeros in (0, 1) at which the sign changes, in increasing order, and their number.
     pub(super) fn sign_changes(&self) -> ([f64; MAX_STAGES + 1], usize) {
         let (mut zeros, mut count) = ([0.0; MAX_STAGES + 1], 0);
         if self.degree == 0 {
@@ -114,17 +114,17 @@ impl Polynomial {
     }
 }
 
-/// Where in a step, from 0 to 1, an obstacle is crossed.
+/// Where in a step, from 0 to 1, the free end crosses an obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fall {
-    /// The crossing; 0 if the polynomial falls from the first moment.
+    /// The crossing; 0 if the polynomial falls from the start.
     pub(super) crossing: f64,
-    /// A later place at which it is clearly below.
+    /// A later point at which it is clearly below.
     pub(super) below: f64,
 }
 
-/// How far the free end is on the right side of what bounds its phase, as a polynomial in time, for each bound; and the
-/// phase beyond that bound.
+/// For each bound of the phase, the distance of the free end from it as a polynomial in time, positive inside the
+/// phase; and the phase beyond that bound.
 pub(super) fn bounds(phase: Phase, tip: &Polynomial, obstacles: &Obstacles) -> [Option<(Polynomial, Phase)>; 2] {
     let Obstacles { g1, g2, .. } = *obstacles;
     let above = |g: f64| {
@@ -183,7 +183,7 @@ mod tests {
         falls_at(with_roots(1.0, &[0.4, 0.401]), Some(0.4));
         falls_at(with_roots(1.0, &[0.2, 0.5, 0.7, 0.9]), Some(0.2));
         falls_at(with_roots(-1.0, &[-0.1, 1.2]), None);
-        // From zero: rising first, or falling from the first moment.
+        // Starting from zero: rising at first, or falling from the start.
         falls_at(with_roots(-1.0, &[0.0, 0.6]), Some(0.6));
         falls_at(with_roots(1.0, &[0.0, 0.6]), Some(0.0));
         falls_at(with_roots(1.0, &[0.0, 0.0, 0.9, 1.5, 2.0, 3.0]), Some(0.9));

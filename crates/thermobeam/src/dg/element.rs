@@ -5,12 +5,12 @@
 //! ```
 //!
 //! so that `N_m' = √((2m - 1)/2) P_{m-1}` are orthonormal. The stiffness of the N_m is the identity, their mass couples m
-//! with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The hats meet N_2 and N_3 only.
-//! Source: Szabó and Babuška, *Finite Element Analysis*, section 6.2.
+//! with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The hats couple with N_2 and N_3 only. Source: Szabó and
+//! Babuška, *Finite Element Analysis*, section 6.2.
 
 use super::legendre;
 
-/// The highest degree: beyond it round-off of the quadrature costs more than a degree gains.
+/// The highest degree: above it round-off of the quadrature costs more than a degree gains.
 pub const MAX_DEGREE: usize = 40;
 
 /// `∫ P_i P_j = 2/(2i + 1)` for i = j.

@@ -1,13 +1,13 @@
 //! The energy and its exact balance.
 //!
-//! Testing a step's equations with v, w and θ~ themselves gives, for every q and every step in which no contact begins or
-//! ends,
+//! Testing a step's equations with v, w and θ~ themselves gives, for every q and every step in which contact neither
+//! begins nor ends,
 //!
 //! ```text
 //! E1 - E0 + ∫ [ζ (‖v_x - w‖² + ‖w_x‖²) + ‖θ~_x‖²] + ½ (‖v(0+) - v0‖² + ‖w(0+) - w0‖² + ‖θ~(0+) - θ~0‖²) = 0,
 //! ```
 //!
-//! with the energy of [`crate::energy`]. A step that ends on an obstacle to round-off keeps it.
+//! with the energy of [`crate::energy`]. The balance also holds for a step that ends on an obstacle, to round-off.
 
 use super::Level;
 use super::contact_event::Phase;
@@ -15,7 +15,7 @@ use super::space::Space;
 use crate::energy::{Balance, Energy};
 use crate::parameters::{Beam, Obstacles};
 
-/// What a step loses, contact apart.
+/// The losses of a step, except those of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Losses {
     pub(super) viscous: f64,
@@ -24,7 +24,7 @@ pub(super) struct Losses {
     pub(super) load: f64,
 }
 
-/// What an energy is made of besides a level.
+/// The data that an energy needs in addition to a level.
 pub(super) struct Measured<'a> {
     pub(super) space: &'a Space,
     pub(super) beam: &'a Beam,

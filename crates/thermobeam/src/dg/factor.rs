@@ -1,6 +1,6 @@
-//! Elimination of a step's linear system: the elements' inner blocks, chain by chain, then the nodes from left to right.
+//! Elimination of a step's linear system: inner blocks of the elements, chain by chain, then nodes from left to right.
 //!
-//! The free end comes last, so that contact changes its pivot only. Elements of equal length share their elimination. The
+//! The free end comes last, so that contact changes only its pivot. Elements of equal length share their elimination. The
 //! cost is proportional to the number of elements times the degree.
 
 use super::block::{
@@ -10,13 +10,13 @@ use super::block::{
 use super::operator::Operator;
 use super::space::{Coupling, Space, degrees};
 
-/// Lengths that differ by rounding errors only share an elimination; the residual, which decides, uses each element's own.
+/// Lengths equal up to rounding errors share an elimination; the residual, which decides, uses each element's own.
 const SAME_LENGTH: f64 = 1e-13;
 
-/// One inner block and what joins it to the next one towards the hats.
+/// One inner block and its couplings to the next one towards the hats.
 #[derive(Debug, Clone)]
 struct Link<const S: usize> {
-    /// P⁻¹, P the block's pivot.
+    /// P⁻¹, where P is the block's pivot.
     inverse: Matrix<S>,
     /// The row of the next block, column of this one.
     towards: Matrix<S>,
@@ -24,7 +24,7 @@ struct Link<const S: usize> {
     back: Matrix<S>,
 }
 
-/// The inner blocks of one chain, highest degree first, but for the first block, which meets both hats.
+/// The inner blocks of one chain, highest degree first, without the first block, which couples with both hats.
 #[derive(Debug, Clone)]
 struct Chain<const S: usize> {
     links: Vec<Link<S>>,
@@ -33,12 +33,12 @@ struct Chain<const S: usize> {
     back: [Matrix<S>; 2],
 }
 
-/// The elimination of the inside of an element.
+/// The elimination of the interior of an element.
 #[derive(Debug, Clone)]
 struct Inside<const S: usize> {
     length: f64,
     chains: Vec<Chain<S>>,
-    /// What remains between the hats, row by row.
+    /// The remaining matrix between the hats, row by row.
     hats: [[Matrix<S>; 2]; 2],
 }
 
@@ -46,31 +46,31 @@ struct Inside<const S: usize> {
 #[derive(Debug, Clone)]
 struct Node<const S: usize> {
     inverse: Matrix<S>,
-    /// The row of this node, column of the one on its left.
+    /// The matrix in the row of this node and the column of the one on its left.
     left: Matrix<S>,
-    /// The inverse pivot times the row of this node, column of the one on its right.
+    /// The inverse pivot times the matrix in the row of this node and the column of the one on its right.
     right: Matrix<S>,
 }
 
-/// A pivot that is not positive: at which node, or in the element on the left of which node.
+/// A pivot that is not positive: at this node, or in the element to the left of this node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LostPivot {
     pub(super) node: usize,
     pub(super) pivot: f64,
 }
 
-/// The factorised matrix of a step, for the free end both free and in contact.
+/// The factorised matrix of a step, for the free end both without and with contact.
 #[derive(Debug, Clone)]
 pub(super) struct Factor<const S: usize> {
     insides: Vec<Inside<S>>,
-    /// Which of `insides` each element has.
+    /// Index in `insides` for each element.
     kinds: Vec<usize>,
     nodes: Vec<Node<S>>,
     tip: [Matrix<S>; 2],
 }
 
 impl<const S: usize> Factor<S> {
-    /// Room for the factorisations of a space.
+    /// Allocates the factorisations of a space.
     pub(super) fn new(space: &Space) -> Self {
         let (mut insides, mut kinds): (Vec<Inside<S>>, _) = (vec![], vec![]);
         for &length in space.lengths() {
@@ -85,7 +85,7 @@ impl<const S: usize> Factor<S> {
         Self { insides, kinds, nodes: vec![node; space.tip() + 1], tip: [zero(), zero()] }
     }
 
-    /// Bytes that a factorisation takes.
+    /// Memory of a factorisation in bytes.
     pub(super) fn bytes(&self) -> usize {
         let matrices: usize = self
             .insides
@@ -95,10 +95,10 @@ impl<const S: usize> Factor<S> {
         (matrices + 3 * self.nodes.len() + 2) * size_of::<Matrix<S>>()
     }
 
-    /// Factorises; allocates nothing.
+    /// Factorises without allocating.
     ///
     /// # Errors
-    /// [`LostPivot`] where the matrix is not positive definite.
+    /// [`LostPivot`] if the matrix is not positive definite.
     pub(super) fn factorize(&mut self, space: &Space, operator: &Operator<S>) -> Result<(), LostPivot> {
         for (index, inside) in self.insides.iter_mut().enumerate() {
             let lost = |pivot| {
@@ -142,7 +142,7 @@ impl<const S: usize> Factor<S> {
         Ok(())
     }
 
-    /// Replaces a right-hand side, one block for each of the space's, by the solution.
+    /// Replaces a right-hand side, with one block for each of the space, by the solution.
     pub(super) fn solve_in_place(&self, space: &Space, in_contact: bool, x: &mut [Block<S>]) {
         let (tip, inner) = (space.tip(), space.inner());
         let (nodes, inside) = x.split_at_mut(tip + 1);
@@ -248,7 +248,7 @@ impl<const S: usize> Inside<S> {
     }
 }
 
-/// The matrix between two blocks of an element; zero where nothing couples them.
+/// The matrix between two blocks of an element; zero if they are not coupled.
 fn matrix_between<const S: usize>(
     space: &Space,
     operator: &Operator<S>,
@@ -260,7 +260,7 @@ fn matrix_between<const S: usize>(
     space.couplings().iter().find(here).map_or(zero(), |coupling| operator.between(coupling, length))
 }
 
-/// The matrix of an inner block with itself, unit rows in place of coefficients beyond the degree.
+/// The diagonal matrix of an inner block, with unit rows for coefficients beyond the degree.
 fn pivot_of<const S: usize>(space: &Space, between: &impl Fn(usize, usize) -> Matrix<S>, block: usize) -> Matrix<S> {
     let mut pivot = between(block, block);
     let [u, phi] = degrees(block, space.degree());

@@ -1,10 +1,10 @@
-//! The bilinear forms of the weak form on a space, for coefficients that a closure gives block by block.
+//! The bilinear forms of the weak form on a space, with coefficients given block by block by a closure.
 
 use super::space::{Coupling, Space, degrees};
 use super::{element, space::Field};
 
 impl Space {
-    /// Adds up `entry(coupling, length, row block, column block)` over all couplings of all elements.
+    /// Sums `entry(coupling, length, row block, column block)` over all couplings of all elements.
     fn sum(&self, entry: impl Fn(&Coupling, f64, usize, usize) -> f64) -> f64 {
         let mut sum = 0.0;
         for (element, &length) in self.lengths().iter().enumerate() {
@@ -23,7 +23,7 @@ impl Space {
         })
     }
 
-    /// `(u_x - φ, y_x - χ) + (φ_x, χ_x)` of the pairs (u, φ) and (y, χ).
+    /// `(u_x - φ, y_x - χ) + (φ_x, χ_x)` for the pairs (u, φ) and (y, χ).
     pub(super) fn strain(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
         self.sum(|c, length, row, column| {
             let ([u, phi], [u_z, phi_z]) = (y(row), z(column));
@@ -41,12 +41,12 @@ impl Space {
             + 0.5 * length * c.mass_phi * phi * phi_z
     }
 
-    /// `(y_x, z_x)` of coefficients of u or θ.
+    /// `(y_x, z_x)` for coefficients of u or θ.
     pub(super) fn stiffness(&self, y: impl Fn(usize) -> f64, z: impl Fn(usize) -> f64) -> f64 {
         self.sum(|c, length, row, column| 2.0 / length * c.stiff_u * y(row) * z(column))
     }
 
-    /// `(φ_x, χ_x)` of coefficients of φ.
+    /// `(φ_x, χ_x)` for coefficients of φ.
     pub(super) fn bending(&self, y: impl Fn(usize) -> f64, z: impl Fn(usize) -> f64) -> f64 {
         self.sum(|c, length, row, column| 2.0 / length * c.stiff_phi * y(row) * z(column))
     }
@@ -65,7 +65,7 @@ impl Space {
         diagonal
     }
 
-    /// `∫ χ` of the basis functions of φ.
+    /// `∫ χ` for the basis functions of φ.
     pub(super) fn integrals_of_rotations(&self) -> Vec<f64> {
         let mut integrals = vec![0.0; self.blocks()];
         for (element, &length) in self.lengths().iter().enumerate() {
@@ -85,7 +85,7 @@ mod tests {
     use crate::assembly::{self, Tridiagonal};
     use crate::mesh::Mesh;
 
-    /// Every entry of a form on hats is that of a matrix, to the last bits.
+    /// Every entry of a form on hats is that of a matrix, up to round-off.
     fn are_the_same(form: impl Fn(usize, usize) -> f64, matrix: &Tridiagonal) {
         let last = matrix.diagonal.len() - 1;
         for i in 0..=last {

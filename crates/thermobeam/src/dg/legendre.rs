@@ -1,6 +1,6 @@
 //! Legendre polynomials: values, Gauss points, and polynomials in time on the unit interval.
 
-/// P_0(x), P_1(x), ... into as many places as `values` has, for x in [-1, 1].
+/// P_0(x), P_1(x), ... up to the length of `values`, for x in [-1, 1].
 pub(super) fn values_into(x: f64, values: &mut [f64]) {
     let (mut previous, mut value) = (0.0, 1.0);
     for (n, place) in values.iter_mut().enumerate() {
@@ -26,7 +26,7 @@ pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
     let mut values = vec![0.0; count + 1];
     let mut derivatives = vec![0.0; count + 1];
     let half = (1..=count / 2).map(|i| {
-        // Newton from Tricomi's estimate is at round-off after four steps for every count.
+        // Newton's method from Tricomi's estimate reaches round-off within four steps for every count.
         let mut x = (std::f64::consts::PI * (i as f64 - 0.25) / (count as f64 + 0.5)).cos();
         for _ in 0..6 {
             values_into(x, &mut values);

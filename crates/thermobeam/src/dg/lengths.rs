@@ -2,8 +2,8 @@
 
 /// `min(restart_dt growth^k, dt)` for k = 0, 1, ..., and below it `restart_dt/2^k`.
 ///
-/// An event leaves an acceleration like t^(1/2), for which the steps have to be small at first. The lengths are few and
-/// always the same, so that factorisations serve again. The lower part is for a free end that grazes an obstacle.
+/// An event leaves an acceleration like t^(1/2), so the steps must be small at first. There are few different lengths,
+/// always the same, so that factorisations can be reused. The lower part is for a free end that grazes an obstacle.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lengths {
     rungs: Vec<f64>,
@@ -12,19 +12,19 @@ pub(super) struct Lengths {
     next: usize,
 }
 
-/// Halvings of `restart_dt`: down to 6e-8 of it.
+/// Maximum number of halvings of `restart_dt`: down to a factor 6e-8.
 const HALVINGS: i32 = 24;
 
-/// Most rungs of a ladder: larger growth factors change nothing.
+/// Maximum number of rungs of a ladder: larger growth factors change nothing.
 pub(super) const MAX_RUNGS: usize = 1000;
 
 impl Lengths {
-    /// From `restart_dt` to `dt`.
+    /// The ladder from `restart_dt` to `dt`.
     pub(super) fn new(restart_dt: f64, growth: f64, dt: f64) -> Self {
         let mut rungs: Vec<f64> = (0..=HALVINGS).rev().map(|k| restart_dt * 0.5_f64.powi(k)).collect();
         let first = rungs.len() - 1;
         while let Some(&last) = rungs.last().filter(|last| **last < dt && rungs.len() <= first + MAX_RUNGS) {
-            // The last rung is dt itself; one just below it would only cost a factorisation.
+            // The last rung is dt itself; another one just below it would only cost a factorisation.
             let next = last * growth;
             rungs.push(if next * growth.sqrt() < dt && growth > 1.0 { next } else { dt });
         }
@@ -36,19 +36,19 @@ impl Lengths {
         self.rungs[self.next]
     }
 
-    /// The lengths there are from `restart_dt` on.
+    /// The number of lengths from `restart_dt` upwards.
     pub(super) fn count(&self) -> usize {
         self.rungs.len() - self.first
     }
 
-    /// To a quarter of the length, or of `restart_dt` where that is less, if there is one.
+    /// Descends to a quarter of the length or of `restart_dt`, whichever is smaller, if the ladder reaches that far.
     pub(super) fn descend(&mut self) -> bool {
         let possible = self.next >= 2;
         self.next = self.next.min(self.first).saturating_sub(2);
         possible
     }
 
-    /// To at most half of the length, if it is at least a thousandth of `restart_dt`.
+    /// Descends to at most half of the length, if that is at least a thousandth of `restart_dt`.
     pub(super) fn shorten(&mut self) -> bool {
         let now = self.get();
         let shorter = self.rungs[..self.next].iter().rposition(|rung| *rung <= 0.5 * now);
@@ -57,12 +57,12 @@ impl Lengths {
         possible
     }
 
-    /// Where the ladder stands.
+    /// The current rung.
     pub(super) fn rung(&self) -> usize {
         self.next
     }
 
-    /// Goes back to where it stood.
+    /// Returns to an earlier rung.
     pub(super) fn set_rung(&mut self, rung: usize) {
         self.next = rung;
     }
@@ -102,7 +102,7 @@ mod tests {
         let mut lengths = Lengths::new(0.02, 1.5, 0.02);
         assert_eq!((0..20).filter(|_| lengths.shorten()).count(), 10);
         assert_eq!(Lengths::new(0.02, 1.5, 0.02).count(), 1);
-        // Growth 1 leads to dt at once.
+        // Growth 1 leads directly to dt.
         assert_eq!(Lengths::new(0.01, 1.0, 0.02).count(), 2);
     }
 }

@@ -1,16 +1,16 @@
-//! Loads: what a manufactured solution, or anything else, adds to the right-hand sides.
+//! Loads: contributions to the right-hand sides, for manufactured solutions or any other purpose.
 
 use super::time::{GaussPoint, MAX_STAGES, gauss_points};
 
-/// Loads F_u, F_φ, F_θ on the right of the three equations, tested with the basis functions.
+/// Loads F_u, F_φ, F_θ on the right-hand sides of the three equations, tested with the basis functions.
 ///
 /// [`Space::add_load`](super::Space::add_load) fills such a vector from functions of x.
 pub trait Load: Send {
-    /// Fills `load` with the load at time t: `(F_u, χ), (F_φ, ψ), (F_θ, η)` block by block; it comes in as zeros.
+    /// Writes the load at time t, `(F_u, χ), (F_φ, ψ), (F_θ, η)` block by block, into `load`, which is zero initially.
     fn at(&mut self, t: f64, load: &mut [[f64; 3]]);
 }
 
-/// The loads of a step, integrated: `moments[i]` is that with L_i.
+/// The loads of a step, integrated: `moments[i]` is the integral with L_i.
 pub(super) struct Forcing<const S: usize> {
     pub(super) moments: Vec<Vec<[f64; 3]>>,
     load: Vec<[f64; 3]>,
@@ -18,7 +18,7 @@ pub(super) struct Forcing<const S: usize> {
 }
 
 impl<const S: usize> Forcing<S> {
-    /// For so many blocks; by q + 9 Gauss points.
+    /// For this number of blocks; by q + 9 Gauss points.
     pub(super) fn new(blocks: usize) -> Self {
         let zeros = vec![[0.0; 3]; blocks];
         Self { moments: vec![zeros.clone(); S], load: zeros, points: gauss_points(S + 8) }

@@ -12,16 +12,16 @@
 //! ∫ [(θ~_t, η) + (θ~_x, η_x) + a (w_x, η)] + (θ~(0+) - θ~_0, η(0)) = 0
 //! ```
 //!
-//! The new level is the value at the end. For q = 0 and p = 1 these are (3.7)-(3.8) up to three rules: contact and N are
-//! integrated over the step, and θ~ is taken by backward Euler. The order is 2q + 1 at the ends of steps and p + 1 in space
-//! (p in the energy's norm), the energy's balance is exact for every q, and steps end where contact begins or ends. See
+//! The new level is the value at the end. For q = 0 and p = 1 these are (3.7)-(3.8) with three differences: contact and N
+//! are integrated over the step, and backward Euler is used for θ~. The order is 2q + 1 at the ends of steps and p + 1 in
+//! space (p in the energy norm), the energy balance is exact for every q, and steps end where contact begins or ends. See
 //! "Any order" in [`crate::theory`].
 //!
-//! # Where to find what
+//! # The modules
 //!
 //! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
 //! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
-//! `energy`: the balance. `problem`, `simulation`, `observe`: what a user sees of all that.
+//! `energy`: the balance. `problem`, `simulation`, `observe`: the interface for users.
 //!
 //! ```
 //! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -114,17 +114,17 @@ impl Level {
     }
 }
 
-/// Counts of the work done: exact where times are noisy.
+/// Counts of the work done, which are exact while times are noisy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
     /// Steps taken.
     pub steps: usize,
-    /// Solves of a step's linear system.
+    /// Solves of the linear system of a step.
     pub solves: usize,
-    /// Factorisations of it.
+    /// Factorisations of that system.
     pub factorizations: usize,
     /// Contact events.
     pub events: usize,
-    /// Steps that could not be done and were tried again shorter.
+    /// Steps that failed and were repeated with a shorter length.
     pub shortened: usize,
 }

@@ -1,4 +1,4 @@
-//! What a simulation shows: fields anywhere in the last step, the energy, and the balance.
+//! Output of a simulation: fields anywhere in the last step, the energy, and the balance.
 
 use super::energy::Measured;
 use super::simulation::Simulation;
@@ -7,7 +7,7 @@ use crate::energy::{Balance, Energy};
 use crate::norms::max_or_nan;
 
 impl Simulation {
-    /// s of a time in the last step; `None` outside.
+    /// The s of a time in the last step; `None` outside.
     fn within(&self, t: f64) -> Option<f64> {
         if !(t >= self.old.t && t <= self.level.t) {
             return None;
@@ -25,7 +25,7 @@ impl Simulation {
         Some(self.space.evaluate(field, x, at).0)
     }
 
-    /// Smallest and largest u(1, t) over the last step, extrema inside it included; before the first step, that of the start.
+    /// Smallest and largest u(1, t) over the last step, including extrema inside it; at first, the initial value.
     pub fn tip_range(&self) -> [f64; 2] {
         let u = self.level.places[self.space.tip()][0];
         if self.last_dt == 0.0 {
@@ -37,12 +37,12 @@ impl Simulation {
         values.fold([u, u], |[low, high], value| [-max_or_nan(-low, -value), max_or_nan(high, value)])
     }
 
-    /// The physical temperature, lifting included, at x and at a time in the last step; `None` for other times.
+    /// The physical temperature, including the lifting, at x and at a time in the last step; `None` for other times.
     pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
         self.value(Field::Theta, x, t).map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
     }
 
-    /// Copies the state at a time in the last step into `level`; tells whether there is one.
+    /// Copies the state at a time in the last step into `level`; returns false for other times.
     pub fn level_into(&self, t: f64, level: &mut Level) -> bool {
         match self.within(t) {
             Some(s) if self.last_dt > 0.0 && t < self.level.t => {
@@ -63,7 +63,7 @@ impl Simulation {
         self.scene().energy(level)
     }
 
-    /// The balance of the last step; that of no step at the start.
+    /// The balance of the last step; at the start, of an empty step.
     pub fn balance(&self) -> Balance {
         let losses = self.stages.losses(&self.space, &self.beam, &self.old, self.last_dt);
         self.scene().balance(&self.old, &self.level, self.last_phase, losses)

@@ -5,7 +5,7 @@ use super::space::Coupling;
 use super::time::TimeForms;
 use crate::parameters::Beam;
 
-/// The linear part of a step of length h, with the axial force held at one value.
+/// The linear part of a step of length h, with a fixed axial force.
 ///
 /// ```text
 /// D ⊗ M + E ⊗ [K, -C; -Cᵀ, K + M] + N h² S ⊗ K  on (v, w),   E = hζ T + h² S
@@ -26,8 +26,8 @@ pub(super) struct Operator<const S: usize> {
 }
 
 impl<const S: usize> Operator<S> {
-    /// * `n_value`: the axial force that the matrix is built with.
-    /// * `compliance`: ε of the obstacle, infinite without one.
+    /// * `n_value`: the fixed axial force.
+    /// * `compliance`: ε of the obstacle; infinite without contact.
     pub(super) fn new(forms: &TimeForms<S>, beam: &Beam, h: f64, n_value: f64, compliance: f64) -> Self {
         let (integral, product) = (&forms.integral, &forms.product);
         let times = |factor: f64| integral.map(|row| row.map(|entry| factor * entry));

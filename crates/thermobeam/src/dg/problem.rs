@@ -1,4 +1,4 @@
-//! What is to be simulated, and how: the data, checked once.
+//! The problem and the settings of the method: the data, checked once.
 
 use super::element::MAX_DEGREE;
 use super::lengths::MAX_RUNGS;
@@ -8,8 +8,7 @@ use crate::error::SetupError;
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles};
 
-/// Rounding errors that an initial value may carry where the boundary condition asks for a number, in units of the
-/// field's largest coefficient.
+/// Allowed rounding errors of an initial value in a boundary condition, in units of the field's largest coefficient.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// A function of x.
@@ -30,7 +29,7 @@ pub struct Initial {
 }
 
 impl Initial {
-    /// A straight beam at rest, its temperature the steady θ_A (1 - x).
+    /// A straight beam at rest, with the steady temperature θ_A (1 - x).
     pub fn at_rest(theta_a: f64) -> Self {
         let zero = || Box::new(|_: f64| 0.0);
         Self { u: zero(), u_t: zero(), phi: zero(), phi_t: zero(), theta: Box::new(move |x| theta_a * (1.0 - x)) }
@@ -51,7 +50,7 @@ pub struct Problem {
     pub initial: Initial,
 }
 
-/// How to step.
+/// Settings of the time steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
     /// The degree q in time, 0..=[`MAX_TIME_DEGREE`].
@@ -60,12 +59,12 @@ pub struct Stepping {
     pub dt: f64,
     /// The first step, at the start and after a contact event; at most `dt`.
     pub restart_dt: f64,
-    /// Ratio of a step to the one before while they grow from `restart_dt` to `dt`, >= 1; with 1 the second step has length
-    /// `dt`.
+    /// Ratio of a step to its predecessor while they grow from `restart_dt` to `dt`, >= 1; with 1 the second step has
+    /// length `dt`.
     pub growth: f64,
     /// Bound on the last increment of the iteration for N(u), in the norm of the velocities and the temperature.
     pub tolerance: f64,
-    /// Iterations after which a step is given up.
+    /// Number of iterations after which a step fails.
     pub max_iterations: usize,
 }
 
@@ -116,7 +115,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// (3.6): the projections of the initial data, the temperature lifted.
+/// (3.6): the projections of the initial data, with the temperature lifted.
 pub(super) fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Result<Level, SetupError> {
     let mut level = Level::new(space);
     let theta_a = beam.theta_a;
@@ -152,11 +151,11 @@ pub(super) fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Re
         if field == Field::Theta {
             scale = scale.max(theta_a.abs());
         }
-        // A bubble on a single linear element has no coefficient at all.
+        // A bubble function has no coefficients on a single linear element.
         let slack = BOUNDARY_SLACK * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
         let ends: &[(f64, f64)] = if field == Field::Theta { &[(0.0, theta_a), (1.0, 0.0)] } else { &[(0.0, 0.0)] };
         for &(x, allowed) in ends {
-            // What is not a number is no boundary value either.
+            // NaN is not a valid boundary value either.
             if !(f(x).abs() <= slack) {
                 let found = f(x) + allowed;
                 return Err(SetupError::Boundary { field: name, x, found, allowed });

@@ -14,7 +14,7 @@ pub(super) struct Path<const S: usize> {
     pub(super) top: f64,
 }
 
-/// u and φ at a block as they move during the step, and the combinations of them that the equations ask for.
+/// u and φ in a block during the step, and the combinations of them in the equations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Terms<const S: usize> {
     /// u(t) and φ(t).
@@ -42,7 +42,7 @@ impl<const S: usize> Terms<S> {
     };
 }
 
-/// The mean axial force over a step, as it acts on polynomials in time: `∫ N(u) L_i L_j`.
+/// The mean axial force over a step, as a matrix on polynomials in time: `∫ N(u) L_i L_j`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxialForce<const S: usize> {
     /// i, j <= q.
@@ -51,7 +51,7 @@ pub(super) struct AxialForce<const S: usize> {
     pub(super) top: [f64; S],
 }
 
-/// What the equations of a step are made of.
+/// The data of a step's equations.
 pub(super) struct Equations<'a, const S: usize> {
     pub(super) space: &'a Space,
     pub(super) forms: &'a TimeForms<S>,
@@ -61,7 +61,7 @@ pub(super) struct Equations<'a, const S: usize> {
     pub(super) level: &'a Level,
     /// The step's length.
     pub(super) h: f64,
-    /// What the free end touches throughout the step.
+    /// The phase of the free end throughout the step.
     pub(super) phase: Phase,
     /// Loads, integrated over the step.
     pub(super) forcing: Option<&'a Forcing<S>>,
@@ -109,8 +109,8 @@ impl<const S: usize> Equations<'_, S> {
     /// ∫ [(θ~_t, η) + (θ~_x, η_x) + a (w_x, η) - F_θ] + (θ~(0+) - θ~_0, η(0))
     /// ```
     ///
-    /// Returns the mean over the step of the contact force that the first equation needs at the free end. Unlike g(u(1)) it has no
-    /// rounding errors of u(1) divided by ε.
+    /// Returns the mean contact force over the step, as the first equation at the free end requires it. Unlike g(u(1)) it contains
+    /// no rounding errors of u(1) divided by ε.
     pub(super) fn residual(
         &self,
         x: &[Block<S>],
@@ -150,7 +150,7 @@ impl<const S: usize> Equations<'_, S> {
         force
     }
 
-    /// Contact, the hot end, and the loads.
+    /// Contact, the heated end, and the loads.
     fn add_forces(&self, terms: &[Terms<S>], residual: &mut [Block<S>]) {
         let tip = self.space.tip();
         if let Some((obstacle, obstacles)) = self.phase.obstacle(self.obstacles).zip(self.obstacles) {
@@ -195,7 +195,7 @@ impl<const S: usize> Equations<'_, S> {
         }
         let u = &terms.places[0];
         let mut sum = axial.top.map(|top| top * u.top);
-        // Symmetric: its rows are its columns.
+        // Symmetric: its rows equal its columns.
         add_columns(&mut sum, &axial.low, &u.low);
         terms.axial = sum.map(|sum| self.h * sum);
     }
@@ -208,7 +208,7 @@ pub(super) struct Gram<const S: usize> {
 }
 
 impl<const S: usize> Gram<S> {
-    /// Of the displacement in `terms`.
+    /// For the displacement in `terms`.
     pub(super) fn of(space: &Space, terms: &[Terms<S>]) -> Self {
         let mut gram = Self { entries: [[0.0; MAX_STAGES + 1]; MAX_STAGES + 1] };
         let tip = space.tip();
@@ -235,7 +235,7 @@ impl<const S: usize> Gram<S> {
         self.entries[S][S] = (weight * u.top).mul_add(u.top, self.entries[S][S]);
     }
 
-    /// `‖u_x‖²` where the Legendre polynomials have the given values.
+    /// `‖u_x‖²` for the given values of the Legendre polynomials.
     fn at(&self, legendre: &[f64; MAX_STAGES + 1]) -> f64 {
         let mut sum = self.entries[S][S] * legendre[S] * legendre[S];
         for i in 0..S {
@@ -249,7 +249,7 @@ impl<const S: usize> Gram<S> {
     }
 }
 
-/// Terms for so many blocks.
+/// Terms for this number of blocks.
 pub(super) fn terms<const S: usize>(blocks: usize) -> Vec<Terms<S>> {
     vec![Terms::ZERO; blocks]
 }

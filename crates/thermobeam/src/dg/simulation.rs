@@ -1,4 +1,4 @@
-//! A simulation that stands at one level and takes steps: their lengths, and where contact cuts them.
+//! A simulation, which holds one level and does steps: their lengths, and where contact cuts them.
 
 use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
 use super::lengths::Lengths;
@@ -10,28 +10,28 @@ use super::{Level, Work};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::parameters::{Beam, Obstacles};
 
-/// Rounding errors of the free end's position, in units of the numbers that it is computed from.
+/// Rounding errors of the free end's position, relative to the numbers from which it is computed.
 const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
 
-/// Rounding errors of the free end's position at a length of which no digit is left to improve, in units of its slack.
+/// Rounding errors of the free end's position, in units of its slack, below which a length cannot be improved.
 const COLLAPSED: f64 = 64.0;
 
 /// Force of the wrong sign at which contact contradicts the motion, for an axial force of at most 1.
 const WRONG_FORCE: f64 = 1e-2;
 
-/// Attempts to end a step on an obstacle: safeguarded by bisection, they are never all needed.
+/// Attempts to end a step on an obstacle: the method is safeguarded by bisection and never needs them all.
 const ATTEMPTS: usize = 100;
 
-/// Contact events within the smallest step after which a simulation is given up.
+/// Number of contact events within the smallest step after which a simulation fails.
 const CROWD: usize = 64;
 
-/// Times that one step may be cut: at a crossing, at an earlier one that the shorter step shows, and so on.
+/// Maximum number of cuts of one step: at a crossing, at an earlier one that the shorter step shows, and so on.
 const CUTS: usize = 64;
 
-/// Contact events that the list of them holds without growing.
+/// Initial capacity of the list of contact events.
 const EVENTS: usize = 1024;
 
-/// What a step took.
+/// The result of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport {
     /// Its length.
@@ -42,7 +42,7 @@ pub struct StepReport {
     pub event: Option<ContactEvent>,
 }
 
-/// A running simulation, standing at one level, with the step that led there.
+/// A running simulation at one level, with the step that led there.
 pub struct Simulation {
     pub(super) beam: Beam,
     pub(super) obstacles: Option<Obstacles>,
@@ -56,29 +56,29 @@ pub struct Simulation {
     pub(super) old: Level,
     /// The length of the last step, 0 at the start.
     pub(super) last_dt: f64,
-    /// What the free end touched during the last step.
+    /// The phase of the free end during the last step.
     pub(super) last_phase: Phase,
     pub(super) phase: Phase,
-    /// Whether the last step's polynomials tell something about the next one.
+    /// Whether the last step's polynomials predict those of the next one.
     pub(super) smooth: bool,
     pub(super) events: Vec<ContactEvent>,
-    /// Steps tried again shorter.
+    /// Steps repeated with a shorter length.
     pub(super) shortened: usize,
-    /// Events since the time given, all within `restart_dt`.
+    /// Number of events since the given time, all within `restart_dt`.
     pub(super) crowd: (f64, usize),
 }
 
 impl Simulation {
-    /// Checks everything once and stands at t = 0.
+    /// Checks all data once and starts at t = 0.
     ///
     /// # Errors
-    /// [`SetupError`] for coefficients, degrees or settings out of range, and initial data that are not finite or break a
-    /// boundary condition.
+    /// [`SetupError`] for coefficients, degrees or settings out of range, and for initial data that are not finite or
+    /// violate a boundary condition.
     pub fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         Self::build(problem, stepping, |_| None)
     }
 
-    /// The same with loads on the right of the equations; `load` makes them for the elements.
+    /// The same with loads on the right-hand sides of the equations; `load` creates them for the elements.
     ///
     /// # Errors
     /// Those of [`Self::new`].
@@ -124,23 +124,23 @@ impl Simulation {
         })
     }
 
-    /// Steps until t_end, which the last step meets exactly.
+    /// Does steps until t_end, which the last step meets exactly.
     ///
     /// # Errors
-    /// [`StepError`] with step, time and numbers; the simulation then stands where that step would have started.
+    /// [`StepError`] with step, time and numbers; the simulation then remains at the start of that step.
     pub fn advance(&mut self, t_end: f64) -> Result<(), StepError> {
         while self.step(t_end)?.is_some() {}
         Ok(())
     }
 
-    /// Does one step that does not go beyond `limit`; allocates nothing, but for more than 1024 contact events.
+    /// Does one step that does not exceed `limit`; allocates nothing up to 1024 contact events.
     ///
-    /// A step that cannot be done is tried again with at most half of its length, down to a thousandth of `restart_dt`.
+    /// A step that fails is repeated with at most half of its length, down to a thousandth of `restart_dt`.
     ///
-    /// Returns `None` where the simulation stands at the limit, or beyond it.
+    /// Returns `None` if the simulation has reached the limit.
     ///
     /// # Errors
-    /// [`StepError`] with step, time and numbers; the simulation then stands where it stood.
+    /// [`StepError`] with step, time and numbers; the simulation then remains at its old level.
     pub fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
         let (phase, events, crowd) = (self.phase, self.events.len(), self.crowd);
         let rung = self.lengths.rung();
@@ -152,7 +152,7 @@ impl Simulation {
             self.events.truncate(events);
             self.crowd = crowd;
             self.smooth = false;
-            // What fails may be done in shorter steps; if not, the first failure tells most.
+            // Shorter steps may succeed after a failure; otherwise the first failure is the most informative.
             let error = first.get_or_insert(error);
             if !self.lengths.shorten() {
                 self.lengths.set_rung(rung);
@@ -183,17 +183,17 @@ impl Simulation {
                 (h, iterations, event) = self.meet(h, fall, next)?;
                 continue;
             }
-            // The free end leaves its phase from the first moment.
+            // The free end leaves its phase immediately.
             event = None;
             self.stages.guess_constant(&self.level);
             if let Some(iterations) = self.stays(next, h)? {
                 self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
                 return self.finish(h, limit, iterations, None).map(Some);
             } else if self.lengths.descend() {
-                // It leaves the other phase as well: polynomials of this length are too coarse to tell.
+                // It leaves the other phase as well: polynomials of this length are too coarse to decide.
                 h = self.propose(remaining);
             } else {
-                // It grazes the obstacle, by less than the shortest step can tell.
+                // It grazes the obstacle, by less than the shortest step can resolve.
                 iterations = self.attempt(h)?;
                 return self.finish(h, limit, iterations, None).map(Some);
             }
@@ -204,7 +204,7 @@ impl Simulation {
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
-    /// Finds the polynomials of a step of length h in another phase; `None` where the free end leaves that as well.
+    /// Finds the polynomials of a step of length h in another phase; `None` if the free end leaves that phase too.
     fn stays(&mut self, phase: Phase, h: f64) -> Result<Option<usize>, StepError> {
         let present = std::mem::replace(&mut self.phase, phase);
         let outcome = self.attempt(h);
@@ -213,7 +213,7 @@ impl Simulation {
         outcome.map(|iterations| fall.is_none().then_some(iterations))
     }
 
-    /// Takes the step just found: the new level is its end.
+    /// Accepts the step just found: its end is the new level.
     fn finish(&mut self, h: f64, limit: f64, iterations: usize, next: Option<Phase>) -> Result<StepReport, StepError> {
         self.check_contact(h).map_err(|failure| self.failed(h, failure))?;
         let start = self.level.t;
@@ -227,7 +227,7 @@ impl Simulation {
         self.stages.level_into(1.0, &self.old, h, &mut self.level);
         self.level.t = t;
         if let Some(next) = next {
-            // The free end stands on the obstacle but for round-off; now without.
+            // The free end is on the obstacle up to round-off; now the round-off is removed.
             let touched = if phase == Phase::Free { next } else { phase };
             if let Some(g) = touched.obstacle(self.obstacles.as_ref()) {
                 self.level.places[self.space.tip()][0] = g;
@@ -241,10 +241,10 @@ impl Simulation {
         Ok(StepReport { dt: h, iterations, event })
     }
 
-    /// Whether what the free end touches agrees with the step just found.
+    /// Whether the phase of the free end agrees with the step just found.
     ///
-    /// An open free end must not penetrate, and closed contact must not pull. Where ε is so small that the position does not
-    /// tell the force, the balance of momentum does.
+    /// A free end must not penetrate, and closed contact must not pull. If ε is so small that the position does not
+    /// determine the force, the balance of momentum does.
     fn check_contact(&self, h: f64) -> Result<(), StepFailure> {
         let Some(obstacles) = &self.obstacles else { return Ok(()) };
         let tip = self.stages.tip(&self.space);
@@ -262,7 +262,7 @@ impl Simulation {
             Phase::Upper => -mean,
             Phase::Lower => mean,
         };
-        // Rounding errors of the velocity, as a force over the step.
+        // Rounding errors of the velocity, converted to a force over the step.
         let rounding = TIP_SLACK * self.level.rates[self.space.tip()][0].abs() / h;
         if force > least + rounding { Err(StepFailure::WrongContact { force, noise }) } else { Ok(()) }
     }
@@ -273,7 +273,7 @@ impl Simulation {
         if h * (1.0 + 1e-9) >= remaining { remaining } else { h }
     }
 
-    /// The shortest step there can be: a few units of round-off of the time.
+    /// The shortest possible step: a few units of round-off of the time.
     fn shortest(&self) -> f64 {
         16.0 * f64::EPSILON * (self.level.t + self.stepping.restart_dt)
     }
@@ -282,7 +282,7 @@ impl Simulation {
         StepError { step: self.stages.work().steps + 1, t: self.level.t, dt, failure }
     }
 
-    /// Finds the polynomials of a step of length h in the present phase.
+    /// Finds the polynomials of a step of length h in the current phase.
     fn attempt(&mut self, h: f64) -> Result<usize, StepError> {
         let task = Task {
             space: &self.space,
@@ -304,7 +304,7 @@ impl Simulation {
         TIP_SLACK * (obstacles + size)
     }
 
-    /// Where the step just found first leaves its phase, and for which one.
+    /// Where the step just found first leaves its phase, and the phase that it enters.
     fn first_fall(&self) -> Option<(Fall, Phase)> {
         let obstacles = self.obstacles.as_ref()?;
         let tip = self.stages.tip(&self.space);
@@ -314,14 +314,14 @@ impl Simulation {
         falls.min_by(|(one, _), (other, _)| one.crossing.total_cmp(&other.crossing))
     }
 
-    /// Finds the length of a step that ends on the obstacle, between 0 and where the polynomial of a longer one was
-    /// clearly beyond it.
+    /// Finds the length of a step that ends on the obstacle, between 0 and the point where the polynomial of a longer
+    /// step was clearly beyond it.
     ///
-    /// Returns length, iterations, and the phase beyond; `None` in its place where a shorter step does not reach the obstacle.
+    /// Returns length, iterations, and the phase beyond; that phase is `None` if a shorter step does not reach the obstacle.
     fn meet(&mut self, whole: f64, fall: Fall, next: Phase) -> Result<(f64, usize, Option<Phase>), StepError> {
         let (mut low, mut high, mut beyond) = (0.0, fall.below * whole, false);
         let (mut h, mut solved) = (fall.crossing * whole, whole);
-        // The attempt before: length and miss.
+        // The previous attempt: length and miss.
         let mut before: Option<(f64, f64)> = None;
         let mut miss = f64::NAN;
         for attempt in 1..=ATTEMPTS {
@@ -342,17 +342,17 @@ impl Simulation {
                 }
             }
             if !(high - low > self.shortest()) && miss.abs() <= COLLAPSED * slack {
-                // Lengths that round-off cannot tell apart.
+                // Round-off cannot distinguish these lengths.
                 return Ok((h, iterations, Some(next)));
             }
-            // First the velocity of the free end, which is the rate but for the error of the step; then secants.
+            // The first rate is the velocity of the free end, up to the error of the step; then secants are used.
             let rate = match before {
                 Some((other, its_miss)) => (miss - its_miss) / (h - other),
                 None => distance.derivative().at(1.0) / h,
             };
             before = Some((h, miss));
             let guess = h - miss / rate;
-            // A bisection now and then, so that the bracket shrinks whatever the guesses do; but first a bracket.
+            // Occasional bisections ensure that the bracket shrinks for any guesses; before that, a bracket is needed.
             h = if attempt % 4 != 0 && guess > low && guess < high {
                 guess
             } else if !beyond {
@@ -386,12 +386,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// The present time.
+    /// The current time.
     pub fn t(&self) -> f64 {
         self.level.t
     }
 
-    /// The present level.
+    /// The current level.
     pub fn level(&self) -> &Level {
         &self.level
     }
@@ -406,7 +406,7 @@ impl Simulation {
         &self.space
     }
 
-    /// What the free end touches now.
+    /// The current phase of the free end.
     pub fn phase(&self) -> Phase {
         self.phase
     }

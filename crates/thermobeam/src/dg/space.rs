@@ -1,12 +1,12 @@
-//! Elements of degree p on a mesh: where each coefficient is stored, and what it is coupled with.
+//! Elements of degree p on a mesh: the storage and the couplings of each coefficient.
 //!
 //! # Blocks
 //!
-//! A *block* holds one coefficient of u, one of φ and one of θ. Blocks 0..=n are those of the nodes' hats. The rest of the
-//! basis falls into two chains an element: M couples degree m of a field with m ± 2 of the same field, C couples m of u
-//! or θ with m ± 1 of φ. So the even degrees of u and θ meet the odd degrees of φ only, and the other way round. Block k of chain
-//! c holds `u_{2k+c}, φ_{2k+1-c}, θ_{2k+c}`, k = 1..⌊p/2⌋; it is coupled with blocks k ± 1 of its chain, and for k = 1 with the
-//! two hats. That halves the band of an ordering by degree.
+//! A *block* holds one coefficient of u, one of φ and one of θ. Blocks 0..=n belong to the nodes' hats. The rest of the basis
+//! splits into two chains per element: M couples degree m of a field with m ± 2 of the same field, C couples m of u or θ with m ±
+//! 1 of φ. So the even degrees of u and θ couple only with the odd degrees of φ, and vice versa. Block k of chain c holds
+//! `u_{2k+c}, φ_{2k+1-c}, θ_{2k+c}`, k = 1..⌊p/2⌋; it is coupled with blocks k ± 1 of its chain, and for k = 1 with the two hats.
+//! This halves the bandwidth of an ordering by degree.
 
 use super::element::{self, Basis};
 use super::legendre;
@@ -28,7 +28,7 @@ pub enum Field {
 }
 
 impl Field {
-    /// All of them.
+    /// All fields.
     pub const ALL: [Self; 5] = [Self::U, Self::Phi, Self::V, Self::W, Self::Theta];
 }
 
@@ -39,15 +39,15 @@ pub(super) struct Coupling {
     pub(super) row: usize,
     /// The block of the column.
     pub(super) column: usize,
-    /// M between coefficients of u, and of θ.
+    /// M between coefficients of u, and between those of θ.
     pub(super) mass_u: f64,
     /// M between coefficients of φ.
     pub(super) mass_phi: f64,
-    /// K between coefficients of u, and of θ.
+    /// K between coefficients of u, and between those of θ.
     pub(super) stiff_u: f64,
     /// K between coefficients of φ.
     pub(super) stiff_phi: f64,
-    /// C, row of u (or of θ, as Cᵀ then), column of φ: `(N_φ, N_u')`.
+    /// C, row of u, column of φ: `(N_φ, N_u')`; as Cᵀ also row of θ.
     pub(super) u_phi: f64,
     /// Cᵀ, row of φ, column of u: `(N_u', N_φ)`.
     pub(super) phi_u: f64,
@@ -102,7 +102,7 @@ impl Space {
         self.degree
     }
 
-    /// Blocks of three coefficients, those that are always zero included.
+    /// Blocks of three coefficients, including coefficients that are always zero.
     pub fn blocks(&self) -> usize {
         self.lengths.len() + 1 + self.lengths.len() * self.inner()
     }
@@ -127,17 +127,17 @@ impl Space {
         self.lengths.len()
     }
 
-    /// Blocks of an element without its hats.
+    /// Inner blocks of an element, without its hats.
     pub(super) fn inner(&self) -> usize {
         2 * (self.degree / 2)
     }
 
-    /// Where block `local` of an element is stored.
+    /// Storage index of block `local` of an element.
     pub(super) fn block(&self, element: usize, local: usize) -> usize {
         if local < 2 { element + local } else { self.tip() + 1 + element * self.inner() + local - 2 }
     }
 
-    /// Block and place in it of the coefficient that a field has in degree m of an element (0 and 1: the hats).
+    /// Block and index in it for the coefficient of a field in degree m of an element (0 and 1: the hats).
     pub fn place(&self, field: Field, element: usize, m: usize) -> (usize, usize) {
         let phi = matches!(field, Field::Phi | Field::W);
         let place = match field {
@@ -150,16 +150,16 @@ impl Space {
         (self.block(element, local), place)
     }
 
-    /// Does the coefficient exist, and is it free? Hats of clamped ends are not.
+    /// Does the coefficient exist, and is it free? Hats at clamped ends are not.
     fn is_free(&self, field: Field, element: usize, m: usize) -> bool {
         let last = self.lengths.len() - 1;
         !(element == 0 && m == 0 || field == Field::Theta && element == last && m == 1)
     }
 
-    /// Adds (f, χ) for every basis function χ of a field to a load, by Gauss quadrature with so many points an element.
+    /// Adds (f, χ) for every basis function χ of a field to a load, by Gauss quadrature with `points` per element.
     ///
-    /// * `field`: which equation's test functions; V and W stand for those of u and φ.
-    /// * `load`: [`Self::blocks`] blocks of `(F_u, F_φ, F_θ)`. A point load at x = 1 belongs into block n, the number of elements.
+    /// * `field`: the equation whose test functions are used; V and W stand for those of u and φ.
+    /// * `load`: [`Self::blocks`] blocks of `(F_u, F_φ, F_θ)`. A point load at x = 1 belongs in block n, the number of elements.
     pub fn add_load(&self, field: Field, points: &[(f64, f64)], f: impl Fn(f64) -> f64, load: &mut [[f64; 3]]) {
         for (element, x) in self.mesh.nodes().windows(2).enumerate() {
             let half = 0.5 * (x[1] - x[0]);
@@ -179,11 +179,11 @@ impl Space {
         legendre::gauss(count)
     }
 
-    /// (3.6): the projection of f in the H¹ product, handed to `put` with element, block and place.
+    /// (3.6): the projection of f in the H¹ product, passed to `put` with element, block and index.
     ///
-    /// It meets f in the nodes. Inside an element its coefficients are `(f - I f, N_m')` in the product of derivatives, I the
-    /// interpolation in the nodes, which after integration by parts need no derivative of f:
-    /// `c_m = -√((2m - 1)/2) ∫ (f - I f) P_{m-1}' dξ`.
+    /// It equals f at the nodes. Inside an element its coefficients are `(f - I f, N_m')` in the product of derivatives,
+    /// where I interpolates at the nodes. Integration by parts removes the derivative of f: `c_m = -√((2m - 1)/2) ∫ (f - I f)
+    /// P_{m-1}' dξ`.
     pub(super) fn project(&self, field: Field, f: impl Fn(f64) -> f64, mut put: impl FnMut(usize, usize, usize, f64)) {
         let points = legendre::gauss(2 * self.degree + 16);
         for (element, x) in self.mesh.nodes().windows(2).enumerate() {
@@ -214,13 +214,13 @@ impl Space {
         (element, (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element])
     }
 
-    /// Value and slope at x of the field whose coefficients `coefficient(block, place)` gives.
+    /// Value and slope at x of the field with the coefficients `coefficient(block, place)`.
     pub(super) fn evaluate(&self, field: Field, x: f64, coefficient: impl Fn(usize, usize) -> f64) -> (f64, f64) {
         let (element, xi) = self.locate(x);
         self.combine(field, element, &Basis::at(xi, self.degree), coefficient)
     }
 
-    /// The same of all fields at once, by one evaluation of the basis.
+    /// The same for all fields at once, by one evaluation of the basis.
     pub(super) fn evaluate_all(
         &self,
         x: f64,
@@ -249,7 +249,7 @@ impl Space {
     }
 }
 
-/// What two blocks of the reference element have to do with each other, if anything.
+/// The coupling of two blocks of the reference element, if any.
 fn coupling(row: usize, column: usize, degree: usize) -> Option<Coupling> {
     let ([u_row, phi_row], [u_column, phi_column]) = (degrees(row, degree), degrees(column, degree));
     let of = |matrix: fn(usize, usize) -> f64, i: Option<usize>, j: Option<usize>| match (i, j) {

@@ -1,4 +1,4 @@
-//! The polynomials of one step, and how they are found.
+//! The polynomials of one step, and their computation.
 
 use super::block::{Block, add_columns};
 use super::contact_event::{Phase, Polynomial};
@@ -13,22 +13,22 @@ use super::{Level, Work};
 use crate::error::StepFailure;
 use crate::parameters::{Beam, Obstacles};
 
-/// Two lengths that share a factorisation: the iteration then contracts by about their relative difference.
+/// Relative difference of two lengths that share a factorisation: the contraction of the iteration is about the same.
 const SAME_LENGTH: f64 = 5e-3;
 
-/// A factorisation is replaced where the iteration contracts more slowly than this and a better one is to be had.
+/// A factorisation is replaced if the iteration contracts more slowly than this and a better one is possible.
 const SLOW: f64 = 0.2;
 
-/// Increments below so many rounding errors of the solution cannot shrink any more.
+/// Increments below this many rounding errors of the solution cannot shrink further.
 const FLOOR: f64 = 16.0 * f64::EPSILON;
 
-/// Memory that factorisations may take together, in bytes, two of them apart.
+/// Total memory of the factorisations in bytes, not counting two of them.
 const FACTOR_BYTES: usize = 64 << 20;
 
 /// Factorisations for steps that are cut.
 const SPARE: usize = 3;
 
-/// One step to be done.
+/// One step to solve.
 pub(super) struct Task<'a> {
     pub(super) space: &'a Space,
     pub(super) beam: &'a Beam,
@@ -37,7 +37,7 @@ pub(super) struct Task<'a> {
     pub(super) level: &'a Level,
     /// Its length.
     pub(super) h: f64,
-    /// What the free end touches.
+    /// The phase of the free end.
     pub(super) phase: Phase,
     /// Bound on the last increment.
     pub(super) tolerance: f64,
@@ -51,33 +51,33 @@ impl<'a> Task<'a> {
     }
 }
 
-/// The step for any degree q in time, q being no parameter of the type.
+/// The step for any degree q in time, without q as a parameter of the type.
 pub(super) trait Stages: Send {
-    /// Starts from velocities and a temperature that are constant in time.
+    /// Starts the iteration from velocities and a temperature that are constant in time.
     fn guess_constant(&mut self, level: &Level);
-    /// Starts from the last step's polynomials, continued over a step that is `ratio` times as long.
+    /// Starts it from the last step's polynomials, continued over a step that is `ratio` times as long.
     fn guess_continued(&mut self, ratio: f64);
-    /// Restricts what was found last to the first part, from 0 to `ratio`, of its step.
+    /// Restricts the last solution to the first part, from 0 to `ratio`, of its step.
     fn restrict(&mut self, ratio: f64);
-    /// Finds the polynomials of a step, from the guess; returns the iterations done.
+    /// Finds the polynomials of a step, from the guess; returns the number of iterations.
     fn solve(&mut self, task: &Task<'_>, load: Option<&mut (dyn Load + 'static)>) -> Result<usize, StepFailure>;
     /// u(1, t).
     fn tip(&self, space: &Space) -> Polynomial;
-    /// The mean contact force over the step that the balance of momentum needs, and the axial force that goes with it.
+    /// The mean contact force over the step from the balance of momentum, and the corresponding axial force.
     fn forces(&self) -> [f64; 2];
-    /// Keeps what was found as the last step.
+    /// Accepts the solution as the last step.
     fn accept(&mut self);
     /// The level at s of the last step, 0 < s <= 1, from the level at its start.
     fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level);
     /// One coefficient of the space, as a polynomial over the last step.
     fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial;
-    /// What the last step lost, apart from contact.
+    /// The losses of the last step, except those of contact.
     fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Losses;
     /// Counts.
     fn work(&self) -> Work;
 }
 
-/// A factorisation and what it was made for.
+/// A factorisation and the length for which it was made.
 struct Slot<const S: usize> {
     h: f64,
     n_value: f64,
@@ -109,7 +109,7 @@ pub(super) struct DgStepper<const S: usize> {
 }
 
 impl<const S: usize> DgStepper<S> {
-    /// With room for a factorisation for each of `lengths` lengths, and [`SPARE`] more; `loaded` where there will be loads.
+    /// Allocates a factorisation for each of `lengths` lengths, and [`SPARE`] more; `loaded` if there will be loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
         let motion = || Polynomials { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
@@ -130,7 +130,7 @@ impl<const S: usize> DgStepper<S> {
         }
     }
 
-    /// The factorisation for a length: one that serves, or a new one in place of the one longest unused.
+    /// The factorisation for a length: an existing one if suitable, or a new one instead of the least recently used.
     fn slot(&mut self, task: &Task<'_>, n_value: f64) -> Result<usize, StepFailure> {
         self.clock += 1;
         let near = |slot: &Slot<S>| (slot.h / task.h - 1.0).abs();
@@ -147,7 +147,7 @@ impl<const S: usize> DgStepper<S> {
         Ok(index)
     }
 
-    /// The residual of the equations into `residual`; returns the mean axial force.
+    /// Writes the residual of the equations into `residual`; returns the mean axial force.
     fn defect(&mut self, task: &Task<'_>) -> f64 {
         let equations = task.equations(&self.forms, self.forcing.as_ref());
         equations.displace(&self.trial.x, &mut self.trial.terms);
@@ -172,7 +172,7 @@ impl<const S: usize> DgStepper<S> {
         Ok(())
     }
 
-    /// Subtracts the correction in `residual` from the polynomials; its size, and theirs, in the norm of the velocities.
+    /// Subtracts the correction in `residual` from the polynomials; returns both norms, measured as for velocities.
     fn correct(&mut self) -> (f64, f64) {
         let (mut change, mut size) = (0.0, 0.0);
         for ((x, correction), weights) in self.trial.x.iter_mut().zip(&self.residual).zip(&self.weights) {
@@ -264,17 +264,17 @@ impl<const S: usize> Stages for DgStepper<S> {
             self.slots[chosen].factor.solve_in_place(task.space, in_contact, &mut self.residual);
             let (increment, mut size) = self.correct();
             if in_contact {
-                // The contact force magnifies rounding errors of the position; over the step they are this velocity.
+                // The contact force amplifies rounding errors of the position; over the step they equal this velocity.
                 size += task.level.places[task.space.tip()][0].abs() / task.h;
             }
             if !increment.is_finite() {
                 return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
             }
             contraction = increment / previous;
-            // The increments that are still to come add up to at most this, once their ratio is known.
+            // Once their ratio is known, the sum of the remaining increments is at most this.
             let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
             let known = iteration > 1 && rest <= task.tolerance;
-            // Round-off: further iterations change the last digits only.
+            // Round-off: further iterations change only the last digits.
             let stagnant = increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
             if increment <= task.tolerance || known || stagnant {
                 let equations = task.equations(&self.forms, self.forcing.as_ref());

@@ -1,4 +1,4 @@
-//! Bounds on the rounding errors in the energy balance: its scale, and how large a residual round-off explains.
+//! Bounds on the rounding errors in the energy balance: its scale, and the residual that round-off can cause.
 //!
 //! # The residual
 //!
@@ -29,8 +29,8 @@ use crate::norms::slope_squared;
 use crate::parameters::{Beam, Obstacles};
 use crate::solve::Level;
 
-/// The constant c of the module documentation: some ten terms per equation, each of a few operations, and as many in
-/// the balance; the elimination multiplies by inverted blocks, which doubles the number.
+/// The constant c of the module documentation: some ten terms per equation, each of a few operations, and the same
+/// number in the balance; the elimination multiplies by inverted blocks, which doubles the count.
 const TERMS: f64 = 64.0;
 /// Rounding errors in the tip's position: of the elimination's last row, of the closed form, and of `u0 + dt V`.
 const TIP_TERMS: f64 = 16.0;
@@ -45,12 +45,12 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Bound on the change of the energy that round-off explains, the sum of both.
+    /// Bound on the change of the energy due to round-off, the sum of both.
     pub fn total(&self) -> f64 {
         self.residual + self.contact
     }
 
-    /// The bounds for the step from `old` to `new` with step `dt`, without loads and solved to a tolerance at
+    /// The bounds for the step from `old` to `new` of length `dt`, without loads and solved to a tolerance at
     /// round-off.
     pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64, lengths: &[f64], old: &Level, new: &Level) -> Self {
         let stretch = slope_squared(lengths, &old.u).max(slope_squared(lengths, &new.u));
@@ -84,7 +84,7 @@ fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) 
     2.0 * (force * delta + delta * delta / obstacles.epsilon)
 }
 
-/// The scale of a level's energy: the sum of its terms without their signs, the Kirchhoff term without its constant.
+/// The scale of a level's energy: the sum of the absolute values of its terms, the Kirchhoff term without its constant.
 ///
 /// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
 pub fn scale(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> f64 {
@@ -140,7 +140,7 @@ mod tests {
         let warm = Level { theta: vec![4.0, 0.0], ..turned };
         near(terms(&warm), (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0);
 
-        // The displacement of a node enters, at either end of an element: 1 here, for values of 3.
+        // The displacement of a node matters at either end of an element: 1 here, for values of 3.
         let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level { phi: vec![0.0, a, b], ..Level::new(3) });
         let both = Rounding::of(&beam, None, dt, &[h, h], &old, &new).residual / (32.0 * f64::EPSILON);
         near(both, 2.0 * 4.0 * 3.0 / h);
@@ -154,12 +154,12 @@ mod tests {
             assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
             assert_eq!(rounding.total(), rounding.residual + rounding.contact);
         }
-        // A tip exactly at the obstacle has no force, but a rounding error whose energy the obstacle stores.
+        // A tip exactly at the obstacle has no force, but its rounding error has an energy that the obstacle stores.
         let level = Level { u: end(0.5), ..still.clone() };
         let delta_at = 8.0 * f64::EPSILON * 0.5;
         let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &level, &level);
         assert!((rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14, "{rounding:?}");
-        // The force of the step enters if it is larger than those of the law: 7 against 3.
+        // The force of the step matters if it is larger than those of the law: 7 against 3.
         let pressed = Level { contact_force: -7.0, ..touching };
         let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &still, &pressed);
         assert!((rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14);

@@ -1,8 +1,8 @@
 //! The sums over the elements in the balance of a step.
 //!
-//! The sum is split into four partial sums, the k-th over every fourth element from the k-th on: a single sum would
-//! make each addition wait for the previous one. For one case the four partial sums fill a vector register; for several
-//! cases in lanes each partial sum is a register with one number per case. Both give the same bits for a case.
+//! The sum is split into four partial sums, each over every fourth element: in a single sum each addition would wait
+//! for the previous one. For one case the four partial sums fill a vector register; for several cases in lanes each
+//! partial sum is a register with one number per case. Both give the same bits for a case.
 
 use crate::lanes::{Lane, Lanes};
 use crate::norms::element_product;

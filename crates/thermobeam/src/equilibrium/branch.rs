@@ -13,12 +13,12 @@ const CONSISTENCY: f64 = 1e-9;
 /// For ρ = 0: a determinant smaller than this, relative to the sum of its terms, is zero to round-off.
 const RESONANCE: f64 = 1e-13;
 
-/// Whether a state with this N is returned: an interval above N = -1 is left out, see [`super::equilibria`].
+/// Whether a state with this N is returned: an interval above N = -1 is omitted, see [`super::equilibria`].
 fn is_listed(n_value: f64) -> bool {
     n_value <= -1.0 || 1.0 + n_value > free_buckling(BUCKLING_VALUES + 1)
 }
 
-/// One state of contact: its law, and the solutions of that law, whether they press the obstacle or not.
+/// One state of contact: its law, and the solutions of that law, whether or not they press the obstacle.
 pub(super) struct Branch<'a> {
     /// The coefficients.
     pub(super) beam: &'a Beam,
@@ -157,7 +157,7 @@ impl Branch<'_> {
         // A difference, so that a zero force is 0 and not -0.
         let contact_force = 0.0 - shape.stress();
         let u_tip = match self.law.support {
-            // Equal to u(1), without the cancellation that a small compliance would magnify.
+            // Equal to u(1), without the cancellation that a small compliance would amplify.
             Some(Support { epsilon, position }) => position + epsilon * contact_force,
             None => shape.u(1.0),
         };
@@ -272,7 +272,7 @@ mod tests {
         assert_eq!((line.n_value, line.u_tip, line.unstable_directions), (-1.0, -0.5, None));
     }
 
-    /// β for which 1 + β is exactly s, if it exists.
+    /// The β for which 1 + β is exactly s, if it exists.
     fn beta_at(s: f64) -> Option<f64> {
         Some(s - 1.0).filter(|beta| 1.0 + beta == s)
     }

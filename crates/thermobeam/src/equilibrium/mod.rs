@@ -23,8 +23,8 @@
 //! N > 0, k² = -X:     C = cosh ky,    W = (cosh ky - 1)/k²
 //! ```
 //!
-//! which are the Stumpff functions `c_0(Xy²)` and `y² c_2(Xy²)`: one formula, smooth in N. The clamping φ(0) = 0 and
-//! the contact law are two linear equations for (α, c):
+//! which are the Stumpff functions `c_0(Xy²)` and `y² c_2(Xy²)`: a single formula, smooth in N. The clamping φ(0) = 0
+//! and the contact law are two linear equations for (α, c):
 //!
 //! ```text
 //! C(1) α - W(1) d = 0,        εc + u(1) = g  in contact with the obstacle at g,  or  c = 0  without,
@@ -131,7 +131,7 @@ pub enum EquilibriumError {
 /// A steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium {
-    /// The obstacle that is pressed.
+    /// The obstacle that the tip presses.
     pub contact: Contact,
     /// Axial force N = β + ρ‖u'‖².
     pub n_value: f64,
@@ -176,7 +176,7 @@ impl Equilibrium {
 
 /// Whether [`equilibria`] returns every steady state, which holds for β > -0.9996.
 ///
-/// Every state has N >= β, so the list is complete if β is at least the lowest buckling value that is searched.
+/// Every state has N >= β, so the list is complete if β is at least the lowest buckling value searched.
 pub fn lists_all(beam: &Beam) -> bool {
     1.0 + beam.beta >= free_buckling(BUCKLING_VALUES + 1)
 }
@@ -184,15 +184,15 @@ pub fn lists_all(beam: &Beam) -> bool {
 /// All steady states, sorted by u(1), then N.
 ///
 /// * `obstacles`: `None` leaves the tip free.
-/// * For β so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value of
-///   index [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
+/// * If β is so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value
+///   of index [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
 ///
 /// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice. Near a fold the
 /// number of states (none, one or two) is determined to round-off of N.
 ///
 /// # Errors
 /// [`EquilibriumError`] for a coefficient out of range, for ρ = 0 at a buckling value, for β at a buckling value with a
-/// load of the size of round-off, and where the computed state is inaccurate.
+/// load of the size of round-off, and if the computed state is inaccurate.
 ///
 /// ```
 /// use thermobeam::equilibrium::{Contact, equilibria};

@@ -1,7 +1,7 @@
 //! Newton's method on the pole-free system for (N, α, c), from an approximate state.
 //!
-//! The f of the scan has poles: near one, the distance to it, and with it the amplitude, carries a relative error of
-//! round-off over that distance. The three conditions
+//! The f of the scan has poles: near a pole, the distance to it, and with it the amplitude, has a relative error of
+//! round-off divided by that distance. The three conditions
 //!
 //! `φ(0) = 0`, `εc + u(1) = g` (or c = 0), `N = β + ρ‖u'‖²`
 //!
@@ -34,7 +34,7 @@ pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
     for _ in 0..STEPS {
         let Some(step) = newton_step(&residual, state) else { break };
         let size = relative_size(step, state);
-        // No decrease: round-off is reached, or the start was too far away.
+        // No decrease: round-off has been reached, or the start was too far away.
         if size.is_nan() || size >= bound {
             break;
         }

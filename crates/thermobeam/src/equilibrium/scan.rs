@@ -1,4 +1,4 @@
-//! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, and why none is missed.
+//! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, and a proof that none is missed.
 //!
 //! Write the law as `(B + N K) w = ℓ`, with B the elastic form (support included, positive definite) and K that of
 //! ‖u'‖². In the eigenbasis of K against B,
@@ -14,15 +14,15 @@
 //! * below β: none, since ρS >= 0.
 //!
 //! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ b bᵀ, so by
-//! Sylvester's law it has as many negative directions as there are poles above N, less one where f' = 1 - ρS' < 0.
+//! Sylvester's law it has as many negative directions as there are poles above N, less one if f' = 1 - ρS' < 0.
 
 use super::law::Law;
 use crate::bracket::{bisect, maximize};
 
 /// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead of N.
 ///
-/// Large against round-off, so that the sign of f is certain at this distance, and small enough for the pole's N to
-/// give the amplitude to eleven digits.
+/// Large against round-off, so that the sign of f is certain at this distance, and small enough that the pole's N gives
+/// the amplitude to eleven digits.
 const POLE_GAP: f64 = 1e-11;
 
 /// Bound on |max f| for a double root, in units of the largest term of f.

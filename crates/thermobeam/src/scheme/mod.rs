@@ -1,14 +1,14 @@
-//! The time schemes, one row of a table each.
+//! The time schemes, each a row of a table.
 //!
-//! Both schemes solve one system per step for the velocities `V`, `W` that carry the displacements, `u = u0 + dt V`,
-//! `phi = phi0 + dt W`, and for the mean temperature `Θ = (theta + theta0)/2`. They differ in three entries:
+//! Both schemes solve one system per step for the velocities `V`, `W` that determine the displacements, `u = u0 + dt
+//! V`, `phi = phi0 + dt W`, and for the mean temperature `Θ = (theta + theta0)/2`. They differ in three entries:
 //!
 //! | scheme | V is | inertia `M (v - v0)/dt` | contact |
 //! | --- | --- | --- | --- |
 //! | `euler-crank-nicolson` | v at the new level | `M (V - v0)/dt` | g at the new level |
 //! | `midpoint` | v at the middle | `2 M (V - v0)/dt`, because `v = 2 V - v0` | the discrete gradient of G |
 //!
-//! `V = c v + (1 - c) v0` with ½ <= c <= 1 is a row as well, with inertia 1/c and order 1 for c > ½.
+//! `V = c v + (1 - c) v0` with ½ <= c <= 1 is also a row, with inertia 1/c and order 1 for c > ½.
 
 /// How the contact force enters a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -17,7 +17,7 @@ impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
             balances.iter_mut().enumerate().filter(|(k, _)| self.controls[*k].state == Progress::Accepted)
         {
             let (case, control) = (&self.cases[k], &self.controls[k]);
-            // After the step `old` holds its new level and `new` the one before.
+            // After the step `old` holds its new level and `new` the previous one.
             let tip = Tip { old: self.new[tip][0].lane(k), new: self.old[tip][0].lane(k), force: control.force };
             let obstacles = case.obstacles.as_ref();
             *balance = Balance::from_sums(&case.beam, obstacles, &scheme, case.dt, &sums.of_lane(k), tip);

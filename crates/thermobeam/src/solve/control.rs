@@ -1,4 +1,4 @@
-//! The state of one case in the Newton iteration: scalars of the present step, and those kept from step to step.
+//! The state of one case in the Newton iteration: scalars of the current step, and those kept from step to step.
 
 use crate::contact::Tip;
 use crate::norms::slope_squared;
@@ -14,7 +14,7 @@ pub(super) struct Control {
     pub(super) forces: [f64; 3],
     /// m̄, for which the matrix was factorised; NaN without a valid factorisation.
     pub(super) factorized: f64,
-    /// m of the present pass.
+    /// m of the current pass.
     pub(super) m: f64,
     /// ‖u_x‖² of the iterate.
     pub(super) new_slope_squared: f64,
@@ -28,7 +28,7 @@ pub(super) struct Control {
     /// Bound on the next increment.
     pub(super) increment: f64,
     pub(super) state: Progress,
-    /// Passes and factorisations for this case: as many as it would take alone.
+    /// Passes and factorisations for this case, the same number as in a single run.
     pub(super) work: Work,
 }
 
@@ -39,7 +39,7 @@ pub(super) enum Progress {
     Iterating,
     /// The iterate is within the tolerance.
     Accepted,
-    /// To be solved by the safeguarded iteration.
+    /// The safeguarded iteration must solve it.
     NeedsSafeguard,
     /// In the safeguarded iteration, which treats one case at a time.
     Safeguarded,

@@ -21,7 +21,7 @@ use crate::solve::stepper::Stepper;
 use crate::solve::{Level, Settings, StepReport, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
-/// Ratio of the last two increments from which the iteration counts as diverging. In a cycle, for example between both
+/// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for example between both
 /// sides of an obstacle, the ratio is one up to round-off.
 const STALLED: f64 = 1.0 - 1e-6;
 
@@ -31,7 +31,7 @@ pub(crate) struct FixedPoint {
     scheme: Scheme,
     settings: Settings,
     old: Level,
-    /// V, W, Θ of the present and of the previous iterate.
+    /// V, W, Θ of the current and of the previous iterate.
     now: Iterate,
     before: Iterate,
     /// u^{n,ℓ-1}; u^{n-1} in the first iteration, by (4.1).
@@ -86,7 +86,7 @@ impl FixedPoint {
         })
     }
 
-    /// Does one step; if it fails, the level stays.
+    /// Does one step; if it fails, the level stays unchanged.
     fn step(&mut self) -> Result<StepReport, StepFailure> {
         self.start();
         let (mut increment, mut contraction) = (f64::NAN, f64::NAN);
@@ -114,7 +114,7 @@ impl FixedPoint {
         }
     }
 
-    /// The loop that multiplies errors most at the level that the step starts from, in contact if the last iterate is.
+    /// The loop with the largest factor at the initial level of the step, in contact if the last iterate is.
     fn largest_loop(&self) -> Loop {
         let Case { beam, dt, lengths, obstacles } = &self.case;
         let tip = self.u_before[lengths.len()];
@@ -230,7 +230,7 @@ impl FixedPoint {
         TheoremSquares::of(&self.case.lengths, v, u, w, phi, theta).norm()
     }
 
-    /// Makes the present iterate the previous one, with u^{n,ℓ} by (4.3).
+    /// Makes the current iterate the previous one, with u^{n,ℓ} by (4.3).
     fn remember(&mut self) {
         for (u, (u0, v)) in self.u_before.iter_mut().zip(self.old.u.iter().zip(&self.now.v)) {
             *u = u0 + self.case.dt * v;

@@ -10,7 +10,7 @@
 //!
 //! *Kept factorisation.* Start from velocities and N extrapolated in time (third order), do one pass with the
 //! factorisation of an earlier step, and accept if the a-posteriori error bound of `bound.rs` is below the tolerance.
-//! Most steps take one pass. The rank-one term of the Kirchhoff force in the Jacobian is left out; the bound accounts
+//! Most steps take one pass. The rank-one term of the Kirchhoff force in the Jacobian is omitted; the bound accounts
 //! for its effect.
 //!
 //! *Safeguarded Newton* (`root.rs`), if that iteration would not contract: Newton's method for F, with F'(m) from one
@@ -30,7 +30,7 @@ use crate::solve::{Level, Settings, Start, StepReport, Work};
 const KEPT_PASSES: usize = 6;
 /// Largest contribution of a kept factorisation to the contraction bound q: renewing it costs about ten passes.
 const RENEWAL: f64 = 0.1;
-/// Largest contraction bound q for which passes with the kept factorisation go on.
+/// Largest contraction bound q for which passes with the kept factorisation continue.
 const CONTRACTION: f64 = 0.25;
 
 /// Newton's method for one case per lane, with or without the temperature.
@@ -67,7 +67,7 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) velocity: [Vec<[T; B]>; 2],
     /// The scheme's inertia: `v = v0 + weight (V - v0)`.
     weight: T,
-    /// X of the present step and of the previous three; at the start, the initial velocities and temperature.
+    /// X of the current step and of the previous three; at the start, the initial velocities and temperature.
     pub(super) iterates: [Vec<[T; B]>; 4],
     /// The right-hand side after the forward sweep.
     pub(super) middle: Vec<[T; B]>,
@@ -96,7 +96,7 @@ fn scalars<T: Lane>(cases: &[Case], scheme: &Scheme) -> Scalars<T> {
 }
 
 impl<T: Lane, const B: usize> Newton<T, B> {
-    /// The stepper at the levels given.
+    /// The stepper at the given levels.
     ///
     /// * `cases`, `levels`: one per lane; all levels have the same number of nodes.
     pub(crate) fn new(cases: Vec<Case>, scheme: Scheme, settings: Settings, levels: &[&Level]) -> Self {
@@ -141,7 +141,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
     }
 
-    /// Sets m from the extrapolated axial force, and renews the factorisation if it is too far from it.
+    /// Sets m from the extrapolated axial force, and renews the factorisation if that is too far from m.
     fn start(&mut self, k: usize) {
         let beam = self.cases[k].beam;
         let weights = self.weights();
@@ -154,7 +154,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         control.increment = f64::NAN;
         control.state = Progress::Iterating;
         let m = control.m;
-        // NaN in the first step, where there is no factorisation: the comparison then renews it.
+        // NaN in the first step, which has no factorisation yet: the comparison then renews it.
         if !(self.kept_contraction(k, m) <= RENEWAL) && self.factorize(k, m).is_err() {
             // The predicted force may lie below the buckling force although the solution does not.
             self.controls[k].state = Progress::NeedsSafeguard;

@@ -12,7 +12,7 @@ fn rounding(forces: [f64; 3]) -> f64 {
     8.0 * f64::EPSILON * forces.iter().map(|force| force.abs()).sum::<f64>()
 }
 
-/// The Newton iterate if it lies inside the bracket; else the midpoint, or a larger m while there is no upper end.
+/// The Newton iterate if it lies inside the bracket; otherwise the midpoint, or a larger m while there is no upper end.
 fn safeguarded(low: f64, high: f64, newton: f64) -> f64 {
     if low < newton && newton < high {
         newton

@@ -20,7 +20,7 @@ pub(crate) struct Case {
 pub(crate) trait Stepper<T: Lane>: Send + Sync {
     /// Does one step of every case that has not failed, without allocating memory.
     ///
-    /// A case that fails keeps its last level and does not affect the others. A single case may try the step again.
+    /// A case that fails keeps its last level and does not affect the others. A single case may repeat the step.
     ///
     /// * `outcomes`: overwritten, one for each lane.
     fn advance(&mut self, outcomes: &mut [Result<StepReport, StepFailure>]);
@@ -28,7 +28,7 @@ pub(crate) trait Stepper<T: Lane>: Send + Sync {
     /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes; allocated by the first call.
     fn load_mut(&mut self) -> &mut [[T; 3]];
 
-    /// Copies the present level of case k into `level`; the last one before the failure if the case has failed.
+    /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
     fn read(&self, k: usize, level: &mut Level);
 
     /// Counts of the work done so far; a pass over all lanes counts once.
@@ -40,12 +40,12 @@ pub(crate) trait Batch<T: Lane>: Stepper<T> {
     /// The [`Balance`] of the last step of every case that has done it; the others are left unchanged.
     fn balances(&self, balances: &mut [Balance]);
 
-    /// u(1) of the present level of case k; of the last one before the failure if the case has failed.
+    /// u(1) at the current level of case k; if the case has failed, at the last level before the failure.
     fn tip(&self, k: usize) -> f64;
 
     /// The contact force of the last step of case k.
     fn contact_force(&self, k: usize) -> f64;
 
-    /// The work for case k so far: as much as it would take alone.
+    /// The work for case k so far, the same as in a single run.
     fn work_of(&self, k: usize) -> Work;
 }

@@ -1,9 +1,9 @@
 //! The two sweeps of a pass of Newton's method: residual of (3.7) and elimination forward, substitution and (3.8)
 //! backward.
 //!
-//! The unknown at a node is `X = (V, W, Θ)`: the velocities that carry the step, `u = u0 + dt V`, `phi = phi0 + dt W`,
-//! (3.8), and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, (3.1), `κ = inertia/dt` and
-//! the mean axial force m = ½(N(u) + N(u0)), the residual of (3.7) is
+//! The unknown at a node is `X = (V, W, Θ)`: the velocities of the step, `u = u0 + dt V`, `phi = phi0 + dt W`, (3.8),
+//! and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, (3.1), `κ = inertia/dt` and the mean
+//! axial force m = ½(N(u) + N(u0)), the residual of (3.7) is
 //!
 //! ```text
 //! R_u = κ M (V - v0) + K ((1 + m) u½ + ζ V) - C (φ½ + ζ W)                          + F(u(1)) e - F_u
@@ -83,7 +83,7 @@ impl Scalars<f64> {
         diagonal[0][0] = 2.0 * self.inertia * sixth + stiff_u * inverse;
         diagonal[1][1] = (self.inertia + self.stiff) * 2.0 * sixth + self.stiff * inverse;
         if tip {
-            // Only at the tip has C a diagonal entry, (N_n, N_n') = 1/2.
+            // C has only one diagonal entry, (N_n, N_n') = 1/2 at the tip.
             diagonal[0][1] = -0.5 * self.stiff;
             diagonal[1][0] = -0.5 * self.stiff;
         }
@@ -264,7 +264,7 @@ pub(crate) struct Backward<'a, T, const B: usize> {
     pub(crate) middle: &'a [[T; B]],
     /// 1 for the cases that take part in the pass, 0 for those whose iterate stays.
     pub(crate) active: T,
-    /// δ at the tip, contact included.
+    /// δ at the tip, including contact.
     pub(crate) tip: [T; B],
     pub(crate) old: &'a [[T; B]],
     /// X; the correction is added.

@@ -6,8 +6,7 @@ use crate::parameters::ParameterError;
 /// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
 ///
 /// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (oscillation), equal for ζω = 2, and real for ζω > 2
-/// (overdamped), as for all high modes with ζ > 0. The factor is that of a mode of the beam or of a mesh, each with its
-/// own ω.
+/// (overdamped), as for all high modes with ζ > 0. The mode may be one of the beam or of a mesh, each with its own ω.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeFactor {
     omega: f64,

@@ -8,7 +8,7 @@ use crate::dg::element;
 use crate::mesh::Mesh;
 use thiserror::Error;
 
-/// No frequencies of these elements.
+/// The reason why these frequencies cannot be computed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SpectrumError {
     /// More frequencies requested than the mesh has.
@@ -21,7 +21,7 @@ pub enum SpectrumError {
         /// Number of frequencies of the mesh, twice the degree times the number of elements.
         available: usize,
     },
-    /// No such elements.
+    /// Invalid degree of the elements.
     #[error("degree of the elements: expected 1 to {MAX_DEGREE}, found {0}")]
     Degree(usize),
 }
@@ -42,8 +42,8 @@ struct Symmetric {
 ///
 /// Method: the block LDLᵀ pivots of K - λM have as many negative eigenvalues as the pencil has eigenvalues below λ
 /// (Sylvester). In each element the degrees from p down to 2 are eliminated first, then the nodes from left to right.
-/// Bisection on that count separates eigenvalues however close they are. The error of a frequency is at most round-off
-/// times the condition number, about `ε n²/ω²` for linear elements, and mostly far smaller.
+/// Bisection on that count separates eigenvalues at any distance. The error of a frequency is at most round-off times
+/// the condition number, about `ε n²/ω²` for linear elements, and usually far smaller.
 ///
 /// # Errors
 /// [`SpectrumError`] if `count` is more than 2np, or the degree is not one from 1 to [`MAX_DEGREE`].
@@ -52,7 +52,7 @@ pub fn discrete_frequencies(mesh: &Mesh, degree: usize, count: usize) -> Result<
     Ok(whole.unwrap_or_else(|never| match never {}))
 }
 
-/// As [`discrete_frequencies`], and `may_go_on` is asked before each count of the bisection, which takes O(n p³) operations.
+/// As [`discrete_frequencies`], but calls `may_go_on` before each count of the bisection, which takes O(n p³) operations.
 ///
 /// * `may_go_on(i)`: i frequencies are known; its error ends the computation.
 /// * Returns the frequencies, or the error of `may_go_on`.
@@ -81,7 +81,7 @@ pub fn discrete_frequencies_until<E>(
             if stopped.is_none() {
                 stopped = may_go_on(index).err();
             }
-            // After the end, bisection runs out without a count, which takes no time.
+            // After that, bisection ends without further counts, in negligible time.
             if stopped.is_none() && count_below(&lengths, degree, omega * omega) > index { 1.0 } else { -1.0 }
         };
         let found = bisect(excess, 0.0, highest);
@@ -101,7 +101,7 @@ fn spectral_bound(lengths: &[f64], degree: usize) -> f64 {
 /// Number of eigenvalues ω² below `lambda`.
 fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
     let mut negative = 0;
-    // What the elements to the left leave of the present node's block.
+    // The Schur complement of the current node's block after eliminating the elements to the left.
     let mut node = Symmetric { a: 0.0, b: 0.0, d: 0.0 };
     for (i, &h) in lengths.iter().enumerate() {
         let mut element = Element::new(h, degree, lambda);
@@ -140,7 +140,7 @@ impl Element {
         (2..self.blocks).rev().map(|block| self.eliminate(block, block - 1)).sum()
     }
 
-    /// Subtracts from the blocks up to `last` what the elimination of `pivot` leaves; counts its negative eigenvalues.
+    /// Updates the blocks up to `last` after the elimination of `pivot`; counts its negative eigenvalues.
     fn eliminate(&mut self, pivot: usize, last: usize) -> usize {
         let (negative, Symmetric { a, b, d }) = invert(self.block(pivot));
         for row in (0..=last).filter(|&row| row != pivot) {

@@ -1,4 +1,4 @@
-//! A step allocates nothing, nor does observing it.
+//! Neither a step nor its observation allocates memory.
 
 use crate::scenes::{experiment, simulate};
 use thermobeam::dg::{Field, Level, Stepping};

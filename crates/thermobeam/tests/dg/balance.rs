@@ -1,11 +1,11 @@
-//! The energy's balance closes to round-off in every step, contact events included.
+//! The energy balance closes to round-off in every step, including contact events.
 
 use crate::scenes::{EXPERIMENTS, experiment, larger, simulate};
 use thermobeam::dg::{Problem, Simulation, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 
-/// Largest residual of a step, the residuals' sum, and the largest rise of the energy.
+/// Largest residual of a step, the sum of residuals, and the largest rise of the energy.
 fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
     let (mut worst, mut sum, mut rise) = (0.0, 0.0, f64::NEG_INFINITY);
     while simulation.step(t).unwrap_or_else(|error| panic!("{error}")).is_some() {
@@ -28,7 +28,7 @@ fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time()
             let stepping = Stepping { degree: q, ..Stepping::default() };
             let mut simulation = simulate(experiment(beta, theta_a, 10), stepping);
             let scale = simulation.energy(simulation.level()).total();
-            // All of the paper's time for one degree.
+            // The full time of the paper for one degree.
             let (worst, sum, rise) = residuals(&mut simulation, if q == 2 { 10.0 } else { 2.0 });
             let events = simulation.events().len();
 

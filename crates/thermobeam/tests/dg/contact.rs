@@ -1,4 +1,4 @@
-//! Contact in all its forms: at once, at an obstacle at zero, between two obstacles at one place, and grazing.
+//! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and grazing.
 
 use crate::scenes::{advanced, close, experiment, larger, simulate, tip};
 use std::f64::consts::FRAC_PI_2;
@@ -32,7 +32,7 @@ fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
     simulation.level().u[200]
 }
 
-/// Runs to the end; the worst residual of the balance, against the energy at the start, is round-off.
+/// Runs to the end; the worst residual of the balance, relative to the initial energy, must be round-off.
 #[track_caller]
 fn balanced(mut simulation: Simulation, t: f64) -> Simulation {
     let scale = simulation.energy(simulation.level()).total();
@@ -79,7 +79,7 @@ fn two_obstacles_at_one_place_are_touched_in_turn() {
     assert!(events.iter().all(|event| event.from != Phase::Free && event.to != Phase::Free && event.from != event.to));
     let early = advanced(thrown(1.0, obstacles, 10), stepping(), 0.2);
     close(tip(&early, Field::U), by_linear_elements(1.0, obstacles, 0.2), 2e-4);
-    // With g_1 = g_2 = 0 the obstacle is a spring of both signs: from the other side everything is mirrored.
+    // With g_1 = g_2 = 0 the obstacle is a two-sided spring: started from the other side, the motion is mirrored.
     let mirrored = advanced(thrown(-1.0, obstacles, 10), stepping(), 3.0);
     close(tip(&mirrored, Field::U), -tip(&simulation, Field::U), 1e-10);
 }
@@ -107,7 +107,7 @@ fn narrow_gaps_are_crossed() {
     }
 }
 
-/// The first maximum of u(1, t) of the first experiment without obstacles, to round-off.
+/// The first maximum of u(1, t) in the first experiment without obstacles, to round-off.
 fn highest(stepping: Stepping) -> f64 {
     let mut simulation = simulate(Problem { obstacles: None, ..experiment(0.0, 0.0, 8) }, stepping);
     let mut top = f64::NEG_INFINITY;
@@ -207,7 +207,7 @@ fn an_event_ends_its_step_on_the_obstacle_exactly() {
 
 #[test]
 fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
-    // u_0(1) = -0.01 and u_1(1) = 0 in (5.3). The first polynomials overshoot: they dip below that.
+    // u_0(1) = -0.01 and u_1(1) = 0 in (5.3). The first polynomials overshoot and dip below that.
     for (degree, q) in [(9, 1), (9, 2), (10, 3), (14, 1)] {
         for zeta in [0.0, 1e-3, 0.1] {
             for distance in [0.0, 1e-14, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8] {

@@ -116,6 +116,6 @@ fn a_simulation_may_go_on_in_another_thread() {
         simulation.advance(1.0).unwrap();
         tip(&simulation, Field::U)
     });
-    // The step that ends at 0.5 is the only difference.
+    // The only difference is the step that ends at 0.5.
     close(moved.join().unwrap(), expected, 1e-6);
 }

@@ -1,4 +1,4 @@
-//! Bad input and steps that cannot be done are errors with names and numbers.
+//! Bad input and failed steps give errors with names and numbers.
 
 use crate::scenes::{experiment, simulate};
 use thermobeam::dg::{Initial, Problem, Simulation, Stepping};
@@ -69,7 +69,7 @@ fn coefficients_and_initial_data_are_checked() {
     assert!(matches!(found, Some(SetupError::NotFiniteBetween { field: "phi_t", .. })), "{found:?}");
 }
 
-/// The error of a step that must fail, after which the simulation stands where it stood.
+/// The error of a step that must fail, after which the simulation stays at its level.
 #[track_caller]
 fn failed(mut simulation: Simulation) -> StepError {
     let (level, events) = (simulation.level().clone(), simulation.events().to_vec());
@@ -119,8 +119,8 @@ fn a_limit_in_the_past_or_no_number_is_no_step() {
     assert_eq!((simulation.t(), simulation.step(0.05)), (0.1, Ok(None)));
 }
 
-/// With ε below some 1e-15 rounding errors of u(1) are larger than any contact force: once such a run kept its free end on the
-/// obstacle for ever, and passed.
+/// If ε is below some 1e-15, rounding errors of u(1) exceed any contact force: such a run once kept its free end on the
+/// obstacle forever, and passed.
 #[test]
 fn contact_that_the_position_cannot_tell_is_an_error_where_it_pulls() {
     for epsilon in [1e-16, 1e-17, 1e-18, 1e-20, 1e-100] {

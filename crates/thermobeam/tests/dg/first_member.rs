@@ -1,4 +1,4 @@
-//! For q = 0 and p = 1 the family begins with (3.7)-(3.8), up to three rules.
+//! For q = 0 and p = 1 the family begins with (3.7)-(3.8), with three differences.
 
 use crate::scenes::{equal_steps, experiment, simulate};
 use thermobeam::dg::{Field, Problem, Simulation};
@@ -12,7 +12,7 @@ fn graded() -> Mesh {
     Mesh::mapped(9, |s| 0.4 * s + 0.6 * s * s).unwrap()
 }
 
-/// The first member and the paper's scheme after so many steps to t = 0.2.
+/// The first member and the paper's scheme after `steps` steps to t = 0.2.
 fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
     let dt = 0.2 / steps as f64;
     let problem = Problem { beam, obstacles: None, mesh: graded(), ..experiment(0.0, 0.0, 1) };

@@ -109,7 +109,7 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
     }
 }
 
-/// The scheme is not L-stable: a step that is long against all periods multiplies u by (ζ - τ/2)/(ζ + τ/2) for q = 0.
+/// The scheme is not L-stable: a step much longer than all periods multiplies u by (ζ - τ/2)/(ζ + τ/2) for q = 0.
 #[test]
 fn stiff_modes_are_damped_by_viscosity_alone() {
     let mode = Mode::new(0);

@@ -60,7 +60,7 @@ impl Load for Sources {
     fn at(&mut self, t: f64, load: &mut [[f64; 3]]) {
         let Beam { zeta, a, .. } = BEAM;
         let (n, ut, pt, tt) = (axial_force(t), u_t(t), phi_t(t), theta_t(t));
-        // y + ζ y_t, the factor in time of everything elastic.
+        // y + ζ y_t, the time factor of all elastic terms.
         let (uz, pz) = (ut[0] + zeta * ut[1], pt[0] + zeta * pt[1]);
         self.space.add_load(
             Field::U,
@@ -134,7 +134,7 @@ fn the_order_in_space_is_p_for_slopes_and_p_plus_one_for_values() {
         let [coarse, fine] = [elements, 2 * elements].map(|elements| errors(&run(elements, p, fine_steps())));
         for i in 0..6 {
             let (rate, order) = ((coarse[i] / fine[i]).log2(), if i < 3 { p + 1 } else { p } as f64);
-            // φ is smoother than u and θ, from which it takes over errors of higher order, slow to fade.
+            // φ is smoother than u and θ, whose errors cause slowly vanishing terms of higher order in φ.
             let above = if i % 3 == 1 { 0.8 } else { 0.05 };
             let within = rate >= order - 0.05 && rate <= order + above;
             assert!(within, "p = {p}, error {i}: {:e} {:e}, rate {rate}", coarse[i], fine[i]);

@@ -5,11 +5,11 @@ use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 
-/// The seven experiments of the paper's section 5: β and θ_A.
+/// The paper's seven experiments in section 5: β and θ_A.
 pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
     [(0.0, 0.0), (-0.5, 0.0), (5.0, 0.0), (0.0, 20.0), (-0.5, 20.0), (5.0, 20.0), (-0.8, 0.0)];
 
-/// (5.3), with (5.4) for a cold clamped end and (5.5) for a hot one.
+/// (5.3), with (5.4) for a cold clamped end and (5.5) for a heated one.
 pub(crate) fn initial(theta_a: f64) -> Initial {
     let theta = move |x: f64| if theta_a == 0.0 { (PI * x).sin() } else { theta_a * (2.5 * PI * x).cos() };
     Initial {
@@ -44,7 +44,7 @@ pub(crate) fn advanced(problem: Problem, stepping: Stepping, t: f64) -> Simulati
     simulation
 }
 
-/// A field's value at the free end, now.
+/// The current value of a field at the free end.
 #[track_caller]
 pub(crate) fn tip(simulation: &Simulation, field: Field) -> f64 {
     simulation.value(field, 1.0, simulation.t()).expect("the present time")

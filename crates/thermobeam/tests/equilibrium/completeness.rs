@@ -165,7 +165,7 @@ fn small_heat_load_splits_each_buckled_pair() {
     }
 }
 
-/// Next to N = -1 the sum S(N) stays finite, so that there may be one root alone.
+/// Next to N = -1 the sum S(N) stays finite, so there may be a single root.
 #[test]
 fn below_minus_one_there_may_be_one_state() {
     let beam = Beam { beta: -2.0, a: 1.0, theta_a: 0.5, rho: 1.0, ..Beam::default() };

@@ -6,7 +6,7 @@ use crate::scenes::{
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver, Start};
 
-/// Runs all experiments twice, side by side, and compares every nodal value at every step.
+/// Runs all experiments twice in parallel, and compares every nodal value at every step.
 #[track_caller]
 fn agree(one: Settings, other: Settings, dt: f64, steps: usize, allowed: f64) {
     for experiment in EXPERIMENTS {
@@ -35,7 +35,7 @@ fn newton_and_the_fixed_point_agree() {
     agree(tight(), Settings { solver: Solver::FixedPoint, ..tight() }, 1e-3, 1000, 1e-10);
 }
 
-/// By (4.1) a step depends on the previous level only: a run restarted from a level continues bitwise.
+/// By (4.1) a step depends only on the previous level: a run restarted from a level continues bitwise.
 #[test]
 fn a_fixed_point_step_depends_on_the_previous_level_only() {
     let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };

@@ -85,7 +85,7 @@ fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
     })
 }
 
-/// Spectral radius of the iteration V → W → V on the mesh, free of contact, with N = 0 and a = 0.
+/// Spectral radius of the iteration V → W → V on the mesh, without contact, with N = 0 and a = 0.
 fn spectral_radius(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
     let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
     let (kappa, s) = (scheme.inertia / dt, problem.beam.zeta + 0.5 * dt);
@@ -116,7 +116,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
     }
 }
 
-/// Without obstacles a large a makes the iteration diverge, and a larger ε is no advice.
+/// Without obstacles a large a makes the iteration diverge, and a larger ε is not a remedy.
 #[test]
 fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
     let mesh = uniform(50);
@@ -126,7 +126,7 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
         let beam = Beam { a, ..Beam::default() };
         let problem = Problem { beam, obstacles: None, mesh: mesh.clone(), initial };
         let factor = heat_contraction(&beam, &[0.02; 50], &EULER_CRANK_NICOLSON, 1e-2);
-        // A hundred iterations: more of them would overflow.
+        // A hundred iterations, since more would overflow.
         let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
         let outcome = simulate(&problem, Stepping { settings, ..stepping(1e-2) }).advance();
         assert_eq!((outcome.is_err(), factor > 1.0), (diverges, diverges), "{factor}");

@@ -221,7 +221,7 @@ impl Step<'_> {
         None
     }
 
-    /// The velocity that carries the step: v itself, or the mean of both levels.
+    /// The velocity of the step: v itself, or the mean of both levels.
     fn carry(&self, new: &DVector<f64>, old: &DVector<f64>) -> DVector<f64> {
         let share = 1.0 / self.scheme.inertia;
         new * share + old * (1.0 - share)

@@ -38,7 +38,7 @@ struct Random {
     loads: Vec<Vec<[f64; 3]>>,
 }
 
-/// Nodal values with the slopes given, zero at x = 0.
+/// Nodal values with the given slopes, zero at x = 0.
 fn integrate(slopes: &[f64], mesh: &Mesh) -> Vec<f64> {
     let mut sum = 0.0;
     std::iter::once(0.0)

@@ -68,8 +68,8 @@ fn without_contact_both_schemes_converge_at_their_order() {
 
 #[test]
 fn in_contact_both_schemes_converge_at_their_order_once_the_contact_is_resolved() {
-    // The force has a kink, not a jump, when the tip crosses an obstacle: each crossing costs an error of order dt².
-    // The order is unchanged, but visible for small steps only.
+    // The force has a kink, not a jump, when the tip crosses an obstacle: each crossing causes an error of order dt².
+    // The order is unchanged, but only visible for small steps.
     for experiment in [(0.0, 0.0), (-0.5, 20.0), (-0.8, 0.0)] {
         for (scheme, mesh) in schemes_and_meshes(5) {
             let problem = paper(mesh, experiment);

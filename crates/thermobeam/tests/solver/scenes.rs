@@ -13,7 +13,7 @@ use thermobeam::solve::{Level, Settings};
 pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
     [(-0.5, 0.0), (0.0, 0.0), (5.0, 0.0), (-0.5, 20.0), (0.0, 20.0), (5.0, 20.0), (-0.8, 0.0)];
 
-/// An experiment of the paper on a mesh: its initial temperature is sin(πx), or 20 cos(5πx/2) where θ_A = 20.
+/// An experiment of the paper on a mesh: its initial temperature is sin(πx), or 20 cos(5πx/2) for θ_A = 20.
 pub(crate) fn paper(mesh: Mesh, (beta, theta_a): (f64, f64)) -> Problem {
     let on_nodes = |f: &dyn Fn(f64) -> f64| mesh.nodes().iter().map(|&x| f(x)).collect::<Vec<_>>();
     let initial = Initial {
@@ -82,7 +82,7 @@ pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
     [("u", &level.u), ("v", &level.v), ("phi", &level.phi), ("w", &level.w), ("theta", &level.theta)]
 }
 
-/// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if there is one.
+/// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if any value is NaN.
 pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
     let mut worst = 0.0;
     for ((_, a), (_, b)) in fields(a).into_iter().zip(fields(b)) {
@@ -92,7 +92,7 @@ pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
     worst
 }
 
-/// The largest absolute value; NaN if there is one.
+/// The largest absolute value; NaN if any value is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(f64::abs).fold(0.0, max_or_nan)
 }

@@ -1,4 +1,4 @@
-//! With a hot clamped end the beam converges to its steady state, which is known in closed form.
+//! With a heated clamped end the beam converges to its steady state, which is known in closed form.
 
 use crate::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::equilibrium::{Contact, equilibria};

@@ -1,4 +1,4 @@
-//! Work that a scene does not need is not done. Counts are tested, because unlike times they are exact.
+//! Unnecessary work is not done. Counts are tested because, unlike times, they are exact.
 
 use crate::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::{Problem, Stepping};

@@ -1,4 +1,4 @@
-//! Branches of exact steady states over β; the buckling force from P1 matrices alone, which shares nothing with them.
+//! Branches of exact steady states over β, and the buckling force from P1 matrices alone, independent of the branches.
 
 use std::cmp::Ordering;
 
@@ -10,17 +10,17 @@ use crate::kinds::steady::exact_states;
 /// Steady states of one branch, at consecutive β.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteadyBranch {
-    /// What all of them have in common.
+    /// What all its states have in common.
     pub(super) key: BranchKey,
     /// `(β, u(1))`.
     pub points: Vec<(f64, f64)>,
 }
 
-/// What stays the same along a branch: contact, side and the number of unstable directions change only where branches meet.
+/// The invariants of a branch: contact, side and number of unstable directions change only where branches meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BranchKey {
     pub(super) contact: Contact,
-    /// The side to which the beam is bent.
+    /// The side to which the beam bends.
     side: Option<Ordering>,
     pub(super) stable: bool,
     unstable_directions: Option<usize>,
@@ -40,7 +40,7 @@ pub(super) struct StatesAt {
 }
 
 impl StatesAt {
-    /// The steady states of the scene with another β.
+    /// Steady states of the scene, with its β replaced.
     fn at(scene: &Scene, beta: f64) -> Result<Self, CaseFailure> {
         let mut scene = scene.clone();
         scene.beam.beta = beta;
@@ -52,13 +52,13 @@ impl StatesAt {
     }
 }
 
-/// Halvings of an interval in which branches meet: a fork opens like a square root, so that its tip needs points close by.
+/// Halvings of an interval in which branches meet: a fork opens like a square root, so its tip needs close points.
 pub(super) const HALVINGS: usize = 10;
 
-/// The steady states over a grid, which is halved up to `halvings` times where branches begin, meet or end.
+/// The steady states over a grid; intervals in which branches begin, meet or end are halved up to `halvings` times.
 ///
 /// # Errors
-/// β at which the steady states cannot be told.
+/// β at which the steady states cannot be found.
 pub(super) fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<StatesAt>, CaseFailure> {
     let mut samples: Vec<StatesAt> = Vec::new();
     let mut patience = Patience::of_long_rounds();
@@ -101,7 +101,7 @@ pub struct Diagram {
     pub branches: Vec<SteadyBranch>,
     /// β with the number of steady states.
     pub counts: Vec<(f64, usize)>,
-    /// Steady states that could belong to either of two branches: none, or the diagram means nothing.
+    /// Steady states that could belong to either of two branches: must be none for the diagram to have a meaning.
     pub ambiguous: usize,
     /// Bracket of the β at which the beam buckles or lifts off; NaN where it does not, or more than once.
     pub event: [f64; 2],
@@ -129,8 +129,8 @@ pub(super) fn trace(samples: &[StatesAt], event: [f64; 2]) -> Diagram {
     diagram
 }
 
-/// Whether the event of a scene is that its straight beam buckles: below there are several steady states, above one. A heated beam lifts
-/// off: below it presses against the upper obstacle, above it is free.
+/// Whether the event of a scene is buckling of its straight beam: below it there are several steady states, above it one. A heated beam
+/// lifts off instead: below the event it presses against the upper obstacle, above it is free.
 pub(super) fn buckles(scene: &Scene) -> bool {
     scene.beam.theta_a == 0.0
 }
@@ -138,7 +138,7 @@ pub(super) fn buckles(scene: &Scene) -> bool {
 /// Brackets the event by bisection, starting from the samples; NaN where it does not happen, or more than once.
 ///
 /// # Errors
-/// β at which the steady states cannot be told.
+/// β at which the steady states cannot be found.
 pub(super) fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result<[f64; 2], CaseFailure> {
     let is_before = |at: &StatesAt| match buckles(scene) {
         true => at.states.len() > 1,
@@ -162,16 +162,16 @@ pub(super) fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result
     Ok([low, high])
 }
 
-/// Iterations of the power method: its ratio is that of the first two modes, 0.043/0.288, so these are three times enough.
+/// Iterations of the power method, with ratio 0.043/0.288 of the first two modes: three times as many as needed.
 const ITERATIONS: usize = 60;
 
 /// The buckling force of the beam on a mesh, `min (‖v_x - w‖² + ‖w_x‖²) / ‖v_x‖²` over P1 functions v and w that vanish at 0.
 ///
 /// For given p = v_x, constant on each element, the best w solves `(K + M) w = (p, N_i)`, and leaves `‖p‖² - (p, w)`. So
-/// the minimum is 1 - λ, λ being the largest eigenvalue of p -> mean of w on each element.
+/// the minimum is 1 - λ, where λ is the largest eigenvalue of p -> mean of w on each element.
 ///
 /// # Errors
-/// A pivot that is not positive, which no mesh has.
+/// A pivot that is not positive, which no mesh produces.
 pub(super) fn discrete_buckling_force(mesh: &Mesh) -> Result<f64, StepFailure> {
     let lengths: Vec<f64> = mesh.lengths().collect();
     let n = lengths.len();

@@ -9,17 +9,17 @@ use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Foun
 use crate::figures;
 use crate::kinds::prelude::*;
 
-/// A tip closer to zero than this is that of a straight beam.
+/// A beam with a tip closer to zero than this is straight.
 const STRAIGHT: f64 = 1e-6;
 
-/// How far the extrapolated buckling force of P1 elements may be from the exact one.
+/// Allowed error of the extrapolated buckling force of P1 elements.
 const LIMIT: f64 = 1e-8;
 
 /// The results of one scene; `None` where a case failed.
 struct DiagramOf<'r> {
     scene: &'r Scene,
     diagram: Option<&'r Diagram>,
-    /// Each β with the run to rest.
+    /// Each β with its run to rest.
     rests: Vec<(f64, Option<&'r AtRest>)>,
 }
 
@@ -52,7 +52,7 @@ impl<'r> DiagramOf<'r> {
 
     fn checks(&self, study: &BifurcationStudy) -> Vec<Check> {
         let mut checks = vec![self.ends_are_stable(study.distance)];
-        // Completion has failed where there is no diagram.
+        // Without a diagram, the check of completion has failed already.
         if let Some(diagram) = self.diagram {
             checks.push(self.unambiguous(diagram));
             checks.extend(match branches::buckles(self.scene) {
@@ -107,7 +107,7 @@ impl<'r> DiagramOf<'r> {
         )
     }
 
-    /// The whole diagram, and the fork from close by where there is one.
+    /// The whole diagram, and a close-up of the fork if there is one.
     fn figures(&self, id: &str) -> Vec<Figure> {
         let Some(diagram) = self.diagram else { return vec![] };
         let theta_a = self.theta_a();
@@ -134,7 +134,7 @@ impl<'r> DiagramOf<'r> {
         let mut branches = Vec::new();
         for ((contact, label), stable) in labels.into_iter().flat_map(|label| [(label, true), (label, false)]) {
             let of = |branch: &&SteadyBranch| branch.key.contact == contact && branch.key.stable == stable;
-            // A branch that is met at one β only is a corner of the diagram, not a line.
+            // A branch found at a single β is a corner of the diagram, not a line.
             let curves = diagram.branches.iter().filter(of).map(|branch| shown(&branch.points));
             let lines = curves.filter(|points| points.len() > 1);
             branches.extend(lines.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
@@ -210,7 +210,7 @@ fn discrete_limit(forces: &[(usize, f64)]) -> Check {
 
 fn buckles(diagram: &Diagram) -> Check {
     let [low, high] = diagram.event;
-    // The bracket's ends are found by counting, the number by analysis.
+    // Counting gives the ends of the bracket, analysis gives the number.
     let holds = low <= -BUCKLING + BRACKET && -BUCKLING <= high + BRACKET && high - low <= BRACKET;
     Check::that(
         holds,

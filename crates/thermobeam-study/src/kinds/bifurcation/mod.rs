@@ -1,8 +1,8 @@
 //! Steady states over the axial force at rest: all branches, stable and unstable, and where moving beams come to rest.
 //!
-//! The branches are exact: they are continued from β to β by what stays the same along them, the state of contact, the side
-//! and the number of unstable directions. Three independent answers are compared at the buckling point: where the number of
-//! exact steady states changes, the buckling force of P1 elements as the mesh is refined, and `-(π²/4)/(1 + π²/4)`.
+//! The branches are exact. They are continued from β to β by their invariants: the state of contact, the side and the
+//! number of unstable directions. Three independent answers are compared at the buckling point: where the number of exact
+//! steady states changes, the buckling force of P1 elements as the mesh is refined, and `-(π²/4)/(1 + π²/4)`.
 
 mod branches;
 mod judge;
@@ -22,29 +22,29 @@ pub const ROW: KindRow = KindRow {
     failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
 };
 
-/// Half the width of the picture of a fork.
+/// Half the width of the close-up of a fork.
 const CLOSE: f64 = 0.025;
 
 /// Width to which an event is bracketed.
 const BRACKET: f64 = 1e-9;
 
-/// Points of the picture of a fork.
+/// Points of the close-up of a fork.
 const FORK_POINTS: usize = 80;
 
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BifurcationStudy {
     header: Header,
-    /// One diagram each; their β is overridden.
+    /// One diagram for each scene; their β is overridden.
     scenes: Vec<Scene>,
     /// β of the diagrams.
     grid: Vec<f64>,
     /// Meshes of the discrete buckling force.
     meshes: Vec<usize>,
-    /// Of its rate about the order 2.
+    /// Tolerance of its rate about the order 2.
     tolerance: f64,
     rest: ToRest,
-    /// How far from an exact steady state they may be.
+    /// Allowed distance from an exact steady state.
     distance: f64,
 }
 
@@ -53,9 +53,9 @@ pub struct BifurcationStudy {
 pub enum DiagramTask {
     /// The branches of a scene, by its place in the list.
     Diagram(usize),
-    /// The buckling force of this number of elements.
+    /// The buckling force for this number of elements.
     Buckling(usize),
-    /// A moving beam until it rests: scene and β, by their places in the lists.
+    /// A moving beam until it comes to rest: indices of scene and β.
     Rest(usize, usize),
 }
 
@@ -102,7 +102,7 @@ impl Kind for BifurcationStudy {
 
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
     fn cases(&self) -> Vec<Case<DiagramTask>> {
-        // Some 50 microseconds for each β: as long as 3000 elements of a step.
+        // Each β takes some 50 microseconds: as much as one step of 3000 elements.
         let diagram = |(k, scene): (usize, &Scene)| Case {
             label: format!("branches, θ_A = {}", scene.beam.theta_a),
             cost: 3e3 * self.grid.len() as f64,
@@ -142,7 +142,7 @@ impl BifurcationStudy {
         let event = branches::bracket(scene, &coarse, BRACKET)?;
         let mut grid = self.grid.clone();
         if branches::buckles(scene) && !event[0].is_nan() {
-            // More points around a fork for the picture of it.
+            // Additional points around a fork for its close-up.
             let close = |k: usize| event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0);
             grid.extend((0..=FORK_POINTS).map(close));
             grid.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
-//! Faults in the solver of any order: every study named must fail for every coefficient that is off.
+//! Faults in the solver of any order: each study named must fail for every perturbed coefficient.
 //!
-//! The loads are derived with the study's own coefficients, the solver works with one of them changed. The verdict is that of
-//! the study itself, on the errors of its own runs.
+//! The loads are derived with the study's own coefficients; the solver uses a changed value of one of them. The study itself
+//! gives the verdict, on the errors of its own runs.
 //!
 //! ```toml
 //! [any-order]
@@ -20,16 +20,16 @@ use crate::scene::Coefficients;
 /// Relative change of an error that the baseline tolerates.
 const TOLERANCE: f64 = 1e-3;
 
-/// A study of coefficients that are off.
+/// A study with perturbed coefficients.
 pub struct AnyOrderControls {
     header: Header,
     relative: f64,
     studies: Vec<AnyOrder>,
-    /// None at all, then each coefficient.
+    /// No fault at all, then each coefficient.
     faults: Vec<Fault>,
 }
 
-/// What the study says.
+/// The result of the study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judged {
     /// Its verdict.
@@ -60,7 +60,7 @@ impl FromFile for AnyOrderControls {
 }
 
 impl Kind for AnyOrderControls {
-    /// A study, by its place in the list, and what is wrong.
+    /// Index of a study, and its fault.
     type Data = (usize, Fault);
     type Found = Judged;
 
@@ -91,7 +91,7 @@ impl Kind for AnyOrderControls {
         let mut planted = study.clone();
         planted.solver = solver.ok_or_else(absent)?;
         let ran = run_cases_here(&planted);
-        // A fault that breaks a run down is detected; only the honest runs have to end.
+        // A fault that breaks a run down is detected; only runs without a fault must finish.
         if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {
             return Err(failure.clone());
         }
@@ -100,7 +100,7 @@ impl Kind for AnyOrderControls {
     }
 
     fn judge(&self, ran: &[Ran<(usize, Fault), Judged>]) -> Outcome {
-        // Of a wrong run a number that is not finite is a detection.
+        // In a run with a fault, a number that is not finite is a detection.
         let completion = completion(ran, |_| vec![]);
         let mut matrix = Matrix::new(self.studies.iter().map(Kind::header), true, completion);
         let (mut quantities, mut honest) = (vec![], 0.0);

@@ -1,8 +1,8 @@
 //! The matrix (fault x study): which study detects which fault.
 //!
-//! Each coefficient of the solver in turn is off from the one that the sources were derived with, by a relative amount; each
-//! [`Defect`](crate::kinds::convergence::Defect) in turn is planted in the sources. Without a fault every study must pass, or its
-//! failures would say nothing.
+//! Each coefficient of the solver in turn is perturbed by a relative amount, while the sources keep the exact one. Each
+//! [`Defect`](crate::kinds::convergence::Defect) in turn is planted in the sources. Without a fault every study must pass, since
+//! otherwise its failures would prove nothing.
 //!
 //! ```toml
 //! [controls]
@@ -23,7 +23,7 @@ pub struct Controls {
     studies: Vec<Convergence>,
 }
 
-/// A study, by its place in the list, and elements and steps of a level of it, on which every fault is planted.
+/// Index of a study, with the elements and steps of one of its levels, on which every fault is planted.
 type LevelOf = (usize, (usize, usize));
 
 impl FromFile for Controls {
@@ -60,7 +60,7 @@ impl Kind for Controls {
         let mut found = vec![];
         for fault in Fault::all() {
             let Some((solver, defect)) = fault.plant(spec, self.relative) else { continue };
-            // A fault that breaks a run down is detected; only the honest run has to end.
+            // A fault that breaks a run down is detected; only the run without a fault must finish.
             let errors = match prepared.run(steps, solver, defect) {
                 Err(failure) if fault == Fault::None => return Err(failure),
                 errors => errors.unwrap_or(Norms::NAN),
@@ -71,7 +71,7 @@ impl Kind for Controls {
     }
 
     fn judge(&self, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Outcome {
-        // Of a wrong run a number that is not finite is a detection.
+        // In a run with a fault, a number that is not finite is a detection.
         let not_finite = |found: &Vec<(Fault, Norms)>| {
             let honest = errors_with(found, Fault::None);
             let finite = honest.is_some_and(|errors| errors.iter().all(|(_, error)| error.is_finite()));
@@ -93,7 +93,7 @@ impl Kind for Controls {
 }
 
 impl Controls {
-    /// The verdict of one study under one fault, the worst over its norms; `None` where the fault cannot be planted.
+    /// The verdict of one study under one fault, the worst over its norms; `None` if the fault cannot be planted.
     fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Option<Verdict> {
         let spec = &self.studies[study];
         fault.plant(spec, self.relative)?;

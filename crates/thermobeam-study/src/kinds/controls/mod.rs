@@ -1,12 +1,12 @@
 //! Planted faults: solver or sources are wrong on purpose, and a convergence study must fail.
 //!
-//! A check that cannot fail proves nothing. The study file says by one of three tables what is asked:
+//! A check that cannot fail proves nothing. The study file asks its question by one of three tables:
 //!
 //! | table | question |
 //! | --- | --- |
-//! | `[controls]` | does some study fail for each coefficient off by a given relative amount, and for each defect of the sources? |
+//! | `[controls]` | does some study fail for each coefficient with a given relative error, and for each defect of the sources? |
 //! | `[any-order]` | the same for studies of kind any-order: does each fail for every coefficient named? |
-//! | `[sensitivity]` | from which relative error of each coefficient on does a study fail? |
+//! | `[sensitivity]` | what is the smallest relative error of each coefficient for which a study fails? |
 
 pub mod any_order;
 pub mod matrix;
@@ -31,7 +31,7 @@ pub const ROW: KindRow = KindRow {
               levels or its tolerance has grown.",
 };
 
-/// Reads a study of planted faults, or of the smallest that are detected, whichever table the file has.
+/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     let tables = ["controls", "any-order", "sensitivity"];
     root.allow(&[&["study"], &tables[..]].concat())?;
@@ -45,7 +45,7 @@ fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Stu
     }
 }
 
-/// What is wrong in a run.
+/// The fault of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault {
     /// Nothing.
@@ -70,7 +70,7 @@ impl Fault {
         }
     }
 
-    /// The solver's coefficients and the defect of the sources; `None` where the study does not have the coefficient, or has it zero.
+    /// The solver's coefficients and the defect of the sources; `None` if the study lacks the coefficient or it is zero.
     ///
     /// * `relative`: relative error of a coefficient.
     fn plant(self, study: &Convergence, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
@@ -89,7 +89,7 @@ fn relative(field: &Field<'_>) -> Result<f64, InputError> {
     field.number_where(RELATIVE, |r| r > 0.0 && r < 1.0)
 }
 
-/// The studies that a section names, with its own levels where it gives them.
+/// The studies that a section names, with the section's own levels if it has any.
 fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence>, InputError> {
     let file = |item: &Field<'_>| Convergence::read(item.file(folder)?);
     let allowed = "a list of at least one study file beside this one";
@@ -101,11 +101,11 @@ fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence
     Ok(studies)
 }
 
-/// What each study says under each fault, and how the matrix of verdicts is judged.
+/// The verdict of each study under each fault, and the rule that judges the matrix.
 struct Matrix<'s> {
     /// Ids of the studies.
     ids: Vec<&'s str>,
-    /// Whether every study must notice each fault; else one is enough.
+    /// Whether every study must notice each fault; otherwise one is enough.
     every: bool,
     checks: Vec<Check>,
     rows: Vec<Vec<String>>,
@@ -119,7 +119,7 @@ impl<'s> Matrix<'s> {
         Self { ids, every, checks: vec![completion], rows: vec![], faults: 0, detected: 0 }
     }
 
-    /// Adds a fault: the verdict of each study, `None` where there is none, and its cell of the table.
+    /// Adds a fault: the verdict of each study, if it has one, and its cell of the table.
     fn add(&mut self, fault: Fault, verdicts: &[Option<Verdict>], cells: Vec<String>) {
         self.rows.push([vec![fault.name().to_owned()], cells].concat());
         let all = verdicts.len();

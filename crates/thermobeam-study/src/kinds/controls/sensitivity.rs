@@ -17,7 +17,7 @@ use crate::scene::Coefficients;
 /// Bisections of the logarithm: seven decades to within 4 percent.
 const BISECTIONS: usize = 9;
 
-/// A study of the smallest errors that are detected.
+/// A study of the smallest detected errors.
 pub struct Sensitivity {
     header: Header,
     studies: Vec<Convergence>,
@@ -37,9 +37,9 @@ impl FromFile for Sensitivity {
 }
 
 impl Kind for Sensitivity {
-    /// A study, by its place in the list, and a coefficient; those that a study lacks, or has zero, are left out.
+    /// Index of a study, and a coefficient; coefficients that a study lacks or has zero are left out.
     type Data = (usize, &'static str);
-    /// The smallest relative error detected; `None` where the range does not bracket it.
+    /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
 
     fn header(&self) -> &Header {
@@ -99,7 +99,7 @@ impl Kind for Sensitivity {
     }
 }
 
-/// The smallest error that a study detects, and its cell: NaN where the case failed, infinite where the study lacks the
+/// The smallest error that a study detects, and its table cell: NaN if the case failed, infinite if the study lacks the
 /// coefficient or the range does not bracket it.
 fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> (f64, String) {
     let case = ran.iter().find(|ran| ran.case.data == (study, key));

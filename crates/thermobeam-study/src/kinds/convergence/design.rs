@@ -2,10 +2,10 @@
 //!
 //! * **Coupled**: loads from the strong form at t_{n-½}, errors against the exact solution at t_n.
 //! * **Space isolated**: the exact solution is replaced by its own time sequence `U^n = Σ X_j T_j(t_n)` with the
-//!   velocities of the scheme, and the loads are the time-discrete operator applied to it, space still exact. The time
-//!   error is then exactly zero, whatever dt.
+//!   velocities of the scheme, and the loads are the time-discrete operator applied to it, with space still exact. The
+//!   time error is then exactly zero for every dt.
 //! * **Time isolated**: the exact solution is replaced by its nodal interpolant and the loads use the discrete matrices.
-//!   The space error is then exactly zero, whatever the mesh.
+//!   The space error is then exactly zero on every mesh.
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
@@ -19,18 +19,18 @@ use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::prelude::*;
 use crate::scene::Coefficients;
 
-/// A mistake made on purpose in the sources, for negative controls.
+/// A deliberate mistake in the sources, for negative controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Defect {
-    /// Values taken at t_n where the scheme has t_{n-½}.
+    /// Values at t_n where the scheme uses t_{n-½}.
     SourceAtNewLevel,
     /// The load σ(1, t) + g(u(1, t)) is dropped.
     StressDropped,
     /// The load φ_x(1, t) + ζ φ_xt(1, t) is dropped.
     MomentDropped,
-    /// N(u^n) in place of the mean ½(N(u^n) + N(u^{n-1})).
+    /// N(u^n) instead of the mean ½(N(u^n) + N(u^{n-1})).
     ForceAtNewLevel,
-    /// Contact at t_{n-½} where the scheme has t_n.
+    /// Contact at t_{n-½} where the scheme uses t_n.
     ContactAtMiddle,
 }
 
@@ -44,7 +44,7 @@ impl Defect {
         Defect::ContactAtMiddle,
     ];
 
-    /// What it does, in words.
+    /// Its effect, in words.
     pub fn name(self) -> &'static str {
         match self {
             Defect::SourceAtNewLevel => "source at t_n instead of the middle",
@@ -56,7 +56,7 @@ impl Defect {
     }
 }
 
-/// Space vectors and error meter of one mesh: what several runs on it share.
+/// Space vectors and error meter of one mesh, shared by several runs.
 pub struct Prepared<'a> {
     study: &'a Convergence,
     mesh: Mesh,
@@ -69,7 +69,7 @@ impl<'a> Prepared<'a> {
     /// Computes the space vectors of the design.
     ///
     /// # Errors
-    /// [`MeshError`] where the study's map makes no such mesh.
+    /// [`MeshError`] if the study's map gives no valid mesh.
     pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, MeshError> {
         let (exact, beam, mesh) = (&study.exact, &study.theory.beam, study.refine.layout.mesh(elements)?);
         let is_nodal = study.refine.isolates(Axis::Time);
@@ -79,12 +79,12 @@ impl<'a> Prepared<'a> {
         Ok(Self { study, mesh, nodal, sources, meter })
     }
 
-    /// Runs that many steps and returns the errors, each the maximum over n = 1..N; NaN stays.
+    /// Runs this number of steps and returns the errors, each the maximum over n = 1..N; NaN stays.
     ///
-    /// * `solver`: the solver's coefficients; those of the study's theory in an honest run.
+    /// * `solver`: the solver's coefficients; without a fault those of the study's theory.
     ///
     /// # Errors
-    /// [`CaseFailure`] with the solver's own words.
+    /// [`CaseFailure`] with the solver's message.
     pub fn run(&mut self, steps: usize, solver: Coefficients, defect: Option<Defect>) -> Result<Norms, CaseFailure> {
         let Convergence { exact, theory, refine, .. } = self.study;
         let Coefficients { beam, obstacles } = solver;
@@ -124,7 +124,7 @@ impl<'a> Prepared<'a> {
         (self.sources.axial_force(values), force)
     }
 
-    /// What the scheme makes of N and the contact force between two levels of the time sequence.
+    /// N and contact force as the scheme evaluates them between two levels of the time sequence.
     fn of_step(&self, old: &Factors, new: &Factors, source: &mut Factors, defect: Option<Defect>) -> (f64, f64) {
         if defect == Some(Defect::SourceAtNewLevel) {
             source.u.value.clone_from(&new.u.value);
@@ -157,7 +157,7 @@ impl<'a> Detector<'a> {
         Ok(Self { study, levels: study.refine.cases().into_iter().map(prepare).collect::<Result<_, MeshError>>()? })
     }
 
-    /// The errors of every level; NaN where a run breaks down, on which every study fails.
+    /// The errors of every level; NaN if a run breaks down, so that every study fails on it.
     pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<LevelNorms> {
         let measure = |(prepared, level): &mut (Prepared<'_>, (usize, usize))| {
             (*level, prepared.run(level.1, solver, None).unwrap_or(Norms::NAN))
@@ -172,7 +172,7 @@ impl<'a> Detector<'a> {
     }
 }
 
-/// The verdicts of a study on errors over its levels, coarse to fine: one for each norm that it judges.
+/// The verdicts of a study on errors over its levels, coarse to fine: one for each judged norm.
 pub(in crate::kinds) fn verdicts<'a>(
     study: &'a Convergence,
     levels: &'a [LevelNorms],

@@ -1,7 +1,7 @@
 //! Convergence studies: a manufactured solution, levels of refinement, orders expected.
 //!
-//! Three shapes, by what `[refine]` says: one axis, a path on which both are refined together (h = dt), or the full grid
-//! of (h, dt) with `e² = A(h)² + B(dt)²`, where each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
+//! `[refine]` selects one of three shapes: one axis, a path on which both are refined together (h = dt), or the full grid of (h, dt)
+//! with `e² = A(h)² + B(dt)²`, where each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
 //!
 //! ```toml
 //! [study]
@@ -55,7 +55,7 @@ pub const ROW: KindRow = KindRow {
               wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
 };
 
-/// Steps that cost as much as the space vectors of a mesh.
+/// Preparing the space vectors of a mesh costs as much as this many steps.
 const PREPARATION: f64 = 50.0;
 
 /// A convergence study, validated.
@@ -65,13 +65,13 @@ pub struct Convergence {
     pub header: Header,
     /// Coefficients from which the sources are derived.
     pub theory: Coefficients,
-    /// The solver's own; where they differ, the study must fail.
+    /// The solver's own coefficients; if they differ, the study must fail.
     pub solver: Coefficients,
-    /// The exact solution; it meets the essential boundary conditions.
+    /// The exact solution, which satisfies the essential boundary conditions.
     pub exact: Manufactured,
-    /// What is refined and how.
+    /// What is refined, and how.
     pub refine: Refine,
-    /// The orders expected; at least one, each norm once.
+    /// The expected orders: at least one, and each norm at most once.
     pub expect: Vec<(Norm, Claim)>,
 }
 
@@ -156,7 +156,7 @@ impl Kind for Convergence {
 }
 
 impl Convergence {
-    /// The step of a level: 1/n, the mean mesh width, or dt where time alone is refined.
+    /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
     pub(crate) fn step(&self, elements: usize, steps: usize) -> f64 {
         match self.refine.axis {
             Axis::Space | Axis::Both => 1.0 / elements as f64,
@@ -169,13 +169,13 @@ impl Convergence {
         Case { label: Refine::label(elements, steps), cost: elements as f64 * (steps as f64 + PREPARATION), data }
     }
 
-    /// Errors of each level in each norm; NaN where the case failed, so that it cannot pass.
+    /// Errors of each level in each norm; NaN if the case failed, so that it cannot pass.
     fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
         let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
         norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors)
     }
 
-    /// What a study that adds levels does next; `None` where they are listed, or a case has failed.
+    /// The next level of a study that adds levels; `None` if the levels are listed or a case has failed.
     fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
         let budget = self.refine.budget.filter(|_| ran.iter().all(|ran| ran.found.is_ok()))?;
         let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
@@ -184,7 +184,7 @@ impl Convergence {
         Some(until_decided::next(&levels.judge(), ran.len(), finer, spent, budget))
     }
 
-    /// The verdict over a grid of (h, dt): squares of space and time error add, and each order is judged by itself.
+    /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is judged by itself.
     fn judge_grid(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels, completion: Check) -> Outcome {
         // The same order is expected in h and in dt.
         let column = |&(norm, claim): &(Norm, Claim)| GridColumn {
@@ -209,7 +209,7 @@ impl Convergence {
         }
     }
 
-    /// What is refined, and why the other error does not disturb.
+    /// What is refined, and why the other error does not interfere.
     fn design(&self) -> String {
         let refine = &self.refine;
         let what = match (refine.axis, refine.isolate) {

@@ -1,7 +1,7 @@
-//! What a convergence study is no test of: coefficients whose error it would not see, and norms in which there is no error.
+//! What a convergence study does not test: coefficients whose error it would miss, and norms without any error.
 //!
-//! The study is run again with each coefficient of the solver off by a little, and judged as ever. One that still passes says
-//! nothing about that coefficient, whatever its claim.
+//! The study is repeated with a small error in each coefficient of the solver, and judged as usual. If it still passes, it
+//! does not test that coefficient, whatever it claims.
 
 use convergence_study::study::Untested;
 
@@ -10,13 +10,13 @@ use super::design::{Detector, verdicts};
 use crate::kinds::prelude::*;
 use crate::scene::Coefficients;
 
-/// Relative error of a coefficient that a test of it has to see.
+/// Relative error of a coefficient that a study testing it must notice.
 const OFF: f64 = 1e-4;
 
 /// Errors that are round-off on every level.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Of a study that passes; nothing where it does not, where it is wrong on purpose, and over a grid of meshes and steps.
+/// For a study that passes; empty if it fails, if it is wrong on purpose, or if it has a grid of meshes and steps.
 pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
     let mut found = vec![];
     let is_looked_at = study.solver == study.theory && !study.refine.grid;
@@ -46,7 +46,7 @@ pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
     found
 }
 
-/// Why an obstacle does nothing; `None` for other coefficients, and where the free end touches it.
+/// Why an obstacle has no effect; `None` for other coefficients, and if the free end touches it.
 fn contact(study: &Convergence, key: &str) -> Option<String> {
     let Obstacles { g1, g2, .. } = study.theory.obstacles?;
     let [low, high] = range_of_the_tip(study);

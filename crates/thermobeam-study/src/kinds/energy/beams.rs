@@ -26,8 +26,8 @@ pub(super) fn smooth(mesh: &Mesh, seed: u64) -> Problem {
     Problem { beam, obstacles: Some(obstacles), mesh: mesh.clone(), initial }
 }
 
-/// A beam and its time step: every coefficient over its whole range, zeros included, elements whose lengths differ by up
-/// to a factor of 1000, initial data that are smooth or independent from node to node.
+/// A beam and its time step: every coefficient over its whole range including zero, element lengths that differ by a
+/// factor of up to 1000, initial data either smooth or independent from node to node.
 pub(super) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
     let mut random = SplitMix::new(seed);
     let mesh = wild_mesh(&mut random, elements)?;
@@ -49,7 +49,7 @@ fn power(random: &mut SplitMix, low: f64, high: f64) -> f64 {
     10f64.powf(random.within([low, high]))
 }
 
-/// Zero in one case of ten.
+/// Zero in one of ten cases.
 fn or_zero(random: &mut SplitMix, value: impl FnOnce(&mut SplitMix) -> f64) -> f64 {
     let value = value(random);
     if random.uniform() < 0.1 { 0.0 } else { value }
@@ -79,7 +79,7 @@ fn wild_mesh(random: &mut SplitMix, elements: usize) -> Result<Mesh, MeshError> 
     Mesh::from_nodes(nodes)
 }
 
-/// The five fields, each from `field(size, wave numbers in π)`; the temperature gets its boundary values.
+/// The five fields, each from `field(size, wave numbers in π)`; the temperature satisfies its boundary conditions.
 fn initial(mesh: &Mesh, theta_a: f64, mut field: impl FnMut(f64, fn(f64) -> f64) -> Vec<f64>) -> Initial {
     let clamped = |k: f64| k + 0.5;
     let mut theta = field(5.0, |k| k + 1.0);

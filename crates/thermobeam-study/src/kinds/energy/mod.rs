@@ -1,4 +1,4 @@
-//! Proposition 3.1, and sharper: the energy never rises, and its balance closes in every step.
+//! Proposition 3.1 and a sharper form of it: the energy never rises, and its balance closes in every step.
 //!
 //! An exactly solved step without loads satisfies, with the energy E of (3.9),
 //!
@@ -6,15 +6,15 @@
 //! E^n - E^{n-1} + dt ζ (‖v_x - w‖² + ‖w_x‖²) + dt ‖θ_x‖² (at n-½) + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
 //! ```
 //!
-//! gap >= 0 being the contact term's. No term but the first difference is negative, so E cannot rise. An energy can fall by
-//! luck, while a missing or wrong term opens the balance in the first step in which it acts.
+//! where gap >= 0 comes from the contact term. Only the first difference can be negative, so E cannot rise. An energy may
+//! decrease by chance, whereas a missing or wrong term opens the balance in the first step in which it acts.
 //!
-//! A study file says by one of three tables which scenes are run:
+//! A study file selects its scenes by one of three tables:
 //!
 //! | table | scenes |
 //! | --- | --- |
 //! | `[energy]` | scene files and smooth random beams, by every scheme listed: a fixed bound on rise and residual |
-//! | `[[case]]` | single scenes at the limits of what is allowed, each with its own claim and the end that it must come to |
+//! | `[[case]]` | single scenes at the limits of the allowed range, each with its own claim and the way its run must end |
 //! | `[random]` | batches of random scenes, in lanes |
 //!
 //! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, where that is larger, by a bound on
@@ -42,7 +42,7 @@ pub const ROW: KindRow = KindRow {
               very step in which it happens. Run the scene named alone.",
 };
 
-/// Reads a study of scenes, of cases or of random scenes, whichever table the file has.
+/// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     let tables = ["energy", "case", "random"];
     root.allow(&[&["study"], &tables[..]].concat())?;
@@ -56,7 +56,7 @@ fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Stu
     }
 }
 
-/// The tables `[[case]]`, each with its name, which no other has.
+/// The tables `[[case]]`, each with a unique name.
 pub(in crate::kinds) fn named_cases<C>(
     root: &Section<'_>,
     read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
@@ -98,7 +98,7 @@ impl End {
     /// The end of a run.
     ///
     /// # Errors
-    /// The failure, where it is none that one-step schemes have in a step.
+    /// The failure, if it is not a failed step of a one-step scheme.
     pub(crate) fn of(failure: Option<&RunError>) -> Result<Self, RunError> {
         let Some(run) = failure else { return Ok(End::Answer) };
         let RunError::Step(StepError { failure, .. }) = run else { return Err(run.clone()) };

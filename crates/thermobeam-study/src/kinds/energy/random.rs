@@ -2,9 +2,9 @@
 //!
 //! Newton's method runs eight scenes in lanes.
 //!
-//! A step may be refused for one reason only: its operator is not definite. With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, B the
-//! buckling force, it is definite where `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every
-//! scene with `β > -B (1 + 2 ζ/dt)` must end with its answer.
+//! A step may be refused only because its operator is not definite. With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, where B is the
+//! buckling force, it is definite if `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every
+//! scene with `β > -B (1 + 2 ζ/dt)` must finish with an answer.
 //!
 //! ```toml
 //! [random]
@@ -23,18 +23,18 @@ const LANES: usize = 8;
 const GROUPS: usize = 32;
 /// Scenes in a batch.
 const BATCH: usize = LANES * GROUPS;
-/// Exceptions of a batch that are kept.
+/// Exceptions kept per batch.
 const KEPT: usize = 4;
-/// Exceptions listed.
+/// Exceptions shown in the table.
 const LISTED: usize = 12;
-/// Share of the scenes that may be exceptions.
+/// Allowed share of exceptions.
 const RARE: f64 = 2e-3;
-/// Cells of the map along either axis.
+/// Cells of the map along each axis.
 const CELLS: usize = 14;
 /// Powers of ten that the map spans: time steps, shortest elements.
 const DT: [f64; 2] = [-6.0, 1.0];
 const SHORTEST: [f64; 2] = [-4.0, 0.0];
-/// The residual drawn in place of zero, which a logarithmic scale does not have.
+/// Drawn instead of a zero residual on the logarithmic scale.
 const ZERO: f64 = 1e-18;
 
 /// A study of random scenes.
@@ -46,25 +46,25 @@ pub struct RandomScenes {
     seed: u64,
 }
 
-/// What a batch finds, or several together.
+/// Results of one batch, or of several together.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Batch {
-    /// Numbers of scenes by their ends, in the order of [`End::ALL`].
+    /// Numbers of scenes by the way they end, in the order of [`End::ALL`].
     pub ends: [usize; End::ALL.len()],
-    /// Scenes refused though their operators are definite.
+    /// Scenes refused although their operators are definite.
     pub refused: usize,
     /// Steps of all scenes.
     pub steps: usize,
-    /// Levels accepted by the solver with a number that is not finite.
+    /// Levels that the solver accepted although a number is not finite.
     pub not_finite_levels: usize,
     /// Largest rise and residual of a step.
     pub worst: Worst,
     /// Scenes with a residual above 1e-12 of the energy.
     pub exceptions: usize,
-    /// Those of them with the largest residuals: number of the scene in the study, and residual in units of the energy.
+    /// Exceptions with the largest residuals: number of the scene in the study, residual in units of the energy.
     pub largest: Vec<(usize, f64)>,
-    /// Of each scene what its rounding errors depend on most, time step and shortest element, and its largest residual in
-    /// units of the energy.
+    /// For each scene the time step and the shortest element, which determine its rounding errors most, and its largest
+    /// residual in units of the energy.
     pub scenes: Vec<[f64; 3]>,
 }
 
@@ -90,13 +90,13 @@ impl Kind for RandomScenes {
     }
 
     fn cases(&self) -> Vec<Case<usize>> {
-        // 16 elements on average, and an observed step costs some 100 ns an element.
+        // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
         let label = |batch: usize| format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
         (0..self.batches).map(|batch| Case { label: label(batch), cost, data: batch }).collect()
     }
 
-    /// The scenes in lanes, each to its end.
+    /// Runs the scenes in lanes, each to its end.
     fn run(&self, &number: &usize) -> Result<Batch, CaseFailure> {
         let mut batch = Batch::default();
         for group in 0..GROUPS {
@@ -124,7 +124,7 @@ impl Kind for RandomScenes {
         let others = if others > 0 { format!(", {others} other failures") } else { String::new() };
         let counts = End::ALL.iter().zip(ends).map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
         let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);
-        // A scene at the limit of definiteness may fall to either side on another machine.
+        // On another machine, a scene at the limit of definiteness may fall on either side.
         let quantities = vec![Quantity::new("answers", answers as f64, 1e-3)];
         Outcome {
             headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
@@ -148,7 +148,7 @@ impl RandomScenes {
         beams::wild(elements, (self.seed << 32) + scene as u64)
     }
 
-    /// Scenes with `group + 1` elements each, to their ends.
+    /// Runs scenes with `group + 1` elements each to their ends.
     fn run_group(&self, number: usize, group: usize, batch: &mut Batch) -> Result<(), CaseFailure> {
         let first = number * BATCH + group * LANES;
         let scenes: Vec<(Problem, f64)> =
@@ -171,7 +171,7 @@ impl RandomScenes {
         Ok(())
     }
 
-    /// The largest residuals, each with what rounding errors grow with: dt, the axial stiffness, and short elements.
+    /// The largest residuals, with the causes of rounding errors: dt, the axial stiffness, and short elements.
     fn exceptions(&self, total: &Batch) -> Table {
         let mut all = total.largest.clone();
         all.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -199,13 +199,13 @@ fn shortest(problem: &Problem) -> f64 {
     problem.mesh.lengths().fold(f64::INFINITY, f64::min)
 }
 
-/// Whether the operator of every step is definite, whatever the axial force turns out to be.
+/// Whether the operator of every step is definite for any axial force.
 fn is_definite(beam: &Beam, dt: f64) -> bool {
     beam.beta > -BUCKLING * (1.0 + 2.0 * beam.zeta / dt)
 }
 
 impl Batch {
-    /// Both together.
+    /// The sum of both.
     fn with(mut self, other: &Self) -> Self {
         self.ends.iter_mut().zip(other.ends).for_each(|(count, more)| *count += more);
         self.refused += other.refused;
@@ -224,7 +224,7 @@ impl Batch {
         [count(End::Answer), count(End::Indefinite), count(End::IterationLimit) + count(End::NotFinite)]
     }
 
-    /// What is claimed of all scenes together.
+    /// Claims about all scenes together.
     fn claims(&self, scenes: usize) -> [Check; 5] {
         let Self { ends, refused, not_finite_levels, exceptions, worst, .. } = self;
         let (ended, [_, _, others]) = (ends.iter().sum::<usize>(), self.ended());
@@ -260,7 +260,7 @@ impl Batch {
 
 /// The largest residual in each cell of (dt, shortest element).
 fn residuals(id: &str, scenes: &[[f64; 3]]) -> Figure {
-    // NaN where there is no scene.
+    // NaN in cells without a scene.
     let mut values = vec![vec![f64::NAN; CELLS]; CELLS];
     for &[dt, shortest, residual] in scenes {
         let (Some(column), Some(row)) = (index(DT, dt), index(SHORTEST, shortest)) else { continue };

@@ -4,15 +4,15 @@ use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, Se
 use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
 
-/// The first contacts count as "at the beginning" within this share of the figures' span.
+/// A first contact within this share of the figures' span counts as "at the beginning".
 const BEGINNING: f64 = 0.1;
 
-/// Distance from the exact steady state at which an experiment has arrived there: what the mesh of a hundred elements
-/// and the last of the motion leave, a hundredth of the distance between the obstacles.
+/// Distance from the exact steady state within which an experiment has arrived: the error of a hundred elements and the
+/// remaining motion, a hundredth of the distance between the obstacles.
 const ARRIVED: f64 = 1e-3;
 
-/// What remains of the energy, in units of its last fall per unit of time: no mode of these beams decays slower than
-/// exp(-t/50), the heat that flows through them included.
+/// The energy that remains, in units of its last fall per unit of time: no mode of these beams, including heat
+/// conduction, decays more slowly than exp(-t/50).
 const REMAINS: f64 = 50.0;
 
 /// Largest change of the energy in a step: the round-off of an energy of order 1 to 10.
@@ -21,19 +21,19 @@ const ROUND_OFF: f64 = 1e-14;
 /// Where the paper's text puts the beginning of several steady states.
 const AS_PRINTED: f64 = -0.5;
 
-/// A tip closer to zero than this is that of a straight beam: bent tips start at some 0.01, the lower obstacle.
+/// A beam with a tip closer to zero than this is straight: bent tips start at some 0.01, the lower obstacle.
 const STRAIGHT: f64 = 1e-6;
 
-/// Relative change of a number that depends smoothly on the data: far above round-off, far below a change of the method.
+/// Tolerance of a number that depends smoothly on the data: far above round-off, below any change of method.
 const SMOOTH: f64 = 1e-6;
 
-/// The same where many bounces lie between the data and the number: each magnifies a perturbation.
+/// The same if many bounces lie between the data and the number: each amplifies a perturbation.
 const AFTER_BOUNCES: f64 = 1e-4;
 
 /// The experiments of a group that completed.
 pub(super) struct OfGroup<'r> {
     pub(super) runs: Vec<(&'r Experiment, &'r Measured)>,
-    /// Whether all of them did: no claim holds without.
+    /// Whether all of them completed: otherwise no claim holds.
     complete: bool,
 }
 
@@ -70,7 +70,7 @@ impl<'r> OfGroup<'r> {
 pub(super) type Rests<'r> = [(f64, &'r AtRest)];
 
 impl Measured {
-    /// * `name`: the experiment's; `bent`: whether the end is not zero, whose digits would be those of the last of the motion.
+    /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
         let of = |reading: Reading, guard: &str, tolerance: f64| reading.guarded(format!("{name}: {guard}"), tolerance);
         let ends = |reading: Reading, guard: &str| if bent { of(reading, guard, SMOOTH) } else { reading };
@@ -127,7 +127,7 @@ pub(super) fn checks(study: &Experiments, ran: &[Ran<ExperimentTask, Found>], re
     checks
 }
 
-/// A time that need not be.
+/// A time that may be missing.
 fn time(t: Option<f64>) -> String {
     t.map_or_else(|| "never".to_owned(), |t| format!("t = {t:.4}"))
 }
@@ -144,7 +144,7 @@ fn claims(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Check>
     )];
     checks.extend(ends_straight(&first, REMAINS * study.until.rate));
     checks.extend(moves(&first));
-    // Completion has failed where a run is missing.
+    // If a run is missing, the check of completion has failed.
     checks.extend(all.runs.iter().filter_map(|(Experiment { group, scene }, run)| match *group {
         SectionGroup::First => None,
         SectionGroup::Second(contact) => Some(comes_to_rest(scene, contact, run)),
@@ -153,7 +153,7 @@ fn claims(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Check>
     checks
 }
 
-/// * `allowed`: what may remain of the energy.
+/// * `allowed`: upper bound on the remaining energy.
 fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
     let energies = first
         .list(|scene, run| format!("{:.9} for {:.9} at t = {:.0}", run.energy, straight_energy(scene), run.t_steady));
@@ -171,7 +171,7 @@ fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
     ]
 }
 
-/// First contacts, frequency and amplitude, the experiments being in ascending order of β.
+/// First contacts, frequency and amplitude; the experiments are in ascending order of β.
 fn moves(first: &OfGroup<'_>) -> [Check; 3] {
     let early = |scene: &Scene, t: Option<f64>| t.is_some_and(|t| t > 0.0 && t <= BEGINNING * scene.t_end);
     let contacts = first.list(|_, run| format!("upper {}, lower {}", time(run.first_upper), time(run.first_lower)));
@@ -243,7 +243,7 @@ fn at_rest(run: &Measured) -> String {
 
 /// The paper's last sentence: how many steady states there are below β = -1/2, and in which a moving beam comes to rest.
 ///
-/// * `complete`: whether there is a result for every β; no claim holds without.
+/// * `complete`: whether every β has a result; otherwise no claim holds.
 fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
     let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.u_tip.abs() <= STRAIGHT;
     let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {

@@ -1,5 +1,5 @@
-//! The paper's Section 5, sentence by sentence: seven experiments run until they are steady, the claims of the text judged,
-//! its figures redrawn.
+//! The paper's Section 5, sentence by sentence: seven experiments are run until they are steady, the claims of the text are
+//! judged, its figures redrawn.
 //!
 //! # What is measured, and how
 //!
@@ -11,19 +11,19 @@
 //! | first contact | when the tip first passes the obstacle, interpolated |
 //! | rests on | the contact force of the last step, and the tip's position |
 //!
-//! t_end is the scene's, the paper's 10: the span of its figures.
+//! t_end is that of the scene, 10 in the paper: the span of its figures.
 //!
 //! # Where the paper's text goes too far
 //!
-//! It takes the experiment at β = -0.8 as evidence that for β < -1/2 there are several steady states. Between
-//! -0.7116 and -1/2 there are not. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating, steady states are the critical points of
+//! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But between
+//! -0.7116 and -1/2 it is wrong. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating, steady states are the critical points of
 //!
 //! ```text
 //! ½ (‖u_x - φ‖² + ‖φ_x‖² + β ‖u_x‖²) + ρ/4 ‖u_x‖⁴ + G(u(1)),
 //! ```
 //!
-//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so that the straight beam is the only one.
-//! The study shows it twice: in the list of all exact steady states, and by where moving beams come to rest.
+//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so the straight beam is the only one. The
+//! study shows this twice: by the list of all exact steady states, and by where moving beams come to rest.
 
 mod judge;
 mod report;
@@ -46,16 +46,16 @@ pub const ROW: KindRow = KindRow {
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
 };
 
-/// Points of a curve in a figure, about: more than a figure has columns.
+/// Approximate number of points of a curve in a figure: more than the figure has columns.
 const POINTS: usize = 4000;
 
-/// The time that an animation shows: both obstacles are hit several times.
+/// The time that an animation shows: the beam hits both obstacles several times.
 const SPAN: f64 = 6.0;
 
-/// Parts into which that time is divided, with a frame at each end; what lies between two frames is interpolated.
+/// Number of intervals of that time, with a frame at each end; the motion between frames is interpolated.
 const PARTS: usize = 100;
 
-/// Which of the section's experiments, and so what is claimed of it.
+/// The group of an experiment, which determines what is claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum SectionGroup {
     /// θ_A = 0, (5.4): the beam becomes straight.
@@ -74,13 +74,13 @@ struct Experiment {
     scene: Scene,
 }
 
-/// When a run ends.
+/// When to end a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Until {
-    /// A run that lasts longer fails.
+    /// A longer run fails.
     t_max: f64,
-    /// Span over which the energy's fall is measured: longer than an oscillation, because at its turning points the beam
-    /// stands still.
+    /// Span over which the energy's fall is measured: longer than an oscillation, because the beam stands still at
+    /// turning points.
     window: f64,
     /// Fall of the energy per unit of time below which the state is steady.
     rate: f64,
@@ -98,9 +98,9 @@ pub struct Experiments {
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ExperimentTask {
-    /// An experiment, by its place in the list.
+    /// An experiment, by its index.
     Run(usize),
-    /// A moving beam until it rests, at the β of this place in the list.
+    /// A moving beam until it rests, at the β of this index.
     Rest(usize),
 }
 
@@ -132,7 +132,7 @@ impl FromFile for Experiments {
 /// The table `[experiments]`: the scenes of the three groups.
 fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, InputError> {
     let section = root.table("experiments", &["first", "second", "rests", "third"])?;
-    // At least two scenes in ascending order of β, because what is claimed of them is an order.
+    // At least two scenes in ascending order of β, since the claims compare neighbours.
     let ascending = |key: &str| {
         let fits =
             |scenes: &[Scene]| scenes.len() >= 2 && scenes.windows(2).all(|pair| pair[0].beam.beta < pair[1].beam.beta);
@@ -140,7 +140,7 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
         section.list(key, allowed, |item| listed_scene(item, folder), fits)
     };
     let (first, second) = (ascending("first")?, ascending("second")?);
-    // What each beam of the second group is said to rest on.
+    // The contact state that is claimed for each beam of the second group.
     let choices = [("upper", Contact::Upper), ("lower", Contact::Lower), ("free", Contact::Free)];
     let allowed = "a list of \"upper\", \"lower\" or \"free\", one for each scene of second";
     let rests = section.list("rests", allowed, |item| item.choice(&choices), |list| list.len() == second.len())?;
@@ -151,7 +151,7 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
     Ok(first.chain(second).chain([(SectionGroup::Third, third)]).map(one).collect())
 }
 
-/// Another mesh and time step, where `[run]` has them.
+/// Another mesh and time step, if `[run]` has them.
 fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
     let (elements, dt) = (run.get("elements"), run.get("dt"));
     if elements.is_none() && dt.is_none() {
@@ -172,11 +172,11 @@ impl Kind for Experiments {
         &self.header
     }
 
-    /// The seven experiments, then a moving beam until it rests for each β.
+    /// The seven experiments, then for each β a moving beam until it rests.
     fn cases(&self) -> Vec<Case<ExperimentTask>> {
         let run = |(k, Experiment { scene, .. }): (usize, &Experiment)| Case {
             label: scene.name.clone(),
-            // Steady states come at t = 50 to 100.
+            // Steady states are reached at t = 50 to 100.
             cost: 80.0 / scene.dt() * scene.mesh.elements() as f64,
             data: ExperimentTask::Run(k),
         };
@@ -207,7 +207,7 @@ impl Kind for Experiments {
     }
 }
 
-/// What an experiment shows.
+/// The results of an experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// Time from which the beam is steady.
@@ -220,7 +220,7 @@ pub struct Measured {
     pub phi_tip: f64,
     /// The contact force then: positive at the upper obstacle.
     pub contact_force: f64,
-    /// Largest nodal value of u, φ and the lifted temperature then, without its sign.
+    /// Largest absolute nodal value of u, φ and the lifted temperature then.
     pub largest_field: f64,
     /// Number of exact steady states.
     pub states: usize,
@@ -236,7 +236,7 @@ pub struct Measured {
     pub frequency: Option<f64>,
     /// Largest minus smallest φ(1) within the figures' span.
     pub phi_amplitude: f64,
-    /// Largest change of the energy in a step: negative where it falls in every step.
+    /// Largest change of the energy in a step: negative if the energy falls in every step.
     pub largest_increase: f64,
     /// Free end and energy over time.
     pub points: Vec<CurvePoint>,
@@ -257,7 +257,7 @@ pub struct CurvePoint {
     pub energy: f64,
 }
 
-/// Runs a scene until its energy stands still.
+/// Runs a scene until its energy is steady.
 ///
 /// # Errors
 /// A step that fails, steady states that cannot be found, or a beam that still moves at `t_max`.
@@ -268,7 +268,7 @@ fn run_until_steady(scene: &Scene, until: &Until) -> Result<Measured, CaseFailur
     let mut fall = 0.0;
     loop {
         let Step { old, new, simulation, .. } = driver.stepped()?;
-        // Summed up from differences: the total's round-off would hide a slow fall.
+        // Summed from differences: the round-off of the total would hide a slow fall.
         let change = simulation.energy_change(old, new);
         log.largest_increase = max_or_nan(log.largest_increase, change);
         log.add(simulation, new);
@@ -285,7 +285,7 @@ fn run_until_steady(scene: &Scene, until: &Until) -> Result<Measured, CaseFailur
     }
 }
 
-/// What a run has shown so far.
+/// What has been recorded of a run so far.
 struct MotionLog<'a> {
     scene: &'a Scene,
     /// (t, u(1), φ(1)) at the start and after each step in the figures' span.
@@ -307,7 +307,7 @@ impl<'a> MotionLog<'a> {
     fn add(&mut self, simulation: &Simulation, level: &Level) {
         let (t, step, tip) = (simulation.t(), simulation.step(), level.u.len() - 1);
         let (t_end, dt) = (self.scene.t_end, self.scene.dt());
-        // Half a step of slack: n dt is not t_end to the last bit.
+        // Half a step of slack: n dt differs from t_end by round-off.
         if t <= t_end + 0.5 * dt {
             self.motion.push([t, level.u[tip], level.phi[tip]]);
         }
@@ -339,7 +339,7 @@ impl<'a> MotionLog<'a> {
         let lower = obstacles.and_then(|of| self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1).next());
         let crossings: Vec<f64> = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0).collect();
         let count = crossings.len();
-        // The start is no step.
+        // The start is not a step.
         let largest =
             |sign: f64| self.motion.iter().skip(1).map(|[_, _, phi]| sign * phi).fold(f64::NEG_INFINITY, max_or_nan);
         Ok(Measured {
@@ -363,7 +363,7 @@ impl<'a> MotionLog<'a> {
     }
 }
 
-/// The energy of the straight beam at rest; NaN for the linear beam, whose energy has another constant.
+/// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a constant.
 fn straight_energy(scene: &Scene) -> f64 {
     energy_at_rest(&scene.beam).unwrap_or(f64::NAN)
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::figures;
 use crate::kinds::prelude::*;
 
-/// Seconds that one run of the animation takes: slower than the beam, so that the impacts can be followed.
+/// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
 
 pub(super) fn outcome(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Outcome {
@@ -42,7 +42,7 @@ fn figures(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Figur
     let second = OfGroup::of(study, ran, |group| matches!(group, SectionGroup::Second(_))).runs;
     let third = OfGroup::of(study, ran, |group| group == SectionGroup::Third).runs;
     let id = &study.header.id;
-    // The middle one moves without axial force at rest.
+    // The middle one has no axial force at rest.
     let beam = first.get(first.len() / 2).map(|(experiment, run)| {
         let caption = format!("The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.", beta_label(experiment));
         let svg = figures::animation(&figures::Animation {
@@ -97,7 +97,7 @@ fn obstacles(runs: &Each<'_>) -> Vec<plots::Guide> {
 
 /// A curve for each run, with the look of its scene.
 ///
-/// * `until_steady`: whether all of it is shown; else up to the scene's t_end, as in the paper.
+/// * `until_steady`: whether the whole curve is shown; otherwise it ends at the scene's t_end, as in the paper.
 fn curves(
     runs: &Each<'_>,
     y: plots::Axis,

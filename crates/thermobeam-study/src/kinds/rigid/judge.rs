@@ -1,4 +1,4 @@
-//! Orders in ε, claims about both solvers, tables, figures, and what the baseline guards.
+//! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline guards.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::verdict::RateVerdict;
@@ -8,30 +8,30 @@ use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
 use crate::figures::{contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
-/// Contraction above which a time step averages over the whole impact, which makes the penetration of order 1.
+/// Contraction above which a time step averages over the whole impact, so that the penetration is of order 1.
 const AVERAGED: f64 = 5.0;
 
 /// Compliance below which an obstacle is stiff: the layer of an impact is then short compared with the beam.
 const STIFF: f64 = 1e-3;
 
-/// Contraction from which on the fixed point may need more iterations than allowed.
+/// Contraction above which the fixed point may need more iterations than allowed.
 const SLOW: f64 = 0.8;
 
 /// A rate, and the name of its curve.
 const LARGEST: &str = "largest penetration, fixed h and dt";
 
-/// The runs with one compliance; `None` where the case failed.
+/// The runs with one compliance; `None` if the case failed.
 struct Compliance<'r> {
     epsilon: f64,
     bouncing: Option<&'r ShownImpact>,
     fixed_point: Option<&'r ShownImpact>,
     rest: Option<&'r ShownImpact>,
     impact: Option<&'r ShownImpact>,
-    /// Largest distance over time between the free end of the bouncing beam and that with rigid obstacles.
+    /// Largest distance over time between the free ends of the bouncing beam and of the beam with rigid obstacles.
     distance: f64,
 }
 
-/// A number of a run; NaN where there is none.
+/// A number of a run; NaN if missing.
 fn number(run: Option<&ShownImpact>, of: fn(&ShownImpact) -> Option<f64>) -> f64 {
     run.and_then(of).unwrap_or(f64::NAN)
 }
@@ -136,10 +136,10 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
 
 /// The four orders in ε.
 fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
-    // The predicted α tells whether dt resolves the impact; NaN, where a case failed, must not drop a level.
+    // The predicted α tells whether dt resolves the impact. If a case failed it is NaN, which must not drop a level.
     let averaged = |of: &Compliance<'_>| !(of.alpha() < AVERAGED);
     let stiff = |of: &Compliance<'_>| of.epsilon <= STIFF;
-    // Penetrations are ε times a force: they have digits, not a floor.
+    // Penetrations are ε times a force: their relative error is small, so they need no floor.
     let judge = study.judge.clone().with_floor(0.0).unwrap_or_else(|_| study.judge.clone());
     let rate = |name: &str, order, belongs: &dyn Fn(&Compliance<'_>) -> bool, error: fn(&Compliance<'_>) -> f64| {
         let level = |of: &Compliance<'_>| Level { step: of.epsilon, error: error(of) };
@@ -191,7 +191,7 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
     let as_predicted = |(of, failed_at): (&Compliance<'_>, Option<f64>)| match of.alpha() {
         alpha if alpha < SLOW => failed_at.is_none(),
         alpha if alpha > 1.0 => failed_at.is_some(),
-        // Between the two it may do either; NaN is neither.
+        // In between, either is allowed; NaN is neither.
         alpha => alpha.is_finite(),
     };
     let last = runs().rfind(|(_, failed_at)| failed_at.is_none());
@@ -217,7 +217,7 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
     )
 }
 
-/// The distance to the rigid limit is left out of the first: on its scale it coincides with the largest penetration.
+/// The first figure omits the distance to the rigid limit: on its scale it coincides with the largest penetration.
 fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
     let id = &study.header.id;
     let of_fixed_point = |label: &str, converges: bool| {
@@ -265,7 +265,7 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
     })
 }
 
-/// The first decades, so that the curves stay distinct.
+/// Only the first decades, so that the curves stay distinct.
 fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> plots::History {
     let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
     let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);

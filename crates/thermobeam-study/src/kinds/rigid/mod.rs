@@ -2,15 +2,15 @@
 //!
 //! # The time scale of an impact
 //!
-//! When the free end meets an obstacle with velocity v, only a layer of width √(ζt) takes part at first: there the beam is
-//! a viscous half-space, whose end resists a change of velocity with the force `√ζ D^½`, a derivative of half an order. With
-//! the penetration p = v t* P(t/t*) and the law F = p/ε,
+//! When the free end meets an obstacle with velocity v, at first only a layer of width √(ζt) moves: there the beam is a
+//! viscous half-space, and its end resists a change of velocity with the force `√ζ D^½`, a derivative of order one half.
+//! With the penetration p = v t* P(t/t*) and the law F = p/ε,
 //!
 //! ```text
 //! P' + I^½ P = 1,   P(0) = 0,      t* = (ε √ζ)^(2/3),
 //! ```
 //!
-//! so that the peak of an impact has the time scale t*, its penetration is 0.858 v (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
+//! so the peak of an impact has the time scale t*, its penetration is 0.858 v (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
 //!
 //! | quantity | order in ε | why |
 //! | --- | --- | --- |
@@ -18,8 +18,8 @@
 //! | the same on a fixed mesh with a fixed dt, once t* < dt | 1 | the step averages the force, which then has a limit |
 //! | penetration at rest | 1 | the force at rest has a limit |
 //!
-//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails about where the time
-//! step no longer resolves the impact. Newton's iterations do not depend on ε.
+//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails approximately where
+//! the time step no longer resolves the impact. The number of Newton iterations does not depend on ε.
 
 mod judge;
 
@@ -45,12 +45,12 @@ pub struct RigidStudy {
     header: Header,
     /// Compliances, descending.
     epsilons: Vec<f64>,
-    /// The compliance that stands for a rigid obstacle.
+    /// The compliance that represents a rigid obstacle.
     limit: f64,
     judge: Judge,
     /// A beam that bounces, on a fixed mesh with a fixed dt.
     moving: Scene,
-    /// Iterations after which the fixed point is given up.
+    /// Iterations after which the fixed point iteration is abandoned.
     max_iterations: usize,
     /// A beam that comes to rest on an obstacle.
     resting: Scene,
@@ -58,14 +58,14 @@ pub struct RigidStudy {
     t_max: f64,
     /// A beam whose free end moves into the upper obstacle at t = 0, on a mesh graded towards that end.
     impact: Scene,
-    /// Time steps in t*.
+    /// Time steps in units of t*.
     steps: usize,
 }
 
 /// A computation with one compliance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunOf {
-    /// The bouncing beam between obstacles that are all but rigid, by Newton's method.
+    /// The bouncing beam between nearly rigid obstacles, by Newton's method.
     RigidLimit,
     /// The bouncing beam by Newton's method.
     Bouncing,
@@ -77,27 +77,27 @@ pub enum RunOf {
     Impact,
 }
 
-/// What a run shows; a number that its computation does not have is `None`.
+/// The results of a run; a number that its computation lacks is `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShownImpact {
-    /// Contact force, without its sign: the largest, that at rest, or the peak of the impact.
+    /// Contact force in absolute value: the largest, the force at rest, or the peak of the impact.
     pub force: Option<f64>,
-    /// ε times the force, which keeps the digits that the difference u(1) - g loses.
+    /// ε times the force, which has the digits that the difference u(1) - g loses.
     pub penetration: Option<f64>,
     /// Velocity of the free end at t = 0.
     pub velocity: Option<f64>,
     /// Iterations per step done.
     pub mean_iterations: Option<f64>,
-    /// Iterations of the step that took most, by Newton's method.
+    /// Largest number of iterations in a step, by Newton's method.
     pub most_iterations: usize,
     /// (t, u(1, t)) of every level, by Newton's method.
     pub tip: Vec<(f64, f64)>,
     /// Predicted contraction factor of the fixed point in contact.
     pub alpha: Option<f64>,
-    /// Largest factor measured in contact, or that of the last increments of the step that fails; `None` where no step was
-    /// in contact, and where the iterates overflowed.
+    /// Largest factor measured in contact, or the factor of the last increments of a failing step; `None` if no step was
+    /// in contact or the iterates overflowed.
     pub contraction: Option<f64>,
-    /// Time of the step at which the fixed point fails, if it does.
+    /// Time of the step at which the fixed point fails, if any.
     pub failed_at: Option<f64>,
 }
 
@@ -139,7 +139,7 @@ fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Sce
     let field = section.require("elements", "a whole number >= 1")?;
     let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
     let (dt, of_dt) = (section.positive("dt")?, section.require("dt", "a number")?);
-    // The moving beam's tip is kept at every step.
+    // The tip of the moving beam is kept at every step.
     limits::steps_until(&of_dt, scene.t_end, dt, limits::RECORDED_STEPS)?;
     if section.get("t_max").is_some() {
         limits::steps_until(&of_dt, section.positive("t_max")?, dt, limits::STEPS)?;
@@ -148,7 +148,7 @@ fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Sce
     Ok(scene.at(mesh, dt))
 }
 
-/// The scene of the impact, whose free end must start on the upper obstacle and move into it.
+/// The scene of the impact: its free end must start at the upper obstacle and move into it.
 fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
     let field = section.require("scene", "a scene file")?;
     let scene = listed_scene(&field, folder)?;
@@ -249,7 +249,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
         match driver.stepped() {
             Ok(Step { report, old, new, .. }) => {
                 iterations += report.iterations;
-                // While the tip comes or goes the law is not linear, and two increments tell nothing.
+                // While the tip enters or leaves contact the law is not linear, and two increments show nothing.
                 let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
                 if let Some(found) = report.contraction.filter(|_| in_contact) {
                     contraction = Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
@@ -278,7 +278,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
     })
 }
 
-/// The factor for the mean axial force β of a beam that is hardly bent; infinite where the operator is not definite.
+/// The factor for the mean axial force β of a nearly straight beam; infinite if the operator is not definite.
 fn alpha(scene: &Scene, by: &Stepping) -> f64 {
     let lengths: Vec<f64> = scene.mesh.lengths().collect();
     let beta = scene.beam.beta;
@@ -294,7 +294,7 @@ fn peak_penetration() -> f64 {
     (0..4000).map(|k| penetration(1e-3 * f64::from(k))).fold(0.0, f64::max)
 }
 
-/// P(τ) for 0 <= τ <= 4; even there the terms vanish long before the last.
+/// P(τ) for 0 <= τ <= 4, where the terms vanish long before the last.
 fn penetration(tau: f64) -> f64 {
     const TERMS: usize = 40;
     // Γ(2 + 3k/2) from Γ(x + 3) = x (x + 1) (x + 2) Γ(x), starting from Γ(2) = 1 and Γ(7/2) = 15 √π / 8.
@@ -331,7 +331,7 @@ mod tests {
         assert!((slope + half_integral - 1.0).abs() < 1e-6);
     }
 
-    /// Not the model of a contact that ends: after its peak the force falls like the root of time.
+    /// The model does not cover the end of contact: after its peak the force falls like t^(-1/2).
     #[test]
     fn the_penetration_of_the_half_space_has_no_end() {
         let largest = (0..4000).map(|k| penetration(1.5 + f64::from(k) * 1e-4)).fold(0.0, f64::max);

@@ -1,20 +1,20 @@
-//! Rates where no exact solution is known: the paper's own data, contact included.
+//! Rates without an exact solution: the paper's own data, contact included.
 //!
 //! Two readings of the same runs:
 //!
-//! * *successive* (three-level Richardson): with `q_h = q + C h^p` the difference of neighbouring levels is
-//!   `q_h - q_{h/2} = C (1 - 2^-p) h^p`: it falls with the order, and two of them (three levels) give a rate;
-//! * *reference*: the difference to a run of any order, see [`crate::error::reference`]. Where h and dt are refined together it is
-//!   the error against the equations themselves, contact included; where time alone is refined, against the semi-discrete
-//!   system of the mesh. A second reference of other degrees and steps shows how well the first is known.
+//! * *successive* (three-level Richardson): with `q_h = q + C h^p` the difference of neighbouring levels is `q_h -
+//!   q_{h/2} = C (1 - 2^-p) h^p`: it falls with the order p, and two differences (three levels) give a rate;
+//! * *reference*: the difference to a run of any order, see [`crate::error::reference`]. If h and dt are refined together, this is
+//!   the error against the equations themselves, contact included; if only time is refined, against the semi-discrete system of
+//!   the mesh. A second reference with other degrees and steps shows the accuracy of the first.
 //!
 //! Only the second reading sees a fault of the scheme that does not vanish with h and dt, such as a wrong coefficient.
 //!
-//! What the contact does is not assumed. The contact force is Lipschitz, so where the tip enters or leaves an obstacle it
-//! has a kink in time. That costs one step a local error of dt² instead of dt³, once for each event: first and second order
-//! should survive at fixed times, with a constant that depends on where in its step the event falls, so that rates scatter.
-//! The largest displacement over all levels has no such claim: it is off the true maximum by a share of a step.
-//! Only what the file claims under `[[expect]]` is judged; the rest is shown with the verdict that it would get.
+//! The effect of contact is not assumed. The contact force is Lipschitz, so it has a kink in time where the tip enters or
+//! leaves an obstacle. That costs one step a local error of dt² instead of dt³, once for each event: first and second order
+//! should survive at fixed times, but the constant depends on where in its step the event falls, so rates scatter. No order
+//! can be expected of the largest displacement over all levels: it misses the true maximum by a share of a step. Only the
+//! claims under `[[expect]]` are judged; other rates are shown with the verdict they would get.
 //!
 //! ```toml
 //! [scene]
@@ -60,7 +60,7 @@ pub const ROW: KindRow = KindRow {
               reference fail, scheme and reference solve different equations.",
 };
 
-/// A study of rates without exact solution.
+/// A study of rates without an exact solution.
 #[derive(Debug)]
 pub struct SelfConvergence {
     header: Header,
@@ -69,25 +69,25 @@ pub struct SelfConvergence {
     scheme: Scheme,
     /// Elements and steps, coarse to fine; at least two.
     levels: Vec<(usize, usize)>,
-    /// dt = c h^power; 1 where time alone is refined.
+    /// dt = c h^power; 1 if only time is refined.
     power: f64,
-    /// The first is what levels are compared with.
+    /// The levels are compared with the first.
     references: [Discretisation; 2],
     t_end: f64,
     /// Times of comparison.
     samples: usize,
     /// Must the tip meet an obstacle?
     contact: bool,
-    /// What is claimed of both readings.
+    /// Claims about both readings.
     claims: Vec<(&'static Observable, Claim)>,
 }
 
 /// A run of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ComparedRun {
-    /// By the scheme of the study, with these elements and steps.
+    /// By the scheme of the study, with this number of elements and steps.
     Level(usize, usize),
-    /// The reference of this number.
+    /// The reference of this index.
     Reference(usize),
 }
 
@@ -133,7 +133,7 @@ fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
     Ok(contact)
 }
 
-/// The levels, coarse to fine, and the power of h that dt is proportional to where both are refined.
+/// The levels, coarse to fine, and the power of h that dt is proportional to if both are refined.
 fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usize, usize)>, f64), InputError> {
     let steps = nested_list(section, "steps", |item| item.count(1..=limits::STEPS))?;
     let (elements, power) = if axis == Axis::Time {
@@ -158,7 +158,7 @@ fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usi
     Ok((elements.into_iter().zip(steps).collect(), power))
 }
 
-/// A list of levels, each a multiple of the one before.
+/// A list of levels, each a multiple of its predecessor.
 fn nested_list(
     section: &Section<'_>,
     key: &str,
@@ -208,7 +208,7 @@ impl Kind for SelfConvergence {
 }
 
 impl SelfConvergence {
-    /// The mesh on which levels are compared with a reference.
+    /// The mesh on which levels are compared with the references.
     fn common_mesh(&self) -> Result<Mesh, MeshError> {
         let finest = self.levels.last().map_or(0, |(elements, _)| *elements);
         if self.axis == Axis::Time { resampled(&self.scene.mesh, finest) } else { fine_mesh(&self.scene, finest) }

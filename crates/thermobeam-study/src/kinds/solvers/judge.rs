@@ -1,4 +1,4 @@
-//! The maps: claims, the table of boundaries, what the baseline guards, and the figures.
+//! The maps: claims, the table of boundaries, guarded numbers, and the figures.
 
 use convergence_study::plots::{Axis, Series, Surface};
 
@@ -7,22 +7,22 @@ use super::map::{Boundary, Map, NewtonSteps, Parameter, Point, spaced};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::of_allowed;
 
-/// A factor for which the iterations of the map are enough, with a margin for the mean force, which is not known beforehand.
+/// A factor for which the map's iterations suffice, with a margin for the mean force, which is not known in advance.
 const SLOW: f64 = 0.8;
 /// γ up to which α alone decides.
 const ALONE: f64 = 0.01;
-/// Iterations that Newton's method may take in a step.
+/// Maximum number of Newton iterations in a step.
 const MOST: usize = 30;
-/// Contractions below are shown as this: after a few iterations the ratio says no more.
+/// Smaller contractions are shown as this value: after a few iterations the ratio is no longer meaningful.
 const FASTEST: f64 = 1e-6;
-/// Residuals below are shown as this, a hundredth of a rounding error.
+/// Smaller residuals are shown as this value, a hundredth of a rounding error.
 const EXACT: f64 = 1e-18;
 
 /// Results, each with its value of the second parameter.
 type MapRows<'r> = [(f64, &'r [Point])];
 type Lines<'r> = [(f64, &'r Boundary)];
 
-/// What a map shows at a point.
+/// The quantity that a map shows at a point.
 type Value<'v> = dyn Fn(&Point) -> Option<f64> + 'v;
 
 impl Map {
@@ -59,7 +59,7 @@ impl Map {
         Check::that(found == expected, "both solvers were run at every point", format!("{found} of {expected}"))
     }
 
-    /// Newton's method converges wherever its operator is known to be definite.
+    /// Newton's method must converge wherever its operator is known to be definite.
     fn newton_completes(&self, rows: &MapRows<'_>) -> Check {
         let (mut known, mut wrong, mut failed) = (0, 0, 0);
         for (value, row) in rows {
@@ -131,7 +131,7 @@ impl Map {
             line.found.map(|at| Quantity::new(name, at.dt, 1e-2))
         };
         let mut quantities: Vec<Quantity> = lines.iter().filter_map(found).collect();
-        // A point next to the boundary may fall to either side.
+        // A point next to the boundary may fall on either side.
         quantities.push(Quantity::new("points with a fixed point", converged, 1e-2));
         quantities
     }
@@ -155,7 +155,7 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
     Check::that(holds, "the first step ends in contact", format!("least contact force {least:.2e}"))
 }
 
-/// The map against α and γ: convergence where both are well below 1, none where α exceeds 1 by more than γ.
+/// The map against α and γ: convergence where both are well below 1, divergence where α exceeds 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
     for FixedPointStep { alpha, gamma, converged, .. } in points(rows).map(|point| point.step) {
@@ -163,7 +163,7 @@ fn as_predicted(rows: &MapRows<'_>) -> Check {
             fast += 1;
             wrong += usize::from(!converged);
         } else if alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW) {
-            // Where α is infinite, the operator A_u of the step is not definite.
+            // An infinite α means that the operator A_u of the step is not definite.
             beyond += 1;
             wrong += usize::from(converged);
         }
@@ -185,7 +185,7 @@ fn newton_is_quick(rows: &MapRows<'_>) -> Check {
 }
 
 fn energy(rows: &MapRows<'_>) -> [Check; 2] {
-    // A row without a single step of Newton's method shows nothing.
+    // A row without a single Newton step shows nothing.
     let every_row = rows.iter().all(|(_, row)| row.iter().any(|point| point.newton.is_some()));
     let check = |claim: &str, number: fn(&NewtonSteps) -> f64, share: fn(&NewtonSteps) -> f64| {
         let share = largest(rows, share);
@@ -205,10 +205,10 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
 impl Map {
     fn figures(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
         let over = self.over.name();
-        // Where there is no value, the solver fails, and the map is hatched; smaller ones are shown as `least`.
+        // Missing values mean that the solver fails, and the map is hatched; values below `least` are shown as `least`.
         let draw = |file: &str, caption: String, (z, least), fails: &str, value: &Value<'_>, boundaries| {
             let cell = |point: &Point| match value(point) {
-                // `max` would replace NaN by the least value.
+                // `max` would replace NaN by `least`.
                 Some(value) if !value.is_nan() => f64::max(value, least),
                 _ => f64::NAN,
             };

@@ -2,43 +2,43 @@
 //!
 //! # The scene
 //!
-//! A beam that touches the upper obstacle and is driven into it, by a velocity for short steps and by the heat of its
-//! clamped end for long ones, so that the tip is in contact at the end of the first step for every parameter on the map. In
-//! that step the fixed point is measured: does it converge, in how many iterations, and by which factor the last increment
-//! shrank. Newton's method goes on for more steps: its iterations, the largest rise of the energy, and the largest
-//! residual of its balance against what rounding errors explain.
+//! A beam touches the upper obstacle and is driven into it, by its velocity for short steps and by the heat of its clamped
+//! end for long ones. So the tip is in contact at the end of the first step for every parameter on the map. That step
+//! measures the fixed point: whether it converges, in how many iterations, and the factor by which the last increment
+//! shrank. Newton's method does more steps: its iterations, the largest rise of the energy, and the largest residual of the
+//! energy balance are compared with the effect of rounding errors.
 //!
 //! # The prediction
 //!
 //! The eigenvalues of the error propagation lie between `-α` (contact) and `γ` (coupling between rotation and
-//! displacement): the boundary of convergence lies at α = 1 where γ is small, and above it where γ is not, by a share of
-//! γ. On lines through the map it is found by bisection in dt.
+//! displacement). The boundary of convergence therefore lies at α = 1 if γ is small, and otherwise above it by a share
+//! of γ. On lines through the map it is found by bisection in dt.
 //!
-//! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is enough, with the buckling force B and
+//! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is sufficient, with the buckling force B and
 //! the mean axial force m >= β.
 
 use super::{FixedPointStep, SolverTask, factors, iterate};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::{Watched, Worst, watched};
 
-/// The obstacles, close enough for the heat to press the beam against them for every β on the maps.
+/// The obstacles, close enough that the heat presses the beam against them for every β on the maps.
 const GAP: f64 = 0.01;
 /// Temperature of the clamped end.
 const HEAT: f64 = 20.0;
 /// Velocity of the tip.
 const SPEED: f64 = 0.1;
-/// Iterations after which the fixed point is given up on the map.
+/// Iterations after which the fixed point iteration is abandoned on the map.
 const ITERATIONS: usize = 150;
-/// Increment at which it has converged: large against round-off, so that the last ratio is a contraction.
+/// Increment at which it counts as converged: large against round-off, so that the last ratio is a contraction.
 const TOLERANCE: f64 = 1e-10;
-/// Halvings of the logarithm of dt: to a ten-thousandth of a range of seven decades.
+/// Halvings of the logarithm of dt: seven decades to one part in ten thousand.
 const HALVINGS: usize = 20;
-/// Iterations after which the ratio of two increments is the factor of the slowest mode.
+/// Iterations after which the ratio of two increments equals the factor of the slowest mode.
 const SETTLED: usize = 400;
-/// The α up to which the boundary is looked for. Far beyond it the iterates grow so large that the Kirchhoff term stiffens
-/// the beam: the increments may shrink for many iterations without convergence. That it fails there the map shows.
+/// Largest α at which the boundary is sought. Far beyond it the iterates grow so large that the Kirchhoff term stiffens
+/// the beam: the increments may shrink for many iterations without convergence. The map shows the failure there.
 const FAR: f64 = 4.0;
-/// Consecutive ratios that must be below 1: past the boundary the iteration may run in a cycle, in which some are.
+/// Consecutive ratios that must be below 1: past the boundary the iteration may enter a cycle in which some are.
 const CONSECUTIVE: usize = 8;
 
 /// The table `[map]`.
@@ -97,7 +97,7 @@ impl Map {
             check_width(&section.require("range", "a range")?, range[0])?;
         }
         let line = |item: &Field<'_>| {
-            // ζ = 0 has no place on a logarithmic axis, and is the value that the theory excludes.
+            // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
             let fits = |value: f64| value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0);
             let value = item.number_where("a value of the parameter", fits)?;
             if over == Parameter::Width {
@@ -168,13 +168,13 @@ impl Map {
     }
 }
 
-/// The axial force at the start; the first steps hardly change it.
+/// The axial force at the start, which hardly changes in the first steps.
 fn axial_force(problem: &Problem) -> f64 {
     let lengths: Vec<f64> = problem.mesh.lengths().collect();
     problem.beam.axial_force(thermobeam::norms::slope_squared(&lengths, &problem.initial.u))
 }
 
-/// Refuses a mesh width for which the mesh does not fit into memory.
+/// Refuses a mesh width if the mesh does not fit into memory.
 fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
     let elements = (1.0 / width).round();
     if elements <= limits::ELEMENTS as f64 {
@@ -197,16 +197,16 @@ fn interval(section: &Section<'_>, key: &str, linear: bool) -> Result<[f64; 2], 
 pub struct Point {
     /// The first step by the fixed point.
     pub step: FixedPointStep,
-    /// Whether Newton's method did all steps.
+    /// Whether Newton's method completed all steps.
     pub newton_completes: bool,
-    /// The steps that it did; `None` where the first one failed.
+    /// The completed steps; `None` if the first one failed.
     pub newton: Option<NewtonSteps>,
 }
 
 /// Steps by Newton's method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonSteps {
-    /// Iterations of the step that took most.
+    /// Largest number of iterations in a step.
     pub iterations: usize,
     /// The contact force after the first step.
     pub contact_force: f64,
@@ -242,9 +242,9 @@ impl Map {
     }
 }
 
-/// Newton's method, several time steps side by side: whether all steps were done, and what was seen in them.
+/// Newton's method for several time steps in parallel lanes: whether all steps were completed, and their results.
 fn newton(problem: &Problem, dts: &[f64], steps: usize) -> Result<Vec<(bool, Option<NewtonSteps>)>, CaseFailure> {
-    // The most iterations, and the contact force after the first step, if it was done.
+    // The most iterations, and the contact force after the first step if it succeeded.
     let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
     let problems = vec![problem.clone(); dts.len()];
     let runs = watched(problems, dts, EULER_CRANK_NICOLSON, steps, |k, iterations, level| {
@@ -261,13 +261,13 @@ fn newton(problem: &Problem, dts: &[f64], steps: usize) -> Result<Vec<(bool, Opt
 /// Predicted and measured boundary on a line of constant second parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary {
-    /// The dt at which α = 1; `None` where α does not cross 1 within the map.
+    /// The dt at which α = 1; `None` if α does not cross 1 within the map.
     pub predicted: Option<f64>,
-    /// The dt from which on the fixed point fails; `None` where it behaves alike at both ends of the map.
+    /// The dt above which the fixed point fails; `None` if the outcome is the same at both ends of the map.
     pub found: Option<Crossing>,
 }
 
-/// A boundary found, and the predicted factors there.
+/// A computed boundary, and the predicted factors there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
     /// The time step.
@@ -312,7 +312,7 @@ fn contracts(problem: &Problem, dt: f64) -> Result<bool, CaseFailure> {
     Ok(true)
 }
 
-/// The value between a `low` that holds and a `high` that does not; `None` unless they are so.
+/// The boundary between a `low` that satisfies the condition and a `high` that does not; `None` for any other pair.
 fn bisect(
     mut low: f64,
     mut high: f64,

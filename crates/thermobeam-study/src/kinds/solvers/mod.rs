@@ -1,8 +1,8 @@
 //! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always does.
 //!
-//! The paper leaves the convergence of its iteration out. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn` per
-//! iteration ([`contact_contraction`]), free of contact by a factor γ < 1 ([`coupling_contraction`]); past α = 1 the
-//! iteration diverges. A study asks one or more of three questions, one table of its file each:
+//! The paper does not treat the convergence of its iteration. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn`
+//! per iteration ([`contact_contraction`]), without contact by a factor γ < 1 ([`coupling_contraction`]); past α = 1
+//! the iteration diverges. A study asks one or more of three questions, one table of its file each:
 //!
 //! ```toml
 //! [contraction]              # the factor of one step in contact against α, for all combinations
@@ -75,7 +75,7 @@ pub enum SolverTask {
     Boundary(f64),
 }
 
-/// What a case found, variant by variant as in [`SolverTask`].
+/// The result of a case; the variants match those of [`SolverTask`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// Predicted and measured factor of the step.
@@ -89,7 +89,7 @@ pub enum Found {
 }
 
 impl Found {
-    /// Names of the numbers that are NaN, or infinite where only a finite one makes sense.
+    /// Names of the numbers that are NaN, or infinite although only a finite value makes sense.
     fn not_finite(&self) -> Vec<String> {
         match self {
             Found::Contraction(found) => not_finite(&[("alpha", found.alpha), ("gamma", found.gamma)]),
@@ -125,7 +125,7 @@ fn positive_numbers(section: &Section<'_>, key: &str) -> Result<Vec<f64>, InputE
     section.list(key, "a list of at least one number > 0", Field::positive, |list| !list.is_empty())
 }
 
-/// The part that a case belongs to.
+/// The part of the study to which a case belongs.
 fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
     part.as_ref().ok_or_else(|| CaseFailure { reason: "the study has no such part".to_owned() })
 }
@@ -154,7 +154,7 @@ impl Kind for Solvers {
     }
 
     fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
-        // A failed case is left out, and fails the check of completion.
+        // A failed case is omitted, and fails the check of completion.
         let (mut factors, mut agreements, mut rows, mut lines) = (vec![], vec![], vec![], vec![]);
         for (task, found) in ran.iter().filter_map(|ran| Some((ran.case.data, ran.ok()?))) {
             match (task, found) {
@@ -178,31 +178,31 @@ impl Kind for Solvers {
     }
 }
 
-/// A step by the fixed point: what is predicted, and how it ended.
+/// A step by the fixed point: the prediction, and the result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointStep {
     /// The time step.
     pub dt: f64,
-    /// Predicted factor of the contact; infinite where its operator is not definite.
+    /// Predicted factor of the contact; infinite if its operator is not definite.
     pub alpha: f64,
-    /// Predicted factor of the coupling between rotation and displacement; infinite where its operator is not definite.
+    /// Predicted factor of the coupling between rotation and displacement; infinite if its operator is not definite.
     pub gamma: f64,
     /// Whether the increment fell below the tolerance.
     pub converged: bool,
     /// Iterations done.
     pub iterations: usize,
-    /// Ratio of the last two increments, where there were two; infinite where the iterates overflowed or the operator
-    /// was not definite.
+    /// Ratio of the last two increments, if there were two; infinite if the iterates overflowed or the operator was not
+    /// definite.
     pub contraction: Option<f64>,
 }
 
 impl FixedPointStep {
-    /// The first step of the problem, with that many iterations at most, to an increment below `tolerance`.
+    /// The first step of the problem, with at most `iterations` iterations, to an increment below `tolerance`.
     ///
     /// * `n_value`: mean axial force for the predicted factors.
     ///
     /// # Errors
-    /// [`CaseFailure`] where the solver refuses the problem or time is up; that the iteration fails is a result.
+    /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
     fn run(problem: &Problem, dt: f64, n_value: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
         let (converged, iterations, contraction) = iterate(problem, dt, tolerance, iterations)?;
         let [alpha, gamma] = factors(problem, dt, n_value);
@@ -233,7 +233,7 @@ fn iterate(
     Ok((false, iterations, Some(contraction)))
 }
 
-/// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite where the
+/// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite if the
 /// operator is not definite.
 fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
     let lengths: Vec<f64> = problem.mesh.lengths().collect();

@@ -1,18 +1,18 @@
-//! Two parts of a study: the contraction factor in contact, measured against α; a scene by the fixed point and by Newton's
-//! method, their difference against the fixed point's tolerance.
+//! Two parts of a study: the contraction factor in contact, measured against α; and the difference between the fixed point
+//! and Newton's method on a scene, against the fixed point's tolerance.
 
 use super::{FixedPointStep, SolverTask, positive_numbers};
 use crate::error::reference::distance;
 use crate::figures;
 use crate::kinds::prelude::*;
 
-/// Iterations after which an iteration with a factor near 1 is given up.
+/// Iterations after which a slow iteration, with a factor near 1, is abandoned.
 const ITERATIONS: usize = 1000;
-/// Increment at which a measurement stops: small enough for the slowest mode to dominate, large against round-off.
+/// Increment at which a measurement stops: small enough that the slowest mode dominates, large against round-off.
 const TOLERANCE: f64 = 1e-9;
 /// Largest relative difference between measured and predicted factor.
 const AGREEMENT: f64 = 0.03;
-/// How many times γ the factor α must be to dominate: γ then changes it by a percent at most.
+/// Ratio α/γ above which α dominates: γ then changes the factor by at most one percent.
 const DOMINANCE: f64 = 100.0;
 /// Slope of the beam pressed into the upper obstacle by a fifth of the gap.
 const PRESSED: f64 = 0.12;
@@ -107,7 +107,7 @@ fn contraction_figure(id: &str, found: &[([f64; 3], &FixedPointStep)]) -> Figure
     Figure::new(id, "contraction", caption, svg)
 }
 
-/// Tolerance of the Newton run that the fixed point is compared with.
+/// Tolerance of the Newton run that is compared with the fixed point.
 const SOLVED: f64 = 1e-14;
 
 /// The table `[comparison]`.
@@ -119,20 +119,20 @@ pub(super) struct Comparison {
     tolerances: Vec<f64>,
 }
 
-/// What a run of both solvers shows.
+/// The results of running both solvers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Agreement {
     /// Largest distance of their levels in the norm of Theorem 3.4, over all steps.
     pub distance: f64,
     /// Iterations of the fixed point per step.
     pub mean_iterations: f64,
-    /// Its iterations in the step that took most.
+    /// Its largest number of iterations in a step.
     pub most_iterations: usize,
     /// Its iterations in each step, as (t, iterations).
     pub iterations: Vec<(f64, f64)>,
-    /// The same of Newton's method.
+    /// Newton iterations in each step, likewise.
     pub newton: Vec<(f64, f64)>,
-    /// Intervals of time of the steps that end in contact.
+    /// Time intervals of the steps that end in contact.
     pub contact: Vec<(f64, f64)>,
 }
 
@@ -142,20 +142,20 @@ impl Comparison {
         Ok(Self {
             scene: Scene::read_one_step(&section.require("scene", "a scene file beside this one")?, folder)?,
             elements: tables::elements(&section.require("elements", "a number of elements")?)?,
-            // Each is a point of a figure.
+            // Each step is a point of a figure.
             steps: section.count("steps", 1..=limits::RECORDED_STEPS)?,
             tolerances: positive_numbers(section, "tolerances")?,
         })
     }
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
-        // Some four iterations of 60 ns a step and element, against 25 ns for the runner's unit.
+        // Some four iterations of 60 ns per step and element; the unit of the runner is 25 ns.
         let cost = (self.elements * self.steps) as f64 * 10.0;
         let case = |&eta: &f64| Case { label: format!("tolerance {eta:e}"), cost, data: SolverTask::Comparison(eta) };
         self.tolerances.iter().map(case).collect()
     }
 
-    /// Steps the scene by both solvers side by side.
+    /// Steps the scene by both solvers in parallel.
     pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
         let scene = Scene { mesh: Mesh::uniform(self.elements)?, ..self.scene.clone() };
         let driver = |settings| {
@@ -189,7 +189,7 @@ impl Comparison {
 /// * `found`: the results, each with its tolerance η*.
 pub(super) fn judge_comparison(id: &str, found: &[(f64, &Agreement)]) -> Outcome {
     let check = |(eta, found): &(f64, &Agreement)| {
-        // A step leaves less than α/(1 - α) η* unsolved, with α far below 1/2 here, and the beam damps the rest.
+        // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the rest.
         let evidence = format!("{:.2e}, {:.3} of the tolerance", found.distance, found.distance / eta);
         Check::that(found.distance <= *eta, format!("eta* = {eta:e}: the error is below eta*"), evidence)
     };

@@ -1,4 +1,4 @@
-//! Two discretisations of any order, tables with elements, degrees and steps: what one says is checked by the other.
+//! Two discretisations of any order, as tables with elements, degrees and steps: each checks the other.
 
 use convergence_study::input::POSITIVE;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
@@ -8,13 +8,13 @@ use crate::kinds::prelude::*;
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
 
-/// What a solve costs in steps of a one-step scheme, for each unknown.
+/// The cost of a solve per unknown, in steps of a one-step scheme.
 const COST: f64 = 30.0;
 
 /// Elements and steps of one discretisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Discretisation {
-    /// Elements, laid out as those of the scene.
+    /// Elements, distributed like those of the scene.
     pub elements: usize,
     /// Degree p.
     pub degree: usize,
@@ -23,10 +23,10 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
-    /// A scene, discretised in this way.
+    /// Discretises a scene in this way.
     ///
     /// # Errors
-    /// [`CaseFailure`] where the mesh has elements that are too small.
+    /// [`CaseFailure`] if the mesh has elements that are too small.
     pub fn of(&self, scene: &Scene, t_end: f64) -> Result<Scene, CaseFailure> {
         Ok(Scene {
             mesh: resampled(&scene.mesh, self.elements)?,
@@ -37,7 +37,7 @@ impl Discretisation {
         })
     }
 
-    /// What identifies it in words.
+    /// Its identification in words.
     pub fn label(&self) -> String {
         format!("{} x p = {}, q = {}", self.elements, self.degree, self.stepping.degree)
     }
@@ -47,7 +47,7 @@ impl Discretisation {
         COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end / self.stepping.dt
     }
 
-    /// From a table that has [`DISCRETISATION_KEYS`], and may have others, for runs to `t_end`.
+    /// Reads a table that has [`DISCRETISATION_KEYS`], and possibly others, for runs to `t_end`.
     pub(crate) fn read(section: &Section<'_>, t_end: f64) -> Result<Self, InputError> {
         let field = section.require("dt", POSITIVE)?;
         let dt = field.positive()?;
@@ -58,7 +58,7 @@ impl Discretisation {
         let elements = tables::elements(&field)?;
         let degree = section.count("degree", 1..=MAX_DEGREE)?;
         let time_degree = section.count("time_degree", 0..=MAX_TIME_DEGREE)?;
-        // Elements of different lengths take more.
+        // Elements of different lengths need more memory.
         limits::any_order_memory(&field, elements, 1, degree, time_degree)?;
         Ok(Self {
             elements,
@@ -76,9 +76,9 @@ impl Discretisation {
 
 /// A list of two tables.
 ///
-/// * `elements`: where the semi-discrete system of a mesh is meant, its number of linear elements, which both must have;
-///   else they must differ in elements and degree.
-/// * `t_end`: to which they run.
+/// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both must have; otherwise
+///   the two must differ in elements and degree.
+/// * `t_end`: the final time of the runs.
 pub(crate) fn discretisations(
     root: &Section<'_>,
     key: &str,

@@ -1,5 +1,5 @@
-//! Tables that several kinds of study file have: exact solution, refinement, orders expected, coefficients of a control,
-//! two discretisations of any order.
+//! Tables that several kinds of study share: exact solution, refinement, expected orders, coefficients of a control, two
+//! discretisations of any order.
 
 mod discretisation;
 mod refine;
@@ -39,7 +39,7 @@ pub(crate) fn manufactured(root: &Section<'_>, beam: &Beam, t_end: f64) -> Resul
     Ok(exact)
 }
 
-/// The products of a field, if it has any; u and φ vanish at x = 0.
+/// The products of a field, if any; u and φ vanish at x = 0.
 fn products(section: &Section<'_>, key: &str, t_end: f64) -> Result<Vec<Product>, InputError> {
     let allowed = "a list of at least one { x = \"...\", t = \"...\" }";
     let product = |item: &Field<'_>| {
@@ -69,12 +69,12 @@ fn temperature_meets(
     expected: f64,
     t_end: f64,
 ) -> Result<(), InputError> {
-    // Not a number of periods that a study is likely to last.
+    // Unlikely to be a multiple of the period of a study.
     const TIMES: u32 = 7;
-    // A value of X is as wrong as X is large, and T magnifies it; the other way round, too.
+    // The error of X is proportional to X and amplified by T, and vice versa.
     let slack: f64 = theta.iter().map(|p| 2.0 * p.x.roundoff(1.0) * p.t.size(t_end)).sum();
     for time in (0..=TIMES).map(|i| t_end * f64::from(i) / f64::from(TIMES)) {
-        // `sum` of nothing is -0, which would be shown.
+        // An empty `sum` is -0, which would be shown.
         let found = theta.iter().fold(0.0, |sum, p| sum + p.x.eval(x) * p.t.eval(time));
         if (found - expected).abs() > slack {
             let found = format!("theta = {found:?} at x = {x}, t = {time:?}");
@@ -110,14 +110,14 @@ const fn term(norm: Norm, text: &'static str) -> Term {
     Term { name: norm.name(), what: "a norm; its maximum over all time levels counts", text }
 }
 
-/// All tables `[[expect]]`: in which norm which order.
+/// All tables `[[expect]]`: the norms and their orders.
 pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, InputError> {
     claims(root, "norm", &Norm::ALL.map(|norm| (norm.name(), norm)))
 }
 
 /// All tables `[[expect]]`: of what which order, each once.
 ///
-/// * `key`: the key that says of what; `choices`: what it may be.
+/// * `key`: the key of the quantity; `choices`: its allowed values.
 pub(crate) fn claims<T: Copy>(
     root: &Section<'_>,
     key: &str,
@@ -138,10 +138,10 @@ pub(crate) fn claims<T: Copy>(
     })
 }
 
-/// Errors in each norm over the levels of a refinement: a column for each norm, with the order that is expected in it.
+/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected order.
 ///
-/// * `step`: the step that the errors are judged over, of elements and steps.
-/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` where the case failed.
+/// * `step`: the step, from elements and steps, against which errors are judged.
+/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` if the case failed.
 pub(crate) fn norm_levels<'r>(
     refine: &Refine,
     expect: &[(Norm, Claim)],
@@ -167,7 +167,7 @@ pub(crate) fn not_finite(errors: &Norms) -> Vec<String> {
     errors.iter().filter(|(_, error)| !error.is_finite()).map(|(norm, _)| norm.name().to_owned()).collect()
 }
 
-/// The table `[control]`: coefficients in which the solver differs from `theory`; without it the solver has the same.
+/// The table `[control]`: coefficients in which the solver differs from `theory`; without the table they are equal.
 pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coefficients, InputError> {
     let Some(section) = root.section("control")? else { return Ok(theory) };
     let names: Vec<&str> = Coefficients::names().collect();
@@ -180,7 +180,7 @@ pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coeffi
             let found = format!("{} without a table [obstacles]", field.as_written());
             return Err(field.refuse(found, tables::BEAM_KEYS.join(", ")));
         };
-        // A control that changes nothing can only pass where it has to fail.
+        // A control that changes nothing would pass where it has to fail.
         if *coefficient == value {
             let found = format!("{}, which is the value of the sources", field.as_written());
             return Err(field.refuse(found, "another value"));

@@ -1,4 +1,4 @@
-//! The table `[refine]`: which meshes and time steps a study runs through.
+//! The table `[refine]`: the meshes and time steps of a study.
 
 use convergence_study::study::until_decided;
 
@@ -11,18 +11,18 @@ use crate::scene::tables::FunctionField;
 pub struct Perturbation {
     /// Each node of the uniform mesh moves by up to `amount * h / 2`; 0 <= amount < 1.
     pub amount: f64,
-    /// Which displacement.
+    /// Seed of the displacement.
     pub seed: u64,
 }
 
 impl Perturbation {
-    /// Where node `i` of `elements` goes, the ends staying where they are.
+    /// New position of node `i` of `elements`; the ends stay in place.
     fn displaced(&self, i: usize, elements: usize) -> f64 {
         let n = elements as f64;
         if i == 0 || i == elements {
             return i as f64 / n;
         }
-        // Every level gets numbers of its own: nested displacements would not be random.
+        // Every level has its own random numbers: nested displacements would not be random.
         let scramble = |state: u64| SplitMix::new(state).next_u64();
         let seed = scramble(scramble(self.seed ^ scramble(elements as u64)).wrapping_add(i as u64));
         let unit = SplitMix::new(seed).within([-1.0, 1.0]);
@@ -30,7 +30,7 @@ impl Perturbation {
     }
 }
 
-/// Where the nodes of a mesh are: equidistant, displaced, then mapped.
+/// Positions of the nodes of a mesh: equidistant, displaced, then mapped.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Layout {
     /// Random displacement of the nodes.
@@ -40,7 +40,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The key `map`, tried out on every mesh.
+    /// The key `map`, checked on every mesh.
     pub(crate) fn read(
         section: &Section<'_>,
         elements: &[usize],
@@ -58,10 +58,10 @@ impl Layout {
         Ok(layout)
     }
 
-    /// The mesh of that many elements.
+    /// The mesh with this number of elements.
     ///
     /// # Errors
-    /// [`MeshError`] where its nodes do not increase from 0 to 1.
+    /// [`MeshError`] if its nodes do not increase from 0 to 1.
     pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
         Mesh::mapped(elements, |s| {
             let index = (s * elements as f64).round() as usize;
@@ -71,28 +71,28 @@ impl Layout {
     }
 }
 
-/// What is refined and how.
+/// What is refined, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refine {
     /// What is refined.
     pub axis: Axis,
-    /// Is the error of the other axis removed exactly? Never with [`Axis::Both`].
+    /// Is the error of the other axis removed exactly? Always false for [`Axis::Both`].
     pub isolate: bool,
-    /// Elements, increasing; one number where only time is refined.
+    /// Elements, increasing; a single number if only time is refined.
     pub elements: Vec<usize>,
-    /// Time steps, increasing; one number where only space is refined.
+    /// Time steps, increasing; a single number if only space is refined.
     pub steps: Vec<usize>,
     /// With [`Axis::Both`]: all combinations of elements and steps, instead of pairs.
     pub grid: bool,
     /// Final time.
     pub t_end: f64,
-    /// Where the nodes of each mesh are.
+    /// Positions of the nodes of each mesh.
     pub layout: Layout,
     /// Time scheme.
     pub scheme: Scheme,
     /// How each step is solved.
     pub settings: Settings,
-    /// Levels are added until it is decided, while node-steps (elements times time steps) are left.
+    /// Levels are added until there is a verdict or the budget of node-steps (elements times time steps) is used up.
     pub budget: Option<f64>,
 }
 
@@ -102,22 +102,22 @@ impl Refine {
         if self.axis == Axis::Both && !self.grid {
             return self.elements.iter().copied().zip(self.steps.iter().copied()).collect();
         }
-        // Where one axis is fixed, its list has one member.
+        // The list of a fixed axis has one member.
         self.elements.iter().flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps))).collect()
     }
 
-    /// The level after one, twice as fine in what is refined.
+    /// The next level, twice as fine in the refined axes.
     pub fn finer(&self, (elements, steps): (usize, usize)) -> (usize, usize) {
         let [in_space, in_time] = [Axis::Time, Axis::Space].map(|other| 1 + usize::from(self.axis != other));
         (in_space * elements, in_time * steps)
     }
 
-    /// Whether the error of the other axis is removed from a study of this one.
+    /// Whether the error of the other axis is removed when this one is studied.
     pub(crate) fn isolates(&self, axis: Axis) -> bool {
         self.isolate && self.axis == axis
     }
 
-    /// What identifies a run in words.
+    /// Identifies a run in words.
     pub fn label(elements: usize, steps: usize) -> String {
         format!("n = {elements}, {steps} steps")
     }
@@ -133,7 +133,7 @@ impl Refine {
     }
 }
 
-/// Node-steps that a study which adds levels may take where its file does not say: a quarter of a second.
+/// Default budget in node-steps of a study that adds levels: a quarter of a second.
 const BUDGET: f64 = 1e7;
 
 /// The table `[refine]`.
@@ -168,14 +168,14 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     Ok(refine)
 }
 
-/// A key that may be true only where `possible`.
+/// A key that may be true only if `possible`.
 fn flag(section: &Section<'_>, key: &str, possible: bool, allowed: &str) -> Result<bool, InputError> {
     let Some(field) = section.get(key) else { return Ok(false) };
     let value = field.boolean()?;
     if value && !possible { Err(field.refuse_as_written(allowed)) } else { Ok(value) }
 }
 
-/// An increasing list where the key is refined, else one number.
+/// An increasing list if the key is refined, otherwise one number.
 fn levels(
     section: &Section<'_>,
     key: &str,

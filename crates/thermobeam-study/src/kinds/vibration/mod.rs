@@ -1,7 +1,7 @@
-//! Damped vibrations without any source term: the one motion of this beam that is known in closed form.
+//! Damped vibrations without any source term: the only motion of this beam known in closed form.
 //!
-//! For a = β = ρ = 0 and without obstacles each mode of [`thermobeam::vibration`] moves by itself. No load keeps the solution in
-//! place, so an error in the scheme and the same error in the sources cannot cancel. `modes` isolates either error.
+//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam::vibration`] are decoupled. No load keeps the solution in
+//! place, so equal errors in the scheme and in the sources cannot cancel. `modes` isolates the error of space or time.
 
 mod modes;
 
@@ -27,17 +27,17 @@ pub const ROW: KindRow = KindRow {
               can be to blame.",
 };
 
-/// How far the solver may be from the closed form of its own steps, relative to the motion's size in the norm of
-/// Theorem 3.4. Measured are 3e-14; a coefficient that is off by 1e-10 would show.
+/// Allowed distance of the solver from the closed form of its own steps, relative to the size of the motion in the norm
+/// of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a coefficient would show.
 const CLOSED_FORM: f64 = 1e-12;
 
 /// A study of exact vibrations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibration {
     header: Header,
-    /// The beam whose modes are exact; it has no obstacles.
+    /// The beam with exact modes; it has no obstacles.
     theory: Coefficients,
-    /// What the solver is given: another beam in a negative control.
+    /// The solver's coefficients: another beam in a negative control.
     solver: Coefficients,
     /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the mode at t = 0.
     modes: Vec<(usize, [f64; 2])>,
@@ -47,13 +47,13 @@ pub struct Vibration {
     expect: Vec<(Norm, Claim)>,
 }
 
-/// What a run has measured.
+/// The results of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibrated {
     /// The largest error over the time levels in each norm.
     pub errors: Norms,
-    /// In the design that isolates time: the largest distance from the scheme's own steps of the mesh's modes, relative to
-    /// the size of the motion, both in the norm of Theorem 3.4.
+    /// If time is isolated: the largest distance from the scheme's own steps of the mesh's modes, relative to the size of
+    /// the motion, both in the norm of Theorem 3.4.
     pub closed_form: Option<f64>,
     /// (t, u(1, t)) of the solver at each time level.
     pub tip: Vec<(f64, f64)>,
@@ -71,7 +71,7 @@ impl FromFile for Vibration {
     }
 }
 
-/// The beam, which must be one whose modes are exact.
+/// The beam, which must have exact modes.
 fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
     let theory = Coefficients::read(root)?;
     let beam = theory.beam;
@@ -85,7 +85,7 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
     Ok(theory)
 }
 
-/// The tip is kept at every step, and the modes of a mesh are found by a dense method.
+/// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds the modes of a mesh.
 fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     let section = root.require("refine", "a table")?.section()?;
     let (steps, elements) = (section.require("steps", "a number")?, section.require("elements", "a number")?);
@@ -99,7 +99,7 @@ fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     if refine.isolates(Axis::Time) { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
 }
 
-/// The indices of modes: a study that starts from the modes of its mesh has `of_mesh` of them.
+/// The indices of modes: a study that starts from the modes of its mesh has only `of_mesh` of them.
 fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
     1..=if refine.isolates(Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
 }
@@ -145,7 +145,7 @@ impl Kind for Vibration {
         self.refine.cases().into_iter().map(case).collect()
     }
 
-    /// Compares the solver with the motion that it has to give.
+    /// Compares the solver with the exact motion.
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
         let Refine { scheme, settings, .. } = self.refine;
         let (dt, mesh) = (self.refine.dt(steps), self.refine.layout.mesh(elements)?);
@@ -189,7 +189,7 @@ impl Kind for Vibration {
         if self.refine.isolates(Axis::Time) {
             checks.push(closed_form(ran));
         }
-        // Over dt where only time is refined, else over h.
+        // Over dt if only time is refined, otherwise over h.
         let step = |elements: usize, steps: usize| match self.refine.axis {
             Axis::Time => self.refine.dt(steps),
             Axis::Space | Axis::Both => self.refine.layout.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
@@ -206,7 +206,7 @@ impl Kind for Vibration {
     }
 }
 
-/// In the design that isolates time the solver's result is known to the last digit.
+/// If time is isolated, the exact result of the solver is known.
 fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
     let deviation = |ran: &Ran<_, Vibrated>| ran.ok().and_then(|found| found.closed_form).unwrap_or(f64::NAN);
     let worst = ran.iter().map(deviation).fold(0.0, max_or_nan);

@@ -1,24 +1,24 @@
-//! Modes superposed, of the beam or of a mesh, and how they move in time: exactly, or as a time scheme moves them.
+//! Superposed modes of the beam or of a mesh, and their motion in time: exact, or by a time scheme.
 //!
 //! A mode of the beam, exact or of a mesh, satisfies `A(x; y) = ω² B(x; y)` for all test functions y in its space. Put
-//! `u = U q, φ = Φ q, û = U v, φ̂ = Φ v` into (3.7) with a = β = ρ = 0 and no obstacle: everything is a multiple of the
-//! mode, and a step becomes one scalar equation for the velocity V that carries it,
+//! `u = U q, φ = Φ q, û = U v, φ̂ = Φ v` into (3.7) with a = β = ρ = 0 and no obstacle: all terms are multiples of the
+//! mode, and a step becomes one scalar equation for the velocity V,
 //!
 //! ```text
 //! κ (V - v0) + ω² (q0 + dt V/2 + ζ V) = 0,      κ = inertia/dt,
 //! V = (κ v0 - ω² q0) / (κ + ω² (ζ + dt/2)),     q = q0 + dt V,     v = v0 + inertia (V - v0).
 //! ```
 //!
-//! So the time-discrete solution of a mode is known in closed form, in space exact or not, and either error of the
-//! whole scheme can be had by itself:
+//! So the time-discrete solution of a mode is known in closed form, with space exact or discrete, and either error of
+//! the whole scheme can be isolated:
 //!
-//! * *space*: the scheme on a mesh against the exact mode moved by the scheme: the time error cancels exactly;
-//! * *time*: the scheme started from a mode of the mesh against that mode moved exactly at its own ω: the
-//!   space error is exactly zero;
-//! * neither: a mode of the mesh moved by the scheme is what the solver has to give, to round-off.
+//! * *space*: the scheme on a mesh against the exact mode advanced by the scheme: the time error cancels exactly;
+//! * *time*: the scheme started from a mode of the mesh against that mode advanced exactly at its own ω: the space
+//!   error is exactly zero;
+//! * neither: the solver must reproduce a mode of the mesh advanced by the scheme, to round-off.
 //!
-//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, does not act on the beam for a = 0; Crank-Nicolson
-//! multiplies it by `(1 - κ² dt/2)/(1 + κ² dt/2)` a step.
+//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, does not act on the beam for a = 0; Crank-Nicolson multiplies it by `(1 -
+//! κ² dt/2)/(1 + κ² dt/2)` per step.
 
 use std::f64::consts::PI;
 
@@ -33,7 +33,7 @@ use crate::kinds::prelude::*;
 
 /// Modes, each with the exact motion of its equation in time.
 ///
-/// Products of u and of φ belong together: one of each for every vibration, in the same order.
+/// Each vibration has one product of u and one of φ, in the same order.
 pub(super) struct Modes {
     pub(super) exact: Manufactured,
     /// ω² of each vibration, and its position and velocity at t = 0.
@@ -62,7 +62,7 @@ impl Modes {
         Ok(modes)
     }
 
-    /// The modes of the mesh itself, P1 functions that move by their own frequencies.
+    /// The modes of the mesh itself: P1 functions that oscillate at their own frequencies.
     pub(super) fn of_mesh(study: &Vibration, mesh: &Mesh) -> Result<Self, CaseFailure> {
         let none = || CaseFailure { reason: "the mesh has no modes".to_owned() };
         let mut modes = Self::none(study.theory.beam.zeta);
@@ -86,7 +86,7 @@ impl Modes {
     }
 
     /// Sets the time factors to those at a time level: exactly, or by a time scheme, one level after the other. All
-    /// schemes take the temperature by Crank-Nicolson.
+    /// schemes treat the temperature by Crank-Nicolson.
     pub(super) fn moved(&self, by: Option<Scheme>, dt: f64) -> impl FnMut(usize, &mut Factors) {
         let (mut level, mut states): (usize, Vec<[f64; 2]>) = (0, self.vibrations.iter().map(|(_, at)| *at).collect());
         move |n, factors| {
@@ -120,7 +120,7 @@ fn scheme_step(scheme: Scheme, omega_squared: f64, zeta: f64, dt: f64, [q, v]: [
     [q + dt * carrying, v + scheme.inertia * (carrying - v)]
 }
 
-/// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled to U(1) = 1 as the exact ones are.
+/// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled to U(1) = 1 like the exact ones.
 ///
 /// A and B are the forms `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on the n free nodes of each field. The method is dense and
 /// shares nothing with the solver's sweeps.
@@ -165,7 +165,7 @@ fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
     })
 }
 
-/// Eigenpairs of `A x = λ B x`, increasing, by Cholesky of B; `None` where B is not positive definite.
+/// Eigenpairs of `A x = λ B x`, increasing, by Cholesky of B; `None` if B is not positive definite.
 fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
     let factor = b.clone().cholesky()?.l();
     let half = factor.solve_lower_triangular(a)?;
@@ -175,7 +175,7 @@ fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f6
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
     let pair = |index: usize| {
         let x = factor.transpose().solve_upper_triangular(&eigen.eigenvectors.column(index).clone_owned())?;
-        // Rayleigh's quotient: its error is the square of the eigenvector's.
+        // Rayleigh quotient: its error is the square of the eigenvector's.
         Some(((a * &x).dot(&x) / (b * &x).dot(&x), x))
     };
     order.into_iter().map(pair).collect()
@@ -222,7 +222,7 @@ mod tests {
             let angle = PI * (k + 1) as f64 / n as f64;
             let exact = 6.0 * (n * n) as f64 * (1.0 - angle.cos()) / (2.0 + angle.cos());
             assert!((square - exact).abs() < 1e-11 * exact, "{k}");
-            // No sign and no scale: the sine's ratio of neighbours.
+            // Independent of sign and scale: the sine's ratio of neighbouring values.
             let ratio = theta[2] / theta[1];
             assert!((ratio - 2.0 * angle.cos()).abs() < 1e-10, "{k}: {ratio}");
         }

@@ -1,4 +1,4 @@
-//! The study file: the problem, the grid of runs, the advantages claimed.
+//! The study file: the problem, the grid of runs, and the claimed advantages.
 
 use std::sync::OnceLock;
 
@@ -13,9 +13,9 @@ use crate::kinds::prelude::*;
 use crate::kinds::tables::discretisations;
 use crate::run::family::Family;
 
-/// Tolerance of the solver that leaves no trace in the errors measured.
+/// A tolerance of the solver that does not affect the measured errors.
 const TOLERANCE: f64 = 1e-11;
-/// Largest misfit of the law, where a file does not say.
+/// Default for the largest misfit of the law.
 const MISFIT: f64 = 0.15;
 /// The keys of a file; the problem is a solution, a scene or a vibration.
 const KEYS: [&str; 12] = [
@@ -76,7 +76,7 @@ fn dg(section: &Section<'_>) -> Result<Vec<Degrees>, InputError> {
     section.get("dg").map_or(Ok(vec![]), |_| section.list("dg", allowed, row, |_| true))
 }
 
-/// The one-step method that runs with one number of steps on each mesh.
+/// The one-step method that is run with a single number of steps on each mesh.
 fn diagonal(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Result<Option<NamedMethod>, InputError> {
     let Some(field) = section.get("diagonal") else { return Ok(None) };
     let one_step: Vec<_> = METHODS.iter().filter(|method| method.one_step.is_some()).map(|&m| (m.name, m)).collect();
@@ -88,7 +88,7 @@ fn diagonal(section: &Section<'_>, elements: &[usize], steps: &[usize]) -> Resul
     field.choice(&one_step).map(Some)
 }
 
-/// The problem, and what its errors are measured against.
+/// The problem, and the reference for its errors.
 fn problem(
     root: &Section<'_>,
     section: &Section<'_>,
@@ -146,7 +146,7 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     Ok(Family::of_free_solution(exact, free_vibration::beam(zeta), t_end))
 }
 
-/// What is claimed: at least one advantage.
+/// The claims: at least one advantage.
 fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
     let methods = METHODS.map(|method| (method.name, method));
     let quantities = ErrorMeasure::ALL.map(|quantity| (quantity.name(), quantity));

@@ -11,23 +11,23 @@ type AllRuns = [Ran<Runs, Vec<Measurement>>];
 
 /// Errors whose cost is shown.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-/// The error of a single run may lie below the law by this multiple of the misfit allowed: there errors of space and time
-/// happen to cancel, as they do not in neighbouring runs, with which the fit must agree.
+/// The error of a single run may lie below the law by this multiple of the allowed misfit: there the errors of space and
+/// time happen to cancel. In neighbouring runs they do not, and these must agree with the fit.
 const UNDERCUT: f64 = 2.5;
-/// Relative change of a cost that is tolerated: rates enter its exponent.
+/// Allowed relative change of a cost: rates enter its exponent.
 const COST_TOLERANCE: f64 = 1e-2;
-/// Relative change of a ratio of costs that is tolerated.
+/// Allowed relative change of a ratio of costs.
 const RATIO_TOLERANCE: f64 = 0.05;
-/// How far the fall of a second-order error along a diagonal may be from fourfold.
+/// Allowed range for the ratio of second-order errors along a diagonal, ideally 4.
 const FALL: [f64; 2] = [3.5, 4.5];
 
-/// What an error costs.
+/// The cost of an error.
 enum CostBy {
-    /// What the law says that was fitted to a grid, or why there is none.
+    /// The law fitted to a grid, or the reason why there is none.
     Law(Result<CostLaw, String>),
-    /// Along a diagonal of the grid: error times cost is constant, the best that a scheme of second order in h and dt can do.
+    /// Along a diagonal of the grid error times cost is constant, the optimum for a scheme of second order in h and dt.
     Diagonal,
-    /// What the cheapest run costs that has it.
+    /// The cost of the cheapest run with that error.
     Runs,
 }
 
@@ -44,7 +44,7 @@ impl MethodRow {
         format!("{}, {}", self.quantity.name(), self.method.name)
     }
 
-    /// Node-steps and node-solves of an error; NaN where they are not known.
+    /// Node-steps and node-solves of an error; NaN if unknown.
     fn cost(&self, error: f64) -> [f64; 2] {
         let cheaper = |a: [f64; 2], b: [f64; 2]| if b[1] >= a[1] { a } else { b };
         let none = [f64::NAN; 2];
@@ -62,7 +62,7 @@ impl MethodRow {
         }
     }
 
-    /// Whether a cost at that error is beyond what was measured.
+    /// Whether a cost at that error is outside the measured range.
     fn is_extrapolated(&self, error: f64) -> bool {
         match &self.cost {
             CostBy::Law(law) => !law.as_ref().is_ok_and(|law| error >= law.reach),
@@ -71,7 +71,7 @@ impl MethodRow {
         }
     }
 
-    /// Solves per step of the finest run: with it node-steps become node-solves.
+    /// Solves per step of the finest run, which convert node-steps to node-solves.
     fn solves_per_step(&self) -> f64 {
         self.points.last().map_or(f64::NAN, |point| point.node_solves / point.node_steps)
     }
@@ -98,7 +98,7 @@ pub(super) fn judge(study: &WorkPrecision, ran: &AllRuns) -> Outcome {
     outcome
 }
 
-/// What a run found: the errors measured and its counted cost.
+/// The measured errors and the counted cost of a run.
 fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> Vec<Reading> {
     let error = |&quantity: &ErrorMeasure| Reading::new(quantity.name(), errors[quantity as usize]).scientific(2);
     let cost =
@@ -106,7 +106,7 @@ fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> 
     study.quantities().iter().map(error).chain(cost).collect()
 }
 
-/// The runs of a method, with one error each; NaN where a run failed.
+/// The runs of a method, with one error each; NaN if a run failed.
 fn points(study: &WorkPrecision, ran: &AllRuns, method: &NamedMethod, quantity: usize) -> Vec<GridPoint> {
     let mut points = vec![];
     for Ran { case, found } in ran {
@@ -184,7 +184,7 @@ fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
     ]
 }
 
-/// The ratio of the costs, and whether it is as large as claimed.
+/// The ratio of the costs, and whether it reaches the claim.
 fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
     let Advantage { quantity, error, of, over, times } = *claim;
     let find = |method: NamedMethod| rows.iter().find(|row| row.quantity == quantity && row.method == method);
@@ -256,7 +256,7 @@ fn laws(rows: &[MethodRow]) -> Table {
     readings::table(title, &["error", "method"], &rows.iter().filter_map(line).collect::<Vec<_>>())
 }
 
-/// The runs to which no law is fitted.
+/// The runs without a fitted law.
 fn runs(study: &WorkPrecision, ran: &AllRuns) -> Table {
     let single = ran.iter().filter(|ran| study.diagonal.is_some() || matches!(ran.case.data, Runs::Dg(_)));
     let line = |ran: &Ran<Runs, Vec<Measurement>>| {
@@ -285,7 +285,7 @@ fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[MethodRow]) -> 
     Figure::new(&study.header.id, quantity.name(), caption, svg)
 }
 
-/// Costs by the laws, and the ratios claimed of dG.
+/// Costs by the laws, and the ratios claimed for dG.
 fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
     let laws = rows.iter().filter(|row| matches!(row.cost, CostBy::Law(_)));
     let laws = laws

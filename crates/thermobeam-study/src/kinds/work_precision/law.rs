@@ -1,4 +1,4 @@
-//! What an error costs: the law behind the grid of runs, and the best path through it.
+//! The cost of an error: the law behind the grid of runs, and the best path through the grid.
 //!
 //! With `e² = (C_h h^p)² + (C_t dt^q)²` fitted to the grid and T/(h dt) node-steps, the cheapest way to an error E has
 //!
@@ -8,9 +8,9 @@
 //!
 //! and costs `T/(h dt) = K E^-(1/p + 1/q)`.
 //!
-//! The law describes what was computed and says nothing of h, dt → 0: rates with intervals are the business of
-//! [`judge::grid`](convergence_study::judge::grid). The two contributions add in squares where they are orthogonal. It is fitted in
-//! log e, so that every point of the grid has the same weight whatever the size of its error:
+//! The law describes the computed range and makes no statement about h, dt → 0; [`judge::grid`](convergence_study::judge::grid)
+//! gives rates with intervals. The two contributions add in squares if they are orthogonal. The fit uses log e, so that every point
+//! of the grid has the same weight for any size of its error:
 //!
 //! ```text
 //!     log e = ½ log(A² + B²),   A = exp(a + p log h),  B = exp(b + q log dt),  a = log C_h,  b = log C_t
@@ -25,12 +25,12 @@ use nalgebra::{DVector, Dyn, Matrix4, OMatrix, Owned, U4, Vector2, Vector4};
 /// The errors of one method in one quantity: the law, and the cost that follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CostLaw {
-    /// Rates and constants; about them the root mean square of log e.
+    /// Rates and constants, and the root mean square of log e about them.
     pub(super) fit: SurfaceFit,
     t_end: f64,
-    /// Node-steps per element and step: 3 for two runs side by side.
+    /// Node-steps per element and step: 3 for two simultaneous runs.
     runs: f64,
-    /// The smallest error measured: below, the law is extrapolated.
+    /// The smallest measured error: below it, the law is extrapolated.
     pub(super) reach: f64,
 }
 
@@ -54,17 +54,17 @@ impl CostLaw {
     /// Fits the law.
     ///
     /// # Errors
-    /// A text where no law can be fitted: errors that are not finite, rates that are not positive.
+    /// A message if no law can be fitted: errors that are not finite, rates that are not positive.
     pub(super) fn fit(points: &[GridPoint], t_end: f64, runs: f64) -> Result<Self, String> {
         let surface = |p: &GridPoint| SurfacePoint { h: p.h(), dt: t_end / p.steps as f64, error: p.error };
         let fit = fit_surface(&points.iter().map(surface).collect::<Vec<_>>())?;
         Self { fit, t_end, runs, reach: 0.0 }.over(points)
     }
 
-    /// The law of errors in the norm of Theorem 3.4, given that of the distances to the interpolant in the same runs.
+    /// The law of errors in the norm of Theorem 3.4, from the law of the distances to the interpolant in the same runs.
     ///
-    /// The two differ by the interpolation error, which is orthogonal to what the scheme adds and knows nothing of dt:
-    /// `e² = (C h^p)² + s²`. What the scheme adds in time, s knows better than e, in which it is next to nothing.
+    /// The two differ by the interpolation error, which is orthogonal to the scheme's contribution and independent of
+    /// dt: `e² = (C h^p)² + s²`. The scheme's time error is visible in s, but negligible in e.
     pub(super) fn with_interpolation(
         points: &[GridPoint],
         superclose: (&[GridPoint], &CostLaw),
@@ -116,14 +116,14 @@ impl CostLaw {
         1.0 / self.fit.p + 1.0 / self.fit.q
     }
 
-    /// Largest factor by which a run of the grid is cheaper than the best path; about 1 where the path is the best.
+    /// Largest factor by which a run of the grid is cheaper than the best path; about 1 if the path is optimal.
     pub(super) fn undercut(&self, points: &[GridPoint]) -> f64 {
         let factor = |point: &GridPoint| self.cost(point.error) / point.node_steps;
         points.iter().map(factor).fold(0.0, max_or_nan)
     }
 }
 
-/// Of runs as (cost, error) those that no other run beats in both, from cheap to dear.
+/// The runs, as (cost, error), that no other run beats in both, from cheapest to most expensive.
 pub(crate) fn front(runs: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut sorted: Vec<(f64, f64)> = runs.into_iter().collect();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -158,7 +158,7 @@ pub struct SurfaceFit {
     pub c_h: f64,
     /// Constant C_t.
     pub c_t: f64,
-    /// Root mean square of the residuals of log e: 0.03 is a misfit of 3 %.
+    /// Root mean square of the residuals of log e: 0.03 means 3 %.
     pub rms: f64,
 }
 
@@ -167,8 +167,8 @@ pub struct SurfaceFit {
 /// * `points`: at least 5, in any order; h and dt must both vary.
 ///
 /// # Errors
-/// In words: too few points for four unknowns and a deviation, a point without finite logarithms, an iteration that stops without a
-/// minimum, or a grid that does not tell p and q from the constants.
+/// A message: too few points for four unknowns and a deviation, a point without finite logarithms, an iteration that stops before a
+/// minimum, or a grid that cannot separate p and q from the constants.
 pub fn fit_surface(points: &[SurfacePoint]) -> Result<SurfaceFit, String> {
     if points.len() < 5 {
         return Err(format!("{} points: at least 5 are needed", points.len()));
@@ -190,13 +190,13 @@ pub fn fit_surface(points: &[SurfacePoint]) -> Result<SurfaceFit, String> {
     Ok(SurfaceFit { p, q, c_h: a.exp(), c_t: b.exp(), rms: surface.rms() })
 }
 
-/// Best of the minima found from orders 1 and 2 on either axis: one start alone can end in the exchange of the two contributions.
+/// Best of the minima found from orders 1 and 2 on either axis: a single start may exchange the two contributions.
 fn minimize(points: &[SurfacePoint]) -> Result<Surface<'_>, String> {
     let mut best: Option<Surface<'_>> = None;
     let mut complaint = TerminationReason::NoImprovementPossible("no start given");
     for (p, q) in [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0), (2.0, 2.0)] {
         let (surface, report) = LevenbergMarquardt::new().minimize(Surface::start(points, p, q));
-        // At a perfect fit round-off leaves nothing to improve, which the library does not count as success.
+        // At a perfect fit only round-off remains, which the library does not count as success.
         let done = report.termination.was_successful()
             || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
         if !done || !surface.rss().is_finite() {
@@ -217,7 +217,7 @@ struct Surface<'a> {
 }
 
 impl<'a> Surface<'a> {
-    /// Orders p and q, with constants that share the error evenly in the (geometric) middle of the grid.
+    /// Orders p and q, with constants that share the error equally in the (geometric) centre of the grid.
     fn start(points: &'a [SurfacePoint], p: f64, q: f64) -> Self {
         let mean = |value: fn(&SurfacePoint) -> f64| {
             points.iter().map(|point| value(point).ln()).sum::<f64>() / points.len() as f64
@@ -233,7 +233,7 @@ impl<'a> Surface<'a> {
         Vector2::new(a + p * point.h.ln(), b + q * point.dt.ln())
     }
 
-    /// `½ log(A² + B²) - log e`, with the larger of the two taken out so that nothing overflows.
+    /// `½ log(A² + B²) - log e`, scaled by the larger of the two so that nothing overflows.
     fn residual(&self, point: &SurfacePoint) -> f64 {
         let [a, b] = self.contributions(point).into();
         let smaller = (2.0 * (a.min(b) - a.max(b))).exp();
@@ -328,7 +328,7 @@ mod tests {
         assert_eq!(front(points.iter().map(|p| (p.node_steps, p.error))), vec![(1.0, 0.5), (4.0, 0.1)]);
     }
 
-    /// Few scattered points have several minima, and it is not always the same start that finds the lowest.
+    /// A few scattered points have several minima, and the best starting point varies.
     #[test]
     fn the_lowest_of_the_minima_found_is_the_fit() {
         let mut winners = std::collections::BTreeSet::new();

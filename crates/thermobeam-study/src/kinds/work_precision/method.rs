@@ -1,8 +1,8 @@
-//! The methods compared, and one run of each.
+//! The compared methods, and a single run of each.
 //!
-//! The errors of dG fall faster than any power of h and dt, so no law is fitted: an error costs what the cheapest run costs that
-//! has it. The unit is the node-solve of `midpoint`, of two 3 x 3 blocks a row. A solve of dG(q) has 3 (q + 1)
-//! unknowns a block and costs (q + 1)² as much for each; a factorisation counts as 3 (q + 1) solves.
+//! The errors of dG fall faster than any power of h and dt, so no law is fitted: the cost of an error is that of the cheapest
+//! run that reaches it. The unit is the node-solve of `midpoint`, with two 3 x 3 blocks per row. A solve of dG(q) has 3 (q + 1)
+//! unknowns per block, each of which costs (q + 1)² as much; a factorisation counts as 3 (q + 1) solves.
 
 use thermobeam::dg;
 
@@ -12,12 +12,12 @@ use crate::kinds::prelude::*;
 use crate::run::family::{Family, OnMesh, Spent};
 use crate::run::motion::Motion;
 
-/// A way to the solution.
+/// A method of solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NamedMethod {
     /// Name in study files, tables and figures.
     pub name: &'static str,
-    /// How it steps; `None`: dG(q) on elements of degree p.
+    /// The one-step method; `None`: dG(q) on elements of degree p.
     pub one_step: Option<OneStep>,
 }
 
@@ -26,7 +26,7 @@ pub struct NamedMethod {
 pub struct OneStep {
     /// The time scheme.
     pub scheme: Scheme,
-    /// How a step is solved.
+    /// Solver of a step.
     pub solver: Solver,
     /// Two runs, with dt and dt/2, combined to `2 u_{dt/2} - u_dt`.
     pub extrapolated: bool,
@@ -48,27 +48,27 @@ pub const METHODS: [NamedMethod; 5] = [
 /// A run: largest errors over the times of observation, and its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
-    /// In the order of [`crate::error::evaluator::ErrorMeasure::ALL`].
+    /// Errors in the order of [`crate::error::evaluator::ErrorMeasure::ALL`].
     pub errors: [f64; 3],
-    /// The cost, without the measuring.
+    /// The cost, excluding the measurement.
     pub spent: Spent,
 }
 
-/// The larger of two errors each, NaN if there is one.
+/// The larger of each two errors; NaN if either is NaN.
 pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| max_or_nan(errors[k], found[k]))
 }
 
 impl OneStep {
-    /// Steps of unit size per step of the coarse run: 3 where a second run has half the step.
+    /// Steps of unit size per step of the coarse run: 3 if a second run has half the step.
     pub(super) fn runs(&self) -> f64 {
         if self.extrapolated { 3.0 } else { 1.0 }
     }
 
-    /// Runs `steps` steps, measured at `observations` equidistant times; `steps` must be a multiple of their number.
+    /// Runs `steps` steps and measures at `observations` equidistant times; `steps` must be a multiple of their number.
     ///
     /// # Errors
-    /// [`CaseFailure`] with the solver's own words.
+    /// [`CaseFailure`] with the solver's message.
     pub(super) fn run(
         &self,
         on: &OnMesh<'_>,
@@ -103,15 +103,15 @@ impl OneStep {
 /// Elements that grow towards x = 0: the last one holds the layer of an impact.
 pub(super) const GRADED: [f64; 3] = [0.0, 0.9, 1.0];
 
-/// What a run is compared with where there is nothing better.
+/// The default reference.
 pub(super) const REFERENCE: Degrees = Degrees { p: 26, q: 5, dt: 0.0021 };
 
-/// The first step over the largest.
+/// Ratio of the first step to the largest.
 const RESTART: f64 = 0.05;
-/// Steps grow by a half where the largest is this one; finer steps grow more slowly.
+/// Growth of steps is 1.5 for this largest step, and smaller for finer steps.
 const COARSE: f64 = 0.02;
 
-/// Degrees in space and time, and the largest step; the others follow from it.
+/// Degrees in space and time, and the largest step, which determines the other steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Degrees {
     /// Degree of the elements.
@@ -130,11 +130,11 @@ impl std::fmt::Display for Degrees {
 }
 
 impl Degrees {
-    /// Runs a problem on the elements between these nodes. `observe` is shown the level at each of the `times` equidistant times,
+    /// Runs a problem on the elements between these nodes. `observe` receives the level at each of the `times` equidistant times,
     /// numbered from 0; most of them lie inside steps.
     ///
     /// # Errors
-    /// [`CaseFailure`] with the solver's own words.
+    /// [`CaseFailure`] with the solver's message.
     pub(crate) fn run(
         self,
         family: &Family,

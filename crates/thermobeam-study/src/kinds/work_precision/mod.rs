@@ -1,10 +1,10 @@
-//! What an error costs, by method: error over node-steps and solves.
+//! The cost of an error by method: error over node-steps and solves.
 //!
-//! Every one-step method runs over the same grid of elements and steps; dG(q) with the degrees and steps that the file lists. Errors
-//! are those of the [`evaluator`](crate::error::evaluator), the largest over equidistant times of observation that all runs share;
-//! those of dG are of its values at the nodes of a mesh finer than all others. From a grid follow the fitted law ([`law`]), the best
-//! path dt(h), and the cost of an error E; of dG the cheapest run with that error counts. Costs are counted, not timed, so
-//! that a report is the same on every machine and at every time; [`timing`](crate::timing) measures the seconds.
+//! Every one-step method runs over the same grid of elements and steps; dG(q) runs with the degrees and steps listed in the file.
+//! Errors are those of the [`evaluator`](crate::error::evaluator), the largest over equidistant times of observation common to all
+//! runs; those of dG use its values at the nodes of a mesh finer than all others. A grid gives the fitted law ([`law`]), the best
+//! path dt(h), and the cost of an error E; for dG the cheapest run with that error counts. Costs are counted, not timed, so that a
+//! report is the same on every machine at any time; [`timing`](crate::timing) measures seconds.
 //!
 //! ```toml
 //! [work-precision]
@@ -52,21 +52,21 @@ pub const ROW: KindRow = KindRow {
     failure: "A method has become more expensive for the same error, or its order is not what the law says.",
 };
 
-/// Times of observation where u(1, t) alone is measured.
+/// Times of observation if only u(1, t) is measured.
 const OBSERVED: usize = 250;
 
 /// A claim that one method is `times` times cheaper than another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advantage {
-    /// The error is measured in this quantity.
+    /// The quantity in which the error is measured.
     pub quantity: ErrorMeasure,
     /// The error.
     pub error: f64,
     /// The cheaper method.
     pub of: NamedMethod,
-    /// The more expensive one.
+    /// The more expensive method.
     pub over: NamedMethod,
-    /// At least.
+    /// Minimum ratio of the costs.
     pub times: f64,
 }
 
@@ -86,7 +86,7 @@ pub struct WorkPrecision {
 }
 
 impl Advantage {
-    /// Which cost is compared: node-steps (0), or node-solves (1) where dG takes part, whose steps are of another kind.
+    /// The compared cost: node-steps (0), or node-solves (1) if dG takes part, since its steps are of a different kind.
     fn unit(&self) -> usize {
         usize::from(self.of.one_step.is_none() || self.over.one_step.is_none())
     }
@@ -94,11 +94,11 @@ impl Advantage {
 
 type Computed<T> = OnceLock<Result<T, CaseFailure>>;
 
-/// What errors are measured against. What has to be computed is computed once, by whichever thread comes first.
+/// The reference for errors. References to be computed are computed once, by the first thread that needs them.
 enum Yardstick {
     /// The exact solution.
     Exact,
-    /// A scene by two discretisations of any order, and how far they may be apart in the norm of Theorem 3.4.
+    /// A scene by two discretisations of any order, and their largest allowed distance in the norm of Theorem 3.4.
     Agreed { scene: Box<Scene>, by: Box<[Discretisation; 2]>, agreement: f64, computed: Computed<Traced> },
     /// u(1, t) at the times of observation, by dG.
     Tip(Computed<Vec<f64>>),
@@ -119,7 +119,7 @@ impl WorkPrecision {
         if self.diagonal.is_some() { OBSERVED } else { self.steps[0] }
     }
 
-    /// What is measured.
+    /// The measured quantities.
     pub fn quantities(&self) -> &'static [ErrorMeasure] {
         if self.diagonal.is_some() { &[ErrorMeasure::Tip] } else { &ErrorMeasure::ALL }
     }
@@ -211,7 +211,7 @@ impl WorkPrecision {
 
 impl Kind for WorkPrecision {
     type Data = Runs;
-    /// One for each number of steps; of their cost only what is counted is judged, not the seconds.
+    /// One measurement for each number of steps; only the counted cost is judged, not the seconds.
     type Found = Vec<Measurement>;
 
     fn header(&self) -> &Header {

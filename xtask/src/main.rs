@@ -1,4 +1,4 @@
-//! `cargo xtask <command>`: the commands of `thermobeam`, and the tools for developing the project.
+//! `cargo xtask <command>`: the commands of `thermobeam`, and tools for developing the project.
 
 mod regressions;
 

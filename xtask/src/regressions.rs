@@ -1,9 +1,9 @@
-//! `regressions`: mistakes of meaning, written by hand, one at a time: does `verify` notice each, and name it?
+//! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and name each?
 //!
-//! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as a uniform one.
-//! Such mistakes are listed in `.cargo/regressions.toml`, each with the study that must notice it. Each is planted in a copy of
-//! the work tree below `target/regressions/`, which is compiled and runs the quick tier of `verify`. What that finds is kept: a run
-//! that is interrupted goes on where it was.
+//! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as uniform.
+//! `.cargo/regressions.toml` lists such mistakes, each with the study that must notice it. Each is planted in a copy of the work
+//! tree below `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are kept, so an interrupted
+//! run continues where it stopped.
 
 mod judged;
 mod list;
@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         output::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
         return Ok(Ended::Well);
     }
-    // All of them are looked up before the first is compiled.
+    // All of them are checked before the first is compiled.
     let planted = chosen.iter().map(|regression| regression.planted(&root)).collect::<Result<Vec<_>, _>>()?;
     let reported = root.join("reports/regressions.md");
     let clock = LongRun::begin("one build and one run of the quick tier for each mistake", &reported, false);
@@ -96,12 +96,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(if named == count { Ended::Well } else { Ended::Badly })
 }
 
-/// Where later runs of `verify` read what these mistakes did.
+/// Where later runs of `verify` find the effects of these mistakes.
 const FINGERPRINTS: &str = ".cargo/fingerprints.json";
 
 const HEAD: [&str; 4] = ["mistake", "file", "first words about it", "named by its study"];
 
-/// Whether `verify` fails, and the study named for the mistake says what it must.
+/// Whether `verify` fails, and prints the expected words about the study named for the mistake.
 fn is_named(regression: &Regression, found: &Found) -> bool {
     !found.record.verdict.is_pass() && found.is_named_by(&regression.study, &regression.says)
 }
@@ -114,7 +114,7 @@ fn first_words(regression: &Regression, found: &Found) -> String {
     }
 }
 
-/// Lines that are shown where a mistake is not noticed by the study named for it.
+/// Lines shown if the study named for a mistake does not notice it.
 const SHOWN: usize = 12;
 
 fn row(regression: &Regression, found: &Found) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! The script of the GitHub action, run as the runner would, with a `cargo` that only pretends.
+//! The script of the GitHub action, run as by the runner, with a fake `cargo`.
 #![cfg(unix)]
 
 use std::fs;
@@ -8,7 +8,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-/// Notes its arguments, writes a report and ends with STATUS.
+/// Records its arguments, writes a report and exits with STATUS.
 const CARGO: &str = r#"#!/usr/bin/env bash
 printf '%s\n' "$@" >arguments
 if [ "$STATUS" -le 1 ]; then
@@ -28,14 +28,14 @@ struct Ran {
     output: String,
 }
 
-/// * `place`: where the pretended run puts its report.
+/// * `place`: where the fake run writes its report.
 fn run(tier: &str, ids: &str, status: i32, place: &str) -> Ran {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     fs::create_dir_all(at("bin")).unwrap();
     fs::write(at("bin/cargo"), CARGO).unwrap();
     fs::set_permissions(at("bin/cargo"), fs::Permissions::from_mode(0o755)).unwrap();
-    // A checkout has the report of an earlier run.
+    // A checkout contains the report of an earlier run.
     fs::create_dir_all(at("reports")).unwrap();
     for stale in ["README.md", "stale.svg"] {
         fs::write(at("reports").join(stale), "old\n").unwrap();
@@ -87,7 +87,7 @@ fn where_nothing_was_written_no_old_report_is_handed_on() {
 
 #[test]
 fn patterns_reach_the_program_as_they_are() {
-    // In the folder of the pretended run there is a file that the pattern would match.
+    // The folder of the fake run contains a file that matches the pattern.
     let ran = run("quick", "a-space reports/*", 0, "reports/local/partial");
     assert_eq!(ran.arguments, "xtask\nverify\n--tier\nquick\na-space\nreports/*\n");
 }

@@ -1,4 +1,4 @@
-//! Links of the Markdown files lead somewhere: to a file or folder that is there, and in a page to a heading that it has.
+//! Links in Markdown files have targets: an existing file or folder, or an existing heading of a page.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
-/// Folders without files of the project: builds, git, and what runs on this machine have left.
+/// Folders without files of the project: builds, git, and leftovers of runs on this machine.
 const NOT_OURS: [&str; 3] = ["target", ".git", "local"];
 
 fn pages(folder: &Path) -> Vec<PathBuf> {
@@ -31,7 +31,7 @@ fn links(text: &str) -> Vec<String> {
     Parser::new_ext(text, Options::all()).filter_map(link).collect()
 }
 
-/// What GitHub makes of a heading: small letters, digits, `-` and `_`; blanks become `-`, all else goes.
+/// GitHub's anchor of a heading: small letters, digits, `-` and `_`; blanks become `-`, everything else is dropped.
 fn anchor(heading: &str) -> String {
     let kept = heading.to_lowercase().replace(' ', "-");
     kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_')).collect()
@@ -51,7 +51,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// The links of a page that lead nowhere.
+/// The broken links of a page.
 fn broken(page: &Path) -> Vec<String> {
     let text = fs::read_to_string(page).unwrap();
     let leads_nowhere = |link: &String| {

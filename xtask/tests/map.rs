@@ -1,15 +1,15 @@
-//! ARCHITECTURE.md is the map: every file or folder of the sources has its place on it.
+//! ARCHITECTURE.md is the map: every file or folder of the sources is on it.
 
 use std::fs;
 use std::path::Path;
 
-/// What a folder of sources holds and a map does not name: `x.rs` and `x/` stand for each other.
+/// Entries of a source folder that a map lacks: `x.rs` and `x/` stand for each other.
 fn missing(map: &str, names: &[String]) -> Vec<String> {
     let named = |name: &str| map.contains(&format!("`{name}.rs`")) || map.contains(&format!("`{name}/`"));
     names.iter().filter(|name| !named(name)).cloned().collect()
 }
 
-/// The modules of a folder, but for the crate's root.
+/// The modules of a folder, except the crate's root.
 fn modules(folder: &Path) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let names = names.map(|name| name.trim_end_matches(".rs").to_owned());

@@ -1,4 +1,4 @@
-//! The quick tier with this build of the solver: the judge of mutants that the tests have missed.
+//! The quick tier with this build of the solver: it judges mutants that the tests have missed.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn copied(from: &Path, to: &Path) {
 #[ignore = "what `verify` does, without optimisation; for `cargo mutants`, see .cargo/mutants.toml"]
 fn the_quick_tier_passes_and_no_number_moves() {
     let root = tempfile::tempdir().expect("a folder");
-    // Asked for now, and not when it was compiled: that may have been in a copy that is gone.
+    // Read at run time, not at compile time: the copy in which it was compiled may be gone.
     let package = std::env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo");
     copied(&Path::new(&package).join("../studies"), &root.path().join("studies"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));

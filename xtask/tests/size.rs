@@ -1,27 +1,27 @@
-//! The ratchet: files, lines and types of each crate, in `src` and beside it, and names that several of its types have, against
-//! `.ci/size.toml`. They may only fall.
+//! The ratchet: files, lines and types of each crate, in `src` and outside it, and names shared by several of its types,
+//! against `.ci/size.toml`. They may only decrease.
 //!
-//! Counted are all tracked `.rs` and `.py` files. What is beside `src` has entries of its own, so that moving code is not shrinking.
-//! A crate that has shrunk passes: `LOWER_SIZE=1 cargo test -p xtask --test size` writes what it has shrunk to. To grow, edit the list
-//! and say why in the commit.
+//! All tracked `.rs` and `.py` files count. Files outside `src` have their own entries, so moving code does not count as shrinking. A
+//! crate that has shrunk passes: `LOWER_SIZE=1 cargo test -p xtask --test size` writes its new size. To grow, edit the list and give
+//! the reason in the commit.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Files, lines, and definitions of types outside of `#[cfg(test)]`.
+/// Files, lines, and definitions of types outside `#[cfg(test)]`.
 type Size = [usize; 3];
 const NAMES: [&str; 3] = ["files", "lines", "types"];
 
-/// A table for `src`, one for what is beside it, one for homonyms; in each the crates, or the folders outside of all crates.
+/// A table for `src`, one for other files, one for homonyms; each lists the crates, or the folders outside all crates.
 type Sizes = BTreeMap<String, BTreeMap<String, BTreeMap<String, usize>>>;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The names of the types that a file defines, but for tests.
+/// The names of the types that a file defines, except in tests.
 fn types(text: &str) -> Vec<String> {
     let (mut is_test, mut is_open, mut depth, mut types) = (false, false, 0, vec![]);
     for line in text.lines().map(str::trim) {
@@ -61,7 +61,7 @@ fn counted() -> Sizes {
     assert!(listed.status.success(), "git ls-files: {}", String::from_utf8_lossy(&listed.stderr));
     let (mut sizes, mut names) = (Sizes::new(), BTreeMap::<String, Vec<String>>::new());
     for path in String::from_utf8(listed.stdout).expect("names in UTF-8").lines() {
-        // A file may have been removed and not yet committed.
+        // A file may have been removed but not committed yet.
         let Ok(text) = fs::read_to_string(root().join(path)) else { continue };
         let (table, name) = entry(path);
         if table == "src" {
@@ -79,14 +79,14 @@ fn counted() -> Sizes {
     sizes
 }
 
-/// How many names are those of several types. Each command has its `Arguments`, and the `Object` that it prints.
+/// The number of names shared by several types. Each command has its `Arguments`, and the `Object` that it prints.
 fn homonyms(mut names: Vec<String>) -> usize {
     names.retain(|name| !matches!(name.as_str(), "Arguments" | "Object"));
     names.sort();
     names.chunk_by(|one, next| one == next).filter(|same| same.len() > 1).count()
 }
 
-/// What has grown, in words, and the list with what has shrunk.
+/// What has grown, in words, and the list updated for what has shrunk.
 fn compared(listed: &Sizes, counted: &Sizes) -> (Vec<String>, Sizes) {
     let (mut grown, mut lowered) = (vec![], Sizes::new());
     for (table, entries) in counted {

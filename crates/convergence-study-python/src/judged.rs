@@ -1,4 +1,4 @@
-//! Tables of errors, judged.
+//! Judges tables of errors.
 
 use convergence_study::input::error_table::{Choice, RateTable};
 use convergence_study::judge::fit::Level;
@@ -32,7 +32,7 @@ impl Judgement {
         Shown { name: &self.name, levels: &self.levels, rate: &self.rate, late: 0 }
     }
 
-    /// The errors over the steps, with the rate and the order claimed.
+    /// A picture of the errors over the steps, with the rate and the claimed order.
     fn picture(&self) -> String {
         let refinement = |level: &Level| Refinement { label: String::new(), parameters: vec![], step: level.step };
         let claim = Some(Claim::new(self.rate.order, self.rate.tolerance)).filter(|claim| claim.order.is_finite());
@@ -121,7 +121,7 @@ pub(crate) fn html(text: &str, pictures: &[String]) -> String {
     format!("<div><pre style=\"white-space: pre-wrap\">{text}</pre>{}</div>", pictures.concat())
 }
 
-/// A data frame where the caller has imported pandas, else a dict of lists.
+/// A data frame if the caller has imported pandas, otherwise a dict of lists.
 pub(crate) fn frame<'py>(py: Python<'py>, columns: &[(String, Vec<f64>)]) -> PyResult<Bound<'py, PyAny>> {
     let table = PyDict::new(py);
     columns.iter().try_for_each(|(name, numbers)| table.set_item(name, numbers))?;
@@ -131,7 +131,7 @@ pub(crate) fn frame<'py>(py: Python<'py>, columns: &[(String, Vec<f64>)]) -> PyR
     }
 }
 
-/// The errors of one or several columns, judged, and whether they are those of a data frame.
+/// The judged errors of one or several columns, and whether they come from a data frame.
 fn judged(
     h: &Bound<'_, PyAny>,
     errors: Option<&Bound<'_, PyAny>>,
@@ -164,7 +164,7 @@ fn judged(
     Ok((found, true))
 }
 
-/// A data frame as `convergence-study rates` reads its text, with all digits.
+/// A data frame, read like text by `convergence-study rates`, with all digits.
 fn table(table: &Bound<'_, PyAny>, claimed: &[String]) -> PyResult<RateTable> {
     let Some(columns) = values::columns(table, claimed)? else {
         return Err(refuse("errors: expected the errors at the steps h, or a data frame in place of h"));

@@ -1,6 +1,6 @@
-//! The Python package `convergence_study`: values of Python become those of the crate `convergence-study`, which judges them.
+//! The Python package `convergence_study`: converts Python values for the crate `convergence-study`, which judges them.
 //!
-//! There is no rule here: whether an order is confirmed is decided where Rust and the command line ask, too.
+//! There is no rule here: the code that confirms an order is shared with Rust and the command line.
 
 mod judged;
 mod session;
@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 /// The program `convergence-study`; returns its exit status.
 ///
 /// * `executable`: the Python interpreter, which starts the guards of processes by `python -m convergence_study guard`.
-/// * `arguments`: those of the program, without its name.
+/// * `arguments`: the program's arguments, without its name.
 #[pyfunction]
 fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -> u8 {
     guard::enable_by([executable, "-m".into(), "convergence_study".into(), guard::COMMAND.into()].into());

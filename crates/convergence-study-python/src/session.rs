@@ -1,4 +1,4 @@
-//! The studies of a run of pytest: what differs from the baseline, its blessing, the report.
+//! The studies of a pytest run: comparison with the baseline, a new baseline, the report.
 
 use std::path::PathBuf;
 
@@ -16,12 +16,12 @@ use crate::values::refuse;
 
 const PROJECT: Project = Project::new("pytest", "pytest");
 
-/// Compares the studies of a run with the baseline, takes them for the new one where asked for, and writes the report.
+/// Compares the studies of a run with the baseline, accepts them as the new baseline on request, and writes the report.
 ///
-/// * `studies`: each with whether it may be inconclusive: then the baseline has none of its numbers.
-/// * `baseline`: its file; numbers are guarded where it is there, or is to be made.
+/// * `studies`: each with a flag that allows it to be inconclusive; then the baseline has none of its numbers.
+/// * `baseline`: its file; numbers are guarded if it exists or is to be created.
 /// * `reason`: why claims have changed.
-/// * Returns lines to print, and whether all is as the baseline says.
+/// * Returns lines to print, and whether everything agrees with the baseline.
 #[pyfunction]
 pub(crate) fn finish(
     studies: Vec<(PyRef<'_, Study>, bool)>,

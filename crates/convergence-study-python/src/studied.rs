@@ -1,4 +1,4 @@
-//! Studies of a function of Python, and tables as studies: what reports and baselines hold.
+//! Studies of a Python function, and tables as studies, for reports and baselines.
 
 use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
@@ -101,7 +101,7 @@ fn id_of(name: &str) -> String {
     if is_name(&id) { id } else { "study".to_owned() }
 }
 
-/// The header of a study, whose settings are what the baseline keeps of its claims.
+/// The header of a study; the baseline keeps its settings as claims.
 fn header(name: &str, claims: &[(String, Claim)], levels: &str) -> Header {
     let orders: Vec<String> = claims.iter().map(|(name, claim)| format!("{name} {claim}")).collect();
     let mut header = Header::new(id_of(name), format!("orders: {}", orders.join(", ")));
@@ -114,7 +114,7 @@ fn header(name: &str, claims: &[(String, Claim)], levels: &str) -> Header {
     header
 }
 
-/// A study of what has been computed: one function for every claim.
+/// A study of computed errors: one function for every claim.
 fn study_of<'f>(
     header: Header,
     claims: &[(String, Claim)],
@@ -147,7 +147,7 @@ pub(crate) fn of_table(
     Ok(Study { finished: py.detach(|| run_one(&study.counting("level", convergence_study::study::Axis::Space))) })
 }
 
-/// The errors that a level has returned.
+/// The errors returned by a level.
 fn found(n: usize, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
     let Ok(by_name) = returned.cast::<PyDict>() else {
         return Ok(vec![("error".to_owned(), number(|| format!("solve({n})"), returned)?)]);
@@ -160,7 +160,7 @@ fn found(n: usize, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
     by_name.iter().map(entry).collect()
 }
 
-/// The counts that are listed; `None` for `"auto"`.
+/// The listed counts; `None` for `"auto"`.
 fn listed(n: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<usize>>> {
     let Some(n) = n.filter(|n| n.extract::<String>().map_or(true, |text| text != "auto")) else { return Ok(None) };
     let mut counts = vec![];
@@ -176,7 +176,7 @@ fn listed(n: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<usize>>> {
     if counts.is_empty() { Err(refuse("n: expected \"auto\" or whole numbers, found none")) } else { Ok(Some(counts)) }
 }
 
-/// Calls `solve` at one level, and says so on a terminal.
+/// Calls `solve` at one level, and reports it on a terminal.
 fn solved(solve: &Bound<'_, PyAny>, n: usize, seconds: &mut Vec<f64>) -> PyResult<NamedErrors> {
     let is_shown = stderr().is_terminal();
     if is_shown {

@@ -1,4 +1,4 @@
-//! Values of Python as those of Rust; what cannot be one is a `ValueError` that names the argument.
+//! Converts Python values to Rust; an invalid value is a `ValueError` that names the argument.
 
 use convergence_study::judge::claims::{Claim, order_from_text};
 use convergence_study::judge::fit::Level;
@@ -7,14 +7,14 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
 
-/// What an order may be.
+/// The allowed values of an order.
 const ORDER: &str = "a number > 0, or a text such as \">= 2\"";
 
 pub(crate) fn refuse(message: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// The start of what Python shows of a value.
+/// The start of Python's text for a value.
 fn shown(value: &Bound<'_, PyAny>) -> String {
     let text = value.repr().map_or_else(|_| "a value".to_owned(), |text| text.to_string());
     if text.chars().count() > 60 { text.chars().take(60).chain("...".chars()).collect() } else { text }
@@ -30,7 +30,7 @@ pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyR
     if is_text(value) { Err(expected()) } else { value.extract().map_err(|_| expected()) }
 }
 
-/// The numbers of a list, an array, a series: whatever has `tolist` or `to_list`, or can be iterated.
+/// The numbers of a list, an array, a series: anything with `tolist` or `to_list`, or that can be iterated.
 pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let expected = || refuse(format!("{name}: expected a sequence of numbers, found {}", shown(value)));
     if is_text(value) || value.is_instance_of::<PyDict>() {
@@ -42,7 +42,7 @@ pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>
     items.enumerate().map(|(k, item)| number(|| format!("{name}[{k}]"), &item?)).collect()
 }
 
-/// The levels, coarse to fine, in whatever order they come.
+/// The levels, coarse to fine, given in any order.
 pub(crate) fn levels(h: &Bound<'_, PyAny>, name: &str, errors: &Bound<'_, PyAny>) -> PyResult<Vec<Level>> {
     let (steps, errors) = (numbers("h", h)?, numbers(name, errors)?);
     if steps.is_empty() {
@@ -65,7 +65,7 @@ pub(crate) fn judge_with(tolerance: f64) -> PyResult<Judge> {
     Judge::new(tolerance).map_err(refuse)
 }
 
-/// What is claimed of an error; of none the order is NaN, which nothing confirms.
+/// The claim about an error; without a claim the order is NaN, which nothing confirms.
 pub(crate) fn claim(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Claim> {
     judge_with(tolerance)?;
     let Some(order) = order else { return Ok(Claim::new(f64::NAN, tolerance)) };
@@ -106,7 +106,7 @@ impl Claims {
 /// Numbers by the names of their columns.
 pub(crate) type Columns = Vec<(String, Vec<f64>)>;
 
-/// The columns of numbers of a data frame or a dict of lists, by name; `None` where it is neither.
+/// The columns of numbers of a data frame or a dict of lists, by name; `None` for other types.
 pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<Option<Columns>> {
     let names = match table.cast::<PyDict>() {
         Ok(table) => table.keys().into_any(),
@@ -119,7 +119,7 @@ pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<O
         let text = name.str()?.to_string();
         match numbers(&text, &table.get_item(&name)?) {
             Ok(numbers) => columns.push((text, numbers)),
-            // A column of words is a remark, unless something is claimed of it.
+            // A column of words is a remark, unless there is a claim about it.
             Err(error) if needed.contains(&text) => return Err(error),
             Err(_) => {}
         }

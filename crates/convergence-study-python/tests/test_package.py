@@ -52,7 +52,7 @@ def test_an_assertion_says_table_rate_reason_and_advice():
 
 
 def test_orders_that_a_tool_has_printed_as_converged_do_not_pass():
-    # Orders 75.976 and NaN of polaris: an error that falls by 22 digits, and then is none.
+    # Orders 75.976 and NaN of polaris: an error that falls by 22 digits, and then vanishes.
     errors = [1.0, 2**-75.976, math.nan]
     assert cs.judge([4, 2, 1], errors, order=2).verdict == "fail"
     assert cs.judge([2, 1], errors[:2], order=2).verdict != "pass"
@@ -80,7 +80,7 @@ def test_python_rust_and_the_command_line_find_the_same_bits(tmp_path):
     v = cs.judge(H, SECOND, order=2)
     assert (v.verdict, v.rate, v.pairwise, v.code) == (told["verdict"], told["fitted"], told["pairwise"], told["code"])
     assert list(v.interval) == told["interval"]
-    # As `tests/asserted.rs` of the crate has it.
+    # As in `tests/asserted.rs` of the crate.
     found = cs.judge([0.25, 0.125, 0.0625, 0.03125], [0.041, 0.0103, 0.00257, 0.000642], order=2)
     assert (found.rate, found.interval) == (2.0020817574012386, (1.9826157110107165, 2.0215478037917607))
 

@@ -7,7 +7,7 @@ use crate::factors::Factors;
 use crate::solution::{Manufactured, Product};
 use crate::sources::{BoundaryLoads, Sources};
 
-/// Quadrature points an element beyond the degree p, for errors.
+/// Additional quadrature points per element for errors, beyond the degree p.
 const EXTRA_POINTS: usize = 8;
 
 /// The loads of a manufactured solution.
@@ -19,7 +19,7 @@ pub struct ManufacturedLoad {
 }
 
 impl ManufacturedLoad {
-    /// The loads that make `exact` the solution for these coefficients.
+    /// The loads that make `exact` the solution with these coefficients.
     pub fn new(exact: &Manufactured, beam: &Beam, obstacles: Option<Obstacles>, space: &Space) -> Self {
         let sources = Sources::any_order(exact, beam, space);
         Self { exact: exact.clone(), obstacles, sources, factors: Factors::default() }
@@ -50,20 +50,20 @@ pub fn initial(exact: &Manufactured) -> Initial {
     }
 }
 
-/// Measures the errors of levels against a manufactured solution, whose functions of x it evaluates once.
+/// Measures the errors of levels against a manufactured solution, whose functions of x are evaluated once.
 pub struct ErrorMeter<'a> {
     exact: &'a Manufactured,
     theta_a: f64,
     space: Space,
     /// x and weight of the quadrature points.
     points: Vec<(f64, f64)>,
-    /// X and X' of each product of u, φ, θ at each point.
+    /// X and X' for each product of u, φ, θ at each point.
     shapes: [Vec<Vec<[f64; 2]>>; 3],
     factors: Factors,
 }
 
 impl<'a> ErrorMeter<'a> {
-    /// For levels on this space.
+    /// Creates a meter for levels on this space.
     ///
     /// * `theta_a`: temperature of the clamped end; a level holds the lifted temperature.
     pub fn new(exact: &'a Manufactured, theta_a: f64, space: &Space) -> Self {

@@ -104,7 +104,7 @@ impl ErrorMeter {
         }
     }
 
-    /// Adds the contribution of one quadrature point, at which η and η_x of the products of u, φ and θ are these.
+    /// Adds the contribution of one quadrature point, given η and η_x of the products of u, φ and θ there.
     fn add_sample(&mut self, element: usize, s: f64, weight: f64, sample: [&[[f64; 2]]; 3]) {
         for (field, sample) in [&mut self.u, &mut self.phi, &mut self.theta].into_iter().zip(sample) {
             for (interpolation, [eta, _]) in field.iter_mut().zip(sample) {

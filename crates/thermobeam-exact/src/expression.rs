@@ -86,7 +86,7 @@ impl Expression {
 
     /// Value, first and second derivative at `x`.
     ///
-    /// At a kink (`abs`, `min`, `max`) the derivatives of one of the two sides.
+    /// At a kink (`abs`, `min`, `max`) the derivatives are those of one of the two sides.
     pub fn derivatives(&self, x: f64) -> [f64; 3] {
         let Dual2_64 { re, v1, v2 } = self.root.eval(Dual2_64::new(x, 1.0, 0.0));
         [re, v1, v2]
@@ -100,7 +100,7 @@ impl Expression {
     /// [`NotFinite`] for the first sample with an infinite value or NaN.
     pub fn check_finite(&self, end: f64, order: usize) -> Result<(), NotFinite> {
         for at in samples(end) {
-            // The values of `eval`, because those are used by the solver.
+            // The values are those of `eval`, because the solver uses it.
             let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };
             for (order, found) in [self.eval(at), first, second].into_iter().enumerate().take(order + 1) {
                 if !found.is_finite() {
@@ -112,10 +112,10 @@ impl Expression {
     }
 }
 
-/// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are met exactly.
+/// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are sampled exactly.
 const SAMPLES: u32 = 2520;
 
-/// Evenly spaced points of [0, end], both ends among them.
+/// Evenly spaced points of [0, end], including both ends.
 pub(crate) fn samples(end: f64) -> impl Iterator<Item = f64> {
     (0..=SAMPLES).map(move |i| end * (f64::from(i) / f64::from(SAMPLES)))
 }

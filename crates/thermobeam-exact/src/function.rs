@@ -1,4 +1,4 @@
-//! Functions of one variable with two derivatives: what the factors of an exact solution may be.
+//! Functions of one variable with two derivatives, for the factors of an exact solution.
 
 use std::fmt::{self, Debug, Formatter};
 use std::ops::Deref;
@@ -16,7 +16,7 @@ pub trait Function: Send + Sync {
         self.derivatives(at)[0]
     }
 
-    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is left out.
+    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is omitted.
     fn size(&self, end: f64) -> f64 {
         let size_at = |at: f64| {
             let [value, first, _] = self.derivatives(at);
@@ -26,9 +26,9 @@ pub trait Function: Send + Sync {
         samples(end).map(size_at).fold(0.0, f64::max)
     }
 
-    /// The rounding error to expect of a value on [0, end].
+    /// The expected rounding error of a value on [0, end].
     ///
-    /// `8 ε max(|f| + |x f'|)`: the second term is what a rounding error in x alone does to the value.
+    /// `8 ε max(|f| + |x f'|)`: the second term is the effect of a rounding error in x.
     fn roundoff(&self, end: f64) -> f64 {
         // A handful of operations, each with an error of half an ε, of operands about as large as the result.
         const ROUNDINGS: f64 = 8.0;
@@ -47,7 +47,7 @@ impl Function for Expression {
         self.derivatives(at)
     }
 
-    // Without the derivatives it costs a third.
+    // This costs a third of the evaluation with derivatives.
     fn eval(&self, at: f64) -> f64 {
         self.eval(at)
     }
@@ -71,7 +71,7 @@ impl Debug for Factor {
 }
 
 impl Factor {
-    /// The factor that is this function; a closure gives value, first and second derivative.
+    /// The factor for this function; a closure returns value, first and second derivative.
     pub fn new(function: impl Function + 'static) -> Self {
         Self(Arc::new(function))
     }

@@ -5,7 +5,7 @@
 //! vector operations instead of quadrature.
 //!
 //! * [`expression`]: functions of one variable, with exact derivatives.
-//! * [`function`]: any function with two derivatives, of which a product is made.
+//! * [`function`]: any function with two derivatives, as a factor of a product.
 //! * [`solution`]: the sums of products.
 //! * [`factors`]: T, T', T'' and the like at one time, exact or in the scheme's time-discrete form.
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.

@@ -1,4 +1,4 @@
-//! The norms in which an error is measured, and an error in each of them.
+//! The norms in which an error is measured, and the values of an error in them.
 
 use std::ops::{Index, IndexMut};
 
@@ -57,13 +57,13 @@ impl Norm {
 pub struct Norms([f64; Norm::ALL.len()]);
 
 impl Norms {
-    /// Zero in each norm: where a maximum starts.
+    /// Zero in each norm: the initial value of a maximum.
     pub const ZERO: Self = Self([0.0; Norm::ALL.len()]);
 
-    /// NaN in each norm: what a run that failed has measured.
+    /// NaN in each norm: the result of a failed run.
     pub const NAN: Self = Self([f64::NAN; Norm::ALL.len()]);
 
-    /// The numbers that `f` gives.
+    /// The values of `f`.
     pub fn of(f: impl FnMut(Norm) -> f64) -> Self {
         Self(Norm::ALL.map(f))
     }
@@ -73,7 +73,7 @@ impl Norms {
         Norm::ALL.into_iter().zip(self.0)
     }
 
-    /// The larger number in each norm; NaN where one of them is NaN.
+    /// The larger number in each norm; NaN if either is NaN.
     pub fn max(&self, other: &Self) -> Self {
         Self::of(|norm| {
             let (a, b) = (self[norm], other[norm]);

@@ -30,9 +30,9 @@ const PANELS: usize = 256;
 #[derive(Debug, Clone)]
 struct Term {
     equation: usize,
-    /// The field (0: u, 1: φ, 2: θ) and the place of the product in it.
+    /// The field (0: u, 1: φ, 2: θ) and the index of the product in it.
     product: [usize; 2],
-    /// The weights, and whether N is added to that of T: in the term with u_xx of (1.1).
+    /// The weights, and whether N is added to the weight of T: in the term with u_xx of (1.1).
     weights: ([f64; 3], bool),
     vector: Vec<f64>,
 }
@@ -46,7 +46,7 @@ impl Term {
     }
 }
 
-/// The boundary loads at x = 1 that are included. Only a negative control leaves one out.
+/// The boundary loads at x = 1 that are included. Only a negative control omits one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryLoads {
     /// Both.
@@ -66,7 +66,7 @@ pub struct Sources {
     gram: Vec<f64>,
     /// X_j(1).
     tip: Vec<f64>,
-    /// Where the boundary loads at x = 1 belong: the last node, or its block.
+    /// Index of the boundary loads at x = 1: the last node, or its block.
     tip_index: usize,
     /// X_j'(1), Y_k(1) and Y_k'(1) for the boundary loads; slopes are zero if the space vectors contain them.
     boundary: [Vec<f64>; 3],
@@ -75,7 +75,7 @@ pub struct Sources {
 /// The vectors of one product, tested with the functions of each of the three equations.
 type PerEquation = [Rc<Vectors>; 3];
 
-/// Quadrature points an element beyond the degree p: the loads are then exact to round-off for smooth functions.
+/// Additional quadrature points per element beyond the degree p: the loads are exact to round-off for smooth functions.
 const EXTRA_POINTS: usize = 12;
 
 /// The space integrals of one product: (X, N_i), (X', N_i), and the weak second derivative.
@@ -86,7 +86,7 @@ struct Vectors {
     curvature: Vec<f64>,
     /// X(1).
     tip: f64,
-    /// X'(1) for the boundary loads; zero where the curvature contains it.
+    /// X'(1) for the boundary loads; zero if the curvature contains it.
     boundary_slope: f64,
 }
 
@@ -179,9 +179,9 @@ impl Nodal {
         Self { u: of(&exact.u), phi: of(&exact.phi), theta: of(&exact.theta) }
     }
 
-    /// The initial data (3.6); the temperature is made to meet the solver's own θ_A.
+    /// The initial data (3.6); the temperature is adjusted to the solver's own θ_A.
     ///
-    /// * `mesh`: that of these products; `factors`: their factors at t = 0.
+    /// * `mesh`: the mesh of these products; `factors`: their factors at t = 0.
     /// * `exact_theta_a`: θ_A of the exact solution; `theta_a`: the solver's own.
     pub fn initial(&self, mesh: &Mesh, factors: &Factors, exact_theta_a: f64, theta_a: f64) -> Initial {
         let sum = |products: &[Vec<f64>], factors: &[f64]| {

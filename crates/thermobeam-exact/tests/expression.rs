@@ -281,12 +281,12 @@ fn an_expression_displays_its_source_text() {
 
 #[test]
 fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
-    // max (|f| + |x f'|): of x² it is 3x² at the end, of 1 + x/2 it is 1 + x.
+    // max (|f| + |x f'|): for x² it is 3x² at the end, for 1 + x/2 it is 1 + x.
     for (text, size) in [("x^2", 12.0), ("-x^2", 12.0), ("1 + x/2", 3.0), ("7", 7.0)] {
         let function = function(text);
         assert_eq!((function.size(2.0), function.roundoff(2.0)), (size, 8.0 * f64::EPSILON * size), "{text}");
     }
-    // The slope of the root is infinite at 0 and left out.
+    // The slope of the root is infinite at 0 and is omitted.
     assert!((function("sqrt(x)").size(4.0) - 3.0).abs() < 1e-12);
 }
 

@@ -89,7 +89,7 @@ fn factors(exact: &Manufactured) -> Factors {
     factors
 }
 
-/// The loads; the equation of the temperature holds at the inner nodes only.
+/// The loads; the equation of the temperature holds only at the inner nodes.
 fn fill(sources: &Sources, loads: BoundaryLoads) -> Vec<[f64; 3]> {
     let factors = factors(&exact());
     let mut load = vec![[f64::NAN; 3]; mesh().nodes().len()];

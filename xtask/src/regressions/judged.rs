@@ -1,5 +1,5 @@
 //! Whether the diagnosis of each mistake names method, term or field, and module: the table of `reports/regressions.md`, and the
-//! fingerprints that later runs are compared with.
+//! fingerprints with which later runs are compared.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,24 +12,24 @@ use convergence_study::study::settings::Setting;
 use super::list::Regression;
 use super::planted::Found;
 
-/// Lines of a diagnosis that are shown: what fails, what moved first, what it resembles.
+/// The lines of a diagnosis that are shown: what fails, what moved first, and the most similar mistake.
 const SHOWN: [&str; 3] = ["fails", "first", "resembles"];
 
-/// Methods that are both wrong where neither is to be named.
+/// Methods that are both wrong if neither must be named.
 const METHODS: [&str; 2] = ["one-step schemes", "any order"];
 
-/// A mistake, what was found, and how it is diagnosed.
+/// A mistake, the results with it, and their diagnosis.
 pub(super) struct Judged<'r> {
     pub(super) regression: &'r Regression,
     pub(super) found: Found,
     place: String,
     print: Fingerprint,
     diagnosis: Diagnosis,
-    /// Whether method, term or field, and module are right; nothing where none was declared.
+    /// Whether method, term or field, and module are right; `None` if none was declared.
     right: [Option<bool>; 3],
 }
 
-/// Diagnoses every mistake by the fingerprints of the others, those of the same function left out.
+/// Diagnoses every mistake by the fingerprints of the others, except those in the same function.
 ///
 /// # Errors
 /// Study files that cannot be read.
@@ -57,7 +57,7 @@ pub(super) fn judged<'r>(root: &Path, found: Vec<(&'r Regression, Found)>) -> Re
     Ok(all)
 }
 
-/// The fingerprints of all, but for mistakes in the function `place`.
+/// The fingerprints of all mistakes except those in the function `place`.
 fn known(all: &[Judged<'_>], threshold: f64, place: &str) -> Fingerprints {
     let others = all.iter().filter(|one| one.place != place);
     let known = others.map(|Judged { regression, print, .. }| Known {
@@ -68,7 +68,7 @@ fn known(all: &[Judged<'_>], threshold: f64, place: &str) -> Fingerprints {
     Fingerprints { threshold, known: known.collect() }
 }
 
-/// The least likeness from which on the nearest of the others is oftener in the same module than not.
+/// The smallest likeness above which the nearest other mistake is more often in the same module than not.
 fn threshold(all: &[Judged<'_>]) -> f64 {
     let mut nearest: Vec<(f64, bool)> = vec![];
     for one in all {
@@ -104,12 +104,12 @@ fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
     [of(&regression.method, &named), of(&regression.about, &about), Some(place)]
 }
 
-/// The fingerprints as they are committed.
+/// The fingerprints in the form in which they are committed.
 pub(super) fn fingerprints(all: &[Judged<'_>]) -> Fingerprints {
     known(all, threshold(all), "")
 }
 
-/// The scores, of the mistakes that were written and of those drawn at random, and what is said of each.
+/// The scores for written mistakes and for randomly drawn ones, and the diagnosis of each.
 ///
 /// * `passing`: seconds of a run without a mistake.
 pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {

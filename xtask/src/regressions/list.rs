@@ -9,39 +9,39 @@ use serde::Deserialize;
 /// The list.
 pub(super) const FILE: &str = ".cargo/regressions.toml";
 
-/// A mistake of meaning that somebody could make.
+/// A mistake of meaning that a person might make.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Regression {
-    /// In a few words.
+    /// A short description.
     pub(super) name: String,
-    /// The source file, from the workspace's folder.
+    /// The source file, relative to the workspace.
     pub(super) file: String,
-    /// What is changed.
+    /// The changes.
     edits: Vec<Edit>,
-    /// The study of the quick tier that must notice; nothing for a mutant, which any may notice.
+    /// The study of the quick tier that must notice it; empty for a mutant, which any study may notice.
     #[serde(default)]
     pub(super) study: String,
-    /// What must be said about that study: words that lead to the cause.
+    /// Words that must appear in the message about that study and lead to the cause.
     #[serde(default)]
     pub(super) says: String,
-    /// Methods of which one must be named: words of a setting; `both` where no method is the one that fails.
+    /// Methods, one of which must be named, in the words of a setting; `both` if neither must be named.
     pub(super) method: Vec<String>,
-    /// Terms, fields or meshes of which one must be named; nothing where none is wrong.
+    /// Terms, fields or meshes, one of which must be named; empty if none is wrong.
     #[serde(default)]
     pub(super) about: Vec<String>,
-    /// Drawn at random from all mutants, not written.
+    /// Whether it was drawn at random from all mutants instead of written.
     #[serde(default)]
     pub(super) mutant: bool,
 }
 
-/// A text in place of another.
+/// A replacement of text.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Edit {
-    /// A text of the file; it must be there exactly once.
+    /// A text that must occur exactly once in the file.
     old: String,
-    /// What stands there instead.
+    /// Its replacement.
     new: String,
 }
 
@@ -54,7 +54,7 @@ struct List {
 /// Reads the list.
 ///
 /// # Errors
-/// A list that is not there, that cannot be read, or in which two have one name.
+/// A list that is missing or unreadable, or two mistakes with the same name.
 pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
     let path = root.join(FILE);
     let text = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;
@@ -67,7 +67,7 @@ pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
 }
 
 impl Regression {
-    /// File and function that the first edit is in.
+    /// File and function of the first edit.
     pub(super) fn place(&self, root: &Path) -> String {
         let text = fs::read_to_string(root.join(&self.file)).unwrap_or_default();
         let before = self.edits.first().and_then(|edit| text.find(&edit.old)).map_or("", |at| &text[..at]);
@@ -80,10 +80,10 @@ impl Regression {
         self.file.rsplit_once('/').map_or("", |(folder, _)| folder)
     }
 
-    /// The text of its file with the mistake in it.
+    /// The text of its file with the mistake.
     ///
     /// # Errors
-    /// A file that cannot be read, and an old text that is not in it exactly once or that is not changed.
+    /// A file that cannot be read, or an old text that does not occur exactly once or is not changed.
     pub(super) fn planted(&self, root: &Path) -> Result<String, Unusable> {
         let path = root.join(&self.file);
         let honest = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;

@@ -1,5 +1,5 @@
-//! A copy of the work tree, compiled with a mistake in it, and what `verify` then finds: it is kept, so that an interrupted run goes on
-//! where it was, and a better diagnosis needs no compiling.
+//! A copy of the work tree, compiled with a mistake, and the results of `verify`: they are kept, so that an interrupted run continues
+//! where it stopped, and a better diagnosis needs no compilation.
 
 use std::env;
 use std::fs;
@@ -14,43 +14,43 @@ use convergence_study::store::record::Record;
 use convergence_study::store::{atomic, content_hash, json};
 use serde::{Deserialize, Serialize};
 
-/// What the copy leaves out: what is built, what is written by the program, and what is hidden, but for `.cargo`. No run is to know
-/// what these mistakes did before.
+/// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No run may know in advance what
+/// these mistakes did.
 fn is_left_out(name: &str) -> bool {
     matches!(name, "target" | "reports" | "fingerprints.json") || (name.starts_with('.') && name != ".cargo")
 }
 
-/// Profile of `cargo build`: optimised so far that the quick tier takes seconds, and compiled step by step.
+/// Profile of `cargo build`: optimised enough that the quick tier takes seconds, and compiled incrementally.
 const PROFILE: &str = "regressions";
 
-/// Longest time of a case, in seconds: with a mistake in it one may never end.
+/// Longest time of a case, in seconds: with a mistake it may never end.
 const CASE_LIMIT: &str = "20";
 
 /// A copy of the work tree.
 pub(super) struct Copy {
-    /// `target/regressions`: the copy is below, in `tree`, its target folder in `build`, what was found in `records`.
+    /// `target/regressions`: the copy is in `tree`, its target folder in `build`, the results in `records`.
     folder: PathBuf,
-    /// Of all files and their names.
+    /// Hash of all files and their names.
     hash: u64,
 }
 
-/// What `verify` found.
+/// The results of `verify`.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Found {
-    /// Of the copy with the mistake in it.
+    /// Hash of the copy with the mistake.
     key: String,
-    /// Seconds that it took.
+    /// Its run time in seconds.
     pub(super) seconds: f64,
-    /// Lines that it printed.
+    /// Number of lines that it printed.
     pub(super) lines: usize,
     pub(super) record: Record,
 }
 
 impl Copy {
-    /// Copies the work tree as it is, changes that are not committed included.
+    /// Copies the work tree, including uncommitted changes.
     ///
     /// # Errors
-    /// Those of the operating system.
+    /// Errors of the operating system.
     pub(super) fn of(root: &Path) -> Result<Self, Unusable> {
         let mut copy = Self { folder: root.join("target/regressions"), hash: 0 };
         made_alike(root, &copy.tree(), &mut copy.hash)?;
@@ -61,10 +61,10 @@ impl Copy {
         self.folder.join("tree")
     }
 
-    /// What `verify` finds without a mistake; what is known is read.
+    /// Returns the results of `verify` without a mistake; known results are read.
     ///
     /// # Errors
-    /// Where it does not pass: then it would notice every one.
+    /// If it does not pass, since it would then seem to notice every mistake.
     pub(super) fn as_it_is(&self, recorded: bool) -> Result<Found, Unusable> {
         let found = self.kept("as-it-is", self.hash, recorded, |key| self.verify(key))?;
         if found.record.verdict.is_pass() {
@@ -73,9 +73,9 @@ impl Copy {
         Err(Unusable::because(&format!("without a mistake `verify` does not pass:\n{}", found.said().join("\n"))))
     }
 
-    /// What `verify` finds with another text in one file, which is put back afterwards; what is known is read.
+    /// Results of `verify` with another text in one file, which is restored afterwards; known results are read.
     ///
-    /// * `recorded`: take what was found before, whatever the files were then.
+    /// * `recorded`: use earlier results, whatever the files were then.
     ///
     /// # Errors
     /// A text that does not compile, and errors of the operating system.
@@ -91,7 +91,7 @@ impl Copy {
         })
     }
 
-    /// What was found before under this name and hash, else what is found now, which is kept.
+    /// Earlier results under this name and hash, or otherwise new ones, which are kept.
     fn kept(
         &self,
         name: &str,
@@ -146,7 +146,7 @@ impl Copy {
 }
 
 impl Found {
-    /// What is said, a line for each reason of a study and each number that changed, the study before a colon.
+    /// The output, with a line for each reason of a study and each changed number; the study comes before a colon.
     pub(super) fn said(&self) -> Vec<String> {
         let reasons = not_passed(&self.record.studies).into_iter().flat_map(|study| {
             let line = move |reason: String| format!("{}: {reason}", study.id);
@@ -155,17 +155,17 @@ impl Found {
         reasons.chain(self.record.baseline_changes.iter().cloned()).collect()
     }
 
-    /// Whether something is said about the study that has these words in it; about any where none is named.
+    /// Whether the output about the study contains these words; about any study if none is named.
     pub(super) fn is_named_by(&self, study: &str, says: &str) -> bool {
         let head = if study.is_empty() { String::new() } else { format!("{study}: ") };
         self.said().iter().any(|line| line.starts_with(&head) && line.contains(says))
     }
 }
 
-/// Makes a folder a copy of another. A file that is there and the same is not written: cargo compiles what is younger than
-/// its last build, and what a mistake was in is younger.
+/// Makes a folder a copy of another. Unchanged files are not rewritten: cargo compiles files newer than its last build,
+/// which includes any file that had a mistake.
 ///
-/// * `hash`: of all files and their names, whatever their order.
+/// * `hash`: hash of all files and their names, independent of their order.
 fn made_alike(from: &Path, to: &Path, hash: &mut u64) -> io::Result<()> {
     fs::create_dir_all(to)?;
     for entry in fs::read_dir(from)? {

@@ -1,4 +1,4 @@
-//! The developers' tools as scripts use them, with programs that only pretend.
+//! The developers' tools as used by scripts, with fake programs.
 #![cfg(unix)]
 
 #[path = "../../../crates/thermobeam-cli/tests/command/ended.rs"]
@@ -11,13 +11,13 @@ use std::process::Command;
 
 use ended::{Ended, ended};
 
-/// Writes a program of the test's own.
+/// Writes a program for the test.
 fn program(path: &Path, text: &str) {
     std::fs::write(path, text).expect("a file");
     std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o755)).expect("permissions");
 }
 
-/// The program, to be given arguments.
+/// The program, ready for arguments.
 fn xtask() -> Command {
     Command::new(env!("CARGO_BIN_EXE_xtask"))
 }

@@ -1,4 +1,4 @@
-//! `dev regressions`, with a cargo that builds a `verify` of the test's own.
+//! `dev regressions`, with a fake cargo that builds the test's own `verify`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 use crate::{Ended, ended, program, xtask};
 
-/// Builds a `verify` that passes where `src/a.rs` holds a 1, and else says what the study `s` finds.
+/// Builds a `verify` that passes if `src/a.rs` holds a 1, and otherwise prints the findings of the study `s`.
 const CARGO: &str = r#"#!/bin/sh
 while [ $# -gt 0 ]; do [ "$1" = --target-dir ] && out="$2"; shift; done
 grep -q '{' src/a.rs && { echo "mismatched brackets" >&2; exit 101; }
@@ -70,12 +70,12 @@ fn a_mistake_is_noticed_only_where_its_study_names_it() {
     assert!(page.contains("| written | 2 of 2 |") && page.contains("- **moved**, `src/a.rs`: method right"), "{page}");
     let prints = fs::read_to_string(root.join(".cargo/fingerprints.json")).expect("fingerprints");
     assert!(prints.contains(r#""items":{"s: velocity fails":1.0}"#), "{prints}");
-    // What was found is kept, and nothing is run anew.
+    // Results are kept, and nothing is run again.
     let runs = || fs::read_to_string(root.join("target/regressions/runs")).expect("runs").lines().count();
     assert_eq!(runs(), 3);
     assert_eq!(regressions(&root, &noticed, &[]).status, Some(0));
     assert_eq!(runs(), 3);
-    // Another study, other words, or a change that is none.
+    // Another study, other words, or an edit without effect.
     for unnoticed in [["s", "error moved"], ["t", "velocity"], ["u", ""]] {
         let list = noticed.clone() + &entry("unseen", ["1", "4"], unnoticed);
         let ended = regressions(&root, &list, &["--only", "unseen"]);
@@ -105,7 +105,7 @@ fn a_list_that_cannot_be_planted_is_refused_by_name() {
     }
     let none = regressions(&root, &entry("two", ["1", "2"], s), &["--only", "three"]);
     assert!(none.status == Some(2) && none.stderr.contains("no regression with three"), "{}", none.stderr);
-    // Where `verify` fails by itself every mistake would seem to be noticed.
+    // If `verify` fails without a mistake, it would seem to notice every mistake.
     fs::write(root.join("src/a.rs"), "one = 7;").expect("a file");
     let failing = regressions(&root, &entry("seven", ["7", "1"], s), &["--write"]);
     assert!(failing.status == Some(2) && failing.stderr.contains("without a mistake"), "{}", failing.stderr);

@@ -7,7 +7,7 @@ from ._native import run_program
 
 
 def main():
-    # The program answers Ctrl-C itself; Python would only take it down for later.
+    # The program handles Ctrl-C itself; Python would only note it for later.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(run_program(sys.executable, sys.argv[1:]))
 

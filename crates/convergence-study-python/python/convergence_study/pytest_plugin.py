@@ -43,7 +43,7 @@ class Convergence:
         return self._judged(study(solve, n, order, budget, tolerance, self._id()), allow_inconclusive)
 
     def _id(self):
-        # Names of files, by which baseline and report tell studies apart.
+        # Names of files distinguish studies in baseline and report.
         name = re.sub("[^a-z0-9.]", "-", self._name.lower()).lstrip("-.")[:90]
         taken = {found.id for found, _ in self._studies}
         names = itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2)))
@@ -67,7 +67,7 @@ def convergence(request):
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session):
     config = session.config
-    # A worker of pytest-xdist sees some of the tests only.
+    # A worker of pytest-xdist sees only some of the tests.
     if not config.convergence_studies or hasattr(config, "workerinput"):
         return
     option, baseline = config.getoption, config.rootpath / "tests" / "convergence.json"

@@ -21,12 +21,12 @@ pub struct ExpressionError {
 /// The cause of an [`ExpressionError`].
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ExpressionProblem {
-    /// A token that is not possible at its position.
+    /// A token that is not allowed at its position.
     #[error("expected {expected}, found {found}{hint}")]
     Unexpected {
         /// The token, in words.
         found: String,
-        /// What is possible there, in words.
+        /// The tokens allowed there, in words.
         expected: String,
         /// A remedy that begins with `; `, or nothing.
         hint: &'static str,
@@ -34,7 +34,7 @@ pub enum ExpressionProblem {
     /// A bracket that is never closed.
     #[error("expected an operator or `)` for the bracket at byte {opened}, found {found}")]
     Unclosed {
-        /// The token in place of the closing bracket, in words.
+        /// The token instead of the closing bracket, in words.
         found: String,
         /// Byte offset of the opening bracket.
         opened: usize,
@@ -74,7 +74,7 @@ pub enum ExpressionProblem {
 }
 
 impl ExpressionError {
-    /// Two lines: the text, and a caret below the error. Of a long text only the part around the error.
+    /// Two lines: the text, and a caret below the error. A long text is cut to the part around the error.
     pub fn excerpt(&self) -> String {
         const BEFORE: usize = 48;
         const AFTER: usize = 24;

@@ -6,7 +6,7 @@ use super::syntax::{FUNCTIONS, Function, Node, Operator};
 use super::token::{Token, TokenKind, next_token};
 use crate::nearest::nearest;
 
-/// Largest depth of the syntax tree. Parsing, evaluating and dropping it recurse: this bounds the stack that they need.
+/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds their stack.
 const MAX_DEPTH: usize = 256;
 
 /// Precedence of a sign: above a product, below a power.
@@ -26,7 +26,7 @@ pub(super) fn parse(source: &str, variable: Variable) -> Result<Node, Expression
     }
 }
 
-/// What is possible after an operand.
+/// The tokens allowed after an operand.
 const AFTER_OPERAND: &str = "one of the operators + - * / ^ or the end";
 
 /// A node and the depth of the tree below it.

@@ -139,7 +139,7 @@ impl Node {
         if fold { Node::Constant(self.eval(0.0)) } else { self }
     }
 
-    /// The value at `x`, derivatives included where `D` carries them.
+    /// The value at `x`, with derivatives if `D` has them.
     pub(super) fn eval<D: Number>(&self, x: D) -> D {
         match self {
             Node::Constant(value) => D::from(*value),
@@ -171,8 +171,8 @@ fn operate<D: Number>(operator: Operator, left: D, right: D) -> D {
 
 /// x^n with its derivatives n x^(n-1) and n (n-1) x^(n-2).
 ///
-/// `powf` is exact for whole n whenever the result is representable, also for negative x, and 0^0 = 1. A term with a
-/// zero factor is zero, although the power beside it is infinite at x = 0 for n = 0 or 1.
+/// `powf` is exact for integer n whenever the result is representable, also for negative x, and 0^0 = 1. A term with a
+/// zero factor is zero, although the power in it is infinite at x = 0 for n = 0 or 1.
 fn constant_power<D: Number>(base: D, n: f64) -> D {
     let x = base.value();
     let term = |factor: f64, exponent: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(exponent) };

@@ -270,23 +270,23 @@ pub fn report(project: &Project, finished: &[Finished], folder: &Path) -> Result
 
 /// The record of studies that have run without a baseline.
 ///
-/// * `command`: what ran them.
+/// * `command`: the command that ran them.
 pub fn record(project: &Project, finished: &[Finished], command: &str) -> Record {
     let diagnosis = diagnose(project, finished, &[], &Fingerprints::default());
     Record { diagnosis, ..Record::new("files", command, verdict(finished, &[]), None, finished.to_vec()) }
 }
 
-/// Writes the report on them into a folder of their own; missing folders are made.
+/// Writes the report on them into a separate folder; missing folders are made.
 ///
-/// * `jobs`: threads that they ran on.
+/// * `jobs`: number of threads that ran them.
 pub fn publish(project: &Project, record: Record, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
     let here = Provenance::collect(Path::new("."), record.command.clone(), jobs, &record.studies);
     rebuild(project, record, Some(&here), folder)
 }
 
-/// Writes the report on a record, whose studies are not run. In a folder of reports it is the report of that record's scope.
+/// Writes the report on a record, without running its studies. In a folder of reports it is the report of that record's scope.
 ///
-/// * `provenance`: where the run comes from, if that is known.
+/// * `provenance`: where the run comes from, if known.
 pub fn rebuild(
     project: &Project,
     record: Record,
@@ -304,13 +304,13 @@ pub fn rebuild(
     publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
 }
 
-/// The folder of reports that a folder is in, which has the lock: `reports/` of `reports/full/`; else the folder itself.
+/// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`; otherwise the folder itself.
 pub(crate) fn reports_around(folder: &Path) -> PathBuf {
     let has_lock = |folder: &&Path| lock_file(folder).is_file();
     folder.ancestors().take(3).find(has_lock).unwrap_or(folder).to_owned()
 }
 
-/// Completes or removes what killed runs have left, of any scope.
+/// Completes or removes what killed runs of any scope have left.
 fn tidy(request: &Request) -> Result<(), VerificationError> {
     let reports = &request.reports;
     let local = reports.join("local");
@@ -320,12 +320,12 @@ fn tidy(request: &Request) -> Result<(), VerificationError> {
     let _lock = request.lock()?;
     let _writing = writing::begin();
     let tidy = || {
-        // Another process may be writing the baseline where its lock is not held.
+        // If the lock of the baseline is not held, another process may be writing it.
         if request.bless || request.is_one_lock() {
             atomic::remove_leftovers(&request.baseline())?;
         }
         atomic::remove_leftovers(&local.join("provenance.json"))?;
-        // What a run killed while it tried the folder has left.
+        // Left by a run that was killed while it tested the folder.
         atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
         let whole = |tier| Scope::Tier(tier, vec![]);
         let scopes = [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])];
@@ -334,7 +334,7 @@ fn tidy(request: &Request) -> Result<(), VerificationError> {
     tidy().map_err(|error| VerificationError::Reports { folder: reports.clone(), error })
 }
 
-/// Waits for other processes that write to a folder of reports, and keeps them waiting.
+/// Waits for other processes that write to a folder of reports, and then blocks them.
 fn lock_reports(folder: &Path) -> Result<File, VerificationError> {
     lock(&lock_file(folder)).map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
 }
@@ -343,23 +343,23 @@ fn lock_file(reports: &Path) -> PathBuf {
     reports.join("local").join("lock")
 }
 
-/// The worst verdict of all studies; fail where the baseline differs.
+/// The worst verdict of all studies; fail if the baseline differs.
 fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }
 }
 
 impl Verification {
-    /// All of it as data, with all digits.
+    /// Everything as data, with all digits.
     ///
-    /// * `command`: what was run.
+    /// * `command`: the command that was run.
     pub fn record(&self, scope: &Scope, command: &str) -> Record {
         let record = Record::new(scope.name(), command, self.verdict, Some(&self.changes), self.finished.clone());
         Record { diagnosis: self.diagnosis.clone(), ..record }
     }
 }
 
-/// The report on the full tier beside that on the quick one. Its page is not committed: a fresh checkout has its Markdown alone.
+/// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh checkout has only its Markdown.
 fn see_also(record: &Record, folder: &Path) -> Option<SeeAlso<'static>> {
     let (readme, page) = ("full/README.md", "full/index.html");
     let has = |file: &str| folder.join(file).is_file();

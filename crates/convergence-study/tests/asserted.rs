@@ -1,4 +1,4 @@
-//! What a test of a solver sees: a pass is silent, anything else says the table, the rate, the reason and what to do.
+//! What a test of a solver sees: a pass is silent; anything else prints the table, the rate, the reason and what to do.
 
 use std::panic::catch_unwind;
 
@@ -49,7 +49,7 @@ fn levels_are_run_and_asserted_in_a_line() {
     assert!(nothing.contains("no order of any error is claimed"), "{nothing}");
 }
 
-/// The Python package has the same numbers in its `tests/test_package.py`.
+/// `tests/test_package.py` of the Python package has the same numbers.
 #[test]
 fn the_bits_of_a_rate_are_those_that_python_has() {
     let table = [(0.25, 0.041), (0.125, 0.0103), (0.0625, 0.00257), (0.03125, 0.000642)];

@@ -104,7 +104,7 @@ fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
 
 #[test]
 fn the_same_seed_gives_the_same_sheets() {
-    // NaN, of claims that no law has, is not equal to itself.
+    // NaN, for claims that no law has, is not equal to itself.
     let text = |seed: u64| format!("{:?} {:?}", of_the_rule(1, seed), of_the_bars(1, seed));
     assert_eq!(text(7), text(7));
     assert_ne!(text(7), text(8));

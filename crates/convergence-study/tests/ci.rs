@@ -1,4 +1,4 @@
-//! Continuous integration of others: the action and the examples are what runners can read, and name what is there.
+//! CI of other projects: runners can read the action and the examples, and everything named in them exists.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -16,7 +16,7 @@ fn yaml(text: &str) -> Yaml {
     YamlLoader::load_from_str(text).unwrap_or_else(|error| panic!("{error}: {text}")).remove(0)
 }
 
-/// The blocks of code in a language, of Markdown.
+/// The code blocks of Markdown in a language.
 fn blocks(markdown: &str, language: &str) -> Vec<String> {
     let opening = format!("```{language}\n");
     let rest = markdown.split(&opening).skip(1);
@@ -33,7 +33,7 @@ fn texts<'y>(value: &'y Yaml, key: &'y str) -> Vec<(&'y str, &'y str)> {
     }
 }
 
-/// What follows the name of the program in a script, up to the end of the command.
+/// The text after the name of the program in a script, up to the end of the command.
 fn command_lines(script: &str) -> Vec<Vec<String>> {
     let lines = script.lines().filter(|line| !line.trim_start().starts_with('#'));
     let commands = lines.flat_map(|line| line.split([';', '|', '&', '\'']));
@@ -45,7 +45,7 @@ fn command_lines(script: &str) -> Vec<Vec<String>> {
 #[track_caller]
 fn is_understood(words: &[String]) {
     let line = program(&PROJECT);
-    // A comment behind the command.
+    // A comment after the command.
     let words = words.iter().take_while(|word| !word.starts_with('#'));
     if let Err(error) = line.try_get_matches_from(words.clone()) {
         assert!(!error.use_stderr(), "{:?}: {error}", words.collect::<Vec<_>>());
@@ -65,7 +65,7 @@ fn every_command_of_the_examples_is_understood() {
     let commands: Vec<Vec<String>> = scripts.iter().flat_map(|script| command_lines(script)).collect();
     assert!(commands.len() >= 3, "{commands:?}");
     commands.iter().for_each(|words| is_understood(words));
-    // What the action is asked to run.
+    // Commands given to the action.
     for run in ["verify", "study poisson.toml", "rates errors.csv --order 2"] {
         assert!(readme.contains(run), "{run}");
         is_understood(&command_lines(&format!("convergence-study {run} --out report")).concat());
@@ -78,7 +78,7 @@ fn a_flag_that_is_not_there_is_found() {
     command_lines("cd x && convergence-study verify --output report").iter().for_each(|words| is_understood(words));
 }
 
-/// The names behind `${{ WHERE.` in a text.
+/// The names after `${{ WHERE.` in a text.
 fn named(text: &str, place: &str) -> BTreeSet<String> {
     let names = text.split(place).skip(1);
     names.map(|rest| rest.chars().take_while(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()).collect()
@@ -102,7 +102,7 @@ fn the_action_and_its_example_agree_on_inputs_and_outputs() {
     let outputs = keys(&parsed["outputs"]);
     assert!(named(&readme, "steps.convergence.outputs.").is_subset(&outputs));
     assert!(outputs.iter().all(|name| readme.contains(&format!("`{name}`"))), "{outputs:?}");
-    // A composite action says the shell of each script; what a script hands on is written by it.
+    // A composite action names the shell of each script; an output of a step must be written by its script.
     let scripts = parsed["runs"]["steps"].as_vec().unwrap().iter().filter(|step| !step["run"].is_badvalue());
     assert!(scripts.clone().count() >= 4 && scripts.clone().all(|step| step["shell"].as_str() == Some("bash")));
     let script = text("ci/run.sh");

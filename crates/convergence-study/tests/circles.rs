@@ -1,12 +1,12 @@
-//! No circle of files inside a crate, and no folder that uses one above it. The workspace is looked at where it is there.
+//! Tests that no files of a crate form a circle, and that no folder uses one above it. The workspace is checked if it is present.
 //!
-//! A file uses those whose items its paths name, through re-exports; what a module and the files below it share is not counted.
+//! A file uses those whose items its paths name, also through re-exports; items shared by a module and the files below it do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// Circles that are still there, by crate: each is to be mended, and none is to be added.
+/// Remaining circles, by crate: mend them, and add none.
 const CIRCLES: [(&str, &[&[&str]]); 1] = [(
     "convergence-judge",
     &[
@@ -15,8 +15,8 @@ const CIRCLES: [(&str, &[&[&str]]); 1] = [(
     ],
 )];
 
-/// The modules of other crates from bottom to top, where they are ordered: each may use itself and those before it. This crate's are in
-/// `layering.rs`.
+/// The modules of other crates from bottom to top, if they are ordered: each may use itself and those before it.
+/// `layering.rs` has the modules of this crate.
 const ORDERS: [(&str, &[&str]); 4] = [
     ("convergence-judge", &["time_limit", "text", "judge"]),
     (
@@ -63,7 +63,7 @@ const ORDERS: [(&str, &[&str]); 4] = [
     ("thermobeam-study", &["scene", "run", "figures", "error", "predict", "sweep", "kinds", "timing"]),
 ];
 
-/// Uses against these orders that are still there: crate, file, file used.
+/// Remaining uses against these orders: crate, file, file used.
 const ARROWS_UP: [(&str, &str, &str); 5] = [
     ("thermobeam", "solve/balance", "energy"),
     ("thermobeam", "solve/balance", "energy/sums"),
@@ -118,7 +118,7 @@ fn spread(text: &str) -> Vec<String> {
     items.flat_map(spread).map(|item| format!("{}{item}", before.trim())).collect()
 }
 
-/// A path as seen from the crate's root; `None` for one of another crate.
+/// A path relative to the crate's root; `None` for a path into another crate.
 fn absolute(from: &Module, text: &str, code: &Code) -> Option<Module> {
     let mut parts = path(text);
     let base = match parts.first()?.as_str() {
@@ -167,7 +167,7 @@ fn graph(code: &Code) -> BTreeMap<&Module, BTreeSet<&Module>> {
     graph
 }
 
-/// The file that holds what a path names; re-exports are followed so often.
+/// The file that holds the item of a path; `often` limits how many re-exports are followed.
 fn file<'c>(found: &Module, code: &'c Code, names: &BTreeMap<Module, Module>, often: usize) -> Option<&'c Module> {
     let length = (0..=found.len()).rev().find(|length| code.contains_key(&found[..*length]))?;
     let (module, _) = code.get_key_value(&found[..length])?;
@@ -178,7 +178,7 @@ fn file<'c>(found: &Module, code: &'c Code, names: &BTreeMap<Module, Module>, of
     }
 }
 
-/// All files that a file leads to.
+/// All files reachable from a file.
 fn reached<'c>(from: &'c Module, graph: &BTreeMap<&'c Module, BTreeSet<&'c Module>>) -> BTreeSet<&'c Module> {
     let (mut reached, mut open) = (BTreeSet::new(), vec![from]);
     while let Some(next) = open.pop() {
@@ -197,7 +197,7 @@ fn circles(graph: &BTreeMap<&Module, BTreeSet<&Module>>) -> BTreeSet<Vec<String>
     all.keys().map(of).filter(|circle| circle.len() > 1).collect()
 }
 
-/// The sources of a crate of the workspace; none where the workspace is not there.
+/// The sources of a crate of the workspace; empty without a workspace.
 fn sources(name: &str) -> Code {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src");
     let mut sources = Code::new();
@@ -225,7 +225,7 @@ fn no_file_uses_one_that_uses_it() {
     }
 }
 
-/// Uses of a module that stands above, `file -> file`.
+/// Uses of a module above, `file -> file`.
 fn upwards(order: &[&str], graph: &BTreeMap<&Module, BTreeSet<&Module>>) -> Vec<String> {
     let place = |module: &Module| order.iter().position(|known| module.first().is_some_and(|first| first == known));
     let all = graph.iter().flat_map(|(file, used)| used.iter().map(move |other| (file, other)));

@@ -1,4 +1,4 @@
-//! Two records, of which it is known what differs.
+//! Two records with known differences.
 
 use std::path::Path;
 
@@ -45,7 +45,7 @@ fn record(studies: Vec<Finished>) -> Record {
     Record::new("files", "test", Verdict::Pass, None, studies)
 }
 
-/// Smooth, with the next power.
+/// Smooth, with the next power of the step.
 fn smooth(constant: f64, order: f64) -> impl Fn(f64) -> f64 {
     move |h: f64| constant * h.powf(order) * (1.0 + 0.3 * h)
 }
@@ -58,13 +58,13 @@ fn compared(old: Finished, new: Finished) -> Comparison {
     compare(&record(vec![old]), &record(vec![new]), &Settings::new(None, WITHIN).unwrap())
 }
 
-/// The errors that differ, each with what became of it.
+/// The errors that differ, each with its change.
 fn found(comparison: &Comparison) -> Vec<(&str, Shift)> {
     let norms = comparison.findings.iter().filter_map(|finding| Some((finding.norm.as_deref()?, finding.change)));
     norms.filter(|(_, change)| *change != Shift::Same).collect()
 }
 
-/// Why the first error is what it is.
+/// The reason given for the first error.
 fn reason(comparison: &Comparison) -> &str {
     &comparison.findings[0].reason
 }
@@ -110,7 +110,7 @@ fn the_errors_of_other_levels_are_interpolated() {
             "{comparison:?}"
         );
     }
-    // No step in common, and none between two of the other.
+    // No step in common, and none that lies between two of the other.
     let apart = compared(sound("a"), study("a", &[256, 512, 1024, 2048], smooth(2.0, 2.0), smooth(3.0, 1.0)));
     assert_eq!(apart.change, Shift::NotProven);
 }
@@ -134,7 +134,7 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
         let comparison = compared(sound("a"), new.clone());
         assert_eq!(found(&comparison), lost.iter().map(|norm| (*norm, Shift::Lost)).collect::<Vec<_>>(), "{why}");
         assert!(comparison.findings.iter().any(|finding| finding.reason == why), "{comparison:?}");
-        // The other way round something is gained.
+        // In the other direction something is gained.
         let gained = compared(new, sound("a"));
         assert_eq!(gained.change, Shift::Same, "{gained:?}");
         assert_eq!(gained.gained.iter().any(|name| name == "a: H1"), why.ends_with("the error"), "{gained:?}");
@@ -174,7 +174,7 @@ fn an_error_that_becomes_negative_is_worse() {
     assert_eq!(found(&compared(new.clone(), new)), [], "it was no error before");
 }
 
-/// Errors of which no order is claimed.
+/// Errors without a claimed order.
 fn unjudged(levels: Vec<LevelErrors>) -> Finished {
     let outcome = Outcome { levels, verdict: Verdict::Pass, ..Outcome::new("s", vec![], vec![]) };
     Finished { outcome, ..sound("a") }
@@ -201,7 +201,7 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
     }
 }
 
-/// Round-off differs from machine to machine; so does what scatters.
+/// Round-off differs between machines; so do scattered errors.
 #[test]
 fn noise_and_errors_at_the_floor_differ_from_nothing() {
     let noisy = |seed: f64| move |h: f64| h * h * (1.0 + 0.03 * (seed / h).sin());
@@ -209,7 +209,7 @@ fn noise_and_errors_at_the_floor_differ_from_nothing() {
     let compared =
         |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &Settings::new(None, within).unwrap());
     assert_eq!(compared(0.1).change, Shift::Same, "{:?}", compared(0.1));
-    // Errors at the same step are deterministic: what scatters by 3 % has changed by more than 1 %.
+    // Errors at the same step are deterministic: with 3 % of scatter some have changed by more than 1 %.
     assert_eq!(found(&compared(WITHIN)), [("L2", Shift::Worse)]);
 }
 
@@ -251,12 +251,12 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
         let new = study("a", &COUNTS, larger, smooth(3.0, 1.0));
         assert_eq!(found(&compared(sound("a"), new))[0].1, Shift::Worse, "{factor}");
     }
-    // Both at round-off differ by nothing, however much.
+    // At round-off no difference counts, however large.
     let tiny = |factor: f64| unclaimed([1e-13, 1e-13, 1e-13, 1e-13, 1e-13, factor * 1e-13]);
     assert_eq!(compared(tiny(1.0), tiny(100.0)).change, Shift::Same);
 }
 
-/// Elements and steps in all pairs, and records of before, without steps.
+/// Elements and steps in all pairs, and older records, without steps.
 #[test]
 fn grids_and_records_without_steps_are_compared_by_their_parameters() {
     let grid = |scale: f64| {

@@ -51,7 +51,7 @@ fn a_table_that_cannot_be_used_is_refused_with_its_place() {
     }
 }
 
-/// The least time that a table of so many columns takes, of several, for other processes disturb some.
+/// The least of several times for a table with this many columns, because other processes disturb some.
 fn time_of(columns: usize) -> Duration {
     let row = |cell: &dyn Fn(usize) -> String| (0..columns).map(|i| format!(",{}", cell(i))).collect::<String>();
     let text = format!("h{}\n0.1{}\n", row(&|i| format!("column-{i}")), row(&|_| "0.5".to_owned()));
@@ -66,7 +66,7 @@ fn time_of(columns: usize) -> Duration {
 #[test]
 fn twenty_thousand_columns_are_read_in_time_proportional_to_their_number() {
     let (few, many) = (time_of(2500), time_of(20_000));
-    // Eight times as many; comparing each name with all others takes 64 times as long.
+    // Eight times as many columns; comparing each name with all others takes 64 times as long.
     assert!(many < 24 * few, "{few:?} {many:?}");
 }
 

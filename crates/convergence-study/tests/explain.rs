@@ -1,4 +1,4 @@
-//! What is printed about studies, reasons and the words of a project.
+//! Explanations printed for studies, reasons and the terms of a project.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Orders over a grid of h and dt, and what they make of errors that do not add; how often they are right is in `calibration.rs`.
+//! Orders over a grid of h and dt, also for errors that do not add; `calibration.rs` measures how often they are right.
 
 use convergence_study::judge::grid::{Adding, GridErrors};
 use convergence_study::judge::verdict::{Reason, Verdict};
@@ -33,7 +33,7 @@ fn three_levels_do_not_tell() {
 #[test]
 fn a_hidden_order_and_pollution_are_seen_on_four_levels() {
     let (h, dt) = (halved(0.25, 4), halved(0.05, 4));
-    // First order in h, 64 % of what is left on the finest mesh.
+    // First order in h, 64 % of the rest on the finest mesh.
     let hidden = judged(&h, &dt, [2.0, 1.0], 0.2, |h, dt| h * h + 0.02 * h + dt);
     assert_eq!(verdicts(&hidden), [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass], "{hidden:?}");
     for (tolerance, claims, polluted) in [
@@ -65,7 +65,7 @@ fn pure_powers_pass_on_any_steps_and_wrong_claims_fail() {
     }
 }
 
-/// What one contribution is by itself is what the curve shows: its constant is C_h.
+/// One contribution by itself is what the curve shows: its constant is C_h.
 #[test]
 fn the_constant_is_that_of_one_contribution() {
     let (h, dt) = (halved(0.25, 6), halved(0.1, 6));
@@ -93,7 +93,7 @@ fn contributions_of_opposite_signs_are_judged_where_one_of_them_prevails() {
     let (h, dt) = (halved(0.5, 6), halved(0.1, 6));
     let prevails = judged(&h, &dt, [1.0, 1.0], 0.1, |h, dt| h - 0.1 * dt);
     assert_eq!(verdicts(&prevails), [Verdict::Pass; 3], "{prevails:?}");
-    // On the finest meshes the error in dt is the larger one: e falls, then grows.
+    // On the finest meshes the error in dt is larger: e falls, then grows.
     let changes = judged(&h, &dt, [1.0, 1.0], 0.1, |h, dt| (h - 10.0 * dt).abs());
     assert_ne!(changes.rates[0].1.verdict, Verdict::Pass, "{changes:?}");
 }
@@ -116,7 +116,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
             assert!(rate.reason.contains("claimed"), "{rate:?}");
         }
     }
-    // Half a per cent of the finest error is nothing, 2 % may be something.
+    // Half a per cent of the finest error is negligible, 2 % may not be.
     let finest = h[5] + dt[5];
     for (share, kind) in
         [(0.004, Reason::Agrees), (0.006, Reason::LeftOver), (0.09, Reason::LeftOver), (0.12, Reason::WrongLimit)]
@@ -126,7 +126,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
     }
 }
 
-/// What falls and grows in turns has a difference of the claimed order, and no limit that a rate could tell.
+/// An error that falls and grows in turns has a difference of the claimed order, and no limit that a rate could show.
 #[test]
 fn differences_that_change_their_sign_do_not_pass() {
     let (h, dt) = (halved(0.25, 6), halved(8.0, 6));
@@ -136,7 +136,7 @@ fn differences_that_change_their_sign_do_not_pass() {
     assert_eq!(verdict.rates[0].1.kind, Reason::NotAsymptotic);
 }
 
-/// The error in h is not to be seen beside that in dt, which is known to one part in a thousand.
+/// The error in h is invisible next to that in dt, which is known to one part in a thousand.
 #[test]
 fn what_scatter_hides_is_inconclusive() {
     let (h, dt) = (halved(0.25, 6), halved(0.1, 6));
@@ -149,7 +149,7 @@ fn what_scatter_hides_is_inconclusive() {
 #[test]
 fn the_misfit_is_that_of_the_errors_beside_the_finest_row_and_column() {
     let (h, dt) = ([0.5, 0.25], [0.1, 0.05]);
-    // 5 = 4 + 3 - 2, and 6 where 5 should be.
+    // 5 = 4 + 3 - 2, and 6 instead of 5.
     let misfit = |corner: f64, adding| GridErrors { h: &h, dt: &dt, errors: &[corner, 4.0, 3.0, 2.0] }.misfit(adding);
     assert!(misfit(5.0, Adding::Plain) < 1e-15);
     assert!((misfit(6.0, Adding::Plain) - 1.2_f64.ln()).abs() < 1e-15);

@@ -1,12 +1,12 @@
-//! What may know what: between the crates of the workspace, and between the folders of this crate.
+//! What may use what: between the crates of the workspace, and between the folders of this crate.
 //!
-//! The workspace is looked at where it is there; the crate may also be tested alone.
+//! The workspace is checked if it is present; the crate may also be tested alone.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Words of the application that this crate grew up with; it must serve any other as well.
+/// Words of the application that this crate was first written for; it must serve any other as well.
 const FOREIGN: [&str; 21] = [
     "beam",
     "beams",
@@ -35,10 +35,10 @@ const FOREIGN: [&str; 21] = [
 const ORDER: [&str; 12] =
     ["input", "plots", "study", "run", "project", "store", "program", "compare", "report", "explain", "verify", "cli"];
 
-/// The modules of the crate below, which every module may use under this crate's name; their own order is in `circles.rs`.
+/// The modules of the crate below, which every module may use under this crate's name; `circles.rs` has their order.
 const BELOW: [&str; 2] = ["text", "judge"];
 
-/// Libraries that are known to some modules only.
+/// Libraries that only some modules may use.
 const LIBRARIES: [(&str, &[&str]); 12] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
@@ -54,7 +54,7 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
     ("rayon", &["run"]),
 ];
 
-/// The crates of the workspace and those of them that each may depend on.
+/// The crates of the workspace, and which of them each may depend on.
 const CRATES: [(&str, &[&str]); 6] = [
     ("convergence-judge", &[]),
     ("convergence-study", &["convergence-judge"]),
@@ -64,7 +64,7 @@ const CRATES: [(&str, &[&str]); 6] = [
     ("thermobeam-cli", &["convergence-study", "thermobeam", "thermobeam-study"]),
 ];
 
-/// What the solver does without.
+/// Libraries that the solver must not use.
 const NOT_IN_THE_SOLVER: [&str; 2] = ["rayon", "serde"];
 
 fn here() -> &'static Path {
@@ -107,7 +107,7 @@ fn nothing_in_this_crate_names_the_application() {
         .flat_map(|folder| files(&here().join(folder), &["rs", "js", "css", "toml", "csv"]))
         .chain(files(&here().join("../convergence-judge/src"), &["rs", "md"]))
         .chain(["README.md", "Cargo.toml"].map(|name| here().join(name)))
-        // This file is the list of the words; the other one is about every crate.
+        // This file lists the words; the other one is about every crate.
         .filter(|path| !path.ends_with("tests/layering.rs") && !path.ends_with("tests/circles.rs"))
         .flat_map(|path| {
             let text = fs::read_to_string(&path).unwrap();
@@ -118,7 +118,7 @@ fn nothing_in_this_crate_names_the_application() {
     assert_eq!(foreign("fn a() {}\n// the Obstacle's g1, beam_length\n"), [(2, "obstacle".into()), (2, "beam".into())]);
 }
 
-/// Source text without line comments: a doc comment may refer to what a module is used by.
+/// Source text without line comments: a doc comment may mention the users of a module.
 fn code(text: &str) -> String {
     text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n").collect()
 }
@@ -189,7 +189,7 @@ fn a_use_against_the_order_is_found() {
     }
 }
 
-/// The modules of `lib.rs` that are there without any feature.
+/// The modules of `lib.rs` that exist without any feature.
 fn always_there(lib: &str) -> BTreeSet<String> {
     let lines: Vec<&str> = lib.lines().collect();
     let ungated = |(number, line): (usize, &&str)| {
@@ -214,7 +214,7 @@ fn a_library_that_the_rule_does_without_is_optional() {
     assert_eq!(always_there("#[cfg(feature = \"a\")]\npub mod a;\npub mod b;\n"), ["b".to_owned()].into());
 }
 
-/// The names of the crates in the tables of dependencies of a manifest; those for tests where asked for.
+/// The names of the crates in a manifest's tables of dependencies; with those for tests if `of_tests`.
 fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut is_table = false;
@@ -244,7 +244,7 @@ fn crates_depend_only_on_those_below_them() {
             continue;
         };
         read += 1;
-        // Tests may use a crate above the tested one, but not here: the harness is tested without the application.
+        // Tests may use a crate above the one tested, but not here: the harness is tested without the application.
         let found = dependencies(&manifest, name == "convergence-study");
         let found: Vec<&str> = names.into_iter().filter(|name| found.contains(*name)).collect();
         assert_eq!(found, allowed, "{name}");

@@ -1,4 +1,4 @@
-//! Error bars of values without exact solution.
+//! Error bars of values without an exact solution.
 
 use convergence_study::judge::richardson::{Estimate, Estimator, Refusal, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED, Value};
 use convergence_study::judge::verdict::{Reason, Verdict};
@@ -74,7 +74,7 @@ fn the_index_is_that_of_the_published_example() {
     assert!((unconfirmed.half_width / index.half_width - 2.4).abs() < 1e-12);
 }
 
-/// Ratios 4 and 1.2, where the iteration of the standard runs away.
+/// Ratios 4 and 1.2, for which the iteration of the standard diverges.
 #[test]
 fn the_index_finds_its_order_on_any_ratios() {
     for (steps, p) in [([4.8, 1.2, 1.0], 1.0), ([4.8, 4.0, 1.0], 1.0), ([2.0, 1.4, 1.0], 3.0)] {
@@ -111,7 +111,7 @@ fn outside_the_asymptotic_range_there_is_no_bar() {
     assert_eq!(claim.gci.unwrap_err(), claim.bar.unwrap_err());
 }
 
-/// Six digits: without the floor the last differences are noise that counts.
+/// Six digits: without the floor the last differences are noise, but would be used.
 #[test]
 fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
     let printed = values(&RATIO_2, |h| ((1.0 + 1e-4 * h * h) * 1e6).round() / 1e6);

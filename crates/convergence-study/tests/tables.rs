@@ -1,7 +1,7 @@
 //! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused with the command
 //! that reads it.
 //!
-//! With `BLESS_TABLES` set, results and `TABLES.md` are written anew, to be read before they are committed.
+//! With `BLESS_TABLES` set, results and `TABLES.md` are written anew; read them before committing.
 
 use std::{env, fs, path::Path};
 
@@ -13,7 +13,7 @@ use convergence_study::judge::verdict::{Judge, Verdict};
 /// The tolerance of all claims of the page.
 const TOLERANCE: f64 = 0.25;
 
-/// `>>> title`, the options, the table, `---`, and what is found.
+/// `>>> title`, the options, the table, `---`, and the result.
 #[derive(Clone)]
 struct Sample {
     title: String,
@@ -58,7 +58,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// The choice that options make, and the orders that they claim.
+/// The choice made by the options, and the orders they claim.
 fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
     let (mut choice, mut orders) = (Choice { command: "rates TABLE".to_owned(), ..Choice::default() }, vec![]);
     for option in options.chunks(2) {
@@ -81,7 +81,7 @@ fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
     (choice, orders)
 }
 
-/// How a table was read, its numbers, and the verdict on each column of which an order is claimed.
+/// How a table was read, its numbers, and the verdict on each column with a claimed order.
 fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
     let numbers =
         |column: &Column| column.levels.iter().map(|level| level.error.to_string()).collect::<Vec<_>>().join(" ");
@@ -124,7 +124,7 @@ fn found(sample: &Sample) -> String {
         Err(error) => {
             let message = error.to_string();
             let mut text = format!("refused: {message}\n");
-            // Every command that the message has reads the table.
+            // Every command in the message reads the table.
             for line in message.lines().filter_map(|line| line.strip_prefix("  rates TABLE")) {
                 let table = RateTable::parse_with(
                     &table,

@@ -140,7 +140,7 @@ fn growing_errors_fail_even_when_the_sign_of_the_rate_is_lost() {
 #[test]
 fn a_rate_of_75_976_never_passes() {
     for rates in [[75.976, 1.0, 1.0], [1.0, 1.0, 75.976], [1.0, 75.976, 1.0], [75.976, 75.976, 75.976]] {
-        // Far above the round-off floor, so that nothing but the rate itself can stop it.
+        // Far above the round-off floor, so that only the rate itself can stop it.
         let pairs = with_rates(&rates).into_iter().map(|level| (level.step, 1e80 * level.error));
         check(&judge_pairs(pairs, 1.0, 0.05), Reason::WildRate, Verdict::Inconclusive);
         assert_ne!(judge(&with_rates(&rates), 1.0, 0.05).verdict, Verdict::Pass, "{rates:?}");
@@ -355,7 +355,7 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
         assert_eq!(reason.verdict(), expected, "{reason:?}");
         assert!(reason.text().len() > 10 && reason.advice().len() > 30, "{reason:?}");
         assert!(["To try", "to try"].iter().any(|words| reason.mathematics().contains(words)), "{reason:?}");
-        // A finer level decides only what is undecided.
+        // A finer level can decide only inconclusive verdicts.
         assert!(!reason.wants_a_level() || expected == Verdict::Inconclusive, "{reason:?}");
     }
     let distinct = |words: fn(Reason) -> &'static str| {

@@ -1,4 +1,4 @@
-//! Tables that the rule once got wrong, or showed no rate for.
+//! Tables that the rule once judged wrongly, or without a rate.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::verdict::{Aside, Judge, RateVerdict, Reason, SetAside, Verdict, judge, judge_pairs};
@@ -29,7 +29,7 @@ fn rates_that_leave_the_order_at_a_growing_pace_do_not_pass() {
     for rates in [
         &[2.000, 2.000, 2.000, 1.998, 1.993, 1.973, 1.898][..],
         &[2.0, 2.0, 2.0, 1.99, 1.97, 1.94, 1.88],
-        // A wrong limit that the errors have not reached yet bends them the other way.
+        // A wrong limit that the errors have not yet reached bends them the other way.
         &[2.0, 2.0, 2.0, 2.002, 2.007, 2.027, 2.102],
     ] {
         let outcome = judge(&with_rates(rates), 2.0, 0.2);
@@ -133,7 +133,7 @@ fn sound_but_noisy_errors_on_narrow_steps_do_not_fail() {
         };
         (0..200).filter(|&seed| one(seed)).count()
     };
-    // The former rule failed 40, 38 and 19 of these 200.
+    // An earlier rule failed 40, 38 and 19 of these 200.
     for (ratio, levels, most) in [(1.1, 8, 2), (1.1, 6, 3), (1.3, 8, 4)] {
         let failed = fails(ratio, levels, 0.1);
         assert!(failed <= most, "ratio {ratio}, {levels} levels: {failed} of 200 fail");
@@ -150,7 +150,7 @@ fn errors_that_do_not_converge_still_fail() {
 
 #[test]
 fn narrow_steps_do_not_pass_for_a_rate_that_slow_pollution_has_shifted() {
-    // h (1 + 2 h^(1/3)) looks like order 1.22 on steps so close.
+    // On such close steps h (1 + 2 h^(1/3)) looks like order 1.22.
     for levels in [3, 4, 5] {
         let levels = with_error(levels, 1.1, |h| h * (1.0 + 2.0 * h.cbrt()));
         let seen = judge(&levels, 1.0, 0.05).pairwise[1];
@@ -176,7 +176,7 @@ fn a_floor_means_what_it_says_and_names_the_levels_below() {
 
 #[test]
 fn the_curve_of_a_rate_passes_through_the_finest_error_that_it_uses() {
-    // The rates move, so that the rate at h → 0 is none of a straight line through all errors.
+    // The rates move, so the rate at h → 0 is not that of a straight line through all errors.
     let levels = with_error(7, 2.0, |h| h * h * (1.0 + h));
     for (floor, finest) in [(0.0, 6), (levels[5].error, 4)] {
         let judged = Judge::new(0.1).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 2.0);
@@ -219,7 +219,7 @@ mod laws {
             prop_assert_eq!((a.verdict, a.kind, &a.used, &a.set_aside), (b.verdict, b.kind, &b.used, &b.set_aside));
         }
 
-        /// Two of each kind: rates that scatter, and those of an order with pollution and a lower order or a wrong limit that begins to show.
+        /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order or wrong limit.
         #[test]
         fn a_coarser_level_never_turns_a_departure_or_a_last_pair_outside_the_band_into_a_pass(
             scattered in prop::collection::vec(1.8..2.2_f64, 3..8),

@@ -20,13 +20,13 @@ const SCHEMA: u32 = 2;
 /// The flags that every command accepts.
 #[derive(Debug, Clone, Args)]
 pub struct Flags {
-    /// Say only what went wrong, and the verdict: no progress bar, no tables
+    /// Print only what went wrong, and the verdict: no progress bar, no tables
     #[arg(long, short)]
     pub quiet: bool,
     /// How the result is printed
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Write what the command finds to this folder, which is made if need be
+    /// Write the results to this folder, which is created if needed
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// The largest number of threads [default: all of the machine]

@@ -18,7 +18,7 @@ use crate::text::columns::Columns;
 /// in the last `verify` on this machine. On a terminal claims are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Only the studies that `verify --tier` would run; full holds quick
+    /// Only the studies that `verify --tier` would run; full includes quick
     #[arg(long, value_parser = selection::tier_parser(), default_value = "full")]
     tier: Tier,
     /// Only these: ids or patterns such as '*-space'

@@ -14,10 +14,10 @@ use crate::store::atomic;
 use crate::study::header::{NAME, is_name};
 use crate::text::visible;
 
-/// Write a commented file that runs as it is
+/// Write a commented file that runs unchanged
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// What to begin
+    /// What to start
     #[arg(index = 1)]
     what: String,
     /// Its name: lowercase letters, digits, `.` and `-`

@@ -24,24 +24,24 @@ use crate::verify::{Request, Scope, Verification};
 /// Run the studies in `studies/` and write `reports/`
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Tier of studies; full holds quick
+    /// Tier of studies; full includes quick
     #[arg(long, value_parser = selection::tier_parser(), default_value = "quick")]
     tier: Tier,
     #[command(flatten)]
     limits: Limits,
-    /// Take the new numbers and claims for the baseline; refused where a study does not pass
+    /// Accept the new numbers and claims as baseline; refused if a study does not pass
     #[arg(long)]
     bless: bool,
-    /// Why; a changed claim is not blessed without, and the baseline keeps it beside what has changed
+    /// Why; required for a changed claim, and kept in the baseline with the change
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
-    /// Take only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as 'heat-*:rate *'
+    /// Accept only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as 'heat-*:rate *'
     #[arg(long, value_name = "PATTERN", requires = "reason")]
     only: Vec<String>,
-    /// Every study, also where some fail, and every number that is not what it was, not only the worst of each study
+    /// Every study even if some fail, and every number that moved, not only the worst of each study
     #[arg(long, conflicts_with = "quiet")]
     verbose: bool,
-    /// Begin no case once a study has failed; the report is that of a selection
+    /// Begin no case once a study has failed; the report is then that of a selection
     #[arg(long, conflicts_with = "bless")]
     fail_fast: bool,
     /// Only the studies that did not pass, or moved, in the newest record

@@ -243,9 +243,9 @@ impl<'a> Section<'a> {
         Ok(table)
     }
 
-    /// The values of a list that has no default, each by `read`.
+    /// The values of a list without a default, each by `read`.
     ///
-    /// * `fits`: whether the list as a whole is one that `allowed` describes.
+    /// * `fits`: whether the list as a whole matches `allowed`.
     pub fn list<T>(
         &self,
         key: &str,
@@ -258,7 +258,7 @@ impl<'a> Section<'a> {
         if fits(&list) { Ok(list) } else { Err(field.refuse_as_written(allowed)) }
     }
 
-    /// A list of levels, at least so many, each of which `follows` the one before; `relation` says so in words, such as `a number >`.
+    /// A list of at least `least` levels, each of which `follows` the previous one; `relation` describes this, such as `a number >`.
     pub fn sequence<T: Copy + Display>(
         &self,
         (key, allowed, least): (&str, &str, usize),
@@ -280,7 +280,7 @@ impl<'a> Section<'a> {
 
     /// The tables `[[key]]`, at least one, each by `read`.
     ///
-    /// * `keys`: what follows in a message, such as ` with order and tolerance`.
+    /// * `keys`: the end of a message, such as ` with order and tolerance`.
     pub fn tables<T>(
         &self,
         key: &str,
@@ -291,22 +291,22 @@ impl<'a> Section<'a> {
         self.list(key, &allowed, |item| read(&item.section()?), |list| !list.is_empty())
     }
 
-    /// The whole number of a key that has no default.
+    /// The whole number of a key without a default.
     pub fn count(&self, key: &str, range: RangeInclusive<usize>) -> Result<usize, InputError> {
         self.require(key, &format!("a whole number >= {}", range.start()))?.count(range)
     }
 
-    /// The finite number > 0 of a key that has no default.
+    /// The finite number > 0 of a key without a default.
     pub fn positive(&self, key: &str) -> Result<f64, InputError> {
         self.require(key, POSITIVE)?.positive()
     }
 
-    /// The error about a key that is missing.
+    /// The error about a missing key.
     pub fn missing(&self, key: &str, allowed: &str) -> InputError {
         self.complain(key, Complaint::Invalid { reason: format!("missing; expected {allowed}") })
     }
 
-    /// An error about a key: at its value, or at the head of the table where the key is missing.
+    /// An error about a key: at its value, or at the head of the table if the key is missing.
     pub fn refuse(&self, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
         match self.get(key) {
             Some(field) => field.refuse(found, allowed),

@@ -11,7 +11,7 @@
 //! | `data-plot` | the picture | left, top, right, bottom of the plot on the page's grid |
 //! | `data-x`, `data-y` | the picture | `linear` or `log`, and the ends of the range, decimal logarithms for `log` |
 //! | `data-x-label`, `data-y-label` | the picture | what the axes measure |
-//! | `data-series` | what is drawn of a series | its name |
+//! | `data-series` | the marks of a series | its name |
 //! | `data-points` | likewise, for data | `x,y` of each point; empty for long series, whose lines give as much detail |
 //! | `data-entry` | an entry of the legend | the name of the series |
 

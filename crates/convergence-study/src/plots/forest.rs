@@ -41,7 +41,7 @@ pub struct ForestRow {
     pub label: String,
     /// Its rates.
     pub rates: Vec<ForestRate>,
-    /// Numbers to stand beside them, such as those of the rates that fail; may be empty.
+    /// Numbers to show next to them, such as those of failing rates; may be empty.
     pub note: String,
 }
 

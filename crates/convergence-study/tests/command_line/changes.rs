@@ -1,4 +1,4 @@
-//! What has changed since: `compare`, and what is taken for the baseline.
+//! What has changed: `compare`, and what is accepted into the baseline.
 
 use std::fs;
 use std::process::Stdio;
@@ -51,7 +51,7 @@ pub(crate) fn records_are_compared_with_0_1_or_2() {
     }
 }
 
-/// The pages of a record are those of the run, and come from the record and its pictures alone.
+/// The pages of a record equal those of the run, and come only from the record and its pictures.
 pub(crate) fn a_report_is_made_anew_from_its_record() {
     let root = workspace(true);
     let files = |folder: &str| {
@@ -71,7 +71,7 @@ pub(crate) fn a_report_is_made_anew_from_its_record() {
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
     assert!(out.starts_with("fail: 1 of 2 fail (two)") && out.ends_with("reports/README.md\n"), "{out}");
     assert_eq!(files("reports"), written);
-    // Elsewhere a report needs a place, and does without the pictures that are not there.
+    // Elsewhere a report needs a destination, and does without missing pictures.
     fs::copy(root.path().join("reports/results.json"), root.path().join("r.json")).unwrap();
     let (status, _, err) = run(&root, &["report", "r.json"]);
     assert!(
@@ -116,10 +116,10 @@ pub(crate) fn one_some_or_all_changes_are_blessed_with_a_reason() {
     assert_eq!(bless("one:*", "and all the rest").0, Some(0));
     assert_eq!(baseline(&["claims", "one", "exponent", "reason"]), "and all the rest");
     assert_eq!(run(&root, &["verify"]).0, Some(0));
-    // A blessing of what has not moved keeps the reasons.
+    // Blessing unmoved numbers keeps their reasons.
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
     assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
-    // A study that fails has no number that a baseline takes.
+    // The baseline accepts no number of a failing study.
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
     let (status, out, _) = bless("*", "x");
     assert!(status == Some(1) && out.contains("not blessed: the verdict on `one` is fail"), "{out}");
@@ -136,7 +136,7 @@ pub(crate) fn a_run_fails_where_a_study_does_and_nothing_differs() {
     assert!(out.contains(failed) && !out.contains("baseline: "), "{out}");
 }
 
-/// Wherever their reports go, they write one baseline.
+/// They all write the same baseline, wherever their reports go.
 pub(crate) fn blessings_at_once_are_all_kept() {
     let root = workspace(false);
     let ids: Vec<String> = (0..8).map(|k| format!("s{k}")).collect();
@@ -154,7 +154,7 @@ pub(crate) fn blessings_at_once_are_all_kept() {
     let baseline: serde_json::Value = serde_json::from_str(&text).unwrap();
     let missing: Vec<&String> = ids.iter().filter(|id| baseline["studies"].get(id.as_str()).is_none()).collect();
     assert!(missing.is_empty(), "{missing:?}");
-    // Another name of the folder of the project's own reports: the lock is the same, and taken once.
+    // Another name of the folder of the project's own reports: it has the same lock, which is taken only once.
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();

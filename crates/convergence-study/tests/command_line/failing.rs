@@ -1,4 +1,4 @@
-//! What a person reads when something fails: claims that changed, studies that are gone, and what stands last on the terminal.
+//! What a person reads when something fails: changed claims, missing studies, and the last lines on the terminal.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ pub(crate) fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
     let root = workspace(false);
     let file = root.path().join("studies/one.toml");
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    // The same number in other digits is the same claim.
+    // The same number written differently is the same claim.
     fs::write(&file, study("one", "c", 1.0).replace("1.0", "10e-1")).unwrap();
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     fs::write(&file, study("one", "another claim", 1.0)).unwrap();
@@ -44,9 +44,9 @@ pub(crate) fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     let (status, out, _) = run(&root, &["verify"]);
     assert!(status == Some(1) && out.contains("claims changed\n  two: exponent 1, now 1.001\n"), "{out}");
     assert!(out.contains("if that is meant: powers verify --tier full --bless --reason TEXT\n"), "{out}");
-    // A blessing of the quick tier leaves the claim of a study that was not run as it was.
+    // Blessing the quick tier does not change the claim of a study that was not run.
     assert_eq!(run(&root, &["verify", "--bless", "--reason", "x"]).0, Some(1));
-    // To another tier.
+    // Moved to another tier.
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0).replace("\"quick\"", "\"full\"")).unwrap();
     fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
     let (status, out, _) = run(&root, &["verify"]);

@@ -1,4 +1,4 @@
-//! A project's command line as a shell sees it: this program is the project where `AS_PROJECT` is set, else its tests.
+//! A project's command line as seen by a shell: this program is the project if `AS_PROJECT` is set, else its tests.
 
 mod changes;
 mod failing;
@@ -37,7 +37,7 @@ const PROJECT: Project = Project {
     ..Project::new("powers", "powers")
 };
 
-/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which no baseline holds.
+/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no baseline.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
     let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
@@ -137,7 +137,7 @@ fn texts(output: Output) -> (Option<i32>, String, String) {
     (output.status.code(), out, err)
 }
 
-/// No control characters but line ends, and no line that GitHub Actions would obey.
+/// No control characters except line ends, and no line that GitHub Actions would obey.
 #[track_caller]
 fn is_harmless(text: &str) {
     assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
@@ -215,7 +215,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
         assert!(status == Some(2) && out.is_empty() && err.contains(words), "{err}");
         is_harmless(&err);
     }
-    // Written raw, they are refused by TOML itself.
+    // Written raw, TOML itself refuses them.
     fs::write(root.path().join("a.toml"), study("a", "c\x1b[31m", 1.0)).unwrap();
     let (status, _, err) = run(&root, &["study", "a.toml"]);
     assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
@@ -304,7 +304,7 @@ fn rates_come_in_words_and_as_an_object() {
     assert!(out.ends_with("pass: 2 of 2 columns agree with their orders\n"), "{out}");
     assert_eq!(with(&["--all"]).0, Some(1));
     assert_eq!(with(&["--quiet"]).1, "pass: 2 of 2 columns agree with their orders\n");
-    // A rate that disagrees is shown all the same.
+    // A rate that disagrees is still shown.
     let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
     assert_eq!(status, Some(1));
     assert!(out.starts_with("H1: fail: 1.000000 ± 0.0000005, claimed 2 ± 0.25: too low\n"), "{out}");
@@ -384,7 +384,7 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     }
     let (_, out, _) = run(&root, &["study", "studies/one.toml", "--out", "out"]);
     assert!(out.ends_with("\nreport: out/index.html, out/README.md\n"), "{out}");
-    // A report of `verify` goes where it is wanted, and each of its studies can be run by its id.
+    // A report of `verify` goes where `--out` says, and each of its studies can be run by its id.
     assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
     let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();
     assert!(page.contains("Again: `powers verify two` (tier quick") && !root.path().join("reports").exists(), "{page}");
@@ -442,7 +442,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     } else {
         assert!(status == Some(1) && out.contains("python3 cannot be started"), "{out}");
     }
-    // In a folder of a repository the program runs from where the command was: from its root.
+    // In a folder of a repository the program runs from the folder of the command: from its root.
     let (status, out, err) = run(&root, &["new", "program", "other", "--out", "studies"]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     let text = fs::read_to_string(root.path().join("studies/other.toml")).unwrap();
@@ -455,7 +455,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
         let (_, out, _) = run(&root, &["study", "studies/other.toml"]);
         assert!(out.contains("expected a last line such as {\"errors\": {\"max\": 0.001}}"), "{out}");
     }
-    // The second file is there: the first is not written either.
+    // The second file exists: the first is not written either.
     fs::remove_file(root.path().join("mine.toml")).unwrap();
     let (status, _, err) = run(&root, &["new", "program", "mine"]);
     assert!(status == Some(2) && err.contains("mine.py: expected a new file"), "{err}");

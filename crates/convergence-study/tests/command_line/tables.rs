@@ -1,4 +1,4 @@
-//! What `rates` says of how it reads tables, and of claims that do not hold.
+//! What `rates` says about how it reads tables, and about claims that do not hold.
 
 use std::fs;
 
@@ -12,7 +12,7 @@ fn table(name: &str, first: f64, errors: &[f64]) -> String {
     format!("h,{name}\n{}", errors.iter().enumerate().map(row).collect::<String>())
 }
 
-/// The exit status, and all that was said, with single blanks.
+/// The exit status, and everything printed, with single blanks.
 fn told(root: &TempDir, table: &str, options: &[&str]) -> (Option<i32>, String) {
     fs::write(root.path().join("TABLE"), table).unwrap();
     let (status, out, err) = run(root, &[&["rates", "TABLE"], options].concat());
@@ -33,12 +33,12 @@ pub(super) fn rates_says_how_it_read_a_table() {
     let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]);
     let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
     assert!(page.contains(reading), "{err}{page}");
-    // Named, it is the step without a word in the quiet answer, and no name that is claimed is taken for it.
+    // If named, it is the step, which the quiet answer does not mention, and no claimed name is taken for it.
     let (status, out, _) = rates(&["--order", "L2=2", "--step", "spam", "--quiet"]);
     assert!(status == Some(0) && !out.contains("step: "), "{out}");
     let (status, _, err) = rates(&["--order", "spam=2"]);
     assert!(status == Some(2) && err.contains("expected --dim D for h = other^(-1/D)"), "{err}");
-    // What was left out is judged where its name is claimed, or chosen.
+    // A column left out is judged if its name is claimed or chosen.
     for more in [&["--order", "other=2"][..], &["--columns", "L2,other"]] {
         let (status, out, _) = rates(&[&["--order", "2"], more].concat());
         assert_eq!(status, Some(1), "{more:?}: {out}");
@@ -119,7 +119,7 @@ pub(super) fn wrong_claims_are_answered_with_what_to_do() {
         &["zero on the finest level only. Is that level its own reference?"],
     );
     says("L2", &[0.01, 0.0025, 6.25e-7, 1.5625e-7, 3.9e-8], "2", &["inconclusive", "wild"]);
-    // A least order, of all columns and of one; one that is written otherwise is refused.
+    // A least order, for all columns and for one; other notations are refused.
     for (order, status, words) in [
         (">=1", Some(0), "claimed at least 1 ± 0.05: at least 1, not 0.9"),
         ("L2=>=1.5", Some(0), "L2: pass"),
@@ -129,10 +129,10 @@ pub(super) fn wrong_claims_are_answered_with_what_to_do() {
         let (found, told) = told(&root, &table("L2", 0.1, &second), &["--order", order, "--tolerance", "0.05"]);
         assert!(found == status && told.contains(words), "{order}: {told}");
     }
-    // Rates that approach the order slowly: the level that would decide.
+    // Rates that approach the order slowly, and the level that would decide.
     let slow = halved(4, &|h| h * h * (1.0 + 2.0 * h));
     says("L2", &slow, "2", &["inconclusive", "likely to decide (L2: interval ±", "now, about ±"]);
-    // An error that grows beside one that falls, or in the only column.
+    // An error that grows next to one that falls, or in the only column.
     let (status, told) =
         told(&root, "h,L2_u,p\n0.4,1.60e-1,1.00e-1\n0.2,4.00e-2,2.00e-1\n0.1,1.00e-2,4.00e-1\n", &["--order", "2"]);
     assert!(status == Some(1) && told.contains("p: fail: -1.0") && told.contains("L2_u: pass"), "{told}");

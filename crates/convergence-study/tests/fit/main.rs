@@ -1,4 +1,4 @@
-//! The readings of a rate against answers known by other means.
+//! Readings of a rate, compared with answers known by other means.
 
 mod regression;
 
@@ -109,7 +109,7 @@ fn the_range_is_what_its_two_rules_leave() {
     assert_eq!((above.used, above.at_floor), (2..5, 0));
     let at = asymptotic_range(&data, data[4].error);
     assert_eq!((at.used, at.pre_asymptotic, at.at_floor), (2..4, 2, 1));
-    // Only the finest levels are dropped for the floor: one that dips down to it and comes back counts.
+    // Only the finest levels are dropped for the floor: one that dips down to it and recovers counts.
     let dip = with_log2(&[0.0, -1.0, -30.0, -3.0]);
     assert_eq!(asymptotic_range(&dip, 1e-10).at_floor, 0);
 }

@@ -1,4 +1,4 @@
-//! Lines and candidates against multiple linear regression over the same columns, by a library that knows nothing of rates.
+//! Lines and candidates compared with multiple linear regression over the same columns, by a general library.
 
 use convergence_study::judge::fit::{
     Level, PENALTY, POLLUTION_EXPONENTS, SAFETY, SCATTER_EXPONENTS, SLOW_PENALTY, SLOWEST_POLLUTION, fit_line,
@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{HALVED, UNEVEN, levels};
 
-/// What ordinary least squares says of `y` = X c.
+/// The result of ordinary least squares for `y` = X c.
 pub(crate) struct Regression {
     pub(crate) coefficients: DVector<f64>,
     pub(crate) rss: f64,
@@ -25,7 +25,7 @@ pub(crate) fn regression(columns: &[Vec<f64>], y: &[f64]) -> Regression {
     Regression { coefficients, rss, inverse: &pseudo_inverse * pseudo_inverse.transpose() }
 }
 
-/// 1, log h, and (h / h_1)^r where there is an r.
+/// 1, log h, and (h / h_1)^r if there is an r.
 fn columns(levels: &[Level], pollution: Option<f64>) -> Vec<Vec<f64>> {
     let column = |f: &dyn Fn(f64) -> f64| levels.iter().map(|level| f(level.step)).collect();
     let polluted = pollution.map(|r| column(&|h| (h / levels[0].step).powf(r)));
@@ -40,7 +40,7 @@ struct Explanation {
     half_width: f64,
 }
 
-/// What the candidate with this pollution and scatter proportional to h^s says, every row divided by the deviation expected of it.
+/// The result of the candidate with this pollution and scatter proportional to h^s, every row divided by its expected deviation.
 fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
     let m = levels.len();
     let mean = levels.iter().map(|level| level.step.ln()).sum::<f64>() / m as f64;
@@ -73,7 +73,7 @@ fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
     Explanation { rate, pollution, log_weight, half_width }
 }
 
-/// Rate, pollution and interval by the rule that the module states.
+/// Rate, pollution and interval by the rule as the module states it.
 fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     let all = || {
         let pollutions = std::iter::once(None).chain(POLLUTION_EXPONENTS.map(Some));
@@ -93,7 +93,7 @@ fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     (rate, heaviest.pollution, [rate - half, rate + half])
 }
 
-/// Errors of order 1.4 with pollution of one sign or the other and scatter of some percent, on the first `m` of the steps.
+/// Errors of order 1.4 with pollution of either sign and scatter of some percent, on the first `m` of the steps.
 fn data(steps: &[f64], m: usize, case: usize) -> Vec<Level> {
     let pollution = [0.0, 0.5, -0.4][case % 3];
     let scatter = [1e-5, 1e-3, 0.03][case / 3];
@@ -147,7 +147,7 @@ fn candidates_are_those_of_multiple_regression() {
     }
 }
 
-/// e = h: every candidate says 1 and leaves nothing, so that the round-off of the logarithms is all there is.
+/// e = h: every candidate gives 1 with no residual, so that only the round-off of the logarithms remains.
 #[test]
 fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
     for (m, unit) in [(3, 5.0), (3, 1e-9), (4, 5.0), (6, 1.0), (6, 1e-9)] {

@@ -99,7 +99,7 @@ pub(crate) fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most
     }
 }
 
-/// What tells the sample of a legend's entry from the others: shapes, colours and dashes, without places.
+/// What distinguishes the sample of a legend's entry from the others: shapes, colours and dashes, without positions.
 fn sample(entry: Node<'_, '_>) -> Vec<String> {
     let shapes = entry.descendants().filter(|n| n.is_element() && !n.has_tag_name("text"));
     let attribute = |n: &Node<'_, '_>, name| n.attribute(name).unwrap_or("").to_owned();

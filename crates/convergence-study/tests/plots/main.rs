@@ -62,7 +62,7 @@ fn texts(svg: &str) -> Vec<String> {
     elements(&parse(svg), "text").map(|n| n.text().unwrap_or("").trim().to_owned()).collect()
 }
 
-/// Points of all lines of a colour that are longer than a legend's.
+/// Number of points of all lines in a colour that are longer than a legend's.
 fn points_of(svg: &str, colour: &str) -> usize {
     let doc = parse(svg);
     let lines = elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some(colour));
@@ -85,7 +85,7 @@ fn every_finite_point_is_drawn() {
         ..History::default()
     };
     let svg = work_precision(&figure);
-    // One marker more in the legend.
+    // The legend has one more marker.
     assert_eq!(elements(&parse(&svg), "circle").count(), 39 + 1);
     assert_eq!(points_of(&svg, "#0072B2"), 39);
 }
@@ -162,7 +162,7 @@ fn a_cell_with_room_for_its_value_has_it_written_in_it() {
     let mut missing = figure.clone();
     missing.values[0][0] = f64::NAN;
     assert_eq!(written(&missing), figure.values.iter().flatten().count() - 1);
-    // In narrower cells the colours alone say it.
+    // In narrower cells there are only colours.
     assert_eq!(written(&gallery::stability_map()), 0);
 }
 
@@ -184,7 +184,7 @@ fn a_spike_in_a_long_history_is_drawn() {
     let coordinates = elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some("#0072B2"));
     let heights = coordinates.flat_map(|n| n.attribute("points").unwrap_or("").split_whitespace());
     let highest = heights.filter_map(|p| p.split_once(',')?.1.parse::<f64>().ok()).fold(f64::INFINITY, f64::min);
-    // The top of the plot is 16 px down the page, and 1/22 of the plot's 430 px are left free above the data.
+    // The top of the plot is 16 px down the page, and 1/22 of the plot's 430 px stays free above the data.
     assert!(highest < UNITS * (16.0 + 430.0 / 20.0), "{highest}");
 }
 
@@ -257,7 +257,7 @@ fn markers_lie_where_the_values_in_the_picture_say() {
     let group = elements(&doc, "g").find(|n| is_velocity(n) && n.has_attribute("data-points")).unwrap();
     let markers: Vec<_> = group.descendants().filter(|n| n.has_tag_name("circle")).collect();
     let points: Vec<&str> = group.attribute("data-points").unwrap().split(' ').collect();
-    // Of ten levels the rate uses seven; the others are a group of their own.
+    // Of ten levels the rate uses seven; the others form a separate group.
     assert_eq!((markers.len(), points.len()), (7, 7));
     for (marker, point) in markers.iter().zip(points) {
         let (x, y) = point.split_once(',').unwrap();
@@ -269,7 +269,7 @@ fn markers_lie_where_the_values_in_the_picture_say() {
     }
 }
 
-/// A straight line of errors, of which the rate uses all levels but the two coarsest.
+/// A straight line of errors; the rate uses all levels except the two coarsest.
 fn partly_used() -> Convergence {
     let points: Vec<_> = (2..8).rev().map(|k| 0.5_f64.powi(9 - k)).map(|h| (h, h * h)).collect();
     let fit = Some(PowerLaw { rate: 2.0, constant: 1.0 });
@@ -307,7 +307,7 @@ fn levels_without_a_say_have_open_markers_and_a_note() {
     assert!(!texts(&convergence(&all)).iter().any(|text| text == note));
 }
 
-/// The legend's text, and whether a line is drawn, for a rate that is known as this interval.
+/// The legend's text, and whether a line is drawn, for a rate with this interval.
 fn rate_known_as(interval: Option<[f64; 2]>) -> (String, bool) {
     let mut figure = partly_used();
     figure.series[0].order = Some(2.0);
@@ -348,7 +348,7 @@ fn lines_that_coincide_are_noted_whatever_the_points_that_draw_them() {
         texts(&svg).iter().any(|text| text == "fine and coarse coincide")
     };
     assert!(note(sampled(150, &wave)));
-    // Another curve, one that ends early, one whose points are right and whose lines between them are not.
+    // A different curve, one that ends early, and one with the right points but wrong lines between them.
     assert!(!note(sampled(150, &|t| wave(t) + 0.05)));
     assert!(!note(sampled(150, &wave)[..130].to_vec()));
     assert!(!note(sampled(8, &wave)));

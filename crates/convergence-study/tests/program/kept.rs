@@ -21,14 +21,14 @@ pub(crate) fn kept_results_are_used_until_something_changes() {
     assert_eq!(place.study(&[]).0, Some(0));
     let first = place.study(&["--format", "json"]);
     assert_eq!((first.0, place.runs(), place.kept().len()), (Some(0), 5, 5));
-    // Another level is computed, and no other.
+    // Only the new level is computed.
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("32, 64", "32, 64, 128"));
     assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 6));
-    // A file on which they depend.
+    // A file on which the results depend.
     fs::write(place.folder.path().join("data"), "2").unwrap();
     assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 12));
-    // What was expected has changed: kept answers are judged by what is expected now.
+    // The expectation has changed: kept answers are judged by the new one.
     place.write_text(&text.replace("\"L2\"", "\"max\""));
     let (status, out, _) = place.study(&[]);
     assert!(status == Some(1) && out.contains("its answer has no error `max`"), "{out}");
@@ -60,7 +60,7 @@ pub(crate) fn a_kept_result_depends_on_the_program_found_through_path() {
     }
 }
 
-/// What is kept shows on the terminal and in what is of one machine, and in no committed byte.
+/// Kept results show on the terminal and in files of one machine, but in no committed byte.
 pub(crate) fn kept_results_are_counted_and_never_blessed() {
     let place = project_of(cached("count"));
     let root = place.folder.path();
@@ -96,7 +96,7 @@ pub(crate) fn a_kept_result_depends_on_each_file_that_its_command_names() {
     }
 }
 
-/// Of two directories whose `files` are the same, other files may differ.
+/// Directories may differ in other files even if `files` are the same.
 pub(crate) fn a_kept_result_depends_on_the_directory() {
     let mut place = cached("count");
     for directory in ["a", "b"] {
@@ -116,7 +116,7 @@ pub(crate) fn garbage_among_kept_results_is_computed_anew() {
     assert_eq!(place.study(&[]).0, Some(0));
     let kept = place.kept();
     let whole = fs::read_to_string(&kept[0]).unwrap();
-    // Of another case; cut off; empty; no number; a folder.
+    // Of another case; cut off; empty; not a number; a folder.
     fs::copy(&kept[1], &kept[0]).unwrap();
     fs::write(&kept[1], &whole[..whole.len() / 2]).unwrap();
     fs::write(&kept[2], "").unwrap();

@@ -1,4 +1,4 @@
-//! Levels that lack a result, or their step; few levels.
+//! Levels without a result or without their step; few levels.
 
 use std::fs;
 use std::time::Instant;
@@ -24,7 +24,7 @@ pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     let told =
         "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
     assert!(status == Some(1) && out.contains(told), "{out}");
-    // A value, which is judged by differences.
+    // A value, judged by differences.
     place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
     let (status, out, _) = place.study(&["--out", "report"]);
     assert!(status == Some(1) && out.contains(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"), "{out}");
@@ -175,14 +175,14 @@ pub(crate) fn levels_are_added_until_it_is_decided_within_the_budget() {
     let summary = out.lines().find(|line| line.contains("decided after")).unwrap_or_else(|| panic!("{out}"));
     let levels: usize = summary.split("decided after ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!((5..=8).contains(&levels) && summary.contains("; 4 were enough for L1"), "{out}");
-    // As many levels are listed, and a listed study of the same levels has the same rate; of one level fewer it decides nothing.
+    // The same levels are listed; a listed study of them has the same rate, and is undecided with one level fewer.
     let listed = |levels: usize| {
         let counts: Vec<String> = (0..levels).map(|level| (8 << level).to_string()).collect();
         place.write_text(&auto.replace("\"auto\"", &format!("[{}]", counts.join(", "))));
         place.study(&["--format", "json"])
     };
     assert_eq!((listed(levels).0, listed(levels - 1).0), (Some(0), Some(1)));
-    // A budget that no further level fits, a claim that fails at once.
+    // A budget too small for another level, a claim that fails at once.
     place.write_text(&auto.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
     let (status, out, _) = place.study(&["--quiet"]);
     assert!(status == Some(1), "{out}");

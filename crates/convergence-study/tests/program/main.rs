@@ -1,4 +1,4 @@
-//! Studies of programs: this executable is the harness where `AS_PROJECT` is set, the solver where it is called as one, else the tests.
+//! Studies of programs: this executable is the harness if `AS_PROJECT` is set, the solver if it is called as one, otherwise the tests.
 
 #[cfg(unix)]
 mod kept;
@@ -14,6 +14,6 @@ fn main() -> std::process::ExitCode {
     tests::main()
 }
 
-/// Process groups are those of Unix.
+/// Process groups exist only on Unix.
 #[cfg(not(unix))]
 fn main() {}

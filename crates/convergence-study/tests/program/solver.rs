@@ -1,4 +1,4 @@
-//! The program that the studies of these tests run: a solver of second order that can misbehave in many ways.
+//! The program that the studies of these tests run: a second-order solver that can misbehave in many ways.
 
 use std::fs::OpenOptions;
 use std::io::{self, Read, Write};
@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use nix::sys::signal::{SigSet, Signal};
 
-/// The argument that this executable is the solver by.
+/// The argument that makes this executable the solver.
 pub(crate) const COMMAND: &str = "solver";
 
 /// `solver TOKEN MODE N [DT]`; the token marks the processes of one test. Only the case n = 16 misbehaves.
@@ -34,7 +34,7 @@ pub(crate) fn main(arguments: &[String]) -> ! {
     }
     println!("iteration 1 {{residual}} [1]");
     if mode == "late" {
-        // Second order, which shows on fine levels only; L1 shows it at once.
+        // Second order, but only on fine levels; L1 shows it at once.
         let h = f64::from(n).recip();
         println!(r#"{{"errors": {{"L2": {:e}, "L1": {:e}}}}}"#, h * h * (1.0 + 4.0 * h), h * h);
         exit(0)
@@ -76,7 +76,7 @@ fn number_from_stdin() -> u32 {
     case["n"].as_u64().unwrap() as u32
 }
 
-/// Standard streams as this process has them, so that their reader waits for both.
+/// Standard streams are inherited from this process, so that their reader waits for both.
 fn start(token: &str, mode: &str) -> Command {
     let mut child = Command::new(std::env::current_exe().unwrap());
     child.args([COMMAND, token, mode, "16"]).stdin(Stdio::null());
@@ -134,7 +134,7 @@ fn misbehave(token: &str, mode: &str, n: u32) {
             println!(r#"{{"errors": {{"L2": {:e}, "max": 1.0}}, "values": {{"lift": 2.0}}}}"#, 1.0 / 256.0);
             exit(0)
         }
-        // Each leaves a child that holds standard output open and would hang for ever.
+        // Each leaves a child that keeps standard output open and would hang for ever.
         "fork" => drop(start(token, "hang").spawn().unwrap()),
         "leave" => drop(start(token, "ignore-term").process_group(0).spawn().unwrap()),
         "flood" => flood(),

@@ -90,7 +90,7 @@ pub(crate) fn main() -> ExitCode {
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// A folder with the study `s.toml` of the solver in this mode; its processes are marked by the path of the folder.
+/// A folder with the study `s.toml` of the solver in this mode; the path of the folder marks its processes.
 pub(crate) struct Place {
     pub(crate) folder: TempDir,
     /// More keys of `[program]`.
@@ -108,7 +108,7 @@ impl Place {
         let exe = std::env::current_exe().unwrap();
         let command =
             [exe.to_str().unwrap(), solver::COMMAND, self.token(), mode, "{n}"].map(|word| format!("{word:?}"));
-        // Where the case is read from standard input, no placeholder is there.
+        // There is no placeholder if the case is read from standard input.
         let command = command.join(", ").replace("{n}", if mode == "stdin" { "-" } else { "{n}" });
         self.write_text(&format!(
             "[study]\nid = \"s\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
@@ -143,7 +143,7 @@ impl Place {
         self.command(&["study", "s.toml", "--jobs", "2"]).spawn().unwrap()
     }
 
-    /// Command lines of the processes of this test that are running.
+    /// Command lines of the running processes of this test.
     fn running(&self) -> Vec<String> {
         let processes = fs::read_dir("/proc").unwrap().flatten();
         let command_line = |entry: fs::DirEntry| {
@@ -153,7 +153,7 @@ impl Place {
         processes.filter_map(command_line).filter(|line| line.contains(self.token())).collect()
     }
 
-    /// Waits until `so_many` processes are running.
+    /// Waits until the number of running processes satisfies `so_many`.
     pub(crate) fn wait_for(&self, so_many: impl Fn(usize) -> bool) {
         let start = Instant::now();
         while !so_many(self.running().len()) {
@@ -187,10 +187,10 @@ fn a_program_is_judged_by_its_errors() {
         &fs::read_to_string(place.folder.path().join("s.toml")).unwrap().replace("order = 2.0", "order = 1.0"),
     );
     assert_eq!(place.study(&[]).0, Some(1));
-    // The same bytes for any number of processes at a time, but for the seconds.
+    // The same bytes for any number of simultaneous processes, except for the seconds.
     let record = |jobs| place.study(&["--format", "json", "--jobs", jobs]).1;
     assert_eq!(record("1"), record("4"));
-    // What `compare` needs for the work that the same error takes.
+    // `compare` needs this for the work at the same error.
     let object: serde_json::Value = serde_json::from_str(&record("1")).unwrap();
     let levels = object["studies"][0]["levels"].as_array().unwrap();
     assert!(levels.iter().all(|level| level["work"].is_number() && level["step"].is_number()), "{levels:?}");
@@ -225,11 +225,11 @@ fn a_grid_finds_both_orders() {
     let (status, out, err) = place.study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
     assert!(out.contains("L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)"), "{out}");
-    // The same order in both, which the error in time has not.
+    // The same order in both, which the error in time does not have.
     place.write_text(&text);
     let (status, out, _) = place.study(&[]);
     assert!(status == Some(1) && out.contains("L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low"), "{out}");
-    // Refined together, with the error in time hidden by nothing.
+    // Refined together, where nothing hides the error in time.
     place.write_text(&text.replace("\ngrid = true", "").replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"));
     assert_eq!(place.study(&[]).0, Some(1));
     for (old, new, message) in [
@@ -245,7 +245,7 @@ fn a_grid_finds_both_orders() {
 fn a_program_without_placeholders_reads_the_case() {
     let (status, out, err) = Place::new("stdin", "").study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
-    // One with placeholders finds standard input at its end.
+    // With placeholders, the program finds standard input at its end.
     let (status, out, err) = Place::new("read", "").study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
 }
@@ -279,7 +279,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
         let program = std::env::current_exe().unwrap();
         assert!(line.contains(told) && line.contains(program.to_str().unwrap()), "{mode}: {line}");
     }
-    // A program that is not there.
+    // A missing program.
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     let (head, tail) = text.split_once("command = [").unwrap();
@@ -287,7 +287,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
     let (status, out, _) = place.study(&[]);
     assert!(status == Some(1) && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"), "{out}");
-    // Children that outlive their program, in its group and out of it, harm neither the case nor the others.
+    // Children that outlive their program, inside or outside its group, harm neither this case nor the others.
     for mode in ["fork", "leave"] {
         let place = Place::new(mode, "");
         let (status, out, err) = place.study(&[]);
@@ -324,7 +324,7 @@ fn much_output_takes_little_memory() {
     assert!((1000..60_000).contains(&kilobytes), "{kilobytes} kB");
 }
 
-/// Processes of every kind, ended with the harness by this signal.
+/// Processes of every kind end when this signal ends the harness.
 fn nothing_is_left_after(signal: &str) {
     for mode in ["hang", "ignore-term", "fork", "leave"] {
         let mut place = Place::new(mode, "");
@@ -391,7 +391,7 @@ fn project(mode: &str) -> Place {
     project_of(Place::new(mode, ""))
 }
 
-/// The same of a study that has been written.
+/// The same for a study that has been written.
 pub(crate) fn project_of(place: Place) -> Place {
     let root = place.folder.path();
     fs::write(root.join("Cargo.toml"), "").unwrap();
@@ -418,7 +418,7 @@ fn an_error_that_only_some_answers_have_is_guarded_there() {
     ] {
         assert_eq!(baseline.contains(&format!("\"{name}\"")), is_guarded, "{name}: {baseline}");
     }
-    // A guarded number that is there no more.
+    // A guarded number that no longer exists.
     fs::remove_file(studies.join("all")).unwrap();
     let (status, out, _) = verify(&[]);
     assert!(status == Some(1) && out.contains("error max, n = 16"), "{out}");
@@ -437,7 +437,7 @@ fn a_study_of_a_program_is_guarded_and_explained() {
     let (status, out, _) = run(&["explain", "s"]);
     assert!(status == Some(0) && out.contains("what is run") && out.contains("error L2 2 ± 0.05"), "{out}");
     assert!(run(&["list"]).1.contains("program"), "the kind is listed");
-    // Guards are started by the harness alone: by hand, one would end the group of its caller.
+    // Only the harness starts guards: one started by hand would end the group of its caller.
     assert!(!run(&["--help"]).1.contains("guard"));
     assert_eq!(run(&["guard", "mark"]).0, Some(2));
 }

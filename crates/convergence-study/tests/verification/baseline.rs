@@ -60,7 +60,7 @@ fn new_and_vanished_numbers_are_named() {
     let in_all = changes(&baseline, renamed(), Some(&["a", "new"]));
     assert_eq!(in_all[..3], in_these);
     assert_eq!(in_all[3..], ["gone: finest error has vanished: was 0.00234375"]);
-    // A study that there is, and that was not run, has not vanished.
+    // An existing study that was not run has not vanished.
     assert_eq!(changes(&baseline, renamed(), Some(&["a", "new", "gone"])), in_these);
 }
 

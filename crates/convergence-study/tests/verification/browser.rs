@@ -1,4 +1,4 @@
-//! The page in a browser, where there is one: what clicks and pointer do.
+//! The page in a browser, if there is one: the effect of clicks and pointer.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,7 +7,7 @@ use crate::page::{page_of, two};
 
 const CHROMIUM: &str = "/usr/bin/chromium";
 
-/// What is expected of the page, and a report in its title.
+/// The expectations on the page, and a report in its title.
 const SCRIPT: &str = r##"
 const found = [];
 const expect = (what, holds) => { if (!holds) found.push(what); };
@@ -72,12 +72,12 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
     let file = folder.path().join("index.html");
     let page = page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
     std::fs::write(&file, page).expect("a file");
-    // Where the machine is busy, the browser may give up before the page has said anything: it is asked again.
+    // On a busy machine the browser may give up before the page has finished: so there are several attempts.
     let said = (0..3).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
     assert_eq!(said.as_deref(), Some("RIGHT"));
 }
 
-/// What the page says of itself: its title, `RIGHT` or `WRONG` with what is wrong; `None` where it has another one.
+/// The title set by the page: `RIGHT`, or `WRONG` with the problem; `None` for any other title.
 fn said(file: &Path, profile: &Path) -> Option<String> {
     let output = Command::new(CHROMIUM)
         .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])

@@ -1,4 +1,4 @@
-//! Claims: what a study file says is kept by the baseline, value by value.
+//! Claims: the baseline keeps the content of a study file, value by value.
 
 use std::fs;
 use std::path::Path;
@@ -91,7 +91,7 @@ fn claims_of_studies_that_are_not_run_are_compared_too() {
     assert_eq!(words(&changes), expected);
     assert!(baseline.compare(&ran, None).is_empty(), "a selection looks at itself alone");
     assert!(sentence(&ran, Some(&changes)).ends_with("; 1 study deleted, 1 claim changed, 1 not yet in the baseline"));
-    // What was not run is blessed by the tier that runs it.
+    // The tier that runs a study blesses it.
     assert_eq!(
         blessing(&PROJECT, "cargo xtask verify", &ran, &changes),
         "cargo xtask verify --tier full --bless --reason TEXT"
@@ -115,7 +115,7 @@ fn a_changed_claim_is_blessed_with_a_reason_which_is_kept() {
     assert_eq!(baseline, before);
 
     baseline.bless(&ran(), None, Some("three levels only")).unwrap();
-    // Another blessing leaves value and reason, whatever it is for.
+    // Another blessing does not change value and reason.
     baseline.bless(&ran(), None, Some("another")).unwrap();
     baseline.bless(&ran(), None, None).unwrap();
     baseline.write(&file).unwrap();

@@ -12,7 +12,7 @@ use convergence_study::study::{
 };
 use convergence_study::verify::{Request, Scope};
 
-/// The project of these studies; none is read from a file.
+/// The project of these studies; none of them is read from a file.
 pub(crate) const PROJECT: Project =
     Project { front_pictures: &[("a-front.svg", "front.svg")], ..Project::new("fakes", "cargo xtask") };
 
@@ -21,7 +21,7 @@ pub(crate) const PROJECT: Project =
 pub(crate) enum Does {
     /// Errors of first order.
     Converge,
-    /// Errors that stay where they are.
+    /// Errors that do not change.
     Stay,
     /// First order, but the second case returns NaN.
     NotANumber,
@@ -29,13 +29,13 @@ pub(crate) enum Does {
     Fail,
     /// First order, but the second case panics.
     Panic,
-    /// First order, but the second case runs until its time limit stops it, and returns its error as if nothing had happened.
+    /// First order, but the second case runs until its time limit stops it, and then returns its error regardless.
     Dawdle,
     /// Judging the results panics.
     PanicAtTheEnd,
     /// First order on too few levels.
     TooShort,
-    /// Nothing is judged, and a pass is claimed.
+    /// Nothing is judged, but a pass is claimed.
     Nothing,
 }
 
@@ -149,7 +149,7 @@ pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
     ids.iter().map(|id| fake(id, Does::Converge).header).collect()
 }
 
-/// A verification of the quick tier in which there are these studies.
+/// A verification of the quick tier with these known studies.
 pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
     let scope = Scope::Tier(Tier::Quick, ids(known));
     Request {

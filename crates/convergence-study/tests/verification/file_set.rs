@@ -14,7 +14,7 @@ fn reports(folder: &Path) -> ReportFolder {
     ReportFolder { folder: folder.join("reports"), workshop: folder.join("reports/local/workshop") }
 }
 
-/// All files below, the workshop's too, with their bytes.
+/// All files below, including the workshop's, with their bytes.
 fn found(folder: &Path) -> Vec<(String, String)> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -77,7 +77,7 @@ fn unchanged_files_are_not_written() {
 #[test]
 fn a_replacement_that_was_interrupted_is_completed_by_the_next() {
     let files = [("README.md", "new"), ("figures/b.svg", "new"), ("results.json", "new")];
-    // However many files had been moved when it happened.
+    // Whatever number of files had been moved when it happened.
     for moved in 0..=files.len() {
         let folder = tempfile::tempdir().unwrap();
         let reports = reports(folder.path());
@@ -161,7 +161,7 @@ fn pipes_in_place_of_files_do_not_hang() {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
     };
-    // A report is replaced whatever it is; a lock or a manifest has to be a file.
+    // A report is replaced whatever it is; a lock or a manifest must be a file.
     pipe(&reports.folder.join("README.md"));
     reports.publish(&set(&[("README.md", "one")])).unwrap();
     assert_eq!(fs::read_to_string(reports.folder.join("README.md")).unwrap(), "one");

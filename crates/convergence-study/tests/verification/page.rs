@@ -18,7 +18,7 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
     Findings { project: &PROJECT, record: &record, see_also, provenance: None }.page()
 }
 
-/// One study that passes and one that fails, with a picture of two curves each.
+/// One study that passes and one that fails, each with a picture of two curves.
 pub(crate) fn two() -> Vec<Finished> {
     let mut both = finished(vec![study("good-1.0", Does::Converge), study("bad", Does::Stay)]);
     for finished in &mut both {
@@ -35,7 +35,7 @@ pub(crate) fn two() -> Vec<Finished> {
     both
 }
 
-/// The page without its scripts, which are no XML.
+/// The page without its scripts, which are not XML.
 fn parsed<T>(page: &str, read: impl FnOnce(&Document<'_>) -> T) -> T {
     let mut rest = page.strip_prefix("<!DOCTYPE html>\n").expect("a doctype");
     let mut text = String::new();
@@ -68,7 +68,7 @@ fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
         let ids: Vec<&str> = document.descendants().filter_map(|node| node.attribute("id")).collect();
         assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
         let links: Vec<&str> = named(document, "a").filter_map(|link| link.attribute("href")).collect();
-        // What did not pass stands first.
+        // Failures come first.
         assert_eq!(links, ["#bad", "full/index.html", "#bad", "#good-1.0"]);
     });
 }

@@ -72,7 +72,7 @@ fn norms_keep_their_order() {
     assert!(at("z") < at("a") && at("a") < at("m"));
 }
 
-/// A record is all that a report needs beside the pictures: what is made of the one that was written is the same in every byte.
+/// A report needs only a record and the pictures: made from a written record it is the same in every byte.
 #[test]
 fn a_record_that_is_read_makes_the_same_report() {
     for does in [Does::Converge, Does::NotANumber, Does::Fail, Does::Panic, Does::TooShort, Does::Nothing] {
@@ -81,7 +81,7 @@ fn a_record_that_is_read_makes_the_same_report() {
         let record = Record::new("quick", "verify", Verdict::Fail, Some(&changes), finished).committed();
         let text = json(&record).unwrap();
         let read = Record::parse(&text, Path::new("r.json")).unwrap();
-        // Pictures are files of their own.
+        // Pictures are separate files.
         let mut read = read.committed();
         let pictured = read.studies.iter_mut().zip(&record.studies);
         pictured.for_each(|(read, written)| read.outcome.figures.clone_from(&written.outcome.figures));

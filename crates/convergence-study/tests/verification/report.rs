@@ -24,7 +24,7 @@ fn compared<T>(finished: &[Finished], changes: Option<&[Change]>, read: impl FnO
     read(&Findings { project: &PROJECT, record: &record, see_also: None, provenance: None })
 }
 
-/// Columns of a line of a table: pipes that are not escaped.
+/// Columns of a line of a table, from its unescaped pipes.
 fn columns(line: &str) -> usize {
     line.replace("\\|", "").matches('|').count()
 }
@@ -182,7 +182,7 @@ fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
     let moved_by = |to: &str, by: &str| format!("moved from 1 to {to}, by +{by} %, tolerated 0.1 %");
     assert_eq!(cells(lines[4]), row(["[b-1.0](#b-10)", "1", "q", &moved_by("4", "300"), "3000"]));
     assert_eq!(cells(lines[5]), row(["[a](#a)", "3", "q1", &moved_by("1.5", "50"), "500"]));
-    // Each thing is parted from the next one by an empty line, or it is taken for one paragraph.
+    // Empty lines separate the parts, which would otherwise form one paragraph.
     assert_eq!(lines[6..10], ["", "If it is meant: `cargo xtask verify --bless`.", "", "<details>"]);
     assert_eq!(lines[10], "<summary>all 4 numbers</summary>");
     assert!(readme.contains("</details>\n\n![All 2 judged rates"), "{readme}");
@@ -217,7 +217,7 @@ fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
     studies[0].outcome.checks[0].verdict = Verdict::Fail;
     for (evidence, expected) in [
         ("1 of 2 pass; not c-1.0.", ["c-1.0", "b", "a-controls"]),
-        // Its own name, or a part of another word, is no cause.
+        // Its own name, or a part of another word, is not a cause.
         ("a-controls: b-2, c-1.00", ["a-controls", "c-1.0", "b"]),
     ] {
         studies[0].outcome.checks[0].evidence = evidence.to_owned();
@@ -253,7 +253,7 @@ fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     assert!(reasons.len() == 2 && reasons[1].starts_with("non-finite: "), "{reasons:?}");
 }
 
-/// Errors of several names, each of its order, on levels of which each name may lack some.
+/// Errors of several names, each with its order, on levels that may lack some of them.
 fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finished {
     let mut finished = finished(vec![study("a", Does::Converge)]).remove(0);
     let steps = || (0..6).map(|level| 0.5_f64.powi(level + 3));
@@ -286,7 +286,7 @@ fn the_rate_from_the_level_before_stands_beside_each_error() {
     assert_eq!(tables[0].head, ["cells", "L2", "rate", "H1", "rate"]);
     assert_eq!(tables[0].rows[0], ["8", "1.562e-2", "-", "1.250e-1", "-"]);
     assert_eq!(tables[0].rows[5], ["256", "1.526e-5", "2.000", "3.906e-3", "1.000"]);
-    // A number that nobody judged has no rate.
+    // An unjudged number has no rate.
     let mut unclaimed = judged(&[("L2", 2.0), ("H1", 1.0)], |_, _| false);
     unclaimed.outcome.rates.pop();
     assert_eq!(errors_of(&unclaimed)[0].head, ["cells", "L2", "rate", "H1"]);

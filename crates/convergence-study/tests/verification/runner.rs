@@ -79,7 +79,7 @@ fn a_case_that_works_too_much_fails_at_the_same_step_for_any_number_of_threads()
     );
     assert_eq!((&one[0].failed_cases, &one[0].work), (&two[0].failed_cases, &two[0].work));
     assert_eq!((one[0].outcome.verdict, one[1].outcome.verdict), (Verdict::Fail, Verdict::Pass));
-    // What a blessing allows: three times as much, and a fiftieth of all.
+    // A blessing allows three times as much, and a fiftieth of the total.
     let mut works = Works::default();
     works.take(&one);
     let done = one[0].work.iter().map(|(_, work)| *work).max().unwrap();

@@ -15,7 +15,7 @@ fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
     verify(&PROJECT, &studies, request, &|_| {}).unwrap()
 }
 
-/// The files directly in a folder and in its figures, without the page, which is of one run.
+/// The files directly in a folder and in its figures, except the page, which belongs to one run.
 fn committed(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     let files = |folder: &Path| {
         let entries = fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
@@ -78,7 +78,7 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let mut request = request(root.path(), &["a", "b", "c"]);
     run(studies(), &request);
     let first = committed(&reports);
-    // Six files of the set, the picture of all rates, one figure a study.
+    // Six files of the set, the picture of all rates, one figure for each study.
     assert_eq!(first.len(), 6 + 1 + 3);
     for count in [1, 4] {
         request.effort = jobs(count).into();
@@ -114,7 +114,7 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
     run(vec![study("a", Does::Converge)], &full);
     assert_eq!(committed(&reports), whole);
     assert!(reports.join("full/figures/a-errors.svg").is_file());
-    // From now on the quick report knows of the full one, and stays as it is again.
+    // From now on the quick report links to the full one, and does not change again.
     run(vec![study("a", Does::Converge)], &quick);
     let page = fs::read_to_string(reports.join("README.md")).unwrap();
     assert!(page.contains("[the report on the full tier](full/README.md)"), "{page}");

@@ -65,7 +65,7 @@ pub struct Law {
     shape: Shape,
 }
 
-/// The formulas, with the ranges of what is drawn.
+/// The formulas, with the ranges of the numbers drawn.
 #[derive(Debug, Clone, Copy)]
 enum Shape {
     /// h^p |1 + a h^r|, a and r in these ranges.

@@ -17,11 +17,10 @@ use crate::text::names::{did_you_mean, nearest, quoted};
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
-/// Tables, logs, lists and JSON are read. The step is what falls, or counts up, by regular ratios; errors are
-/// positive and fall; rates are recognised by their numbers. A line
-/// says how the table was read. Exit status 0 where every rate with a claim agrees with its order, 1 where one does
-/// not, the data cannot tell or nothing is claimed, 2 where the
-/// table cannot be read: then the message has the command that reads it.
+/// The input may be tables, logs, lists or JSON. The step is the column that falls, or counts up, by regular ratios;
+/// errors are positive and fall; rates are recognised by their numbers. A line says how the table was read. Exit status
+/// 0 if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell or nothing is claimed, 2
+/// if the table cannot be read: then the message has the command that reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The table, - for standard input
@@ -29,13 +28,13 @@ pub struct Arguments {
     /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may be repeated. Without one nothing passes
     #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
     order: Vec<Claimed>,
-    /// How far the rate may be from the order, above or below: 0 < T < 0.5, for half an order accepts two whole ones
+    /// How far the rate may be from the order, above or below: 0 < T < 0.5, because half an order accepts two whole ones
     #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
-    /// Round-off, in the unit of the errors: the finest levels have no say as long as their errors are not above E; 0
+    /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors are not above E; 0
     /// drops none
     ///
-    /// A level above the floor keeps its say, and so do all levels coarser than it.
+    /// A level above the floor is kept, and so are all levels coarser than it.
     #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR, allow_negative_numbers = true)]
     floor: f64,
     /// The column of the step, or of a count: its name, or its number from 1
@@ -44,16 +43,16 @@ pub struct Arguments {
     /// The columns of errors, by name or number, separated by commas; without it those whose numbers fall
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     columns: Option<Vec<String>>,
-    /// Columns of values, which tend to a limit that nobody knows: their differences are judged
+    /// Columns of values, which tend to an unknown limit: their differences are judged
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     values: Vec<String>,
-    /// Names for all columns, in place of those in the table
+    /// Names for all columns, instead of those in the table
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     names: Option<Vec<String>>,
     /// The column of the step counts cells, unknowns or steps in D dimensions: h = count^(-1/D)
     #[arg(long, value_name = "D", value_parser = dimension, allow_negative_numbers = true)]
     dim: Option<f64>,
-    /// Columns without a claim decide, too: with one of them nothing passes
+    /// Columns without a claim count, too: then nothing passes
     #[arg(long)]
     all: bool,
     #[command(flatten)]

@@ -122,7 +122,7 @@ impl TableReader<'_> {
     fn is_count(&self, column: usize) -> bool {
         let is_whole = |values: &[f64]| values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
         let Cells { values, word, .. } = &self.columns[column];
-        // The number of columns that fall where it falls, minus those that grow or, like it, are undecided.
+        // The number of columns that fall with it, minus those that grow or, like it, are undecided.
         let alike = |k: usize| {
             let others = &self.columns[k].values;
             if k == column || is_whole(others) || others.iter().any(|other| !(*other > 0.0)) {

@@ -275,16 +275,16 @@ pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usiz
 /// Keys that give the subject of a list entry.
 const ENTRY_KEYS: [&str; 5] = ["norm", "error", "value", "quantity", "name"];
 
-/// What the entry of a list that holds a value is about, by another value of the same entry.
+/// The subject of the list entry that holds a value, given by another value of the same entry.
 ///
-/// * `paths`: the former and the present value by path.
+/// * `paths`: the previous and the current value by path.
 fn entry(path: &str, paths: &BTreeMap<&str, [Option<&str>; 2]>) -> Option<String> {
     let (entry, _) = path.rsplit_once('.').filter(|(entry, _)| entry.ends_with(']'))?;
     let [from, to] = ENTRY_KEYS.iter().find_map(|key| paths.get(format!("{entry}.{key}").as_str()))?;
     to.or(*from).map(|value| value.trim_matches('"').to_owned())
 }
 
-/// The change of a study whose file has vanished; nothing where its claims were withdrawn before.
+/// The change of a study whose file has vanished; `None` if its claims were withdrawn earlier.
 pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<Change> {
     let values = standing(Some(blessed)).len();
     (values > 0).then(|| Change::new(id, WHOLE_FILE, Movement::VanishedFile { values }))

@@ -59,7 +59,7 @@ pub fn serve(mark: &str) {
     #[cfg(unix)]
     {
         system::outlive_signals();
-        // The process that started it waits for a sign of life.
+        // The process that started it waits for confirmation that it is a guard.
         let mut out = io::stdout();
         let _ = out.write_all(b"\n").and_then(|()| out.flush());
         let _ = io::copy(&mut io::stdin(), &mut io::sink());

@@ -26,7 +26,7 @@
 //!
 //! [[expect]]
 //! error = "H1"
-//! order = ">= 1"                 # at least; or `factor = 5` (or ">= 5"), by which the error falls a degree, n being the degree;
+//! order = ">= 1"                 # at least; or `factor = 5` (or ">= 5"), by which the error falls per degree, n being the degree;
 //! constant = [0.9, 1.1]          # or `exact = 1e-12` alone: no error is larger. The constant of error = C h^order, with an order
 //! tolerance = 0.05
 //!

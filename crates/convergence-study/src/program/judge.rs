@@ -119,7 +119,7 @@ fn completion(ran: &[Run]) -> Check {
     levels::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
 
-/// Which levels answer a step that the rates need, if others do not: nominal steps cannot stand in for it.
+/// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace the missing ones.
 fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
     let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
     let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {

@@ -147,7 +147,7 @@ pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> S
         studies.sort_by_key(|study| ids.iter().position(|id| *id == study.id));
         let advice: Vec<String> = studies.iter_mut().filter_map(shorten).collect();
         let first = |k: &usize| !advice[..*k].contains(&advice[*k]);
-        let advice: String = (0..advice.len()).filter(first).map(|k| visible(&advice[k]) + "\n").collect();
+        let advice: String = (0..advice.len()).filter(first).take(SHOWN).map(|k| visible(&advice[k]) + "\n").collect();
         return studies.into_iter().map(|study| line(study).trim_end().to_owned() + "\n").collect::<String>() + &advice;
     }
     studies.into_iter().map(line).collect()

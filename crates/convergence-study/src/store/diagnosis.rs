@@ -291,8 +291,8 @@ impl Diagnosis {
 impl Field {
     fn words(&self) -> String {
         let rate = self.rate.map(|[rate, order]| format!("rate {rate:.3} for {order}"));
-        let times = if self.factor.is_finite() { short_text(self.factor) } else { "infinitely many".to_owned() };
-        let factor = (self.factor.ln().abs() > 1e-3).then(|| format!("up to {times} times"));
+        let times = if self.factor.is_finite() { short_text(self.factor) } else { "infinity".to_owned() };
+        let factor = (times != "1").then(|| format!("by a factor up to {times}"));
         let words: Vec<String> = rate.into_iter().chain(factor).collect();
         if words.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, words.join(", ")) }
     }

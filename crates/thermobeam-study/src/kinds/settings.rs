@@ -43,7 +43,7 @@ pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
     if Norm::ALL.iter().any(|norm| norm.name() == field) {
         settings.push(("field", &field));
     }
-    if of.kind() == "manufactured solutions" || of.kind() == "free vibrations" {
+    if !axis.is_empty() && (of.kind() == "manufactured solutions" || of.kind() == "free vibrations") {
         settings.push(("axis", &refined));
     }
     if of.kind() != "the harness" {

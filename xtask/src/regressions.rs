@@ -21,19 +21,19 @@ use convergence_study::study::outcome::Table;
 use list::Regression;
 use planted::{Copy, Found};
 
-/// Judge the studies: does the quick tier of `verify` notice each mistake of a list, and name it?
+/// Judge the studies: does the quick tier of `verify` notice and name each mistake in a list?
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Plant only those with this in their name or file; may be given more than once
+    /// Plant only mistakes with this in their name or file; may be repeated
     #[arg(long, value_name = "PART")]
     only: Vec<String>,
-    /// Write reports/regressions.md and what later runs compare with, .cargo/fingerprints.json
+    /// Write reports/regressions.md, and .cargo/fingerprints.json for comparison with later runs
     #[arg(long)]
     write: bool,
-    /// Diagnose anew what was recorded, and plant nothing
+    /// Diagnose recorded results again, and plant nothing
     #[arg(long)]
     recorded: bool,
-    /// List them and plant nothing
+    /// List the mistakes and plant nothing
     #[arg(long, conflicts_with = "write")]
     list: bool,
 }

@@ -27,14 +27,13 @@ const SCENE: &str = "studies/scenes/paper-1-beta-0.toml";
 
 /// Time per step, and run time against error, on this machine
 ///
-/// Takes minutes; says at the beginning how many the last one took. With --out it is also written as bench.md; the one of this
-/// project is in reports.
+/// Takes minutes; prints first how long the last one took. With --out it also writes bench.md; this project's is in reports.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The scene of which steps are timed
+    /// The scene whose steps are timed
     #[arg(long, default_value = SCENE)]
     scene: PathBuf,
-    /// What studies/programs/cvode.cpp has printed on this machine: shown beside the times of dG
+    /// Output of studies/programs/cvode.cpp on this machine: shown next to the times of dG
     #[arg(long, value_name = "FILE")]
     beside: Option<PathBuf>,
     #[command(flatten)]

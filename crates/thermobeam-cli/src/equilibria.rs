@@ -56,7 +56,7 @@ struct ListedState {
     phi_tip: f64,
     stable: bool,
     contact_force: f64,
-    /// `null` where there are infinitely many.
+    /// `null` if there are infinitely many.
     unstable_directions: Option<usize>,
 }
 

@@ -31,25 +31,25 @@ use accuracy::Planned;
 
 /// Simulate one scene
 ///
-/// The folder that --out names gets the time history (history.csv), pictures (SVG) and run.json, the object of --format json.
+/// The --out folder gets the time history (history.csv), pictures (SVG) and run.json, the object of --format json.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
-    /// Measure the errors of the result by a run of any order, and what to refine first: by two further runs, with a finer space
-    /// alone and with half the steps alone
+    /// Measure the errors of the result against a run of any order, and find what to refine first by two further runs: one with
+    /// only space refined, one with only half the steps
     #[arg(long)]
     estimate_error: bool,
-    /// Choose the cheapest run whose error is no larger than this; it is by dG, whatever the scene's scheme
+    /// Choose the cheapest run with at most this error; it uses dG for any scheme of the scene
     #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
     target_error: Option<f64>,
     /// Keep the scene's own scheme and choose elements and steps for it
     #[arg(long, requires = "target_error")]
     keep_scheme: bool,
-    /// What the target error is about
+    /// The quantity of the target error
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
     quantity: accuracy::Quantity,
-    /// The longest that the run may take; what was done until then is shown, and the exit status is 1 [default: as long as it takes]
+    /// Time limit of the run; the results so far are then shown, and the exit status is 1 [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     #[command(flatten)]

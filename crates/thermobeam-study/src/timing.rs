@@ -53,7 +53,7 @@ fn fastest<'r>(runs: &'r [Timed], method: &str, quantity: ErrorMeasure, error: f
     runs.iter().filter(is_good).min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
-/// All runs of a study with their seconds, one after the other on this thread; they are in no outcome.
+/// All runs of a study with their seconds, one after the other on this thread; no outcome contains them.
 ///
 /// # Errors
 /// [`CaseFailure`] of the first run that does not finish.

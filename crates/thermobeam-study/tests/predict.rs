@@ -101,7 +101,7 @@ fn the_layer_at_the_start_keeps_the_error_asked_for() {
         let choice = chosen(&scene, target);
         for t_end in [2e-4, 4e-3] {
             let begun = |scene: &Scene| Scene { t_end, ..scene.clone() };
-            // The chosen run, with its own steps, goes on while the history ends.
+            // The chosen run, with its own steps, continues while the history ends.
             let own = run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES);
             let own = samples(&own);
             let exact = samples(&layered_reference(&begun(&scene)));

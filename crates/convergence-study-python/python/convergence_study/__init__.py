@@ -5,8 +5,8 @@
 >>> cs.judge(h, [0.041, 0.0103, 0.00257, 0.000642], order=2).verdict
 'pass'
 
-`judge` and `assert_order` take errors that are there, `study` a function that computes them, `limit` values without an exact solution. All of
-them ask the Rust crate `convergence-study`; there is no rule in Python.
+`judge` and `assert_order` take existing errors, `study` a function that computes them, `limit` values without an exact solution. All of
+them call the Rust crate `convergence-study`; there is no rule in Python.
 """
 
 from ._native import Judgement, Limit, Study, assert_order, judge, limit, study

@@ -1,4 +1,4 @@
-"""The program `convergence-study`; also `python -m convergence_study`, which its guards of processes are started by."""
+"""The program `convergence-study`; also `python -m convergence_study`, which starts its guards of processes."""
 
 import signal
 import sys

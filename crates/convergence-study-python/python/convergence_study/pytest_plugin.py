@@ -1,10 +1,10 @@
-"""A plugin of pytest: the fixture `convergence`, a report on all verdicts of a run, and numbers that must not move.
+"""A plugin of pytest: the fixture `convergence`, a report on all verdicts of a run, and numbers that must not change.
 
     def test_order(convergence):
         convergence.assert_order(h, errors, order=2)
         convergence.study(solve, order={"L2": 2})
 
-Numbers and claims are guarded where there is `tests/convergence.json`, which `--convergence-bless` writes.
+Numbers and claims are guarded if `tests/convergence.json` exists, which `--convergence-bless` writes.
 """
 
 import itertools
@@ -27,13 +27,13 @@ def pytest_configure(config):
 
 
 class Convergence:
-    """What a test asks: each call is one study of the report, called as the test is."""
+    """The fixture of a test: each call is one study of the report, named after the test."""
 
     def __init__(self, studies, name):
         self._studies, self._name = studies, name
 
     def assert_order(self, h, errors, order, tolerance=0.25, allow_inconclusive=False):
-        """As `convergence_study.assert_order`; with `allow_inconclusive` only a verdict of fail fails."""
+        """As `convergence_study.assert_order`; with `allow_inconclusive` only the verdict fail is a failure."""
         __tracebackhide__ = True
         return self._judged(of_table(self._id(), h, errors, order, tolerance), allow_inconclusive)
 
@@ -59,7 +59,7 @@ class Convergence:
 
 @pytest.fixture
 def convergence(request):
-    """Asserts orders of convergence, and keeps what was found for the report and the baseline of the run."""
+    """Asserts orders of convergence, and keeps the results for the report and the baseline of the run."""
     name = request.node.nodeid.replace("::", "-").replace("tests/", "", 1).replace(".py", "")
     return Convergence(request.config.convergence_studies, name)
 

@@ -15,7 +15,7 @@ use super::summary::Line;
 /// Ticks of the progress bar over the limit of work.
 const TICKS: f64 = 1000.0;
 
-/// What the error is about.
+/// The quantity whose error is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum Quantity {
     /// Maximum over [0, T] of the error of u(1, t)

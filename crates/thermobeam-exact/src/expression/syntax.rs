@@ -99,7 +99,7 @@ pub(super) enum Node {
     Variable,
     Negate(Box<Node>),
     Binary(Operator, Box<[Node; 2]>),
-    /// A power with constant exponent. Exact at 0 where exp(n ln x) is not.
+    /// A power with constant exponent. Exact at 0, unlike exp(n ln x).
     ConstantPower(Box<Node>, f64),
     Call1(Function, Box<Node>),
     Call2(Function, Box<[Node; 2]>),

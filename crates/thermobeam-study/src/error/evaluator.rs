@@ -80,7 +80,7 @@ impl<'a> Evaluator<'a> {
         Self { answer: Answer::Tip(tip) }
     }
 
-    /// The three errors of a level at time t, which is observation number `index` from 0; NaN where not measured.
+    /// The three errors of a level at time t, which is observation number `index` from 0; NaN if not measured.
     pub fn measure(&mut self, level: &Level, index: usize, t: f64) -> [f64; 3] {
         let u_tip = level.u[level.u.len() - 1];
         match &mut self.answer {

@@ -171,8 +171,8 @@ impl Kind for Calibration {
     }
 }
 
-/// The true claims that our own rule passes: the same tables are drawn in every run, so these shares move with the rule alone.
-/// On another machine a few verdicts may turn.
+/// The shares of true claims that our own rule passes. Every run draws the same tables, so these shares change only with the
+/// rule. A few verdicts may differ on another machine.
 fn guarded(sheet: &Sheet) -> Vec<Quantity> {
     let own = sheet.rows.iter().find(|row| row.name == RULES[0]);
     let shares = own.into_iter().flat_map(|row| sheet.columns.iter().zip(&row.values));
@@ -194,7 +194,7 @@ fn table(sheet: &Sheet) -> Table {
 /// The points that a row contributes.
 type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 
-/// The power that each rule loses on true claims, and how often a term of lower order goes unnoticed.
+/// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order goes unnoticed.
 fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
     let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;

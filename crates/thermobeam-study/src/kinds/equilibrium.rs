@@ -54,7 +54,7 @@ pub struct EndStates {
     tolerance: f64,
     /// The error allowed on the finest mesh.
     error: f64,
-    /// The scenes by the scheme of any order in addition: discretisation, final time, and allowed error.
+    /// The same scenes by the scheme of any order: discretisation, final time, and allowed error.
     any_order: Option<(Discretisation, f64, f64)>,
 }
 
@@ -141,7 +141,7 @@ impl Kind for EndStates {
     fn judge(&self, ran: &[Ran<(usize, Option<usize>), RestingEnd>]) -> Outcome {
         let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
         let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
-        // Errors below the floor cannot be told from the remaining motion.
+        // Errors below the floor cannot be distinguished from the remaining motion.
         let floor = MOTION * self.speed;
         let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
         let mut checks = vec![completion(ran, |RestingEnd { t, tip, exact_tip, error, .. }| {

@@ -40,9 +40,9 @@ pub struct EnergySummary {
     pub largest_balance_residual: f64,
 }
 
-/// Bound on errors of the energy that round-off and a loose tolerance cannot explain, relative to the larger of the energies at
-/// start and end, or to 1 if both are less: every step of every scheme keeps or lowers the energy, and balances its loss.
-/// Without a term in ρ the energy of a buckled beam falls without bound, and rounding errors grow with it.
+/// Neither round-off nor a loose tolerance explains an error of the energy above this share of its values at start and end (of
+/// 1 if both are less): every step of every scheme keeps or lowers the energy, and balances its loss. Without a term in ρ the
+/// energy of a buckled beam falls without bound, and rounding errors grow with it.
 const UNEXPLAINED: f64 = 1e-3;
 
 impl EnergySummary {

@@ -57,7 +57,7 @@ pub(super) struct Coupling {
     pub(super) theta_phi: f64,
 }
 
-/// The degrees of u (and θ) and of φ in a block of an element; `None` where the degree exceeds p.
+/// The degrees of u (and θ) and of φ in a block of an element; `None` if the degree exceeds p.
 pub(super) fn degrees(block: usize, degree: usize) -> [Option<usize>; 2] {
     if block < 2 {
         return [Some(block), Some(block)];

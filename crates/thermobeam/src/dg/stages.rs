@@ -13,7 +13,7 @@ use super::{Level, Work};
 use crate::error::StepFailure;
 use crate::parameters::{Beam, Obstacles};
 
-/// Relative difference of two lengths that share a factorisation: the contraction of the iteration is about the same.
+/// Relative difference up to which lengths share a factorisation; the iteration then contracts by about this factor.
 const SAME_LENGTH: f64 = 5e-3;
 
 /// A factorisation is replaced if the iteration contracts more slowly than this and a better one is possible.
@@ -172,7 +172,7 @@ impl<const S: usize> DgStepper<S> {
         Ok(())
     }
 
-    /// Subtracts the correction in `residual` from the polynomials; returns both norms, measured as for velocities.
+    /// Subtracts the correction in `residual` from the polynomials; returns their norms, as for velocities.
     fn correct(&mut self) -> (f64, f64) {
         let (mut change, mut size) = (0.0, 0.0);
         for ((x, correction), weights) in self.trial.x.iter_mut().zip(&self.residual).zip(&self.weights) {

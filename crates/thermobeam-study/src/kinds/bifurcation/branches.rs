@@ -103,7 +103,7 @@ pub struct Diagram {
     pub counts: Vec<(f64, usize)>,
     /// Steady states that could belong to either of two branches: must be none for the diagram to have a meaning.
     pub ambiguous: usize,
-    /// Bracket of the β at which the beam buckles or lifts off; NaN where it does not, or more than once.
+    /// Bracket of the β at which the beam buckles or lifts off; NaN if it does neither, or more than once.
     pub event: [f64; 2],
 }
 
@@ -135,7 +135,7 @@ pub(super) fn buckles(scene: &Scene) -> bool {
     scene.beam.theta_a == 0.0
 }
 
-/// Brackets the event by bisection, starting from the samples; NaN where it does not happen, or more than once.
+/// Brackets the event by bisection, starting from the samples; NaN if it does not occur exactly once.
 ///
 /// # Errors
 /// β at which the steady states cannot be found.

@@ -15,7 +15,7 @@ const STRAIGHT: f64 = 1e-6;
 /// Allowed error of the extrapolated buckling force of P1 elements.
 const LIMIT: f64 = 1e-8;
 
-/// The results of one scene; `None` where a case failed.
+/// The results of one scene; `None` if a case failed.
 struct DiagramOf<'r> {
     scene: &'r Scene,
     diagram: Option<&'r Diagram>,
@@ -40,12 +40,12 @@ impl<'r> DiagramOf<'r> {
         self.scene.beam.theta_a
     }
 
-    /// The lower end of the bracket of buckling or lift-off; NaN where the case failed.
+    /// The lower end of the bracket of buckling or lift-off; NaN if the case failed.
     fn event(&self) -> f64 {
         self.diagram.map_or(f64::NAN, |diagram| diagram.event[0])
     }
 
-    /// β and u(1) at rest; NaN where the case failed.
+    /// β and u(1) at rest; NaN if the case failed.
     fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
         self.rests.iter().map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.u_tip)))
     }

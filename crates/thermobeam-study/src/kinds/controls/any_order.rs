@@ -34,7 +34,7 @@ pub struct AnyOrderControls {
 pub struct Judged {
     /// Its verdict.
     pub verdict: Verdict,
-    /// The error in the fields of its last run, the finest; NaN where it broke down.
+    /// The error in the fields of its last run, the finest; NaN if it broke down.
     pub error: f64,
 }
 

@@ -36,7 +36,7 @@ impl FromFile for Controls {
 
 impl Kind for Controls {
     type Data = LevelOf;
-    /// One run for each fault that can be planted, with its errors; NaN where it broke down.
+    /// One run for each fault that can be planted, with its errors; NaN if it broke down.
     type Found = Vec<(Fault, Norms)>;
 
     fn header(&self) -> &Header {

@@ -175,7 +175,7 @@ impl Convergence {
         norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors)
     }
 
-    /// The next level of a study that adds levels; `None` if the levels are listed or a case has failed.
+    /// The next action of a study that adds levels; `None` if the levels are listed or a case has failed.
     fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
         let budget = self.refine.budget.filter(|_| ran.iter().all(|ran| ran.found.is_ok()))?;
         let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;

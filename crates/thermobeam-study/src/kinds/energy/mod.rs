@@ -17,7 +17,7 @@
 //! | `[[case]]` | single scenes at the limits of the allowed range, each with its own claim and the way its run must end |
 //! | `[random]` | batches of random scenes, in lanes |
 //!
-//! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, where that is larger, by a bound on
+//! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, if that is larger, by a bound on
 //! the rounding errors of the step.
 
 mod beams;

@@ -18,7 +18,7 @@ const REMAINS: f64 = 50.0;
 /// Largest change of the energy in a step: the round-off of an energy of order 1 to 10.
 const ROUND_OFF: f64 = 1e-14;
 
-/// Where the paper's text puts the beginning of several steady states.
+/// The β below which the paper's text claims several steady states.
 const AS_PRINTED: f64 = -0.5;
 
 /// A beam with a tip closer to zero than this is straight: bent tips start at some 0.01, the lower obstacle.

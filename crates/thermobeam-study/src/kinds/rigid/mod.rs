@@ -161,7 +161,7 @@ fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
 }
 
 impl Kind for RigidStudy {
-    /// Compliance of the obstacles, and what is computed.
+    /// Compliance of the obstacles, and the computation.
     type Data = (f64, RunOf);
     type Found = ShownImpact;
 
@@ -321,7 +321,7 @@ mod tests {
 
     #[test]
     fn the_penetration_solves_its_integral_equation() {
-        // P' + (half-integral of P) = 1, with I^½ P(τ) = ∫₀^τ P(s) / √(π (τ - s)) ds; s = τ - r² takes the root away.
+        // P' + (half-integral of P) = 1, with I^½ P(τ) = ∫₀^τ P(s) / √(π (τ - s)) ds; s = τ - r² removes the root.
         let tau = 1.3_f64;
         let n = 2000;
         let dr = tau.sqrt() / n as f64;

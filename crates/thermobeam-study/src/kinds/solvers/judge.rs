@@ -155,7 +155,7 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
     Check::that(holds, "the first step ends in contact", format!("least contact force {least:.2e}"))
 }
 
-/// The map against α and γ: convergence where both are well below 1, divergence where α exceeds 1 by more than γ.
+/// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
     for FixedPointStep { alpha, gamma, converged, .. } in points(rows).map(|point| point.step) {

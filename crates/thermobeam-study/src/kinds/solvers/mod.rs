@@ -1,4 +1,4 @@
-//! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always does.
+//! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always converges.
 //!
 //! The paper does not treat the convergence of its iteration. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn`
 //! per iteration ([`contact_contraction`]), without contact by a factor γ < 1 ([`coupling_contraction`]); past α = 1

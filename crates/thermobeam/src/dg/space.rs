@@ -47,7 +47,7 @@ pub(super) struct Coupling {
     pub(super) stiff_u: f64,
     /// K between coefficients of φ.
     pub(super) stiff_phi: f64,
-    /// C, row of u, column of φ: `(N_φ, N_u')`; as Cᵀ also row of θ.
+    /// C, row of u (for θ it acts as Cᵀ), column of φ: `(N_φ, N_u')`.
     pub(super) u_phi: f64,
     /// Cᵀ, row of φ, column of u: `(N_u', N_φ)`.
     pub(super) phi_u: f64,

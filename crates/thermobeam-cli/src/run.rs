@@ -37,7 +37,7 @@ pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
     /// Measure the errors of the result against a run of any order, and find what to refine first by two further runs: one with
-    /// only space refined, one with only half the steps
+    /// only space refined, one with only the step length halved
     #[arg(long)]
     estimate_error: bool,
     /// Choose the cheapest run with at most this error; it uses dG for any scheme of the scene

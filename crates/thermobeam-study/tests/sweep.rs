@@ -160,7 +160,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
         assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
     }
     assert_eq!(all(&sweep, 2, HOUR), alone);
-    // Each case belongs to one share; a half-written journal is continued, and refused if a line is altered.
+    // Each case belongs to one share; a journal with half the lines is continued, and refused if a line is altered.
     let shares: Vec<Share> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
     let held = |case: usize| shares.iter().filter(|share| share.holds(sweep.case(case).hash())).count();
     assert!((0..sweep.cases()).all(|case| held(case) == 1));

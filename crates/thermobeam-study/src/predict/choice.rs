@@ -2,8 +2,8 @@
 //!
 //! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: the error of any other run could only be found by
 //! comparison with such a run. The needs of the scene's own scheme follow from two constants: with n elements and s steps its error
-//! is about `S (n0/n)^p + T (s0/s)^q`. S and T are the reductions of a coarse run's error by halving only h and only dt, divided by
-//! `1 - 2^-p` and `1 - 2^-q`.
+//! is about `S (n0/n)^p + T (s0/s)^q`. S and T are the reductions of a coarse run's error when only h or only dt is halved, divided
+//! by `1 - 2^-p` and `1 - 2^-q`.
 //!
 //! ```
 //! use thermobeam_study::predict::choice::{Quantity, choose};
@@ -261,7 +261,7 @@ struct Law {
 }
 
 impl Law {
-    /// From two runs: one with twice the elements, one with half of dt.
+    /// From two runs: one with twice the elements, one with dt/2.
     fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
         let [space, time] = finer(scene).map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));

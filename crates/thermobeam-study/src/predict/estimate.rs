@@ -1,8 +1,8 @@
 //! The errors of a scene's numbers: their differences to a run of any order whose own error is at most a tenth of them.
 //!
 //! What to refine first is measured as well: the scene is run with only space refined and with only steps refined, and both runs are
-//! compared with the same reference. A one-step scheme gets twice the elements or half of dt, dG gets p + 4 or half the steps. No rate
-//! is assumed: if impacts make errors fall irregularly, the table shows it.
+//! compared with the same reference. A one-step scheme gets twice the elements or dt/2, dG gets p + 4 or halved steps. No rate is
+//! assumed: if impacts make errors fall irregularly, the table shows it.
 
 use std::fmt;
 

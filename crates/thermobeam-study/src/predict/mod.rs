@@ -1,7 +1,7 @@
 //! Error estimates, and runs that reach a wanted error: both against a run of any order whose own error is known.
 //!
 //! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough. Its error is the difference to degree
-//!   p + 4 and to half the steps.
+//!   p + 4 and to halved steps.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
 //! * [`choice`]: the cheapest run with the wanted error, and the needs of the scene's own scheme.
 //!

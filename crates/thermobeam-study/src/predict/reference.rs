@@ -4,7 +4,7 @@
 //! longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt, `restart_dt` and `growth - 1`
 //! are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long; `restart_dt` is halved twice. The
 //! difference estimates the error of the coarser run: p + 4 leaves up to a third of the error where elements do not resolve a layer,
-//! half the steps leave less. If a difference exceeds half of the target, space or time is refined according to their ratio, and both
+//! halved steps leave less. If a difference exceeds half of the target, space or time is refined according to their ratio, and both
 //! runs are compared again. Before that, the first two steps are refined on their own.
 //!
 //! * The start: initial data that violate the condition at x = 1 make u(1, t) behave like t^(3/2). The error peaks inside the
@@ -335,8 +335,8 @@ fn refined(scene: &Scene, space: &Apart, time: &Apart) -> Option<Scene> {
     Some(Scene { method: Method::Dg(stepping), ..next })
 }
 
-/// The scene with only space refined, and with only steps refined: p + 4 or the longest elements halved, and half the steps, with even
-/// shorter first steps, since the error there falls more slowly; for a one-step scheme twice the elements, and half of dt.
+/// The scene with only space refined, and with only steps refined: p + 4 or the longest elements halved, and all steps halved, with
+/// even shorter first steps, since the error there falls more slowly; for a one-step scheme twice the elements, and dt/2.
 pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
     let Method::Dg(stepping) = scene.method else {
         let (elements, steps) = (scene.mesh.elements(), scene.steps());

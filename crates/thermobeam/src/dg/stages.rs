@@ -109,7 +109,7 @@ pub(super) struct DgStepper<const S: usize> {
 }
 
 impl<const S: usize> DgStepper<S> {
-    /// Allocates a factorisation for each of `lengths` lengths, and [`SPARE`] more; `loaded` if there will be loads.
+    /// With room for one factorisation per length, and [`SPARE`] more; `loaded` if there will be loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
         let motion = || Polynomials { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };

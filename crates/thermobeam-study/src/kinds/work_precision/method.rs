@@ -60,7 +60,7 @@ pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
 }
 
 impl OneStep {
-    /// Steps of unit size per step of the coarse run: 3 if a second run has half the step.
+    /// Steps of unit size per step of the coarse run: 3 if a second run halves the step.
     pub(super) fn runs(&self) -> f64 {
         if self.extrapolated { 3.0 } else { 1.0 }
     }

@@ -28,7 +28,7 @@ pub struct TimeUp {
 impl TimeUp {
     fn allowed(&self) -> String {
         match self.work {
-            Some(work) => format!("{work} node-steps, three times what it took when blessed (work)"),
+            Some(work) => format!("{work} passes over a node, three times what it took when blessed (work)"),
             None => format!("{} s", self.limit.as_secs_f64()),
         }
     }
@@ -101,6 +101,11 @@ impl Patience {
     /// For rounds of another kind, each long enough to look at the clock.
     pub fn of_long_rounds() -> Self {
         Self::new(Self::WORK)
+    }
+
+    /// Adds the work of further passes of the round that was done, such as iterations after the first.
+    pub fn also(&mut self, passes: usize) {
+        self.since = self.since.saturating_add(self.round.saturating_mul(passes));
     }
 
     /// Whether the round after number `step` may begin.

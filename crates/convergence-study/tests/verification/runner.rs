@@ -73,7 +73,7 @@ fn a_case_that_works_too_much_fails_at_the_same_step_for_any_number_of_threads()
     let [one, two] = [run(1), run(2)];
     let [stopped] = &one[0].failed_cases[..] else { panic!("{:?}", one[0].failed_cases) };
     assert!(
-        stopped.reason.starts_with("stopped at the limit of 1000000 node-steps, three times"),
+        stopped.reason.starts_with("stopped at the limit of 1000000 passes over a node, three times"),
         "{}",
         stopped.reason
     );

@@ -65,6 +65,7 @@ impl Motion for DgMotion {
         let outcome = simulation.step(until);
         *wall += started.elapsed();
         Ok(outcome?.map(|done| {
+            patience.also(done.iterations.saturating_sub(1));
             let phase = done.event.map_or(simulation.phase(), |event| event.from);
             Report { dt: done.dt, iterations: done.iterations, in_contact: phase != Phase::Free }
         }))

@@ -99,7 +99,9 @@ impl Driver {
         let started = self.is_timed.then(Instant::now);
         let outcome = self.simulation.advance();
         self.wall += started.map(|started| started.elapsed()).unwrap_or_default();
-        Ok(outcome?)
+        let report = outcome?;
+        self.patience.also(report.iterations.saturating_sub(1));
+        Ok(report)
     }
 
     /// Does a step without loads and returns it for observation.

@@ -135,7 +135,8 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
 /// The settings of all failing votes, except those `named` and those that most passing votes share.
 fn shared(votes: &[Vote], named: &[Setting]) -> Vec<Setting> {
     let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
-    let Some((first, others)) = failing.split_first() else { return vec![] };
+    // One item shares everything with itself.
+    let (Some((first, others)), true) = (failing.split_first(), failing.len() > 1) else { return vec![] };
     let is_named = |value: &str| named.iter().any(|(_, words)| names(words, value));
     let is_new = |(key, value): &&Setting| key != STUDY && !is_named(value);
     let of_all =

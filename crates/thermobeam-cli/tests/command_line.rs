@@ -58,7 +58,14 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     let mut read = 0;
-    for name in ["convergence-study", "thermobeam", "thermobeam-exact", "thermobeam-study", "thermobeam-cli"] {
+    for name in [
+        "convergence-judge",
+        "convergence-study",
+        "thermobeam",
+        "thermobeam-exact",
+        "thermobeam-study",
+        "thermobeam-cli",
+    ] {
         for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src")) {
             // A file that is not UTF-8 counts as empty.
             let text = fs::read_to_string(&path).unwrap_or_default();
@@ -67,7 +74,7 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
             read += 1;
         }
     }
-    assert!(read > 300, "{read}");
+    assert!(read > 250, "{read}");
     assert_eq!(naming("let a = \"now  cargo xtask run\"; // or cargo xtask\n/// as `cargo xtask`\n").len(), 1);
 }
 

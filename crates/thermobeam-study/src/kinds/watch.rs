@@ -67,12 +67,27 @@ pub(super) struct EnergyWatch {
     pub(super) worst: Worst,
     /// Sum of all residuals, with their signs, in units of the energy.
     pub(super) drift: f64,
+    /// Over the steps Σ r², and for each of [`TERMS`] Σ r T and Σ T².
+    squares: f64,
+    products: [[f64; 2]; TERMS.len()],
 }
+
+/// Terms of the balance.
+const TERMS: [&str; 5] = [
+    "the change of the energy",
+    "the viscous loss",
+    "the heat flow",
+    "the jumps of the velocities",
+    "the contact's gap",
+];
+
+/// Cosine between the residuals and a term's values from which on the term is named.
+const ALIKE: f64 = 0.99;
 
 impl EnergyWatch {
     /// Starts from a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {
-        Self { scale, worst: Worst::default(), drift: 0.0 }
+        Self { scale, worst: Worst::default(), drift: 0.0, squares: 0.0, products: [[0.0; 2]; TERMS.len()] }
     }
 
     /// Adds a step; `rounding` is evaluated only if needed.
@@ -84,6 +99,12 @@ impl EnergyWatch {
         let mut step =
             Worst { residual: residual / scale, rise: change / scale, open: residual / bound, ..Worst::default() };
         self.drift += balance.residual / scale;
+        self.squares += balance.residual * balance.residual;
+        let terms = [balance.change, balance.viscous, balance.thermal, balance.inertial, balance.contact];
+        for ([product, square], term) in self.products.iter_mut().zip(terms) {
+            *product += balance.residual * term;
+            *square += term * term;
+        }
         if !(residual <= bound && change <= 0.0) {
             let rounding = rounding().total();
             if !(residual <= bound) {
@@ -92,6 +113,17 @@ impl EnergyWatch {
             step.risen = change / max_or_nan(rounding, f64::MIN_POSITIVE);
         }
         self.worst = self.worst.max(step);
+    }
+
+    /// The term that does not close, and the factor of it that is left over; `None` where no term explains the residuals.
+    ///
+    /// A term T with a wrong factor 1 + c leaves r = c T in every step: the cosine of the angle between r and T is then 1, and
+    /// c = Σ r T / Σ T².
+    pub(super) fn open_term(&self) -> Option<(&'static str, f64)> {
+        let cosine = |[product, square]: [f64; 2]| (product / (self.squares * square).sqrt()).abs();
+        let named = TERMS.into_iter().zip(self.products).filter(|(_, sums)| cosine(*sums) > ALIKE);
+        let most = named.max_by(|(_, one), (_, next)| cosine(*one).total_cmp(&cosine(*next)));
+        most.map(|(term, [product, square])| (term, product / square))
     }
 }
 
@@ -137,4 +169,30 @@ pub(super) fn watched(
         failure: driver.ensemble().report(k).err(),
     };
     Ok(runs.iter().enumerate().map(ended).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_term_with_a_wrong_factor_is_named_with_what_it_leaves() {
+        let open_term = |residual: fn(&Balance) -> f64| {
+            let mut watch = EnergyWatch::new(1.0);
+            for k in 1..20 {
+                let (viscous, thermal) = (0.5_f64.powi(k), 0.8_f64.powi(k));
+                let (inertial, contact) = (f64::from(k % 3), f64::from(k % 2));
+                let change = -viscous - thermal;
+                let balance = Balance { change, viscous, thermal, inertial, contact, load: 0.0, residual: 0.0 };
+                let balance = Balance { residual: residual(&balance), ..balance };
+                watch.step(&balance, 1.0, || Rounding { residual: 0.0, contact: 0.0 });
+            }
+            watch.open_term()
+        };
+        let (term, left) = open_term(|balance| -0.5 * balance.viscous).expect("a term");
+        assert!(term == "the viscous loss" && (left + 0.5).abs() < 1e-12, "{term} {left}");
+        assert_eq!(open_term(|balance| 0.25 * balance.thermal).map(|(term, _)| term), Some("the heat flow"));
+        assert_eq!(open_term(|balance| balance.inertial - balance.contact), None);
+        assert_eq!(open_term(|_| 0.0), None);
+    }
 }

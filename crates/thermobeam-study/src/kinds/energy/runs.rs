@@ -91,6 +91,8 @@ pub struct Found {
     pub worst: Worst,
     /// Sum of all residuals with their signs, in units of the energy.
     pub drift: f64,
+    /// The term of the balance that does not close, and the factor of it that is left over.
+    pub open_term: Option<(&'static str, f64)>,
     /// Samples for the figures.
     pub samples: Vec<EnergyAt>,
 }
@@ -249,7 +251,8 @@ impl EnergyRun {
                 }
             }
         }
-        Ok(Found { worst: log.watch.worst, drift: log.watch.drift, ..log.found })
+        let EnergyWatch { worst, drift, .. } = log.watch;
+        Ok(Found { worst, drift, open_term: log.watch.open_term(), ..log.found })
     }
 
     /// Largest rise or residual of a run in units of its bound.
@@ -272,7 +275,11 @@ impl EnergyRun {
             evidence += &format!("; rise {rise:.1e}, residual {residual:.1e} of the energy ({allowed})");
             evidence += &format!("; sum of all residuals {:.1e}", drift.abs());
         }
-        let holds = ended && (*steps == 0 || share <= 1.0) && drifted;
+        let closes = *steps == 0 || share <= 1.0;
+        if let (false, Some((term, left))) = (closes, found.open_term) {
+            evidence += &format!("; in every step the residual is {left:.3} times {term}");
+        }
+        let holds = ended && closes && drifted;
         Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
     }
 

@@ -79,7 +79,7 @@ pub fn diagnose(
     let contrast = contrast(&votes(project, finished, changes));
     let first = first(finished, changes);
     let clearest = clearest(&failing);
-    let settings = contrast.settings.iter().chain(&contrast.shared);
+    let settings = contrast.settings.iter();
     let words = settings.map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
     let mut look_at: Vec<String> = words
         .filter_map(|word| project.places.iter().find(|(of, _)| names(word, of)).map(|(_, place)| (*place).to_owned()))

@@ -34,6 +34,7 @@ use super::prelude::*;
 use super::tables::{Layout, control, manufactured};
 use crate::error::free_vibration;
 use crate::exact::any_order::{self, ErrorMeter, ManufacturedLoad};
+use crate::run::dg::work_of_a_pass;
 use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
@@ -220,7 +221,7 @@ impl Kind for AnyOrder {
         let theta_a = self.solver.beam.theta_a;
         let mut level = simulation.level().clone();
         let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
-        let mut patience = Patience::new(simulation.space().blocks() * (resolution.time_degree + 1));
+        let mut patience = Patience::new(work_of_a_pass(&simulation, resolution.time_degree));
         let mut meter = ErrorMeter::new(&self.exact, theta_a, simulation.space());
         loop {
             patience.check(simulation.work().steps, || simulation.t())?;

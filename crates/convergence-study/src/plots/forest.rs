@@ -193,7 +193,7 @@ fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
     }
 }
 
-/// A small triangle with its tip on the frame.
+/// A small triangle whose point is on the frame.
 fn tick(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
     let back = x - 5.0 * direction;
     pen.polygon(&[(x, y), (back, y - 2.5), (back, y + 2.5)], colour);

@@ -91,3 +91,14 @@ fn patterns_reach_the_program_as_they_are() {
     let ran = run("quick", "a-space reports/*", 0, "reports/local/partial");
     assert_eq!(ran.arguments, "xtask\nverify\n--tier\nquick\na-space\nreports/*\n");
 }
+
+#[test]
+fn what_the_action_builds_is_what_it_runs() {
+    let read = |path: &str| fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)).unwrap();
+    let profile = |path: &str, command: &str| {
+        read(path).split_once(command).map(|(_, rest)| rest.split(' ').next().unwrap().to_owned())
+    };
+    let run = profile(".cargo/config.toml", "xtask = \"run --profile ");
+    let built = profile(".github/actions/verify/action.yml", "cargo build --profile ");
+    assert!(run.is_some() && run == built, "{run:?} {built:?}");
+}

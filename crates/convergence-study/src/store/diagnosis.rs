@@ -79,8 +79,7 @@ pub fn diagnose(
     let contrast = contrast(&votes(project, finished, changes));
     let first = first(finished, changes);
     let clearest = clearest(&failing);
-    let settings = contrast.settings.iter();
-    let words = settings.map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
+    let words = contrast.settings.iter().map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
     let mut look_at: Vec<String> = words
         .filter_map(|word| project.places.iter().find(|(of, _)| names(word, of)).map(|(_, place)| (*place).to_owned()))
         .collect();
@@ -235,6 +234,16 @@ fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
     groups.into_iter().map(line).collect()
 }
 
+/// The first of several items, and how many more there are.
+fn some(mut items: Vec<String>, what: &str) -> String {
+    let more = items.len().saturating_sub(NAMED);
+    items.truncate(NAMED);
+    if more > 0 {
+        items.push(format!("and {more} more{what}"));
+    }
+    items.join("; ")
+}
+
 impl Diagnosis {
     /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
@@ -248,18 +257,13 @@ impl Diagnosis {
             let one = |(claim, count): &(String, usize)| {
                 if *count > 1 { format!("{claim} ({count} times)") } else { claim.clone() }
             };
-            let more = self.checks.len().saturating_sub(NAMED);
-            let more = if more > 0 { format!("; and {more} more") } else { String::new() };
-            lines.push(("not so", self.checks.iter().take(NAMED).map(one).collect::<Vec<_>>().join("; ") + &more));
+            lines.push(("not so", some(self.checks.iter().map(one).collect(), "")));
         }
         for (count, Resembling { mistake, file, likeness, .. }) in self.resembles.iter().enumerate() {
             lines.push((if count == 0 { "resembles" } else { "" }, format!("\"{mistake}\" ({likeness:.2})  {file}")));
         }
         if !self.moved.is_empty() {
-            let more = self.moved.len().saturating_sub(NAMED);
-            let more = if more > 0 { format!("; and {more} more groups") } else { String::new() };
-            let groups = self.moved.iter().take(NAMED).cloned().collect::<Vec<_>>().join("; ");
-            lines.push(("moved", format!("in studies that pass {groups}{more}")));
+            lines.push(("moved", format!("in studies that pass {}", some(self.moved.clone(), " groups"))));
         }
         if !self.look_at.is_empty() {
             lines.push(("look at", self.look_at.join("; ")));

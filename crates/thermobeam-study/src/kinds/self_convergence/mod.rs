@@ -42,6 +42,8 @@
 
 mod judge;
 
+use thermobeam::simulation::Simulation;
+
 use super::prelude::*;
 use super::tables::{Discretisation, Refine, claims, discretisations};
 pub use crate::error::reference::Traced;
@@ -219,9 +221,7 @@ impl SelfConvergence {
         let scene = at(&self.scene, mesh.clone(), steps, self.t_end);
         let method = Method::OneStep(Stepping { scheme: self.scheme, ..scene.one_step()? });
         let scene = Scene { method, ..scene };
-        let sample = |simulation: &thermobeam::simulation::Simulation, level: &Level| {
-            (level.clone(), simulation.energy(level).total())
-        };
+        let sample = |simulation: &Simulation, level: &Level| (level.clone(), simulation.energy(level).total());
         let trace = traced(&scene, self.samples, sample)?;
         let (levels, energies) = trace.samples.into_iter().unzip();
         Ok(Traced { mesh, levels, energies, tip_range: trace.tip })

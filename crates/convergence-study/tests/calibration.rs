@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use convergence_study::judge::calibration::{ALL, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule};
+use convergence_study::judge::calibration::{ALL, Row, Sheet, bars::of_the_bars, grids::of_grids, of_the_rule};
 
 static RULE: LazyLock<Vec<Sheet>> = LazyLock::new(|| of_the_rule(20, 1).expect("usable settings"));
 

@@ -14,7 +14,7 @@
 //! ```
 
 use convergence_study::judge::calibration::{
-    CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, RULES, Row, Sheet, grids::of_grids, of_the_bars, of_the_rule,
+    CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, RULES, Row, Sheet, bars::of_the_bars, grids::of_grids, of_the_rule,
 };
 
 use convergence_study::plots::look::Marks;

@@ -15,14 +15,13 @@
 //! [`RateTable::reading`] says in a line how the table was read. Ambiguous tables are refused, with the command that
 //! works. `NaN` and `inf` are errors; a column with one of them fails.
 
+mod columns;
 mod digits;
 pub(crate) mod names;
 mod number;
 mod pairs;
 mod roles;
-mod rows;
 mod step;
-mod table;
 mod text;
 
 use std::io;
@@ -30,8 +29,8 @@ use std::path::Path;
 
 use crate::input::{self, InputError};
 use crate::text::names::quoted;
+pub use columns::limit;
 pub use digits::Column;
-pub use table::limit;
 
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]

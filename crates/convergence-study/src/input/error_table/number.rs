@@ -4,8 +4,7 @@
 const DASHES: [&str; 12] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)"];
 
 /// Markup around a number that does not change it, and what it stands for.
-const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\tfrac=\\frac \\dfrac=\\frac \\num= \
-    \\textbf= \\mathbf= \\bfseries= \\bf= \\displaystyle= \\left= \\right=";
+const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\num= \\textbf= \\mathbf= \\bf= {}=";
 
 /// A number, and the digits it is printed with.
 #[derive(Debug, Clone, Copy)]
@@ -43,53 +42,39 @@ pub(super) fn is_dash(cell: &str) -> bool {
 /// * `decimal_comma`: whether `0,1` may be a number, because commas do not separate cells. `1,024` is refused: it may
 ///   be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
-    if let Some(number) = real(cell) {
+    // Most cells that are no number are words, perhaps a hundred thousand; two numbers are not one.
+    let is_other = || {
+        let starts = cell.is_empty() || cell.starts_with(char::is_alphabetic);
+        starts || cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1
+    };
+    if let Some(number) = real(cell).or_else(|| cell.strip_prefix('(').and_then(|cell| real(cell.strip_suffix(')')?))) {
         return Some(number);
-    }
-    // Two numbers with a blank between them are not one number. Most other cells are words, perhaps a hundred thousand.
-    let is_word = cell.is_empty() || cell.starts_with(char::is_alphabetic);
-    if is_word || cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1 {
+    } else if is_other() {
         return None;
     }
     let (edge, others) = cell.split_once(['x', '×']).unwrap_or((cell, ""));
     if edge.bytes().all(|c| c.is_ascii_digit()) && others.split(['x', '×']).all(|other| other == edge) {
         return real(edge);
     }
-    let plain = undressed(cell);
-    // Three digits after a comma, and no zero before it, may be thousands.
-    let may_be_thousands = |(whole, rest): (&str, &str)| {
-        let is_zero = whole.trim_start_matches(['+', '-']).trim_start_matches('0').is_empty();
-        rest.len() == 3 && rest.bytes().all(|c| c.is_ascii_digit()) && !is_zero
-    };
-    let is_decimal =
-        decimal_comma && plain.matches(',').count() == 1 && !plain.split_once(',').is_some_and(may_be_thousands);
-    value(&if is_decimal { plain.replace(',', ".") } else { plain })
-}
-
-/// A text without any of these marks at either end.
-pub(super) fn unmarked<'t>(text: &'t str, marks: &[&str]) -> &'t str {
-    let mut text = text.trim();
-    while let Some(inner) = marks.iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark)) {
-        text = inner.trim();
+    let mut text = cell.trim_matches(|c| "`_".contains(c)).to_owned();
+    if let Some(bold) = text.strip_prefix("**").and_then(|text| text.strip_suffix("**")) {
+        text = bold.to_owned();
     }
-    text
-}
-
-/// The cell without markup of LaTeX and Markdown, with `*` for times, `^` for powers and `/` for fractions.
-fn undressed(cell: &str) -> String {
-    let text = unmarked(cell, &["**", "__", "`", "*", "_"]).to_owned();
     let marks = DRESS.split_whitespace().filter_map(|mark| mark.split_once('='));
-    let mut text = marks.fold(text, |text, (from, to)| text.replace(from, to));
-    if let Some((before, fraction)) = text.split_once("\\frac") {
-        text = before.to_owned() + &fraction.replacen("}{", "/", 1);
-    }
+    text = marks.fold(text.replace("\\frac{", "").replace("}{", "/"), |text, (from, to)| text.replace(from, to));
     text.retain(|c| !c.is_whitespace() && !matches!(c, '$' | '{' | '}'));
-    text
+    match text.split_once(',') {
+        // Three digits after a comma, and no zero before it, may be thousands.
+        Some((whole, rest)) if rest.len() == 3 && !matches!(whole, "0" | "-0") => None,
+        Some((whole, rest)) if decimal_comma => value(&format!("{whole}.{rest}")),
+        Some(_) => None,
+        None => value(&text),
+    }
 }
 
 /// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number 0.1 twice.
 fn value(text: &str) -> Option<Number> {
-    let integer = |text: &str| text.trim_start_matches('(').trim_end_matches(')').parse::<i32>().ok();
+    let integer = |text: &str| text.trim_matches(['(', ')']).parse::<i32>().ok();
     if let Some((above, below)) = text.split_once('/').filter(|(_, below)| !below.contains('/')) {
         return Some(Number { value: value(above)?.value / value(below)?.value, place: None });
     }

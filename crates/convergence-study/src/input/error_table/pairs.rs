@@ -5,6 +5,9 @@ use super::number::{is_dash, number};
 use super::text::RawTable;
 use crate::text::number::counted;
 
+/// Levels of a log before a name.
+const LEVELS: [&str; 4] = ["INFO ", "DEBUG ", "WARNING ", "ERROR "];
+
 /// A name and the numbers after it.
 struct Pair<'t> {
     name: &'t str,
@@ -50,18 +53,19 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
         if !((begins || is_last) && number(word, false).is_some() || is_marked && is_last && is_word()) {
             continue;
         }
-        depth = (depth + before.matches('[').count()).saturating_sub(before.matches(']').count());
         let (words, marks) = before.split_at(before.trim_end_matches(is_mark).len());
+        depth = (depth + marks.matches('[').count()).saturating_sub(before.matches(']').count());
         let words = words.rsplit('\n').next().unwrap_or_default();
         // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
         let cuts = |c: char| matches!(c, ',' | ';' | '{' | '\t') || (c == '(' && !words.contains(')'));
         let name = words.rsplit(cuts).next().unwrap_or_default();
         let name = name.trim_matches(is_mark).trim_start_matches(['-', '>', ' ']);
-        let name = name.rsplit(": ").next().unwrap_or_default().trim_matches(is_mark);
+        let name = name.rsplit([':', ']']).next().unwrap_or_default().trim_matches(is_mark);
+        let name = LEVELS.iter().find_map(|level| name.strip_prefix(level)).unwrap_or(name).trim_start();
         // The first number of a line may have its name on the line above: `"h": [`.
         let is_first = label == 0 || before.contains('\n');
         let is_near = !marks.contains('\n') || marks.contains([':', '=', '[']);
-        let has_name = !name.is_empty() && is_near && !marks.contains(['(', ',', ';', '{']);
+        let has_name = name.contains(char::is_alphabetic) && is_near && !marks.contains(['(', ',', ';', '{']);
         is_row = !has_name && (is_first || is_row);
         match pairs.last_mut() {
             _ if has_name => pairs.push(Pair { name, values: vec![word], is_marked }),

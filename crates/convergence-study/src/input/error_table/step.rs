@@ -1,7 +1,8 @@
 //! Which column is the step, or the count that it is computed from.
 
+use super::columns::Cells;
 use super::names::{Word, reciprocal};
-use super::table::{Cells, NEIGHBOURS, TableReader, listed};
+use super::roles::{NEIGHBOURS, TableReader, listed};
 use crate::input::InputError;
 use crate::text::number::plain_text;
 
@@ -37,17 +38,16 @@ impl TableReader<'_> {
             let is_free = |column: &Cells<'_>| wanted(column.word) && !column.is_claimed && !column.is_constant();
             (0..self.columns.len()).filter(|k| is_free(&self.columns[*k])).collect()
         };
-        let names = |columns: &[usize]| columns.iter().map(|k| self.columns[*k].name.clone()).collect::<Vec<_>>();
-        if let [first, others @ ..] = &of(|word| word == Word::Step)[..] {
+        let steps = of(|word| word == Word::Step);
+        if let [first, others @ ..] = &steps[..] {
             if let Some(other) = others.iter().find(|k| !self.columns[*first].is_in_proportion(&self.columns[**k])) {
-                let all = names(&[&[*first], others].concat()).join(", ");
-                let found = all + &self.with_step(*first) + &self.with_step(*other);
+                let found = self.names(&steps).join(", ") + &self.with_step(*first) + &self.with_step(*other);
                 return Err(self.refuse("one column of steps, or --step COLUMN", &found));
             }
-            let alike = listed(names(others).iter().map(|name| format!("`{name}`")));
-            return Ok((*first, if alike.is_empty() { alike } else { format!(", in proportion to {alike}") }));
+            let alike = format!(", in proportion to {}", self.quoted(others));
+            return Ok((*first, if others.is_empty() { String::new() } else { alike }));
         }
-        let rank = |k: &usize| if let Word::Count(rank) = self.columns[*k].word { rank } else { u8::MAX };
+        let rank = |k: &usize| if let Word::Count(rank) = self.columns[*k].word { rank } else { usize::MAX };
         if let Some(count) = of(|word| matches!(word, Word::Count(_))).into_iter().min_by_key(rank) {
             return Ok((count, String::new()));
         }
@@ -70,27 +70,22 @@ impl TableReader<'_> {
             };
             format!("`{}`{why}", column.name)
         };
-        let may_be = |k: &usize| {
-            let column = &self.columns[*k];
-            unknown.contains(k) && !column.is_number.contains(&false) && !column.name.contains(['^', '²'])
-        };
-        let command = first.filter(may_be).map_or(String::new(), |k| self.with_step(k));
-        let found = listed(self.columns.iter().map(described)) + &command;
+        let command = first.filter(|k| unknown.contains(k) && !self.columns[*k].is_number.contains(&false));
+        let found = listed(self.columns.iter().map(described)) + &command.map_or(String::new(), |k| self.with_step(k));
         Err(self.refuse("a column of steps: add `h`, or name it with --step", &found))
     }
 
     /// The command with a column as the step.
     fn with_step(&self, column: usize) -> String {
         let name = self.columns[column].name.trim_start_matches("column ").to_owned();
-        let dim = if self.is_count(column) { Some(1.0) } else { self.choice.dim };
+        let dim = self.choice.dim.or(self.is_count(column).then_some(1.0));
         self.choice.command(|choice| (choice.step, choice.dim) = (Some(name), dim))
     }
 
     /// The dimension for a column that counts; `None` for a step.
     fn dim(&self, step: usize) -> Result<Option<f64>, InputError> {
         let Cells { name, word, .. } = &self.columns[step];
-        let is_edge = reciprocal(name).is_some()
-            || matches!(name.to_lowercase().as_str(), "steps" | "timesteps" | "time steps" | "nt");
+        let is_edge = reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
         let is_count = self.is_count(step);
         let with = |dim: Option<f64>| self.choice.command(|choice| choice.dim = dim);
         let (expected, found) = match self.choice.dim {
@@ -105,7 +100,7 @@ impl TableReader<'_> {
             None if is_count => {
                 let [edge, plane, space] = [1.0, 2.0, 3.0].map(|dim| with(Some(dim)));
                 let commands = match word {
-                    Word::Count(1) | Word::Step => edge,
+                    Word::Step => edge,
                     _ if edge.is_empty() => edge,
                     _ => format!("{edge}  # along an edge{plane}  # all, in the plane{space}  # all, in space"),
                 };
@@ -120,24 +115,19 @@ impl TableReader<'_> {
 
     /// Whether a column counts: by its name, or because it has whole numbers that grow while errors fall.
     fn is_count(&self, column: usize) -> bool {
-        let is_whole = |values: &[f64]| values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
-        let Cells { values, word, .. } = &self.columns[column];
+        let cells = &self.columns[column];
         // The number of columns that fall with it, minus those that grow or, like it, are undecided.
-        let alike = |k: usize| {
-            let others = &self.columns[k].values;
-            if k == column || is_whole(others) || others.iter().any(|other| !(*other > 0.0)) {
-                return -1.0;
-            }
-            let signs = values.windows(2).zip(others.windows(2));
-            signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum::<f64>().signum()
+        let alike = |other: &Cells<'_>| match other.is_whole() || other.values.iter().any(|value| !(*value > 0.0)) {
+            true => -1.0,
+            false => cells.together(other).signum(),
         };
-        let near = (0..self.columns.len().min(NEIGHBOURS)).filter(|k| !self.columns[*k].is_number.contains(&false));
-        let together = || near.map(alike).sum::<f64>();
-        match word {
+        let near = (0..self.columns.len().min(NEIGHBOURS)).filter(|k| *k != column).map(|k| &self.columns[k]);
+        let together = near.filter(|other| !other.is_number.contains(&false)).map(alike).sum::<f64>();
+        match cells.word {
             Word::Count(_) => true,
-            _ if !is_whole(values) || values.iter().all(|value| *value == 1.0) => false,
-            Word::Step => together() < 0.0,
-            _ => together() <= 0.0,
+            _ if !cells.is_whole() || cells.values.iter().all(|value| *value == 1.0) => false,
+            Word::Step => together < 1.0,
+            _ => together <= 1.0,
         }
     }
 }

@@ -1,0 +1,148 @@
+//! The columns of a table, and what their numbers say.
+
+use std::f64::consts::LN_2;
+
+use super::names::Word;
+
+/// Largest relative difference of two equal ratios, given their digits.
+const SAME: f64 = 1e-5;
+/// Largest ratio between numbers that tend to a limit.
+const NEAR: f64 = 1.5;
+/// Errors fall at least by this factor from level to level if their column has a name like one of rates.
+const STEEP: f64 = 0.72;
+
+/// A column, row by row.
+pub(super) struct Cells<'t> {
+    /// Its name in messages.
+    pub(super) name: String,
+    pub(super) word: Word,
+    pub(super) texts: Vec<&'t str>,
+    /// NaN if there is no number.
+    pub(super) values: Vec<f64>,
+    pub(super) is_number: Vec<bool>,
+    /// Half a unit of the last place of each number.
+    pub(super) halves: Vec<f64>,
+    /// Whether `--columns`, `--values` or `--order` names it.
+    pub(super) is_claimed: bool,
+    /// Whether it counts the rows.
+    pub(super) is_index: bool,
+}
+
+impl Cells<'_> {
+    /// Puts the rows in this order.
+    pub(super) fn sort(&mut self, order: &[usize]) {
+        self.texts = order.iter().map(|row| self.texts[*row]).collect();
+        self.values = order.iter().map(|row| self.values[*row]).collect();
+        self.is_number = order.iter().map(|row| self.is_number[*row]).collect();
+        self.halves = order.iter().map(|row| self.halves[*row]).collect();
+    }
+
+    pub(super) fn is_constant(&self) -> bool {
+        self.values.len() > 1 && self.values.iter().all(|value| *value == self.values[0])
+    }
+
+    pub(super) fn is_whole(&self) -> bool {
+        self.values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0)
+    }
+
+    /// Whether each number is positive and much smaller than the previous one.
+    pub(super) fn is_steep(&self) -> bool {
+        self.values.len() > 2 && self.values.windows(2).all(|two| 0.0 < two[1] && two[1] <= STEEP * two[0])
+    }
+
+    fn widest_half(&self) -> f64 {
+        self.halves.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The least ratio by which the column falls or grows, if all ratios are equal or its numbers are whole multiples
+    /// or fractions of one of them.
+    pub(super) fn regular(&self) -> Option<f64> {
+        let mut values = self.values.clone();
+        values.sort_by(f64::total_cmp);
+        let (least, most) = (*values.first()?, *values.last()?);
+        let same = SAME.max(2.0 * self.widest_half() / least).min(0.02);
+        let ratios: Vec<f64> = values.windows(2).map(|two| two[1] / two[0]).collect();
+        let ratio = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+        let is_whole = |multiple: f64| (multiple / multiple.round() - 1.0).abs() < SAME;
+        let is_regular = ratios.iter().all(|one| (one / ratio - 1.0).abs() < same)
+            || values.iter().all(|value| is_whole(most / value))
+            || values.iter().all(|value| is_whole(value / least));
+        (ratios.len() > 1 && is_regular && ratio > 1.0 && ratio.is_finite() && least > 0.0).then_some(ratio)
+    }
+
+    /// Whether two columns are the steps of one mesh in several directions, or of space and time.
+    pub(super) fn is_in_proportion(&self, other: &Self) -> bool {
+        let (a, b) = (&self.values, &other.values);
+        a.iter().zip(b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
+    }
+
+    /// The number of steps in which both fall or both grow, minus those in which one falls and the other grows.
+    pub(super) fn together(&self, other: &Self) -> f64 {
+        let signs = self.values.windows(2).zip(other.values.windows(2));
+        signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum()
+    }
+
+    /// Whether these are the rates or the reduction factors of an error, to its digits, on the finer or on the coarser
+    /// level of each pair.
+    ///
+    /// * `steps`: of the rows, the coarsest first.
+    pub(super) fn are_rates_of(&self, error: &Self, steps: &[f64]) -> bool {
+        let (last, errors) = (steps.len() - 1, &error.values);
+        if last < 2 || !errors.iter().all(|value| *value > 0.0) || errors[last] >= 0.7 * errors[0] {
+            return false;
+        }
+        let half = 1.2 * self.widest_half();
+        let is_same = |k: usize, found: f64, measure: usize| {
+            let reduction = errors[k] / errors[k + 1];
+            let doubt = error.halves[k] / errors[k] + error.halves[k + 1] / errors[k + 1];
+            let (value, doubt) = match measure {
+                0 => (reduction, doubt * reduction),
+                1 => (reduction.log2(), doubt / LN_2),
+                _ => (reduction.ln() / (steps[k] / steps[k + 1]).ln(), doubt / (steps[k] / steps[k + 1]).ln()),
+            };
+            (found - value).abs() <= (half + doubt).min(0.25) + SAME * value.abs()
+        };
+        let matches = |shift: usize, measure| (0..last).all(|k| is_same(k, self.values[k + shift], measure));
+        // Three rates are proof enough; two need a name, or an end without one.
+        let is_end = |row: usize| !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row]);
+        let may = |shift: &usize| last > 2 || self.word == Word::Rate || is_end(if *shift == 1 { 0 } else { last });
+        [1, 0].into_iter().filter(may).any(|shift| (0..3).any(|measure| matches(shift, measure)))
+    }
+
+    /// Whether the error of no name that is known falls, tends to a limit, or does neither.
+    pub(super) fn trend(&self, step: &Self) -> Trend {
+        let numbers: Vec<f64> = self.values.iter().copied().filter(|value| !value.is_nan()).collect();
+        let (first, last) = (numbers[0], numbers[numbers.len() - 1]);
+        let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count() >= numbers.len() - 1 && last < first;
+        let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
+        match limit(&numbers).filter(|_| !is_whole) {
+            _ if self.is_constant() => Trend::Doubtful("the same in each row"),
+            _ if is_whole && numbers.windows(2).all(|two| two[0] < two[1]) => Trend::Grows,
+            _ if is_whole && !falls => Trend::Doubtful("whole numbers that do not fall"),
+            _ if step.is_in_proportion(self) => Trend::Doubtful("in proportion to the step"),
+            Some(limit) => Trend::Limit(limit),
+            None if falls => Trend::Falls,
+            None => Trend::Doubtful("growing or standing still where the step falls"),
+        }
+    }
+}
+
+/// How the numbers of a column go on as the step falls.
+pub(super) enum Trend {
+    Falls,
+    /// In whole numbers, like a count.
+    Grows,
+    Limit(f64),
+    Doubtful(&'static str),
+}
+
+/// The limit of numbers, if it is near the last of them and not zero.
+pub fn limit(numbers: &[f64]) -> Option<f64> {
+    let [.., a, b, c] = *numbers else { return None };
+    let shrinks = (c - b) / (b - a);
+    let limit = if shrinks.abs() < 0.95 { c + (c - b) * shrinks / (1.0 - shrinks) } else { c };
+    let sizes = || numbers.iter().map(|value| value.abs());
+    let is_near = sizes().fold(0.0, f64::max) < NEAR * sizes().fold(f64::INFINITY, f64::min) && b != c;
+    let settles = b != a && shrinks.abs() < 0.95 && limit / c > 0.7;
+    (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite()).then_some(limit)
+}

@@ -76,6 +76,13 @@ impl Cells<'_> {
         a.iter().zip(b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
     }
 
+    /// Whether this column counts what the other one measures.
+    pub(super) fn is_inverse(&self, other: &Self) -> bool {
+        let products = || self.values.iter().zip(&other.values).map(|(count, step)| count * step);
+        let least = products().fold(f64::INFINITY, f64::min);
+        self.is_whole() && !other.is_whole() && products().all(|product| product / least - 1.0 < SAME)
+    }
+
     /// The number of steps in which both fall or both grow, minus those in which one falls and the other grows.
     pub(super) fn together(&self, other: &Self) -> f64 {
         let signs = self.values.windows(2).zip(other.values.windows(2));

@@ -59,7 +59,10 @@ impl TableReader<'_> {
         if let [(k, ratio), others @ ..] = &regular[..]
             && (others.is_empty() || Some(*k) == first && others.iter().all(|(_, other)| other >= ratio))
         {
-            return Ok((*k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
+            // A count beside its own step: `4 0.25`.
+            let inverse = |other: &&(usize, f64)| self.columns[*k].is_inverse(&self.columns[other.0]);
+            let k = others.iter().find(inverse).map_or(*k, |(other, _)| *other);
+            return Ok((k, format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4))));
         }
         let described = |column: &Cells<'_>| {
             let why = match column.word {

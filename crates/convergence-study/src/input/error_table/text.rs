@@ -17,18 +17,19 @@ pub(super) struct RawTable<'t> {
 }
 
 /// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh ended lines with \r.
-const MARKS: [(&str, &str); 8] = [
+const MARKS: [(&str, &str); 9] = [
     ("\u{feff}", ""),
     ("\r\n", "\n"),
     ("\r", "\n"),
     ("│", "|"),
     ("┃", "|"),
     ("┆", "|"),
+    ("║", "|"),
     ("array(", "("),
     ("\\hline", "      "),
 ];
 /// Types of columns and units, as data frames write them below the names.
-const TYPES: [&str; 7] = ["f64", "i64", "float64", "int64", "float", "int", "str"];
+const TYPES: [&str; 8] = ["double", "f64", "i64", "float64", "int64", "float", "int", "str"];
 
 /// A text without colours, and a line for each of nested lists without names.
 pub(super) fn plain(text: &str) -> String {
@@ -113,9 +114,9 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
 
 /// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two cells.
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
-    let line = if separator == Some('|') { line.trim() } else { line };
-    let line = line.strip_prefix('|').filter(|_| separator == Some('|')).unwrap_or(line);
-    let line = line.strip_suffix('|').filter(|_| separator == Some('|')).unwrap_or(line);
+    // A frame has an edge on either side; without one, the last cell may be blank.
+    let framed = line.trim().strip_prefix('|').filter(|_| separator == Some('|'));
+    let line = framed.map_or(line, |line| line.strip_suffix('|').unwrap_or(line));
     let (mut quoted, mut is_start) = (false, true);
     let separates = |c: char| {
         quoted ^= c == '"' && (quoted || is_start);

@@ -11,9 +11,9 @@ mod planted;
 
 use std::io;
 
-use convergence_study::cli::exit::{Ended, Outcome, Unusable};
-use convergence_study::cli::long::LongRun;
-use convergence_study::cli::{interrupt, output, screen, workspace};
+use convergence_study::cli::exit::{self, Ended, Outcome, Unusable};
+use convergence_study::cli::running::LongRun;
+use convergence_study::cli::{screen, workspace};
 use convergence_study::report;
 use convergence_study::store::atomic;
 use convergence_study::study::outcome::Table;
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if arguments.list {
         let rows: Vec<_> =
             chosen.iter().map(|one| vec![one.name.clone(), one.file.clone(), one.study.clone()]).collect();
-        output::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
+        screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
         return Ok(Ended::Well);
     }
     // All of them are checked before the first is compiled.
@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let copy = Copy::of(&root)?;
     let passing = copy.as_it_is(arguments.recorded)?.seconds;
     let count = chosen.len();
-    interrupt::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
+    exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
     let mut all = vec![];
     let mut complaints = vec![];
     for (regression, text) in chosen.iter().zip(&planted) {
@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if all.is_empty() {
         return Err(Unusable::because(&complaints.join("\n")));
     }
-    complaints.iter().for_each(|complaint| output::complain(complaint));
+    complaints.iter().for_each(|complaint| screen::complain(complaint));
     let all = judged::judged(&root, all)?;
     let rows: Vec<Vec<String>> = all.iter().map(|one| row(one.regression, &one.found)).collect();
     let named = all.iter().filter(|one| is_named(one.regression, &one.found)).count();
@@ -86,12 +86,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let rest = if all.len() < count { format!(", {} more are not recorded", count - all.len()) } else { String::new() };
     let sentence = format!("{named} of {} mistakes are noticed by the study named for them{rest}", all.len());
     let scores = judged::page(&all, passing);
-    output::print(&format!("{}{scores}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
+    screen::print(&format!("{}{scores}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
     if arguments.write {
         atomic::write(&reported, page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores)?;
         let prints = serde_json::to_string(&judged::fingerprints(&all)).map_err(io::Error::from)?;
         atomic::write(&root.join(FINGERPRINTS), prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n")?;
-        output::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
+        screen::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
     }
     Ok(if named == count { Ended::Well } else { Ended::Badly })
 }

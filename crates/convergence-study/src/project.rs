@@ -1,6 +1,6 @@
 //! A project's description of itself for the harness.
 
-use crate::study::settings::{self, Setting};
+use crate::study::header::{self, Setting};
 use crate::study::{Header, Kinds};
 
 /// A project whose studies the harness runs, judges and reports on.
@@ -36,7 +36,7 @@ impl Project {
     /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` adds kinds.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
-        let settings = settings::of_file;
+        let settings = header::of_file;
         Self {
             name,
             command,

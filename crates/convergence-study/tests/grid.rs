@@ -2,15 +2,15 @@
 
 use convergence_study::judge::grid::{Adding, GridErrors};
 use convergence_study::judge::verdict::{Reason, Verdict};
-use convergence_study::study::Claim;
-use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
+use convergence_study::study::grid::{Grid, GridColumn, Model};
+use convergence_study::study::{Claim, Outcome};
 
 fn halved(first: f64, levels: usize) -> Vec<f64> {
     (0..levels).map(|k| first * 0.5_f64.powi(k as i32)).collect()
 }
 
 /// The verdict on errors at all pairs of steps.
-fn judged(h: &[f64], dt: &[f64], claims: [f64; 2], tolerance: f64, error: impl Fn(f64, f64) -> f64) -> GridVerdict {
+fn judged(h: &[f64], dt: &[f64], claims: [f64; 2], tolerance: f64, error: impl Fn(f64, f64) -> f64) -> Outcome {
     let points: Vec<[f64; 2]> = h.iter().flat_map(|&h| dt.iter().map(move |&dt| [h, dt])).collect();
     let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
     let space = Claim::new(claims[0], tolerance);
@@ -18,7 +18,7 @@ fn judged(h: &[f64], dt: &[f64], claims: [f64; 2], tolerance: f64, error: impl F
     Grid { points, times: dt.len(), columns, model: Model::Either }.judge()
 }
 
-fn verdicts(verdict: &GridVerdict) -> [Verdict; 3] {
+fn verdicts(verdict: &Outcome) -> [Verdict; 3] {
     [verdict.rates[0].1.verdict, verdict.rates[1].1.verdict, verdict.checks[0].verdict]
 }
 

@@ -14,9 +14,9 @@ use thermobeam_study::timing::{self, Rival};
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
-use convergence_study::cli::long::LongRun;
-use convergence_study::cli::output::Format;
-use convergence_study::cli::{output, screen, workspace};
+use convergence_study::cli::running::LongRun;
+use convergence_study::cli::screen::{self, Format};
+use convergence_study::cli::workspace;
 use convergence_study::judge::verdict::Verdict;
 
 /// Elements of the scaling table.
@@ -114,7 +114,7 @@ impl Page {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
         self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
         if self.shows {
-            output::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
+            screen::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
         }
         self.clock.done(&table.title);
         self.tables.push(table);

@@ -10,7 +10,7 @@ use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
-use convergence_study::cli::output;
+use convergence_study::cli::screen;
 use convergence_study::judge::verdict::Verdict;
 
 /// List all steady states of a scene
@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Ok(states) => states,
         Err(error @ EquilibriumError::Parameter(_)) => return Err(Unusable::file(&arguments.scene, &error)),
         Err(error) => {
-            output::complain(&format!("{}: {error}", arguments.scene.display()));
+            screen::complain(&format!("{}: {error}", arguments.scene.display()));
             return Ok(Ended::Badly);
         }
     };

@@ -19,12 +19,10 @@ use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::Scene;
 
-use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::exit::{self, Ended, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
-use convergence_study::cli::interrupt;
-use convergence_study::cli::output;
-use convergence_study::cli::running;
-use convergence_study::cli::running::seconds;
+use convergence_study::cli::running::{self, seconds};
+use convergence_study::cli::screen;
 use convergence_study::judge::verdict::Verdict;
 
 use accuracy::Planned;
@@ -68,7 +66,7 @@ impl Arguments {
         let verdict = if complaint.is_none() { Verdict::Pass } else { Verdict::Fail };
         self.flags.show("run", verdict, object, &self.flags.words(verdict, sentence, text))?;
         if let Some(complaint) = complaint {
-            output::complain(&format!("{}: {complaint}", self.scene.display()));
+            screen::complain(&format!("{}: {complaint}", self.scene.display()));
         }
         Ok(verdict.into())
     }
@@ -95,7 +93,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Ok(planned) => planned,
         Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
         Err(error) => {
-            output::complain(&format!("{}: {error}", arguments.scene.display()));
+            screen::complain(&format!("{}: {error}", arguments.scene.display()));
             return Ok(Ended::Badly);
         }
     };
@@ -133,7 +131,7 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
     let bar = running::counting(&scene.name, TICKS as usize, "parts of the time", arguments.flags.quiet);
     let (done, t_end) = (Arc::new(AtomicUsize::new(0)), scene.t_end);
     let (told, shown) = (Arc::clone(&done), bar.clone());
-    interrupt::say(move || {
+    exit::say(move || {
         let percent = 100.0 * shown.position() as f64 / TICKS;
         format!("{} steps were done, {percent} % of the time; nothing is kept of them", told.load(Ordering::Relaxed))
     });

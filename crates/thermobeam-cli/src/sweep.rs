@@ -9,11 +9,9 @@ use clap::Args;
 use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
-use convergence_study::cli::exit::{Ended, Outcome};
+use convergence_study::cli::exit::{self, Ended, Outcome};
 use convergence_study::cli::flags::Flags;
-use convergence_study::cli::interrupt;
-use convergence_study::cli::running;
-use convergence_study::cli::running::seconds;
+use convergence_study::cli::running::{self, seconds};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run;
 
@@ -83,7 +81,7 @@ fn to_folder(
     let begun = pending.len();
     let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
     let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
-    interrupt::say(move || {
+    exit::say(move || {
         let done = before + counted.position() as usize;
         format!("{done} of {cases} cases are saved in {place}; continue with --resume")
     });

@@ -7,7 +7,7 @@ use std::path::Path;
 use convergence_study::cli::exit::Unusable;
 use convergence_study::cli::workspace;
 use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose, names};
-use convergence_study::study::settings::Setting;
+use convergence_study::study::header::Setting;
 
 use super::list::Regression;
 use super::planted::Found;

@@ -8,8 +8,7 @@ use std::time::Duration;
 use clap::Args;
 use serde::Serialize;
 
-use super::output::{self, Format};
-use super::screen;
+use super::screen::{self, Format};
 use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort};
 use crate::store::{atomic, json};
@@ -68,8 +67,8 @@ impl Flags {
     /// * `verdict`: [`Verdict::Pass`] if the command judges nothing and ended well.
     pub fn print(&self, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
         match self.format {
-            Format::Json => output::print(&object(verdict, found)?),
-            Format::Text => output::print(words),
+            Format::Json => screen::print(&object(verdict, found)?),
+            Format::Text => screen::print(words),
         }
     }
 

@@ -6,10 +6,10 @@ use std::io::{self, Write};
 
 use crate::judge::verdict::Verdict;
 use crate::report::{Findings, summary};
-use crate::store::regular;
+use crate::store;
 use crate::text::visible::{self, visible};
 
-use crate::cli::output::{self, Format};
+use super::screen::{self, Format};
 
 /// Appends the table to the job summary and annotates what did not pass.
 ///
@@ -20,7 +20,7 @@ pub(super) fn announce(findings: &Findings<'_>, format: Format) {
         let annotations = annotations(findings);
         // If a stream is closed, annotations cannot be shown.
         let _ = match format {
-            Format::Text => output::print_as_is(&annotations),
+            Format::Text => screen::print_as_is(&annotations),
             Format::Json => io::stderr().write_all(annotations.as_bytes()),
         };
     }
@@ -31,9 +31,9 @@ pub(super) fn announce(findings: &Findings<'_>, format: Format) {
 /// A summary that cannot be written is reported on standard error; it does not change the exit status.
 pub(super) fn summarise(markdown: &str) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
-        let file = regular::open(page.as_ref(), File::options().append(true).create(true));
+        let file = store::open(page.as_ref(), File::options().append(true).create(true));
         if let Err(error) = file.and_then(|mut file| file.write_all(markdown.as_bytes())) {
-            output::complain(&format!(
+            screen::complain(&format!(
                 "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
                 visible::path(page.as_ref())
             ));

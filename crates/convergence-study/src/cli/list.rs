@@ -4,8 +4,8 @@ use serde_json::json;
 
 use super::exit::{Ended, Outcome};
 use super::flags::Flags;
-use crate::cli::workspace::{self, Earlier};
-use crate::cli::{screen, selection};
+use super::screen;
+use super::workspace;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};
@@ -19,7 +19,7 @@ use crate::text::columns::Columns;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Only the studies that `verify --tier` would run; full includes quick
-    #[arg(long, value_parser = selection::tier_parser(), default_value = "full")]
+    #[arg(long, value_parser = workspace::tier_parser(), default_value = "full")]
     tier: Tier,
     /// Only these: ids or patterns such as '*-space'
     #[arg(value_name = "ID")]
@@ -35,7 +35,7 @@ struct Listed {
     tier: &'static str,
     kind: String,
     /// The last verdict; `None` if it never ran.
-    last: Option<String>,
+    last: Option<&'static str>,
     /// Estimated, in millions of its kind's units of cost.
     work: f64,
     seconds: Option<f64>,
@@ -53,12 +53,24 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
-    let meant = selection::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
-    let earlier = Earlier::read(&root)?;
+    let meant = workspace::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
+    let (verdicts, seconds) = (workspace::last_verdicts(&root)?, workspace::last_seconds(&root)?);
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let studies: Vec<Listed> = meant.map(|(file, _)| listed(file, &earlier)).collect();
-    let passed = studies.iter().filter(|study| study.last.as_deref() == Some(Verdict::Pass.name())).count();
-    let failed = studies.iter().any(|study| study.last.as_deref() == Some(Verdict::Fail.name()));
+    let listed = |(StudyFile { study, .. }, _): (&StudyFile, bool)| {
+        let header = study.header();
+        Listed {
+            id: header.id.clone(),
+            tier: header.tier.name(),
+            kind: header.kind.clone(),
+            last: verdicts.get(&header.id).map(|verdict| verdict.name()),
+            work: 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>(),
+            seconds: seconds.get(&header.id).copied(),
+            claim: header.claim.clone(),
+        }
+    };
+    let studies: Vec<Listed> = meant.map(listed).collect();
+    let passed = studies.iter().filter(|study| study.last == Some(Verdict::Pass.name())).count();
+    let failed = studies.iter().any(|study| study.last == Some(Verdict::Fail.name()));
     let verdict = match (failed, passed == studies.len()) {
         (true, _) => Verdict::Fail,
         (false, true) => Verdict::Pass,
@@ -77,22 +89,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(Ended::Well)
 }
 
-fn listed(StudyFile { study, .. }: &StudyFile, earlier: &Earlier) -> Listed {
-    let header = study.header();
-    Listed {
-        id: header.id.clone(),
-        tier: header.tier.name(),
-        kind: header.kind.clone(),
-        last: earlier.verdict(&header.id).map(|verdict| verdict.name().to_owned()),
-        work: 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>(),
-        seconds: earlier.seconds(&header.id),
-        claim: header.claim.clone(),
-    }
-}
-
 fn row(study: &Listed) -> Vec<String> {
     let Listed { id, tier, kind, last, work, seconds, claim } = study;
-    let last = last.as_deref().unwrap_or("never run").to_owned();
+    let last = last.unwrap_or("never run").to_owned();
     let seconds = seconds.map_or("-".to_owned(), |seconds| format!("{seconds:.2}"));
     vec![id.clone(), (*tier).to_owned(), kind.clone(), last, format!("{work:.2}"), seconds, claim.clone()]
 }

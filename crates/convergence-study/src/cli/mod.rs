@@ -5,22 +5,16 @@
 //! error. Exit status: [`exit::HELP`].
 
 mod compare;
-mod completions;
 pub mod exit;
 mod explain;
 pub mod flags;
 mod github;
-mod guard;
-pub mod interrupt;
 mod list;
-pub mod long;
 mod new;
-pub mod output;
 mod rates;
 mod report;
 pub mod running;
 pub mod screen;
-pub mod selection;
 mod study;
 mod verify;
 pub mod workspace;
@@ -31,8 +25,9 @@ use std::fmt::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use clap_complete::{Shell, generate};
 
-use crate::program;
+use crate::program::guard;
 use crate::project::Project;
 
 /// The commands of the harness. `--help` takes their descriptions from their arguments.
@@ -47,8 +42,20 @@ pub enum Command {
     Compare(compare::Arguments),
     Report(report::Arguments),
     New(new::Arguments),
-    Completions(completions::Arguments),
-    Guard(guard::Arguments),
+    /// Print completions for a shell
+    ///
+    /// A shell completes a program of that name on the PATH, not an alias such as cargo's. For bash: source <(PROGRAM completions bash)
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: Shell,
+    },
+    /// End a process group when standard input ends (the harness starts this itself)
+    #[command(hide = true)]
+    Guard {
+        /// The mark of the processes of the group
+        mark: String,
+    },
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
@@ -61,7 +68,7 @@ impl Command {
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
     pub fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
-        program::guard::enable();
+        guard::enable();
         match self {
             Self::Verify(arguments) => verify::run(project, arguments),
             Self::Study(arguments) => study::run(project, arguments),
@@ -71,15 +78,34 @@ impl Command {
             Self::Compare(arguments) => compare::run(arguments),
             Self::Report(arguments) => report::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
-            Self::Completions(arguments) => completions::run(whole, &program_name(project), arguments),
-            Self::Guard(arguments) => guard::run(arguments),
+            Self::Completions { shell } => complete(whole, project, *shell),
+            Self::Guard { mark } => serve(mark),
         }
     }
 }
 
-/// The program that a shell completes: `cargo` cannot complete its aliases, so `xtask` of `cargo xtask`.
-fn program_name(project: &Project) -> String {
-    project.command.rsplit(' ').next().unwrap_or(project.command).to_owned()
+/// Prints what a shell needs to complete the commands of that command line.
+fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outcome {
+    // `cargo` cannot complete its aliases: the name is `xtask` for `cargo xtask`.
+    let name = project.command.rsplit(' ').next().unwrap_or(project.command).to_owned();
+    let mut script = vec![];
+    generate(shell, &mut whole.bin_name(&name), &name, &mut script);
+    screen::print(&String::from_utf8_lossy(&script))?;
+    Ok(exit::Ended::Well)
+}
+
+/// Guards the process group that this process leads; the harness starts it next to every program that it runs.
+///
+/// # Errors
+/// Started by anyone except the harness: it would end the process group of its caller.
+fn serve(mark: &str) -> exit::Outcome {
+    if !guard::is_guard() {
+        return Err(exit::Unusable::because(
+            "found the command guard; expected another: the harness starts its guards itself",
+        ));
+    }
+    guard::serve(mark);
+    Ok(exit::Ended::Well)
 }
 
 /// The command line of the program `P`, under the name that its users type, its commands in groups.
@@ -121,7 +147,7 @@ fn status<P: Parser>(
     run: impl FnOnce(P) -> exit::Outcome,
 ) -> u8 {
     let asked = P::from_arg_matches(&line.get_matches_from(arguments)).unwrap_or_else(|error| error.exit());
-    interrupt::listen();
+    exit::listen();
     exit::status(run(asked))
 }
 

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
-use super::output;
+use super::screen;
 use crate::project::Project;
 use crate::report::sentence;
 use crate::store::file_set::MANIFEST;
@@ -51,7 +51,7 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
     rebuild(project, record, provenance.as_ref(), &folder)?;
     missing
         .iter()
-        .for_each(|file| output::tell(&format!("note: no picture {}/{file}", visible::path(&beside.join(FIGURES)))));
+        .for_each(|file| screen::tell(&format!("note: no picture {}/{file}", visible::path(&beside.join(FIGURES)))));
     let whole = || {
         let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
         format!("{verdict}: {sentence}\nreport: {page}, {readme}\n")

@@ -16,9 +16,8 @@ use crate::verify::{publish, record};
 use super::exit::Outcome;
 use super::flags::Flags;
 use super::github;
-use super::output::{self, Format};
-use crate::cli::running::{Limits, Watched, kept};
-use crate::cli::screen;
+use super::running::{Limits, Watched, kept};
+use super::screen::{self, Format};
 
 /// Run study files from anywhere
 #[derive(Debug, clap::Args)]
@@ -70,13 +69,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         }
     };
     // The results are printed first, so that a file that cannot be written does not lose them.
-    output::print(&text)?;
+    screen::print(&text)?;
     github::announce(&findings, flags.format);
     if let Some(folder) = &flags.out {
         publish(project, record, effort.jobs.get(), folder)?;
         if flags.format == Format::Text && !flags.quiet {
             let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
-            output::print(&format!("\nreport: {page}, {readme}\n"))?;
+            screen::print(&format!("\nreport: {page}, {readme}\n"))?;
         }
     }
     Ok(verdict.into())

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
-use crate::cli::output::Format;
-use crate::cli::running::{Limits, Watched, kept};
-use crate::cli::{github, output, screen, selection, workspace};
+use super::running::{Limits, Watched, kept};
+use super::screen::{self, Format};
+use super::{github, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
@@ -25,7 +25,7 @@ use crate::verify::{Request, Scope, Verification};
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Tier of studies; full includes quick
-    #[arg(long, value_parser = selection::tier_parser(), default_value = "quick")]
+    #[arg(long, value_parser = workspace::tier_parser(), default_value = "quick")]
     tier: Tier,
     #[command(flatten)]
     limits: Limits,
@@ -69,7 +69,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
     let ids = if arguments.failed { failed(&root)? } else { arguments.ids.clone() };
-    let meant = selection::select(&headers, arguments.tier, &ids, &list)?;
+    let meant = workspace::select(&headers, arguments.tier, &ids, &list)?;
     let scope = match scope(arguments.tier, &ids, &all) {
         // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
@@ -92,7 +92,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     watched.clear();
     let verification = verification?;
     let record = verification.record(&request.scope, &request.scope.command(project));
-    output::print(&match flags.format {
+    screen::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments, started.elapsed()),
         Format::Json => json(&record)?,
     })?;

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Complaint, InputError};
-use super::{Source, settings};
+use super::{Complaint, InputError, Source, settings};
 use crate::text::names::nearest;
 use crate::text::visible;
 

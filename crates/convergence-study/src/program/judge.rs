@@ -6,7 +6,8 @@ use crate::judge::claims;
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::plots::{self, History, Series};
-use crate::study::grid::{Grid, GridColumn, GridVerdict, Model};
+use crate::study::grid::{Grid, GridColumn, Model};
+use crate::study::kind;
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::until_decided::{self, Next};
 use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Quantity, Ran, Table};
@@ -39,16 +40,16 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         columns: study.expect.iter().map(column).collect(),
         model: Model::Either,
     };
-    let GridVerdict { rates, mut checks } = grid.judge();
-    checks.push(completion(ran));
+    let mut outcome = grid.judge();
+    outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));
     let mut figures = grid.figures(&study.header.id, "error");
     figures.extend(work_precision(&study.header.id, levels, ran));
     Outcome {
         // These errors are not judged over either step alone.
         levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
         figures,
-        quantities: levels.quantities(&rates),
-        ..Outcome::new(levels::summary(&rates), rates, checks)
+        quantities: levels.quantities(&outcome.rates),
+        ..outcome
     }
 }
 
@@ -116,7 +117,7 @@ fn completion(ran: &[Run]) -> Check {
         let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
         Ran { case: Case { label: case.label.clone(), cost: case.cost, data: () }, found }
     };
-    levels::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+    kind::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
 
 /// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace the missing ones.

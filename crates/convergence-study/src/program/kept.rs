@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::Answer;
 use super::command::Invocation;
-use crate::store::{atomic, content_hash, regular};
+use crate::store::{self, atomic, content_hash};
 
 /// Version of the file format: a file of another version is not a result.
 const FORM: u32 = 4;
@@ -89,7 +89,7 @@ impl Store {
     /// The current key of a case. It includes every file that a word of the command names, whether or not `files` lists it.
     pub(super) fn key(&self, invocation: &Invocation) -> io::Result<Key> {
         let hashed = |path: &PathBuf| {
-            let bytes = regular::read(path).map_err(|error| atomic::naming(path, &error))?;
+            let bytes = store::read(path).map_err(|error| atomic::naming(path, &error))?;
             let name = path.strip_prefix(&invocation.directory).unwrap_or(path);
             Ok((name.display().to_string(), format!("{:016x}", content_hash(&bytes))))
         };
@@ -108,7 +108,7 @@ impl Store {
 
     /// The kept answer of a case; `None` if there is no valid one.
     pub(super) fn get(&self, key: &Key) -> Option<Answer> {
-        let text = regular::read_to_string(&self.path(key)).ok()?;
+        let text = store::read_to_string(&self.path(key)).ok()?;
         let (kept, answer): (Key, Answer) = serde_json::from_str(&text).ok()?;
         (kept == *key).then_some(answer)
     }

@@ -1,20 +1,23 @@
-//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the terminal.
+//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the terminal. Then, in Markdown, what differs
+//! from the baseline: claims first and in full, then the worst number of each study.
 
 use std::cmp::Reverse;
 use std::collections::HashSet;
 
+use super::Findings;
 use super::html::{badge, escape, phrase};
-use super::markdown::{anchor, cell, text};
-use super::section;
-use super::words::summary;
+use super::markdown::{anchor, cell, table, text};
+use super::section::folded;
+use super::words::{blessing, can_be_blessed, summary};
 use crate::input::visible;
 use crate::judge::verdict::{Reason, Verdict};
 use crate::run::Finished;
+use crate::store::baseline::{Change, Movement};
 use crate::store::diagnosis::Diagnosis;
 use crate::store::record::Record;
-use crate::study::kind::by_reason;
-use crate::study::levels::COMPLETION;
+use crate::study::kind::{COMPLETION, by_reason};
 use crate::study::outcome::Check;
+use crate::text::number::short_text;
 
 /// Most reasons listed for one study; its section has all of them.
 const MOST_REASONS: usize = 8;
@@ -105,12 +108,12 @@ pub(super) fn markdown(record: &Record, linked: bool) -> String {
         format!("- {name}: **{verdict}**\n{reasons}")
     };
     let (first, rest) = studies.split_at(shown.min(studies.len()));
-    let [first, folded] = [first, rest].map(|part| part.iter().map(item).collect::<String>());
+    let [first, others] = [first, rest].map(|part| part.iter().map(item).collect::<String>());
     match (first.is_empty(), rest.len()) {
         (true, _) => String::new(),
         (false, 0) => format!("## What did not pass\n\n{first}\n"),
         (false, more) => {
-            format!("## What did not pass\n\n{first}\n{}\n", section::folded(&format!("{more} more"), &folded, false))
+            format!("## What did not pass\n\n{first}\n{}\n", folded(&format!("{more} more"), &others, false))
         }
     }
 }
@@ -177,4 +180,88 @@ pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     let Some(diagnosis) = diagnosis else { return String::new() };
     let line = |(word, words): (&str, String)| format!("- **{word}**: {}\n", text(&words)).replace("**** ", "");
     format!("## {TITLE}\n\n{}\n", diagnosis.lines().into_iter().map(line).collect::<String>())
+}
+
+/// A study's id in Markdown, with a link if the text can have one.
+pub(super) type Link<'l> = &'l dyn Fn(&str) -> String;
+
+/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may be empty, otherwise
+/// it ends with an empty line.
+pub(super) fn changes(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
+    let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
+        findings.moves().iter().partition(|change| change.movement.needs_a_reason());
+    // Numbers of studies that fail move for the same cause.
+    let fails = |id: &str| {
+        findings.record.studies.iter().any(|study| study.header.id == id && !study.outcome.verdict.is_pass())
+    };
+    let numbers: Vec<&Change> = numbers.into_iter().filter(|change| !fails(&change.study)).collect();
+    vec![of_claims(&claims, link), worst(&numbers, link), acceptance(findings), all(&numbers)]
+}
+
+fn of_claims(changes: &[&Change], link: Link<'_>) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let line = |change: &&Change| {
+        let words = change.words();
+        let rest = words.strip_prefix(change.study.as_str()).unwrap_or(&words);
+        format!("- {}{}\n", link(&change.study), text(rest))
+    };
+    format!("## Claims changed\n\n{}\n", changes.iter().map(line).collect::<String>())
+}
+
+/// One row for each study: its worst number.
+fn worst(changes: &[&Change], link: Link<'_>) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let mut studies: Vec<(&Change, usize)> = changes
+        .chunk_by(|one, next| one.study == next.study)
+        .filter_map(|of_study| Some((heaviest(of_study)?, of_study.len())))
+        .collect();
+    // The sort is stable: of equals the first ones win.
+    studies.sort_by(|(a, _), (b, _)| b.movement.weight().total_cmp(&a.movement.weight()));
+    let row = |(change, count): &(&Change, usize)| {
+        let Change { study, movement, .. } = change;
+        vec![link(study), count.to_string(), cell(&change.subject()), cell(&movement.to_string()), times(movement)]
+    };
+    let head = ["study", "numbers", "the worst of them", "change", "times its tolerance"];
+    let order = "The worst number of each study; first those that moved by the largest multiple of their tolerance.";
+    format!("## Moved from the baseline\n\n{order}\n\n{}\n", table(&head, studies.iter().map(row).collect()))
+}
+
+/// The first of the largest weight.
+fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
+    changes.iter().rev().copied().max_by(|a, b| a.movement.weight().total_cmp(&b.movement.weight()))
+}
+
+/// By how many times its tolerance a number has moved, with two digits; a dash if that is undefined.
+fn times(movement: &Movement) -> String {
+    let weight = movement.weight();
+    if weight == 0.0 || !weight.is_finite() {
+        return "-".to_owned();
+    }
+    short_text(weight)
+}
+
+/// How to accept them, or why that is refused.
+fn acceptance(findings: &Findings<'_>) -> String {
+    let Findings { project, record: Record { command, studies, .. }, .. } = findings;
+    match findings.moves() {
+        [] => String::new(),
+        moves if can_be_blessed(studies) => {
+            format!("If it is meant: `{}`.\n\n", blessing(project, command, studies, moves))
+        }
+        _ => "`--bless` refuses until the studies that did not pass are mended.\n\n".to_owned(),
+    }
+}
+
+/// Every number, folded; empty if the table above has them all.
+fn all(changes: &[&Change]) -> String {
+    if changes.chunk_by(|one, next| one.study == next.study).all(|of_study| of_study.len() == 1) {
+        return String::new();
+    }
+    let row = |change: &&Change| vec![cell(&change.study), cell(&change.subject()), cell(&change.movement.to_string())];
+    let lines = table(&["study", "what", "change"], changes.iter().map(row).collect());
+    folded(&format!("all {} numbers", changes.len()), &lines, false) + "\n"
 }

@@ -3,7 +3,6 @@
 //! The same outcomes give the same bytes, except for the page: it names its commit, day and machine, if given, and
 //! should not be committed.
 
-mod changes;
 mod failures;
 mod forest;
 mod html;
@@ -114,7 +113,7 @@ impl Findings<'_> {
             "\n\n{}{}{}",
             self.diagnosis(),
             failures::markdown(self.record, true),
-            changes::parts(self, &link).concat()
+            failures::changes(self, &link).concat()
         );
         page += &section::front(self, &link).0;
         page += &self.rates().as_ref().map(section::figure).unwrap_or_default();
@@ -148,7 +147,7 @@ impl Findings<'_> {
             false,
         );
         let failures = failures::markdown(self.record, false);
-        let parts = [vec![self.diagnosis(), failures], changes::parts(self, &cell), vec![folded]].concat();
+        let parts = [vec![self.diagnosis(), failures], failures::changes(self, &cell), vec![folded]].concat();
         let too_long = "\nA comment holds no more: see the report.\n";
         for part in parts {
             if digest.len() + part.len() + too_long.len() > LONGEST {

@@ -5,7 +5,7 @@
 use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
 use super::{Findings, SeeAlso};
-use super::{changes, failures, forest, section};
+use super::{failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 
@@ -50,7 +50,7 @@ fn head(findings: &Findings<'_>) -> String {
 
 /// What did not pass, what changed, the origin of the report, and all rates in one picture.
 fn front(findings: &Findings<'_>) -> String {
-    let changes = changes::parts(findings, &|id| findings.linked(id, id)).concat();
+    let changes = failures::changes(findings, &|id| findings.linked(id, id)).concat();
     let picture = findings.rates().map(|figure| html(&section::figure(&figure), &[figure]));
     let (verified, plot) = section::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])

@@ -19,8 +19,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::study::kind::plan;
-use crate::study::outcome::NotFinite;
-use crate::study::soundness;
+use crate::study::outcome::{self, NotFinite};
 use crate::study::{Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Untested};
 use caught::caught;
 use queue::{Counter, Done, Job};
@@ -303,7 +302,7 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
         outcome.checks.push(Check::that(false, "every case has a result", format!("{} have none", failed_cases.len())));
     }
-    let outcome = soundness::settle(&header.id, outcome);
+    let outcome = outcome::settle(&header.id, outcome);
     let not_finite = outcome.not_finite();
     Finished { header: (*header).clone(), outcome, failed_cases, not_finite, untested: vec![], spent, work }
 }

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::store::regular::if_there;
-use crate::store::writing;
+use crate::store::{if_there, writing};
 use crate::text::visible;
 
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.

@@ -13,8 +13,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::store::regular::{self, if_there};
-use crate::store::{atomic, writing};
+use crate::store::{self, atomic, if_there, writing};
 use crate::text::visible;
 
 /// The file that lists all files of the set, one per line.
@@ -76,7 +75,7 @@ pub struct ReportFolder {
 /// Waits until no other process is writing reports, and keeps others waiting until the file is dropped.
 pub fn lock(path: &Path) -> io::Result<File> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    let file = regular::open(path, File::options().create(true).append(true))?;
+    let file = store::open(path, File::options().create(true).append(true))?;
     file.lock()?;
     Ok(file)
 }
@@ -104,7 +103,7 @@ impl ReportFolder {
 
     /// Whether a file already has its new content: it is then left alone.
     fn holds(&self, path: &str, bytes: &[u8]) -> bool {
-        regular::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
+        store::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
     }
 
     /// Completes an interrupted replacement, and removes an unfinished set. The caller must hold the [`lock`].
@@ -120,11 +119,11 @@ impl ReportFolder {
     fn complete_interrupted(&self) -> io::Result<()> {
         let pending = self.pending();
         // The manifest is moved last: without it only the empty folder is left.
-        if let Some(manifest) = if_there(regular::read_to_string(&pending.join(MANIFEST)))? {
+        if let Some(manifest) = if_there(store::read_to_string(&pending.join(MANIFEST)))? {
             if let Some(path) = manifest.lines().find(|path| !stays_inside(path) || *path == MANIFEST) {
                 return Err(leads_out(&pending, path));
             }
-            let former = if_there(regular::read_to_string(&self.folder.join(MANIFEST)))?.unwrap_or_default();
+            let former = if_there(store::read_to_string(&self.folder.join(MANIFEST)))?.unwrap_or_default();
             for path in manifest.lines() {
                 move_if_there(&pending.join(path), &self.folder.join(path))?;
             }

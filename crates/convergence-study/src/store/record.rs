@@ -15,7 +15,7 @@ use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::baseline::Change;
 use crate::store::diagnosis::Diagnosis;
-use crate::store::{StoreError, parsed, regular};
+use crate::store::{self, StoreError, parsed};
 use crate::text::number::{committed, committed_rate};
 
 /// Version of the schema; it increases when a field changes its name or meaning, not when one is added.
@@ -56,7 +56,7 @@ pub struct Record {
 impl Record {
     /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
     pub fn read(path: &Path) -> Result<Self, StoreError> {
-        let text = regular::read_to_string(path);
+        let text = store::read_to_string(path);
         Self::parse(&text.map_err(|error| StoreError::File { path: path.to_owned(), error })?, path)
     }
 

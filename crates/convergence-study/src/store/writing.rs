@@ -3,78 +3,41 @@
 //! Code that writes files holds a [`Writing`] until they are complete; code that ends the process calls [`close`]
 //! first. A crash needs neither: files get their names only when they are complete.
 
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::mem;
+use std::sync::{PoisonError, RwLock, RwLockReadGuard};
+use std::thread;
 use std::time::{Duration, Instant};
 
-/// The number of pending writes, and whether new ones may begin.
-#[derive(Debug)]
-struct Register {
-    state: Mutex<State>,
-    changed: Condvar,
-}
-
-#[derive(Debug)]
-struct State {
-    writers: usize,
-    is_closed: bool,
-}
-
-/// The register of the process.
-static REGISTER: Register = Register::new();
-
 /// A pending write, until this is dropped.
-#[derive(Debug)]
-#[must_use]
-pub struct Writing<'d>(&'d Register);
+pub type Writing = RwLockReadGuard<'static, ()>;
+
+/// Read by pending writes. It is never waited for with `write`: a thread may begin a write within another one.
+static PENDING: RwLock<()> = RwLock::new(());
+
+/// Between two looks at the pending writes.
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// Registers a write. After [`close`] it blocks until the process ends.
-pub fn begin() -> Writing<'static> {
-    REGISTER.begin()
+pub fn begin() -> Writing {
+    PENDING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Waits for pending writes and blocks new ones. Call it right before the process exits.
 ///
-/// * `patience`: it returns after this time even if a write is pending, for example on a disk that hangs.
+/// * `patience`: it returns after this time even if a write is pending, for example on a disk that hangs; new ones are then
+///   not blocked.
 pub fn close(patience: Duration) {
-    REGISTER.close(patience);
+    close_of(&PENDING, patience);
 }
 
-impl Drop for Writing<'_> {
-    fn drop(&mut self) {
-        self.0.locked().writers -= 1;
-        self.0.changed.notify_all();
-    }
-}
-
-impl Register {
-    const fn new() -> Self {
-        Self { state: Mutex::new(State { writers: 0, is_closed: false }), changed: Condvar::new() }
-    }
-
-    fn begin(&self) -> Writing<'_> {
-        let mut state = self.locked();
-        while state.is_closed {
-            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+fn close_of(pending: &'static RwLock<()>, patience: Duration) {
+    let end = Instant::now() + patience;
+    loop {
+        match pending.try_write() {
+            Ok(closed) => return mem::forget(closed),
+            Err(_) if Instant::now() >= end => return,
+            Err(_) => thread::sleep(PAUSE),
         }
-        state.writers += 1;
-        Writing(self)
-    }
-
-    fn close(&self, patience: Duration) {
-        let end = Instant::now() + patience;
-        let mut state = self.locked();
-        while state.writers > 0 {
-            let left = end.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                break;
-            }
-            state = self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0;
-        }
-        state.is_closed = true;
-    }
-
-    fn locked(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -91,37 +54,41 @@ mod tests {
 
     #[test]
     fn closing_waits_for_pending_writes() {
-        let (register, is_whole) = (Register::new(), AtomicBool::new(false));
+        static OPEN: RwLock<()> = RwLock::new(());
+        let is_whole = AtomicBool::new(false);
+        let (begun, begins) = mpsc::channel();
         thread::scope(|scope| {
-            let (first, second) = (register.begin(), register.begin());
-            drop(second);
             scope.spawn(|| {
+                let first = OPEN.read();
+                begun.send(()).unwrap();
                 thread::sleep(SHORT);
                 is_whole.store(true, Ordering::SeqCst);
                 drop(first);
             });
-            register.close(LONG);
+            begins.recv().unwrap();
+            drop(OPEN.read());
+            close_of(&OPEN, LONG);
             assert!(is_whole.load(Ordering::SeqCst));
         });
     }
 
     #[test]
     fn closing_gives_up_on_a_write_that_hangs() {
-        let register = Register::new();
-        let _hanging = register.begin();
+        static OPEN: RwLock<()> = RwLock::new(());
+        let _hanging = OPEN.read();
         let start = Instant::now();
-        register.close(SHORT);
+        close_of(&OPEN, SHORT);
         assert!((SHORT..LONG).contains(&start.elapsed()));
     }
 
     #[test]
     fn no_write_begins_after_closing() {
-        static CLOSED: Register = Register::new();
-        CLOSED.close(Duration::ZERO);
+        static CLOSED: RwLock<()> = RwLock::new(());
+        close_of(&CLOSED, Duration::ZERO);
         let (tell, told) = mpsc::channel();
         // It waits for the end of the process.
         thread::spawn(move || {
-            drop(CLOSED.begin());
+            drop(CLOSED.read());
             tell.send(())
         });
         assert_eq!(told.recv_timeout(SHORT), Err(mpsc::RecvTimeoutError::Timeout));

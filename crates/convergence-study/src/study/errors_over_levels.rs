@@ -1,9 +1,8 @@
 //! A ready-made kind of study: errors over levels of refinement, computed by a function.
 
-use super::axis::Axis;
 use super::header::Header;
-use super::kind::{Case, CaseFailure, Kind, Ran};
-use super::levels::{self, Claim, ErrorColumn, Levels, Refinement};
+use super::kind::{Case, CaseFailure, Kind, Ran, completion};
+use super::levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::outcome::{Check, Outcome};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
 
@@ -175,7 +174,7 @@ where
             let names = names.iter().filter(|name| !named(errors, name).is_finite());
             names.map(|name| format!("the error `{name}`")).collect()
         };
-        let mut checks = vec![levels::completion(ran, not_finite)];
+        let mut checks = vec![completion(ran, not_finite)];
         if self.claims.is_empty() {
             let (claim, evidence) = ("an order is claimed".to_owned(), "no order of any error is claimed".to_owned());
             checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence });

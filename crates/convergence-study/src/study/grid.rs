@@ -1,11 +1,11 @@
 //! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in one way.
 
-use super::levels::Claim;
-use super::outcome::Check;
+use super::levels::{Claim, summary};
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
+use super::outcome::{Check, Outcome};
 use crate::judge::grid::{Adding, GridErrors};
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::Verdict;
 #[cfg(feature = "reports")]
 use crate::plots;
 use crate::text::number::plain_text;
@@ -50,25 +50,17 @@ pub struct Grid {
     pub model: Model,
 }
 
-/// The verdict of a grid on all errors.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct GridVerdict {
-    /// Both orders of each error: `L2 in h`, `L2 in dt`.
-    pub rates: Vec<(String, RateVerdict)>,
-    /// How the contributions add, for each error.
-    pub checks: Vec<Check>,
-}
-
 impl Grid {
-    /// Judges both orders of each error by [`judge::grid`](crate::judge::grid).
-    pub fn judge(&self) -> GridVerdict {
+    /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by [`judge::grid`](crate::judge::grid); for each error a check
+    /// of how the contributions add.
+    pub fn judge(&self) -> Outcome {
         let [h, dt] = self.steps();
-        let mut verdict = GridVerdict::default();
         if let Some(different) = self.off_grid(&h, &dt) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
-            verdict.checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence: different });
-            return verdict;
+            let check = Check { claim, verdict: Verdict::Inconclusive, evidence: different };
+            return Outcome::new("", vec![], vec![check]);
         }
+        let (mut rates, mut checks) = (vec![], vec![]);
         for column in &self.columns {
             let errors = GridErrors { h: &h, dt: &dt, errors: &column.errors };
             let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
@@ -78,18 +70,16 @@ impl Grid {
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
             match errors.judge(adding, [order, column.time], tolerance) {
-                Ok(rates) => verdict.rates.extend(names.into_iter().zip(rates).map(|(name, rate)| {
+                Ok(judged) => rates.extend(names.into_iter().zip(judged).map(|(name, rate)| {
                     let all = missing.is_empty();
                     (name, if all { rate } else { rate.without_result(self.points.len(), &missing) })
                 })),
                 // Readers of study files have already refused such a tolerance.
-                Err(error) => {
-                    verdict.checks.extend(names.map(|name| Check::that(false, name, error.to_string())));
-                }
+                Err(error) => checks.extend(names.map(|name| Check::that(false, name, error.to_string()))),
             }
-            verdict.checks.push(self.judge_model(&column.name, misfits));
+            checks.push(self.judge_model(&column.name, misfits));
         }
-        verdict
+        Outcome::new(summary(&rates), rates, checks)
     }
 
     /// The points without a result.
@@ -140,11 +130,9 @@ impl Grid {
                 ..plots::Surface::default()
             });
             let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '-' };
-            Figure {
-                file: format!("{id}-surface-{}.svg", column.name.chars().map(plain).collect::<String>()),
-                caption: format!("Error in the {what} `{}` over mesh width and time step.", column.name),
-                svg,
-            }
+            let name: String = column.name.chars().map(plain).collect();
+            let caption = format!("Error in the {what} `{}` over mesh width and time step.", column.name);
+            Figure::new(id, &format!("surface-{name}"), caption, svg)
         };
         self.columns.iter().map(figure).collect()
     }

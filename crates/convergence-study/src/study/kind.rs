@@ -3,7 +3,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::header::Header;
-use super::outcome::Outcome;
+use super::outcome::{Check, Outcome};
 use crate::text::lists::{and_more, grouped};
 
 /// One computation of a study.
@@ -125,6 +125,24 @@ pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
         ran.push(run(case));
     }
     ran
+}
+
+/// The claim of the check of [`completion`].
+pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
+
+/// Fails unless every case has a result with finite numbers only.
+///
+/// * `not_finite`: names of the numbers of a result that are NaN or infinite.
+pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
+    let failed = ran.iter().filter_map(|Ran { case, found }| Some((&*case.label, &*found.as_ref().err()?.reason)));
+    let mut complaints = by_reason(failed);
+    for (case, found) in ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?))) {
+        complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
+    }
+    let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
+    let mut evidence = format!("{completed} of {} cases completed", ran.len());
+    complaints.iter().for_each(|complaint| evidence += &format!("; {complaint}"));
+    Check::that(complaints.is_empty() && !ran.is_empty(), COMPLETION, evidence)
 }
 
 /// A study of any kind, as the runner sees it.
@@ -261,12 +279,27 @@ impl<K: Kind> Plan for Typed<'_, K> {
 
 #[cfg(test)]
 mod tests {
-    use super::by_reason;
+    use super::*;
+    use crate::judge::verdict::Verdict;
 
     #[test]
     fn a_reason_is_told_once_and_its_cases_are_counted() {
         let told = by_reason([("a", "lost"), ("b", "NaN"), ("c", "lost"), ("d", "lost")]);
         assert_eq!(told, ["a and 2 more: lost", "b: NaN"]);
         assert!(by_reason([]).is_empty());
+    }
+
+    #[test]
+    fn a_failed_case_or_a_nan_fails_the_completion() {
+        let verdict = |found: Vec<Result<f64, CaseFailure>>| {
+            let case = || Case { label: "n = 8".into(), cost: 1.0, data: () };
+            let ran: Vec<_> = found.into_iter().map(|found| Ran { case: case(), found }).collect();
+            let names = |value: &f64| if value.is_finite() { vec![] } else { vec!["error".to_owned()] };
+            completion(&ran, names).verdict
+        };
+        assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
+        assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);
+        assert_eq!(verdict(vec![Ok(1.0), Err(CaseFailure { reason: "diverged".into() })]), Verdict::Fail);
+        assert_eq!(verdict(vec![]), Verdict::Fail);
     }
 }

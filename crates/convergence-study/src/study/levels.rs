@@ -3,8 +3,6 @@
 #[cfg(feature = "reports")]
 use std::ops::Range;
 
-use super::axis::Axis;
-use super::kind::{Ran, by_reason};
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
@@ -26,6 +24,40 @@ pub const ERROR_TOLERANCE: f64 = 1e-6;
 
 /// The same for an observed rate.
 pub const RATE_TOLERANCE: f64 = 1e-4;
+
+/// What is refined from level to level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// The mesh.
+    Space,
+    /// The time step.
+    Time,
+    /// Both together.
+    Both,
+}
+
+impl Axis {
+    /// All axes.
+    pub const ALL: [Axis; 3] = [Axis::Space, Axis::Time, Axis::Both];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Axis::Space => "space",
+            Axis::Time => "time",
+            Axis::Both => "both",
+        }
+    }
+
+    /// The step that is refined, as the label of an axis of a figure.
+    pub fn label(self) -> &'static str {
+        match self {
+            Axis::Space => "mesh width h",
+            Axis::Time => "time step dt",
+            Axis::Both => "mesh width h and time step dt, refined together",
+        }
+    }
+}
 
 /// One error on every level, coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
@@ -299,28 +331,9 @@ pub fn summary(rates: &Rates) -> String {
     shown.map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// The claim of the check of [`completion`].
-pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
-
-/// Fails unless every case has a result with finite numbers only.
-///
-/// * `not_finite`: names of the numbers of a result that are NaN or infinite.
-pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
-    let failed = ran.iter().filter_map(|Ran { case, found }| Some((&*case.label, &*found.as_ref().err()?.reason)));
-    let mut complaints = by_reason(failed);
-    for (case, found) in ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?))) {
-        complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
-    }
-    let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
-    let mut evidence = format!("{completed} of {} cases completed", ran.len());
-    complaints.iter().for_each(|complaint| evidence += &format!("; {complaint}"));
-    Check::that(complaints.is_empty() && !ran.is_empty(), COMPLETION, evidence)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::{Case, CaseFailure};
 
     #[test]
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
@@ -384,19 +397,5 @@ mod tests {
         assert_eq!(caption([1.0; 5], true), format!("Errors.{LINES}"));
         assert_eq!(caption([1.0; 5], false), "Errors.");
         assert_eq!(caption(ZIGZAG, true), "Errors.");
-    }
-
-    #[test]
-    fn a_failed_case_or_a_nan_fails_the_completion() {
-        let verdict = |found: Vec<Result<f64, CaseFailure>>| {
-            let case = || Case { label: "n = 8".into(), cost: 1.0, data: () };
-            let ran: Vec<_> = found.into_iter().map(|found| Ran { case: case(), found }).collect();
-            let names = |value: &f64| if value.is_finite() { vec![] } else { vec!["error".to_owned()] };
-            completion(&ran, names).verdict
-        };
-        assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
-        assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);
-        assert_eq!(verdict(vec![Ok(1.0), Err(CaseFailure { reason: "diverged".into() })]), Verdict::Fail);
-        assert_eq!(verdict(vec![]), Verdict::Fail);
     }
 }

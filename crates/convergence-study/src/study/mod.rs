@@ -4,7 +4,6 @@
 //! order) and how their results become an [`Outcome`]: checks with verdicts, rates, tables, figures, and the numbers
 //! that the baseline guards. Only the runner uses threads, and only the report writes Markdown.
 
-mod axis;
 mod errors_over_levels;
 #[cfg(feature = "files")]
 mod file;
@@ -14,16 +13,13 @@ pub mod kind;
 pub mod levels;
 pub mod outcome;
 pub mod readings;
-pub mod settings;
-pub mod soundness;
 pub mod until_decided;
 
-pub use axis::Axis;
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, Kinds, Reader, StudyFile, read_claim, reader};
 pub use header::{Header, Tier};
 pub use kind::{Case, CaseFailure, Kind, Plan, Ran, Study, Untested, erased, run_cases_here};
-pub use levels::{Claim, Refinement};
+pub use levels::{Axis, Claim, Refinement};
 pub use outcome::{Check, Figure, LevelErrors, Outcome, Quantity, Table};
 pub use readings::Reading;

@@ -50,7 +50,7 @@ impl Reading {
     }
 }
 
-/// Names of the readings that are NaN or infinite, for [`completion`](super::levels::completion).
+/// Names of the readings that are NaN or infinite, for [`completion`](super::kind::completion).
 pub fn not_finite(readings: &[Reading]) -> Vec<String> {
     let broken = readings.iter().filter(|reading| reading.value.is_some_and(|value| !value.is_finite()));
     broken.map(|reading| reading.name.clone()).collect()

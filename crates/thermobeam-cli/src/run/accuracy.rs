@@ -1,7 +1,7 @@
 //! `run SCENE --target-error E` and `--estimate-error`: a run chosen by its error, and the error of a run.
 
 use clap::ValueEnum;
-use convergence_study::cli::{interrupt, running};
+use convergence_study::cli::{exit, running};
 use convergence_study::run::time_limit;
 use serde::Serialize;
 use thermobeam_study::predict::choice::{self, Choice, choose, keep_scheme};
@@ -46,7 +46,7 @@ pub(crate) struct Planned {
 fn search<T>(arguments: &Arguments, scene: &Scene, limit: f64, find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
     let unit = "thousandths of the work allowed";
     let bar = running::counting(&format!("{}: its error", scene.name), TICKS as usize, unit, arguments.flags.quiet);
-    interrupt::say(|| "the error was not known yet".to_owned());
+    exit::say(|| "the error was not known yet".to_owned());
     let mut told = |part: f64| bar.set_position((TICKS * part) as u64);
     let mut work = Work::new(limit, &mut told);
     let (found, _) = time_limit::within(arguments.time_limit, || find(&mut work));

@@ -8,7 +8,8 @@ pub(crate) use convergence_study::judge::random::SplitMix;
 pub(crate) use convergence_study::judge::verdict::{Judge, Verdict};
 pub(crate) use convergence_study::plots;
 pub(crate) use convergence_study::run::time_limit::Patience;
-pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, completion, summary};
+pub(crate) use convergence_study::study::kind::completion;
+pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
     Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Reading,
     Refinement, Table, read_claim, reader, readings,

@@ -1,7 +1,7 @@
 //! The settings that an item of a study exercises; by these a diagnosis separates failing from passing items.
 
 use convergence_study::study::Header;
-use convergence_study::study::settings::{Setting, field, study};
+use convergence_study::study::header::{Setting, field, study};
 use thermobeam::parameters::Beam;
 
 use crate::exact::norm::Norm;

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::names;
-use crate::study::settings::{STUDY, Setting};
+use crate::study::header::{STUDY, Setting};
 
 /// Subtracted for a second setting: it must explain more than it costs to read.
 const SECOND: f64 = 0.02;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
 use crate::store::{StoreError, read_if_there};
-use crate::study::settings::field;
+use crate::study::header::field;
 
 /// Logarithm of the ratio that weighs as much as a failure.
 const LARGE: f64 = 2.0;

@@ -33,7 +33,7 @@ pub(super) mod design;
 mod untested;
 
 use convergence_study::study::Untested;
-use convergence_study::study::grid::{Grid, GridColumn, GridVerdict, Model};
+use convergence_study::study::grid::{Grid, GridColumn, Model};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
@@ -199,13 +199,13 @@ impl Convergence {
             columns: self.expect.iter().map(column).collect(),
             model: Model::Squares,
         };
-        let GridVerdict { rates, mut checks } = grid.judge();
-        checks.push(completion);
+        let mut outcome = grid.judge();
+        outcome.extend(Outcome::new("", vec![], vec![completion]));
         Outcome {
             levels: levels.errors(),
             figures: grid.figures(&self.header.id, "norm"),
-            quantities: levels.quantities(&rates),
-            ..Outcome::new(summary(&rates), rates, checks)
+            quantities: levels.quantities(&outcome.rates),
+            ..outcome
         }
     }
 

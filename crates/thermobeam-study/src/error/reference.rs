@@ -5,18 +5,14 @@
 //! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements of degree 1 are those of
 //!   (3.7)-(3.8), with the same initial data.
 
-use std::ops::ControlFlow;
-
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;
 
-use crate::run::motion::{Motion, Report};
-use crate::run::rerun::resampled;
 use crate::run::simulate::{Recording, Simulator};
-use crate::scene::Scene;
+use crate::scene::{Scene, resampled};
 
 /// Polynomials are kept as linear functions, on this many elements for each of the finest mesh compared. The interpolation
 /// error is orthogonal to that mesh's error in slopes, its square smaller by 16²: a 512th of the error.
@@ -35,7 +31,7 @@ pub fn fine_mesh(scene: &Scene, finest: usize) -> Result<Mesh, MeshError> {
 pub struct Traced {
     /// The mesh; if it is finer than the mesh of a run of any order, its linear functions represent the polynomials.
     pub mesh: Mesh,
-    /// At `t_end k / samples`, k = 1 ...; for a run of any order without the contact force.
+    /// At `t_end k / samples`, k = 1 ..., without the contact force.
     pub levels: Vec<Level>,
     /// Energies (3.9) at the same times; for a run of any order those of the polynomials.
     pub energies: Vec<f64>,
@@ -44,9 +40,9 @@ pub struct Traced {
 }
 
 impl Traced {
-    /// Runs a scene by dG over [0, t_end].
+    /// Runs a scene over [0, t_end], by any method.
     ///
-    /// * `mesh`: where the values are stored; it contains the nodes of every mesh compared.
+    /// * `mesh`: where the values are stored; it contains the nodes of every mesh compared. For a one-step scheme its own mesh.
     /// * `samples`: times of comparison, each the end of a step.
     ///
     /// # Errors
@@ -56,16 +52,10 @@ impl Traced {
         let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
-        let mut observe = |motion: &mut dyn Motion, _: &Report| {
-            let t = motion.t();
-            if times.contains(&t) {
-                levels.push(motion.on(&mesh));
-                energies.push(motion.at(t).energy);
-            }
-            Ok(ControlFlow::Continue(()))
-        };
-        let run = Simulator::new(scene)?.watched(Recording::Summary, &times, &mut observe);
-        let run = run.finished()?;
+        let run = Simulator::new(scene)?.read_at(Recording::Summary, &times, |motion| {
+            levels.push(motion.on(&mesh));
+            energies.push(motion.at(motion.t()).energy);
+        })?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
         Ok(Self { mesh, levels, energies, tip_range })
     }

@@ -24,7 +24,7 @@ use thermobeam::dg::ContactEvent;
 use super::prelude::*;
 use super::tables::{Discretisation, discretisations};
 use crate::figures::looks;
-use crate::run::motion::{Motion, Report, Sample};
+use crate::run::motion::{Motion, Sample};
 use crate::run::object::phase_name;
 use crate::run::simulate::{Recording, Simulator};
 
@@ -181,15 +181,8 @@ impl Kind for ExactExperiments {
 impl ExactExperiments {
     fn shown(&self, scene: &Scene) -> Result<ShownStates, CaseFailure> {
         let mut states = vec![];
-        let mut observe = |motion: &mut dyn Motion, _: &Report| {
-            let t = motion.t();
-            // A level of a one-step scheme is there up to rounding.
-            if self.times.get(states.len()).is_some_and(|&time| (t - time).abs() <= 1e-9 * time) {
-                states.push(motion.at(t));
-            }
-            Ok(ControlFlow::Continue(()))
-        };
-        let run = Simulator::new(scene)?.watched(Recording::Curve(TIP_TIMES), &self.times, &mut observe).finished()?;
+        let read = |motion: &mut dyn Motion| states.push(motion.at(motion.t()));
+        let run = Simulator::new(scene)?.read_at(Recording::Curve(TIP_TIMES), &self.times, read)?;
         let balance = [run.energy.largest_balance_residual / run.energy.initial, run.energy.largest_increase];
         let (tip, steps) = (run.tip(), run.steps);
         Ok(ShownStates { states, tip, steps, balance, events: run.contact.map_or(vec![], |contact| contact.events) })

@@ -1,6 +1,5 @@
 //! Common imports and helpers of all kinds of study.
 
-pub(crate) use std::ops::ControlFlow;
 pub(crate) use std::path::Path;
 
 pub(crate) use convergence_study::input::{Field, InputError, Section};
@@ -29,9 +28,8 @@ pub(crate) use crate::exact::solution::{Manufactured, Product};
 pub(crate) use crate::expression::Expression;
 pub(crate) use crate::run::driver::{Driver, Step};
 pub(crate) use crate::run::motion::RunError;
-pub(crate) use crate::run::rerun::resampled;
 pub(crate) use crate::run::simulate;
-pub(crate) use crate::scene::{Method, Scene, limits, tables};
+pub(crate) use crate::scene::{Method, Scene, limits, resampled, tables};
 
 /// Whether each value is larger than its predecessor.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {

@@ -22,8 +22,7 @@ use super::curves::{Apart, Curves, Rows, curves};
 use super::estimate::none;
 use super::reference::{Reference, Wanted, finer, impact, reference};
 use super::{Cost, Reason, Unreachable, Work};
-use crate::run::rerun::{at, resampled};
-use crate::scene::{Method, Scene};
+use crate::scene::{Method, Scene, resampled};
 
 /// Elements of the coarsest run by the scene's own scheme.
 const ELEMENTS: f64 = 16.0;
@@ -218,7 +217,7 @@ fn size(scene: &Scene) -> [f64; 2] {
 /// The scene with these numbers of elements and steps; `None` if there is no such mesh.
 fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
     let mesh = resampled(&scene.mesh, elements.ceil() as usize).ok()?;
-    Some(at(scene, mesh, steps.ceil() as usize, scene.t_end))
+    Some(scene.with_steps(mesh, steps.ceil() as usize, scene.t_end))
 }
 
 /// A run by the scene's own scheme.

@@ -24,8 +24,7 @@ use thermobeam::parameters::Beam;
 use super::curves::{Apart, Curves, Rows, curves};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
-use crate::run::rerun::{at, resampled};
-use crate::scene::{Method, Scene};
+use crate::scene::{Method, Scene, resampled};
 
 /// Share of the target allowed for each of the two differences.
 const SHARE: f64 = 0.5;
@@ -342,7 +341,7 @@ pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
         let (elements, steps) = (scene.mesh.elements(), scene.steps());
         return [(2 * elements, steps), (elements, 2 * steps)].map(|(elements, steps)| {
             let mesh = resampled(&scene.mesh, elements).map_err(Reason::of_run)?;
-            Ok(at(scene, mesh, steps, scene.t_end))
+            Ok(scene.with_steps(mesh, steps, scene.t_end))
         });
     };
     let raised = scene.degree + FINER_DEGREES;

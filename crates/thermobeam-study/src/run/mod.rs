@@ -6,7 +6,6 @@ pub mod family;
 pub mod history;
 pub mod motion;
 pub mod object;
-pub(crate) mod rerun;
 pub mod simulate;
 pub mod step_time;
 pub mod tally;

@@ -239,7 +239,29 @@ impl Simulator {
         self.watched(recording, &[], &mut told)
     }
 
-    /// The same with an additional watch; a step ends at each of the times `ends`, see [`run`].
+    /// Runs to the end; `read` receives the motion at each of these times, which increase.
+    ///
+    /// # Errors
+    /// The [`RunError`] that ended the run.
+    pub(crate) fn read_at(
+        self,
+        recording: Recording,
+        times: &[f64],
+        mut read: impl FnMut(&mut dyn Motion),
+    ) -> Result<Run, RunError> {
+        let mut passed = 0;
+        let mut watch = |motion: &mut dyn Motion, _: &Report| {
+            // A level of a one-step scheme is there up to rounding.
+            if times.get(passed).is_some_and(|time| (motion.t() - time).abs() <= 1e-9 * time) {
+                read(motion);
+                passed += 1;
+            }
+            Ok(ControlFlow::Continue(()))
+        };
+        self.watched(recording, times, &mut watch).finished()
+    }
+
+    /// The same as [`Simulator::run`] with an additional watch; a step ends at each of the times `ends`, see [`run`].
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.at(0.0);
@@ -264,5 +286,23 @@ impl Simulator {
         let contact = started_in.map(|started_in| Contact { started_in, events });
         let run = Run::of(&tally, [first, last], motion.steps(), motion.wall(), motion.solves(), motion.is_heated());
         Run { contact, failure, history, ..run }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_keeps_extremes_and_is_read_at_the_times_given() {
+        let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 2.0\n";
+        let scene = Scene::parse(text, "s.toml").expect("a scene");
+        let (times, mut read) = ([0.5, 1.0, 1.5, 2.0], vec![]);
+        let see = |motion: &mut dyn Motion| read.push(motion.at(motion.t()));
+        let run = Simulator::new(&scene).expect("a motion").read_at(Recording::Summary, &times, see).expect("a run");
+        assert!(read.iter().map(|sample| sample.t).eq(times));
+        let Extremes { u_tip_min, u_tip_max } = run.extremes;
+        assert_eq!(u_tip_min.min(0.0), u_tip_min);
+        assert!(read.iter().all(|sample| (u_tip_min..=u_tip_max).contains(&sample.u_tip)));
     }
 }

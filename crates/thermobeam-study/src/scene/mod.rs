@@ -163,6 +163,11 @@ impl Scene {
         Self { mesh, method: self.method.with_dt(dt), ..self.clone() }
     }
 
+    /// The scene on another mesh, with `steps` steps to a final time.
+    pub(crate) fn with_steps(&self, mesh: Mesh, steps: usize, t_end: f64) -> Self {
+        Self { t_end, ..self.at(mesh, t_end / steps as f64) }
+    }
+
     /// The one-step scheme, its solver and its step.
     ///
     /// # Errors
@@ -220,6 +225,26 @@ impl Scene {
 /// A file's name without folder and extension.
 pub(crate) fn stem(file_name: &str) -> String {
     Path::new(file_name).file_stem().map_or(file_name.into(), |stem| stem.to_string_lossy()).into_owned()
+}
+
+/// `elements` elements graded like `mesh`: its nodes x_i as a function of i/n, linear in between, at j/m.
+///
+/// If m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
+pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError> {
+    if elements == 0 {
+        // The error for every mesh without elements.
+        return Mesh::uniform(0);
+    }
+    let (nodes, n) = (mesh.nodes(), mesh.elements());
+    let node = |j: usize| {
+        // In integers: a rounded j/m would shift nested nodes by a bit.
+        let (index, rest) = (j * n / elements, j * n % elements);
+        if rest == 0 {
+            return nodes[index];
+        }
+        nodes[index] + (nodes[index + 1] - nodes[index]) * (rest as f64 / elements as f64)
+    };
+    Mesh::from_nodes((0..=elements).map(node).collect())
 }
 
 /// The table `[mesh]`.
@@ -314,4 +339,23 @@ fn meets(field: &Field<'_>, function: &Expression, key: &str, at: f64, expected:
         return Ok(());
     }
     Err(field.refuse(format!("{key}({at}) = {found:?}"), format!("{key}({at}) = {expected:?}, the boundary condition")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resampled_meshes_are_nested_to_the_last_bit() {
+        let mesh = Mesh::mapped(12, |s| 0.3 * s + 0.7 * s * s).expect("a mesh");
+        assert_eq!(resampled(&mesh, 12).expect("a mesh"), mesh);
+        assert!(resampled(&mesh, 0).is_err());
+        for (coarse, fine) in [(3, 6), (4, 12), (12, 36), (24, 48), (5, 35)] {
+            let [coarse, fine] = [coarse, fine].map(|n| resampled(&mesh, n).expect("a mesh"));
+            let ratio = fine.elements() / coarse.elements();
+            for (i, x) in coarse.nodes().iter().enumerate() {
+                assert_eq!(*x, fine.nodes()[i * ratio]);
+            }
+        }
+    }
 }

@@ -1,13 +1,16 @@
 //! The surface over a grid of (h, dt).
 
-use thermobeam_study::kinds::work_precision::law::{SurfacePoint, fit_surface};
+use thermobeam_study::kinds::work_precision::law::{GridPoint, fit_surface};
 
-fn grid(error: impl Fn(f64, f64) -> f64) -> Vec<SurfacePoint> {
+fn grid(error: impl Fn(f64, f64) -> f64) -> Vec<GridPoint> {
     let steps = [8.0, 16.0, 32.0, 64.0, 128.0].map(|n: f64| 1.0 / n);
-    steps.iter().flat_map(|&h| steps.map(|dt| SurfacePoint { h, dt, error: error(h, dt) })).collect()
+    steps
+        .iter()
+        .flat_map(|&h| steps.map(|dt| GridPoint { h, dt, error: error(h, dt), ..GridPoint::default() }))
+        .collect()
 }
 
-fn refused(points: &[SurfacePoint]) -> String {
+fn refused(points: &[GridPoint]) -> String {
     fit_surface(points).expect_err("a refusal")
 }
 
@@ -23,7 +26,7 @@ fn a_surface_of_squares_is_recovered_exactly() {
 }
 
 /// Deterministic scatter of log e, uniform with standard deviation `deviation`.
-fn scattered(seed: u64, deviation: f64, data: &mut [SurfacePoint]) {
+fn scattered(seed: u64, deviation: f64, data: &mut [GridPoint]) {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     for point in data {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -50,7 +53,7 @@ fn a_surface_is_the_minimum() {
     scattered(3, 0.03, &mut data);
     let fit = fit_surface(&data).expect("regular");
     let rms = |c: [f64; 4]| {
-        let model = |point: &SurfacePoint| (c[0].exp() * point.h.powf(c[1])).hypot(c[2].exp() * point.dt.powf(c[3]));
+        let model = |point: &GridPoint| (c[0].exp() * point.h.powf(c[1])).hypot(c[2].exp() * point.dt.powf(c[3]));
         (data.iter().map(|point| (model(point) / point.error).ln().powi(2)).sum::<f64>() / data.len() as f64).sqrt()
     };
     let found = [fit.c_h.ln(), fit.p, fit.c_t.ln(), fit.q];
@@ -70,7 +73,7 @@ fn five_points_are_enough_and_steps_of_no_size_are_named() {
     assert!(fit_surface(&five).is_ok());
     for (h, dt) in [(0.0, 0.1), (0.1, -0.1), (f64::INFINITY, 0.1), (0.1, f64::NAN)] {
         let mut broken = data.clone();
-        broken[7] = SurfacePoint { h, dt, error: 1.0 };
+        broken[7] = GridPoint { h, dt, error: 1.0, ..GridPoint::default() };
         assert!(refused(&broken).starts_with("point 7: "));
     }
 }
@@ -86,6 +89,6 @@ fn a_fit_that_does_not_converge_is_none() {
         (1.0, 1.0, 1.0),
         (least, largest, largest),
     ];
-    let found = refused(&wild.map(|(h, dt, error)| SurfacePoint { h, dt, error }));
+    let found = refused(&wild.map(|(h, dt, error)| GridPoint { h, dt, error, ..GridPoint::default() }));
     assert!(found.starts_with("the fit did not converge: "), "{found}");
 }

@@ -27,7 +27,7 @@ use thermobeam::contraction::contact_contraction;
 
 use super::prelude::*;
 use super::steady::{listed_scene, settle, tolerance};
-use crate::run::simulate::driver;
+use crate::run::simulate::{Recording, Simulator, driver};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -216,24 +216,16 @@ impl Kind for RigidStudy {
 
 /// A bouncing beam or an impact by Newton's method.
 fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
-    let mut driver = driver(scene)?;
-    let end = scene.mesh.elements();
-    let (velocity, mut tip) = (driver.level().v[end], vec![(0.0, driver.level().u[end])]);
-    let (mut force, mut iterations, mut most_iterations) = (0.0, 0, 0);
-    for _ in 0..scene.steps() {
-        let Step { report, new, simulation, .. } = driver.stepped()?;
-        iterations += report.iterations;
-        most_iterations = most_iterations.max(report.iterations);
-        force = max_or_nan(force, new.contact_force.abs());
-        tip.push((simulation.t(), new.u[end]));
-    }
+    let run = Simulator::new(scene)?.run(Recording::Curve(scene.steps()), &mut |_, _| ()).finished()?;
+    let steps = run.history.iter().flat_map(|history| &history.rows).skip(1);
+    let force = steps.map(|row| row.sample.contact_force.abs()).fold(0.0, max_or_nan);
     Ok(ShownImpact {
         force: Some(force),
         penetration: Some(epsilon * force),
-        velocity: Some(velocity),
-        mean_iterations: Some(iterations as f64 / scene.steps() as f64),
-        most_iterations,
-        tip,
+        velocity: Some(run.first.u_t_tip),
+        mean_iterations: Some(run.iterations.total as f64 / run.steps as f64),
+        most_iterations: run.iterations.max,
+        tip: run.tip(),
         ..ShownImpact::default()
     })
 }

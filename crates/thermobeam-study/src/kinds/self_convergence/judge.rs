@@ -4,7 +4,7 @@ use convergence_study::judge::richardson;
 use convergence_study::study::LevelErrors;
 use convergence_study::study::levels::{Rates, rate_table};
 
-use super::{ComparedRun, SelfConvergence, Traced};
+use super::{SelfConvergence, Traced};
 use crate::error::reference::distance_of_curves;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
@@ -18,7 +18,7 @@ const VALUE_TOLERANCE: f64 = 1e-8;
 /// The part of the finest level's error that the two references may differ by.
 const KNOWN: f64 = 1e-2;
 
-type Results = [Ran<ComparedRun, Traced>];
+type Results = [Ran<usize, Traced>];
 
 /// A difference of two runs, the second on a mesh that is the first's or nested in it; each the maximum over the times compared.
 #[derive(Debug)]
@@ -180,7 +180,7 @@ fn differences(
         let norm = Norm::ALL.iter().position(|norm| norm.name() == observable.name);
         let claim = study.claims.iter().find(|(of, _)| of.name == observable.name).map(|(_, claim)| claim);
         let difference = |k: usize| Some(observable.difference(found(ran, k)?, found(ran, finer(k))?));
-        let smooth = Claim::new(observable.order(study.axis, study.order_in_time()), SHOWN_TOLERANCE);
+        let smooth = Claim::new(observable.order(study.axis, study.order_in_time), SHOWN_TOLERANCE);
         wanted(claim).then(|| ErrorColumn {
             name: format!("{}, {reading}", observable.name),
             errors: (0..count).map(difference).collect(),
@@ -218,7 +218,7 @@ fn values(study: &SelfConvergence, ran: &Results) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
     let ratio = study.step(before) / study.step(finest);
-    let order = TIP.order(study.axis, study.order_in_time());
+    let order = TIP.order(study.axis, study.order_in_time);
     let row = |k: usize| {
         let value = |run: usize| tip_at(ran, run, k);
         let correction = richardson::correction(value(before), value(finest), ratio, order);
@@ -281,10 +281,5 @@ impl SelfConvergence {
             }
             Axis::Time => self.t_end / self.levels[level].1 as f64,
         }
-    }
-
-    /// The scheme's order in that step: with dt = c h² twice as high.
-    fn order_in_time(&self) -> f64 {
-        self.scheme.order * self.power
     }
 }

@@ -42,13 +42,10 @@
 
 mod judge;
 
-use thermobeam::simulation::Simulation;
-
 use super::prelude::*;
 use super::tables::{Discretisation, Refine, claims, discretisations};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
-use crate::run::rerun::{at, traced};
 use judge::Observable;
 
 /// The row of the table of kinds.
@@ -66,13 +63,13 @@ pub const ROW: KindRow = KindRow {
 #[derive(Debug)]
 pub struct SelfConvergence {
     header: Header,
+    /// The scene by the scheme of the study.
     scene: Scene,
     axis: Axis,
-    scheme: Scheme,
     /// Elements and steps, coarse to fine; at least two.
     levels: Vec<(usize, usize)>,
-    /// dt = c h^power; 1 if only time is refined.
-    power: f64,
+    /// The scheme's order in the step that is refined: with dt = c h² twice as high.
+    order_in_time: f64,
     /// The levels are compared with the first.
     references: [Discretisation; 2],
     t_end: f64,
@@ -84,22 +81,14 @@ pub struct SelfConvergence {
     claims: Vec<(&'static Observable, Claim)>,
 }
 
-/// A run of the scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ComparedRun {
-    /// By the scheme of the study, with this number of elements and steps.
-    Level(usize, usize),
-    /// The reference of this index.
-    Reference(usize),
-}
-
 impl FromFile for SelfConvergence {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "scene", "refine", "reference", "expect"])?;
         let named = root.table("scene", &["file"])?;
         let file = named.require("file", "the path of a scene, from this file's folder")?;
         let scene = Scene::read(file.file(folder)?)?;
-        let own = scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
+        let mut stepping =
+            scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
         let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
         section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
         let axes = [("time", Axis::Time), ("both", Axis::Both)];
@@ -109,19 +98,21 @@ impl FromFile for SelfConvergence {
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
         let schemes = SCHEMES.map(|scheme| (scheme.name, scheme));
         let observables: Vec<_> = Observable::all(axis).map(|observable| (observable.name, observable)).collect();
+        if let Some(field) = section.get("scheme") {
+            stepping.scheme = field.choice(&schemes)?;
+        }
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
             header,
             axis,
-            scheme: section.get("scheme").map_or(Ok(own.scheme), |field| field.choice(&schemes))?,
             levels,
-            power,
+            order_in_time: stepping.scheme.order * power,
             references: discretisations(root, "reference", of_mesh, t_end)?,
             t_end,
             samples,
             contact: contact(&section, &scene)?,
             claims: claims(root, "quantity", &observables)?,
-            scene,
+            scene: Scene { method: Method::OneStep(stepping), ..scene },
         })
     }
 }
@@ -172,39 +163,33 @@ fn nested_list(
 }
 
 impl Kind for SelfConvergence {
-    type Data = ComparedRun;
+    /// Number of the run: the levels, then the two references.
+    type Data = usize;
     type Found = Traced;
 
     fn header(&self) -> &Header {
         &self.header
     }
 
-    /// Every level, then the two references.
-    fn cases(&self) -> Vec<Case<ComparedRun>> {
-        let level = |&(elements, steps): &(usize, usize)| Case {
-            label: Refine::label(elements, steps),
-            cost: elements as f64 * steps as f64,
-            data: ComparedRun::Level(elements, steps),
-        };
-        let reference = |(k, how): (usize, &Discretisation)| Case {
-            label: format!("reference, {}", how.label()),
-            cost: how.cost(self.t_end),
-            data: ComparedRun::Reference(k),
-        };
-        self.levels.iter().map(level).chain(self.references.iter().enumerate().map(reference)).collect()
+    fn cases(&self) -> Vec<Case<usize>> {
+        let level = |&(n, steps): &(usize, usize)| (Refine::label(n, steps), n as f64 * steps as f64);
+        let reference = |how: &Discretisation| (format!("reference, {}", how.label()), how.cost(self.t_end));
+        let runs = self.levels.iter().map(level).chain(self.references.iter().map(reference));
+        runs.enumerate().map(|(data, (label, cost))| Case { label, cost, data }).collect()
     }
 
-    fn run(&self, run: &ComparedRun) -> Result<Traced, CaseFailure> {
-        match *run {
-            ComparedRun::Level(elements, steps) => self.by_the_scheme(elements, steps),
-            ComparedRun::Reference(k) => {
-                let scene = self.references[k].of(&self.scene, self.t_end)?;
-                Traced::compute(&scene, self.common_mesh()?, self.samples)
+    fn run(&self, &run: &usize) -> Result<Traced, CaseFailure> {
+        let (scene, mesh) = match self.levels.get(run) {
+            Some(&(elements, steps)) => {
+                let mesh = resampled(&self.scene.mesh, elements)?;
+                (self.scene.with_steps(mesh.clone(), steps, self.t_end), mesh)
             }
-        }
+            None => (self.references[run - self.levels.len()].of(&self.scene, self.t_end)?, self.common_mesh()?),
+        };
+        Traced::compute(&scene, mesh, self.samples)
     }
 
-    fn judge(&self, ran: &[Ran<ComparedRun, Traced>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<usize, Traced>]) -> Outcome {
         judge::judge(self, ran)
     }
 }
@@ -214,16 +199,5 @@ impl SelfConvergence {
     fn common_mesh(&self) -> Result<Mesh, MeshError> {
         let finest = self.levels.last().map_or(0, |(elements, _)| *elements);
         if self.axis == Axis::Time { resampled(&self.scene.mesh, finest) } else { fine_mesh(&self.scene, finest) }
-    }
-
-    fn by_the_scheme(&self, elements: usize, steps: usize) -> Result<Traced, CaseFailure> {
-        let mesh = resampled(&self.scene.mesh, elements)?;
-        let scene = at(&self.scene, mesh.clone(), steps, self.t_end);
-        let method = Method::OneStep(Stepping { scheme: self.scheme, ..scene.one_step()? });
-        let scene = Scene { method, ..scene };
-        let sample = |simulation: &Simulation, level: &Level| (level.clone(), simulation.energy(level).total());
-        let trace = traced(&scene, self.samples, sample)?;
-        let (levels, energies) = trace.samples.into_iter().unzip();
-        Ok(Traced { mesh, levels, energies, tip_range: trace.tip })
     }
 }

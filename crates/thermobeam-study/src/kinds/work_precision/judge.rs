@@ -110,17 +110,20 @@ fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> 
 fn points(study: &WorkPrecision, ran: &AllRuns, method: &NamedMethod, quantity: usize) -> Vec<GridPoint> {
     let mut points = vec![];
     for Ran { case, found } in ran {
-        let (elements, steps) = match case.data {
-            Runs::OnMesh(of, _, elements) if of == *method => (elements, study.steps_on(elements)),
-            Runs::Dg(_) if method.one_step.is_none() => (0, &[0][..]),
+        let (h, dts) = match case.data {
+            Runs::OnMesh(of, _, elements) if of == *method => {
+                let dt = |steps: &usize| study.family.t_end / *steps as f64;
+                (1.0 / elements as f64, study.steps_on(elements).iter().map(dt).collect())
+            }
+            Runs::Dg(degrees) if method.one_step.is_none() => (f64::NAN, vec![degrees.dt]),
             _ => continue,
         };
-        for (k, &steps) in steps.iter().enumerate() {
+        for (k, dt) in dts.into_iter().enumerate() {
             let run = found.as_ref().ok().and_then(|runs| runs.get(k));
             let value = |number: &dyn Fn(&Measurement) -> f64| run.map_or(f64::NAN, number);
             points.push(GridPoint {
-                elements,
-                steps,
+                h,
+                dt,
                 error: value(&|run| run.errors[quantity]),
                 node_steps: value(&|run| run.spent.node_steps),
                 node_solves: value(&|run| run.spent.node_solves),

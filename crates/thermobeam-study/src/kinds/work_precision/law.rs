@@ -35,19 +35,18 @@ pub(super) struct CostLaw {
 }
 
 /// A run of the grid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct GridPoint {
-    pub(super) elements: usize,
-    pub(super) steps: usize,
-    pub(super) error: f64,
-    pub(super) node_steps: f64,
-    pub(super) node_solves: f64,
-}
-
-impl GridPoint {
-    fn h(&self) -> f64 {
-        1.0 / self.elements as f64
-    }
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GridPoint {
+    /// Mesh size h > 0.
+    pub h: f64,
+    /// Time step dt > 0.
+    pub dt: f64,
+    /// Norm of the error.
+    pub error: f64,
+    /// Elements times steps.
+    pub node_steps: f64,
+    /// Elements times solves.
+    pub node_solves: f64,
 }
 
 impl CostLaw {
@@ -56,9 +55,7 @@ impl CostLaw {
     /// # Errors
     /// A message if no law can be fitted: errors that are not finite, rates that are not positive.
     pub(super) fn fit(points: &[GridPoint], t_end: f64, runs: f64) -> Result<Self, String> {
-        let surface = |p: &GridPoint| SurfacePoint { h: p.h(), dt: t_end / p.steps as f64, error: p.error };
-        let fit = fit_surface(&points.iter().map(surface).collect::<Vec<_>>())?;
-        Self { fit, t_end, runs, reach: 0.0 }.over(points)
+        Self { fit: fit_surface(points)?, t_end, runs, reach: 0.0 }.over(points)
     }
 
     /// The law of errors in the norm of Theorem 3.4, from the law of the distances to the interpolant in the same runs.
@@ -70,10 +67,10 @@ impl CostLaw {
         superclose: (&[GridPoint], &CostLaw),
     ) -> Result<Self, String> {
         let (distances, law) = superclose;
-        let finest = points.iter().map(|point| point.steps).max().unwrap_or(0);
-        let of_finest = points.iter().zip(distances).filter(|(point, _)| point.steps == finest);
+        let finest = points.iter().map(|point| point.dt).fold(f64::INFINITY, f64::min);
+        let of_finest = points.iter().zip(distances).filter(|(point, _)| point.dt == finest);
         let level = |(e, s): (&GridPoint, &GridPoint)| fit::Level {
-            step: e.h(),
+            step: e.h,
             error: ((e.error - s.error) * (e.error + s.error)).sqrt(),
         };
         let line =
@@ -88,7 +85,7 @@ impl CostLaw {
         if !(p > 0.0 && q > 0.0) {
             return Err(format!("the errors do not fall: rates {p:.3} in space, {q:.3} in time"));
         }
-        let square = |p: &GridPoint| (self.error(p.h(), self.t_end / p.steps as f64) / p.error).ln().powi(2);
+        let square = |p: &GridPoint| (self.error(p.h, p.dt) / p.error).ln().powi(2);
         self.fit.rms = (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt();
         self.reach = points.iter().map(|p| p.error).fold(f64::INFINITY, min_or_nan);
         Ok(self)
@@ -136,17 +133,6 @@ pub(crate) fn front(runs: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64
     front
 }
 
-/// One point of the grid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfacePoint {
-    /// Mesh size h > 0.
-    pub h: f64,
-    /// Time step dt > 0.
-    pub dt: f64,
-    /// Norm of the error.
-    pub error: f64,
-}
-
 /// The fitted surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceFit {
@@ -169,12 +155,12 @@ pub struct SurfaceFit {
 /// # Errors
 /// A message: too few points for four unknowns and a deviation, a point without finite logarithms, an iteration that stops before a
 /// minimum, or a grid that cannot separate p and q from the constants.
-pub fn fit_surface(points: &[SurfacePoint]) -> Result<SurfaceFit, String> {
+pub fn fit_surface(points: &[GridPoint]) -> Result<SurfaceFit, String> {
     if points.len() < 5 {
         return Err(format!("{} points: at least 5 are needed", points.len()));
     }
     let usable = |value: f64| value > 0.0 && value.is_finite();
-    let unusable = |point: &SurfacePoint| ![point.h, point.dt, point.error].into_iter().all(usable);
+    let unusable = |point: &GridPoint| ![point.h, point.dt, point.error].into_iter().all(usable);
     if let Some(index) = points.iter().position(unusable) {
         let point = points[index];
         return Err(format!("point {index}: h, dt and the error must be positive and finite, found {point:?}"));
@@ -191,7 +177,7 @@ pub fn fit_surface(points: &[SurfacePoint]) -> Result<SurfaceFit, String> {
 }
 
 /// Best of the minima found from orders 1 and 2 on either axis: a single start may exchange the two contributions.
-fn minimize(points: &[SurfacePoint]) -> Result<Surface<'_>, String> {
+fn minimize(points: &[GridPoint]) -> Result<Surface<'_>, String> {
     let mut best: Option<Surface<'_>> = None;
     let mut complaint = TerminationReason::NoImprovementPossible("no start given");
     for (p, q) in [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0), (2.0, 2.0)] {
@@ -211,15 +197,15 @@ fn minimize(points: &[SurfacePoint]) -> Result<Surface<'_>, String> {
 /// The least-squares problem.
 #[derive(Clone)]
 struct Surface<'a> {
-    points: &'a [SurfacePoint],
+    points: &'a [GridPoint],
     /// (log C_h, p, log C_t, q)
     parameters: Vector4<f64>,
 }
 
 impl<'a> Surface<'a> {
     /// Orders p and q, with constants that share the error equally in the (geometric) centre of the grid.
-    fn start(points: &'a [SurfacePoint], p: f64, q: f64) -> Self {
-        let mean = |value: fn(&SurfacePoint) -> f64| {
+    fn start(points: &'a [GridPoint], p: f64, q: f64) -> Self {
+        let mean = |value: fn(&GridPoint) -> f64| {
             points.iter().map(|point| value(point).ln()).sum::<f64>() / points.len() as f64
         };
         let share = mean(|point| point.error) - 2.0_f64.ln() / 2.0;
@@ -228,13 +214,13 @@ impl<'a> Surface<'a> {
     }
 
     /// log of either contribution, (log A, log B).
-    fn contributions(&self, point: &SurfacePoint) -> Vector2<f64> {
+    fn contributions(&self, point: &GridPoint) -> Vector2<f64> {
         let [a, p, b, q] = self.parameters.into();
         Vector2::new(a + p * point.h.ln(), b + q * point.dt.ln())
     }
 
     /// `½ log(A² + B²) - log e`, scaled by the larger of the two so that nothing overflows.
-    fn residual(&self, point: &SurfacePoint) -> f64 {
+    fn residual(&self, point: &GridPoint) -> f64 {
         let [a, b] = self.contributions(point).into();
         let smaller = (2.0 * (a.min(b) - a.max(b))).exp();
         a.max(b) + 0.5 * smaller.ln_1p() - point.error.ln()
@@ -288,11 +274,10 @@ mod tests {
 
     fn grid(error: impl Fn(f64, f64) -> f64) -> Vec<GridPoint> {
         let mut points = vec![];
-        for elements in [8, 16, 32, 64] {
-            for steps in [10, 20, 40, 80] {
-                let error = error(1.0 / elements as f64, 2.0 / steps as f64);
-                let node_steps = (elements * steps) as f64;
-                points.push(GridPoint { elements, steps, error, node_steps, node_solves: node_steps });
+        for elements in [8.0, 16.0, 32.0, 64.0] {
+            for steps in [10.0, 20.0, 40.0, 80.0] {
+                let (h, dt, node_steps) = (1.0 / elements, 2.0 / steps, elements * steps);
+                points.push(GridPoint { h, dt, error: error(h, dt), node_steps, node_solves: node_steps });
             }
         }
         points
@@ -323,7 +308,7 @@ mod tests {
 
     #[test]
     fn the_front_leaves_out_what_is_beaten() {
-        let point = |node_steps, error| GridPoint { elements: 1, steps: 1, error, node_steps, node_solves: 0.0 };
+        let point = |node_steps, error| GridPoint { error, node_steps, ..GridPoint::default() };
         let points = [point(4.0, 0.1), point(1.0, 0.5), point(2.0, 0.7), point(3.0, f64::NAN)];
         assert_eq!(front(points.iter().map(|p| (p.node_steps, p.error))), vec![(1.0, 0.5), (4.0, 0.1)]);
     }
@@ -341,9 +326,10 @@ mod tests {
             let (p, q, ratio) = (0.5 + 2.0 * next(), 0.5 + 2.0 * next(), (4.0 * next() - 2.0).exp());
             let mut point = || {
                 let (h, dt) = (0.5 * (-3.0 * next()).exp(), 0.5 * (-3.0 * next()).exp());
-                SurfacePoint { h, dt, error: h.powf(p).hypot(ratio * dt.powf(q)) * (0.1 * next()).exp() }
+                let error = h.powf(p).hypot(ratio * dt.powf(q)) * (0.1 * next()).exp();
+                GridPoint { h, dt, error, ..GridPoint::default() }
             };
-            let points: Vec<SurfacePoint> = (0..5 + seed % 6).map(|_| point()).collect();
+            let points: Vec<GridPoint> = (0..5 + seed % 6).map(|_| point()).collect();
             let from = |(p, q)| LevenbergMarquardt::new().minimize(Surface::start(&points, p, q)).0.rss();
             let minima = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0), (2.0, 2.0)].map(from);
             let lowest = minima.iter().copied().fold(f64::INFINITY, f64::min);

@@ -7,7 +7,7 @@ use convergence_study::study::{CaseFailure, Kind, Table};
 use serde::Deserialize;
 use thermobeam::parameters::Beam;
 
-use crate::error::evaluator::ErrorMeasure;
+use crate::error::ErrorMeasure;
 use crate::kinds::work_precision::law::front;
 use crate::kinds::work_precision::method::Degrees;
 use crate::kinds::work_precision::{Runs, WorkPrecision};

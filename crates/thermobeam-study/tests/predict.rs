@@ -6,13 +6,13 @@ use thermobeam::dg::Stepping;
 use thermobeam::mesh::Mesh;
 use thermobeam::scheme::SCHEMES;
 use thermobeam::vibration::{DampedMode, Mode};
-use thermobeam_study::error::evaluator::Evaluator;
+use thermobeam_study::error::Evaluator;
 use thermobeam_study::error::free_vibration;
 use thermobeam_study::predict::choice::{Choice, Quantity};
 use thermobeam_study::predict::estimate::{Budget, Estimate, Source};
 use thermobeam_study::predict::{self, Cost, MOST_WORK, Reason, Unreachable, Work};
+use thermobeam_study::run::Sample;
 use thermobeam_study::run::family::Family;
-use thermobeam_study::run::motion::Sample;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::{Method, Scene};
 

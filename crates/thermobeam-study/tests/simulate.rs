@@ -7,11 +7,11 @@ use convergence_study::run::time_limit::within;
 use thermobeam::dg::Phase;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
-use thermobeam_study::run::motion::RunError;
-use thermobeam_study::run::motion::{Motion, Report};
+use thermobeam_study::run::RunError;
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::run::together::run_together;
+use thermobeam_study::run::{Motion, Report};
 use thermobeam_study::scene::Scene;
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use thermobeam::dg::ContactEvent;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_study::figures::energy_at_rest;
-use thermobeam_study::run::motion::Sample;
+use thermobeam_study::run::Sample;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::run::tally::{EnergySummary, Extremes};

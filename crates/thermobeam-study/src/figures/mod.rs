@@ -1,17 +1,17 @@
 //! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document out.
 
 mod animation;
-mod bifurcation;
-mod contraction;
 
 pub use animation::{Animation, animation};
-pub use bifurcation::{Branch, bifurcation};
-pub use contraction::contraction;
 
+use convergence_study::plots::look::{Look, Marker, Marks, look};
+use convergence_study::plots::style::{self, Dash};
+use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{self, Axis, Guide, History, Phases, Series, SpaceTime};
+use convergence_study::text::lists::distinct;
 use thermobeam::parameters::{Beam, Obstacles};
 
-use crate::run::motion::Sample;
+use crate::run::Sample;
 use crate::run::simulate::Run;
 use crate::scene::Scene;
 
@@ -94,6 +94,92 @@ impl Run {
 /// Energy β²/(4ρ) of the straight beam at rest; `None` without a Kirchhoff term.
 pub fn energy_at_rest(beam: &Beam) -> Option<f64> {
     (beam.rho > 0.0).then(|| beam.beta * beam.beta / (4.0 * beam.rho))
+}
+
+/// A family of equilibria, all stable or all unstable.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Branch {
+    /// Contact state; branches with the same label share a colour and a legend entry.
+    pub label: String,
+    /// `(parameter, tip displacement)`, along the branch.
+    pub points: Vec<(f64, f64)>,
+    /// Stable branches are solid, unstable ones dashed.
+    pub stable: bool,
+}
+
+/// Draws tip displacements of equilibria over β; open markers show those in which simulations ended.
+pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) -> String {
+    let labels = distinct(branches.iter().map(|branch| branch.label.as_str()));
+    let family = |b: &Branch| labels.iter().position(|l| *l == b.label).unwrap_or(0);
+    let mut curves: Vec<Curve> = branches.iter().map(|b| branch_curve(b, look(family(b)))).collect();
+    let ends_look = Look { colour: style::INK, ..look(labels.len()) };
+    curves.push(Curve { look: ends_look, width: 0.0, marks: Marks::Open, ..Curve::line(0, ends) });
+    let parameters = || curves.iter().flat_map(|c| &c.points).map(|p| p.0).filter(|x| x.is_finite());
+    let (low, high) = (parameters().fold(f64::INFINITY, f64::min), parameters().fold(f64::NEG_INFINITY, f64::max));
+    // Branches end at the limits of the parameter, so these must not coincide with the frame.
+    let room = 0.03 * (high - low);
+    Xy {
+        show_x: vec![low - room, high + room],
+        x: Axis::linear("axial force at rest β"),
+        y: Axis::linear("tip displacement u(1) (dimensionless)"),
+        curves,
+        guides: obstacles,
+        ..Xy::default()
+    }
+    .draw()
+}
+
+fn branch_curve(branch: &Branch, look: Look) -> Curve {
+    // A single point would be invisible as a line.
+    let marks = match (branch.points.len(), branch.stable) {
+        (2.., _) => Marks::None,
+        (_, true) => Marks::Filled,
+        (_, false) => Marks::Open,
+    };
+    // The colour shows the contact state, dashes show instability.
+    let (dash, stability) = if branch.stable { (Dash::Solid, "stable") } else { (Dash::Short, "unstable") };
+    let series = Series { label: format!("{}, {stability}", branch.label), points: branch.points.clone() };
+    Curve { look: Look { dash, marker: Marker::Circle, ..look }, width: 2.6, marks, ..Curve::line(0, &series) }
+}
+
+/// Draws measured over predicted contraction, log-log, with the identity up to where it is claimed, and the region
+/// without convergence. Markers there are open: they show a ratio of successive increments that no longer falls.
+///
+/// * `series`: `(predicted, measured)`, one for each kind of case.
+pub fn contraction(series: &[Series]) -> String {
+    let mut xy = Xy {
+        x: Axis::log("predicted contraction α"),
+        y: Axis::log("measured contraction"),
+        curves: series.iter().enumerate().flat_map(sides).collect(),
+        beyond: Some((1.0, "no convergence (α ≥ 1)".into())),
+        ..Xy::default()
+    };
+    let is_split =
+        |series: &Series| [false, true].iter().all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above));
+    if series.iter().any(is_split) {
+        xy.notes.push("open markers: no convergence".to_owned());
+    }
+    // Up to 100, so that the text fits above its region.
+    xy.show_x = vec![1.0, 100.0];
+    xy.show_y = vec![1.0];
+    xy.curves.insert(0, identity(&xy));
+    xy.draw()
+}
+
+/// A series on both sides of α = 1, under one legend entry, whose marker is open if all points are.
+fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
+    let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
+    let side = |(points, marks)| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
+    let sides = [(below, Marks::Filled), (above, Marks::Open)].map(side);
+    sides.into_iter().filter(|side| !side.points.is_empty()).collect()
+}
+
+/// The line on which prediction and measurement agree, up to α = 1.
+fn identity(xy: &Xy) -> Curve {
+    let points = [xy.x_ruler().lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec();
+    let line = Curve::line(0, &Series { label: "measured = predicted".into(), points });
+    let look = Look { colour: style::MUTED, dash: Dash::Long, ..line.look };
+    Curve { look, width: 1.6, is_data: false, ..line }
 }
 
 #[cfg(test)]

@@ -8,9 +8,8 @@ use convergence_study::judge::richardson;
 use convergence_study::text::number::decimals;
 
 use super::prelude::*;
-use super::steady::{
-    Nearest, cost_to_rest, exact_states, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
-};
+pub use super::steady::{AtRest, Nearest};
+use super::steady::{cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance};
 use super::tables::{DISCRETISATION_KEYS, Discretisation};
 use crate::error::reference::Traced;
 
@@ -58,21 +57,6 @@ pub struct EndStates {
     any_order: Option<(Discretisation, f64, f64)>,
 }
 
-/// A beam at rest, and the nearest exact stable state. Pairs are of u and of φ.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RestingEnd {
-    /// When it came to rest.
-    pub t: f64,
-    /// u(1) and φ(1).
-    pub tip: [f64; 2],
-    /// u(1) and φ(1) of the exact state.
-    pub exact_tip: [f64; 2],
-    /// The contact of the exact state.
-    pub contact: Contact,
-    /// Largest errors at the nodes.
-    pub error: [f64; 2],
-}
-
 impl FromFile for EndStates {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "run", "any-order", "expect"])?;
@@ -102,7 +86,8 @@ impl FromFile for EndStates {
 impl Kind for EndStates {
     /// Index of a scene, and its number of linear elements; `None` for the run of any order.
     type Data = (usize, Option<usize>);
-    type Found = RestingEnd;
+    /// Its end, and the nearest stable state.
+    type Found = AtRest;
 
     fn header(&self) -> &Header {
         &self.header
@@ -125,29 +110,32 @@ impl Kind for EndStates {
         linear.chain(any_order).map(case).collect()
     }
 
-    fn run(&self, &(scene, elements): &Self::Data) -> Result<RestingEnd, CaseFailure> {
+    fn run(&self, &(scene, elements): &Self::Data) -> Result<AtRest, CaseFailure> {
         let scene = &self.scenes[scene];
+        let is_stable = |state: &Equilibrium| state.stable;
         let absent = |reason: &str| CaseFailure { reason: reason.to_owned() };
-        if let Some(elements) = elements {
+        let end = if let Some(elements) = elements {
             let scene = scene.at(Mesh::uniform(elements)?, self.dt);
             let (t, level) = settle(&scene, self.speed, self.t_max)?;
-            return end(&scene, &scene.mesh, t, &level);
-        }
-        let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;
-        let found = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
-        end(scene, &found.mesh, *t_end, found.levels.last().ok_or_else(|| absent("the run has no end"))?)
+            AtRest::of(&scene, &scene.mesh, t, &level, is_stable)
+        } else {
+            let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;
+            let Traced { mesh, levels, .. } = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
+            AtRest::of(scene, &mesh, *t_end, levels.last().ok_or_else(|| absent("the run has no end"))?, is_stable)
+        }?;
+        end.nearest.map(|_| end).ok_or_else(|| absent("there is no stable steady state"))
     }
 
-    fn judge(&self, ran: &[Ran<(usize, Option<usize>), RestingEnd>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<(usize, Option<usize>), AtRest>]) -> Outcome {
         let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
         let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
         // Errors below the floor cannot be distinguished from the remaining motion.
         let floor = MOTION * self.speed;
         let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
-        let mut checks = vec![completion(ran, |RestingEnd { t, tip, exact_tip, error, .. }| {
-            let fields = [("tip", tip), ("exact tip", exact_tip), ("error", error)];
+        let mut checks = vec![completion(ran, |end| {
+            let fields = [("tip", end.tip), ("exact tip", end.exact_tip()), ("error", end.errors())];
             let of_fields = fields.map(|(name, [u, phi])| Reading::new(format!("{name} of u or φ"), u + phi));
-            readings::not_finite(&[&of_fields[..], &[Reading::new("time of rest", *t)]].concat())
+            readings::not_finite(&[&of_fields[..], &[Reading::new("time of rest", end.t)]].concat())
         })];
         checks.extend(scenes.iter().map(Ends::check));
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
@@ -178,27 +166,13 @@ impl Kind for EndStates {
     }
 }
 
-/// The end of a run, and the nearest stable state.
-fn end(scene: &Scene, mesh: &Mesh, t: f64, level: &Level) -> Result<RestingEnd, CaseFailure> {
-    let stable: Vec<_> = exact_states(scene)?.into_iter().filter(|state| state.stable).collect();
-    let none = || CaseFailure { reason: "there is no stable steady state".to_owned() };
-    let Nearest { state, errors, .. } = Nearest::of(mesh, level, &stable).ok_or_else(none)?;
-    Ok(RestingEnd {
-        t,
-        tip: [level.u[mesh.elements()], level.phi[mesh.elements()]],
-        exact_tip: [state.u_tip, state.phi_tip],
-        contact: state.contact,
-        error: errors,
-    })
-}
-
 impl EndStates {
     /// Largest errors at the nodes over the mean mesh width.
     fn levels<'e>(&self, scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
         let columns = scenes.enumerate().flat_map(|(k, ends)| {
             [(0, "u"), (1, "φ")].map(|(field, name)| ErrorColumn {
                 name: format!("{}: {name}", ends.scene.name),
-                errors: ends.ends.iter().map(|end| end.map(|end| end.error[field])).collect(),
+                errors: ends.ends.iter().map(|end| end.map(|end| end.errors()[field])).collect(),
                 claim: Some(Claim::new(ORDER, self.tolerance)),
                 look: 2 * k + field,
             })
@@ -216,34 +190,34 @@ impl EndStates {
 struct Ends<'a> {
     study: &'a EndStates,
     scene: &'a Scene,
-    ends: Vec<Option<&'a RestingEnd>>,
-    any_order: Option<&'a RestingEnd>,
+    ends: Vec<Option<&'a AtRest>>,
+    any_order: Option<&'a AtRest>,
 }
 
 impl<'a> Ends<'a> {
-    fn of(study: &'a EndStates, ran: &'a [Ran<(usize, Option<usize>), RestingEnd>], scene: usize) -> Self {
+    fn of(study: &'a EndStates, ran: &'a [Ran<(usize, Option<usize>), AtRest>], scene: usize) -> Self {
         let end = |elements: Option<usize>| found(ran, &(scene, elements));
         let ends = study.elements.iter().map(|&elements| end(Some(elements))).collect();
         Self { study, scene: &study.scenes[scene], ends, any_order: end(None) }
     }
 
-    fn finest(&self) -> Option<&RestingEnd> {
+    fn finest(&self) -> Option<&AtRest> {
         self.ends.last().copied().flatten()
     }
 
     /// A number of the finest end; NaN if that run failed.
-    fn number(&self, of: impl Fn(&RestingEnd) -> f64) -> f64 {
+    fn number(&self, of: impl Fn(&AtRest) -> f64) -> f64 {
         self.finest().map_or(f64::NAN, of)
     }
 
     /// The larger error on the finest mesh.
     fn error(&self) -> f64 {
-        self.number(|end| max_or_nan(end.error[0], end.error[1]))
+        self.number(|end| max_or_nan(end.errors()[0], end.errors()[1]))
     }
 
     /// Whether the beam ends straight, in which case the mesh causes no error.
     fn is_straight(&self) -> bool {
-        self.finest().is_some_and(|end| end.exact_tip == [0.0, 0.0])
+        self.finest().is_some_and(|end| end.exact_tip() == [0.0, 0.0])
     }
 
     /// The tip extrapolated from the two finest meshes to vanishing mesh width.
@@ -257,18 +231,18 @@ impl<'a> Ends<'a> {
 
     fn check(&self) -> Check {
         let allowed = self.study.error;
-        let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip[0]));
+        let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip()[0]));
         // The beam may buckle to either side, but errors are comparable only if it is the same side on all meshes.
-        let contact = self.finest().map(|end| end.contact);
-        let same_side = self.ends.iter().all(|end| end.is_some() && end.map(|end| end.contact) == contact);
+        let contact = self.finest().and_then(AtRest::contact);
+        let same_side = self.ends.iter().all(|end| end.is_some() && end.and_then(AtRest::contact) == contact);
         Check::that(
             self.error() <= allowed && (u - exact).abs() <= EXTRAPOLATED * allowed && same_side,
             format!("{} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name),
             format!(
                 "largest error at {} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {} for {}",
                 self.study.elements.last().unwrap_or(&0),
-                self.number(|end| end.error[0]),
-                self.number(|end| end.error[1]),
+                self.number(|end| end.errors()[0]),
+                self.number(|end| end.errors()[1]),
                 decimals(u, 10),
                 decimals(exact, 10)
             ),
@@ -278,7 +252,7 @@ impl<'a> Ends<'a> {
     /// The run of any order must end in an exact state, whichever of the stable ones it is.
     fn check_any_order(&self) -> Option<Check> {
         let (how, _, allowed) = self.study.any_order.as_ref()?;
-        let [u, phi] = self.any_order.map_or([f64::NAN; 2], |end| end.error);
+        let [u, phi] = self.any_order.map_or([f64::NAN; 2], AtRest::errors);
         Some(Check::that(
             max_or_nan(u, phi) <= *allowed,
             format!("{} by {} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name, how.label()),
@@ -294,14 +268,14 @@ impl<'a> Ends<'a> {
             reading.guarded(format!("{}: {name}", self.scene.name), tolerance)
         };
         vec![
-            Reading::text("at rest", self.finest().map_or("?", |end| name_of(end.contact))),
+            Reading::text("at rest", self.finest().and_then(AtRest::contact).map_or("?", name_of)),
             tip(shown("u(1)", self.number(|end| end.tip[0])), "u_tip", discrete),
             // The table shows the extrapolated value instead.
             tip(Reading::new("φ(1)", self.number(|end| end.tip[1])), "phi_tip", discrete),
             shown("extrapolated", self.extrapolated(0)),
-            tip(shown("exact", self.number(|end| end.exact_tip[0])), "exact_u_tip", exact),
+            tip(shown("exact", self.number(|end| end.exact_tip()[0])), "exact_u_tip", exact),
             shown("φ(1) extrapolated", self.extrapolated(1)),
-            tip(shown("φ(1) exact", self.number(|end| end.exact_tip[1])), "exact_phi_tip", exact),
+            tip(shown("φ(1) exact", self.number(|end| end.exact_tip()[1])), "exact_phi_tip", exact),
             Reading::new("at rest by t", self.number(|end| end.t)).fixed(0),
         ]
     }

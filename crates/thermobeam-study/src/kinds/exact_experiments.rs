@@ -24,9 +24,9 @@ use thermobeam::dg::ContactEvent;
 use super::prelude::*;
 use super::tables::{Discretisation, discretisations};
 use crate::figures::looks;
-use crate::run::motion::{Motion, Sample};
 use crate::run::object::phase_name;
 use crate::run::simulate::{Recording, Simulator};
+use crate::run::{Motion, Sample};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

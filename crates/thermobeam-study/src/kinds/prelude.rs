@@ -26,8 +26,8 @@ pub(crate) use thermobeam::solve::{Level, Settings, Solver};
 pub(crate) use crate::exact::norm::{Norm, Norms};
 pub(crate) use crate::exact::solution::{Manufactured, Product};
 pub(crate) use crate::expression::Expression;
+pub(crate) use crate::run::RunError;
 pub(crate) use crate::run::driver::{Driver, Step};
-pub(crate) use crate::run::motion::RunError;
 pub(crate) use crate::run::simulate;
 pub(crate) use crate::scene::{Method, Scene, limits, resampled, tables};
 

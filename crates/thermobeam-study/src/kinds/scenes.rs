@@ -31,7 +31,7 @@ use super::tables::Discretisation;
 use crate::predict::choice::{Quantity as Accuracy, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{Unreachable, Work};
-use crate::run::motion::Sample;
+use crate::run::Sample;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::tally::Extremes;
 use crate::run::together::run_together;

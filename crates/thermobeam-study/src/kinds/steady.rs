@@ -58,15 +58,8 @@ impl ToRest {
         let mut scene = scene.at(Mesh::uniform(self.elements)?, self.dt);
         scene.beam.beta = beta;
         scene.name = format!("beta = {beta}");
-        let states = exact_states(&scene)?;
-        let (t_rest, level) = settle(&scene, self.speed, self.t_max)?;
-        Ok(AtRest {
-            states: states.len(),
-            stable: states.iter().filter(|state| state.stable).count(),
-            u_tip: level.u[self.elements],
-            t_rest,
-            nearest: Nearest::of(&scene.mesh, &level, &states),
-        })
+        let (t, level) = settle(&scene, self.speed, self.t_max)?;
+        AtRest::of(&scene, &scene.mesh, t, &level, |_| true)
     }
 }
 
@@ -94,22 +87,60 @@ pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
     200.0 / dt * elements as f64
 }
 
-/// Where a moving beam comes to rest, and the exact steady states.
+/// Where a moving beam comes to rest, and the exact steady states. Pairs are of u and of φ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtRest {
+    /// When it came to rest.
+    pub t: f64,
+    /// u(1) and φ(1).
+    pub tip: [f64; 2],
     /// Number of exact steady states.
     pub states: usize,
     /// Number of those that are stable.
     pub stable: usize,
-    /// u(1) at rest.
-    pub u_tip: f64,
-    /// Time at which the beam came to rest.
-    pub t_rest: f64,
     /// The nearest exact steady state; `None` if there is none.
     pub nearest: Option<Nearest>,
 }
 
 impl AtRest {
+    /// The beam at rest since `t`, by its values at the nodes of `mesh`.
+    ///
+    /// * `meant`: the exact states of which the nearest is found.
+    ///
+    /// # Errors
+    /// The steady states cannot be found.
+    pub(super) fn of(
+        scene: &Scene,
+        mesh: &Mesh,
+        t: f64,
+        level: &Level,
+        meant: impl Fn(&Equilibrium) -> bool,
+    ) -> Result<Self, CaseFailure> {
+        let states = exact_states(scene)?;
+        Ok(Self {
+            t,
+            tip: [&level.u, &level.phi].map(|field| field[mesh.elements()]),
+            states: states.len(),
+            stable: states.iter().filter(|state| state.stable).count(),
+            nearest: Nearest::of(mesh, level, states.into_iter().filter(meant)),
+        })
+    }
+
+    /// u(1) and φ(1) of the nearest exact steady state; NaN if there is none.
+    pub(super) fn exact_tip(&self) -> [f64; 2] {
+        self.nearest.map_or([f64::NAN; 2], |Nearest { state, .. }| [state.u_tip, state.phi_tip])
+    }
+
+    /// Its distances in u and in φ; NaN if there is none.
+    pub(super) fn errors(&self) -> [f64; 2] {
+        self.nearest.map_or([f64::NAN; 2], |nearest| nearest.errors)
+    }
+
+    /// Its state of contact.
+    pub(super) fn contact(&self) -> Option<Contact> {
+        self.nearest.map(|nearest| nearest.state.contact)
+    }
+
     /// Distance to the nearest exact steady state; NaN if there is none.
     pub(super) fn distance(&self) -> f64 {
         self.nearest.map_or(f64::NAN, |nearest| nearest.distance)
@@ -164,8 +195,8 @@ pub struct Nearest {
 
 impl Nearest {
     /// `None` if there is no state.
-    pub(super) fn of(mesh: &Mesh, level: &Level, states: &[Equilibrium]) -> Option<Self> {
-        let measured = states.iter().map(|&state| {
+    fn of(mesh: &Mesh, level: &Level, states: impl Iterator<Item = Equilibrium>) -> Option<Self> {
+        let measured = states.map(|state| {
             let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
                 let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
                 differences.fold(0.0, max_or_nan)

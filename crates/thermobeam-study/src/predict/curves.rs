@@ -8,9 +8,9 @@ use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
+use crate::run::Motion;
 use crate::run::dg::DgMotion;
 use crate::run::driver::Step;
-use crate::run::motion::Motion;
 use crate::run::simulate;
 use crate::scene::{Method, Scene};
 

@@ -10,7 +10,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Level;
 
-use super::motion::{Motion, Report, RunError, Sample, Solves};
+use super::{Motion, Report, RunError, Sample, Solves};
 use crate::scene::Scene;
 
 /// Maximum number of times of a history by dG: more than a figure has columns.

@@ -10,8 +10,8 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 
-use super::motion::{Motion, Report, RunError, Sample, Solves};
 use super::tally::EnergySummary;
+use super::{Motion, Report, RunError, Sample, Solves};
 
 /// A completed step.
 pub(crate) struct Step<'s> {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
 
-use super::motion::{Motion, Report, RunError, Sample, Watch};
+use super::{Motion, Report, RunError, Sample, Watch};
 
 /// Maximum number of frames: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;

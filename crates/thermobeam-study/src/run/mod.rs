@@ -1,12 +1,228 @@
-//! Runs of scenes and problems: motions, watches, records, repetition, and runs in lanes.
+//! A beam in motion, by any method: what a step does, what can be read from it, and why it ends early.
 
 pub(crate) mod dg;
 pub mod driver;
 pub mod family;
 pub mod history;
-pub mod motion;
 pub mod object;
 pub mod simulate;
 pub mod step_time;
 pub mod tally;
 pub mod together;
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use convergence_study::run::time_limit::TimeUp;
+use serde::Serialize;
+use thermobeam::dg::{ContactEvent, Phase};
+use thermobeam::energy::Balance;
+use thermobeam::error::{SetupError, StepError};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::solve::Level;
+use thiserror::Error;
+
+/// Observed quantities at one time; the JSON object of a run has them, except the contact force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sample {
+    /// Time.
+    pub t: f64,
+    /// u(1).
+    pub u_tip: f64,
+    /// φ(1).
+    pub phi_tip: f64,
+    /// u_t(1); for a one-step scheme û(1).
+    pub u_t_tip: f64,
+    /// φ_t(1); for a one-step scheme φ̂(1).
+    pub phi_t_tip: f64,
+    /// The physical temperature at x = 1/2.
+    pub theta_mid: f64,
+    /// The contact force, positive on the upper obstacle: g(u(1)); for a one-step scheme that of the last step.
+    #[serde(skip)]
+    pub contact_force: f64,
+    /// The energy (3.9), with the term of θ_A.
+    pub energy: f64,
+}
+
+/// Counts of the solver's work, for any method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Solves {
+    /// Solves of a step's linear system.
+    pub passes: usize,
+    /// Factorisations of that system.
+    pub factorizations: usize,
+}
+
+impl From<thermobeam::solve::Work> for Solves {
+    fn from(work: thermobeam::solve::Work) -> Self {
+        Self { passes: work.passes, factorizations: work.factorizations }
+    }
+}
+
+/// A completed step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Its length.
+    pub dt: f64,
+    /// Number of iterations.
+    pub iterations: usize,
+    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout a step of dG.
+    pub in_contact: bool,
+}
+
+/// Why a problem did not reach its end.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RunError {
+    /// The solver refuses the problem.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// A step failed.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// A step raised the energy, broke its balance, or led to a state that is not finite.
+    #[error("step {step} (from t = {t}, length {dt:e}): {unsound}")]
+    Unsound {
+        /// Number of the step, counted from 1.
+        step: usize,
+        /// The time at which it started.
+        t: f64,
+        /// Its length.
+        dt: f64,
+        /// What is wrong with it.
+        unsound: Unsound,
+    },
+    /// The time limit of the case was reached.
+    #[error(transparent)]
+    TimeUp(#[from] TimeUp),
+}
+
+impl RunError {
+    /// For step number `step`, which ended at `t`.
+    fn unsound(step: usize, t: f64, dt: f64, unsound: Unsound) -> Self {
+        Self::Unsound { step, t: t - dt, dt, unsound }
+    }
+}
+
+impl From<MeshError> for RunError {
+    fn from(error: MeshError) -> Self {
+        Self::Setup(error.into())
+    }
+}
+
+/// Why the results of a run are invalid, although every step of it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Unsound {
+    /// The energy is infinite or NaN.
+    #[error("the energy is {0}: {EXPECTED}")]
+    NotFinite(f64),
+    /// The energy rose by this amount.
+    #[error("the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}")]
+    Rise(f64),
+    /// The balance of the energy is violated by this amount.
+    #[error(
+        "the balance of the energy is violated by {0:.3e} in a step, where every exactly solved step keeps it: {EXPECTED}"
+    )]
+    Imbalance(f64),
+}
+
+const EXPECTED: &str =
+    "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
+
+/// A beam in motion, one step at a time. Observed values are computed only on request.
+pub trait Motion {
+    /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until` is the end of a step.
+    ///
+    /// # Errors
+    /// [`RunError`]; the state is then unchanged.
+    fn step(&mut self, until: f64) -> Result<Option<Report>, RunError>;
+
+    /// The current time.
+    fn t(&self) -> f64;
+
+    /// Steps done.
+    fn steps(&self) -> usize;
+
+    /// The state at a time in the last step; for a one-step scheme at its end.
+    fn at(&mut self, t: f64) -> Sample;
+
+    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the first is `t_end /
+    /// count`. A one-step scheme shows levels at equal numbers of steps, at most `count` of them.
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
+
+    /// Times of a history.
+    fn rows(&self) -> usize;
+
+    /// Points x of a picture.
+    fn points(&self) -> Vec<f64>;
+
+    /// Displacement at those points, at a time in the last step.
+    fn shape(&self, t: f64) -> Vec<f64>;
+
+    /// The values of the current level at the nodes of a mesh, without the contact force.
+    fn on(&self, mesh: &Mesh) -> Level;
+
+    /// Smallest and largest u(1) in the last step; for a one-step scheme at its end.
+    fn extremes(&self) -> [f64; 2];
+
+    /// The energy's balance over the last step.
+    fn balance(&self) -> Balance;
+
+    /// Counts of the work done so far.
+    fn solves(&self) -> Solves;
+
+    /// Time spent in steps.
+    fn wall(&self) -> Duration;
+
+    /// Whether the temperature is computed.
+    fn is_heated(&self) -> bool {
+        true
+    }
+
+    /// What the free end touches, and where contact began and ended; `None` if the method does not locate events.
+    fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
+        None
+    }
+}
+
+/// Observes a motion after each of its steps.
+pub trait Watch {
+    /// Observes the last step, and reads what it needs.
+    ///
+    /// # Errors
+    /// [`RunError`] ends the run at this step.
+    fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError>;
+}
+
+impl<F: FnMut(&mut dyn Motion, &Report) -> Result<ControlFlow<()>, RunError>> Watch for F {
+    fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError> {
+        self(motion, report)
+    }
+}
+
+/// Steps a motion to `until`, or until a watch ends it.
+///
+/// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of steps.
+///
+/// # Errors
+/// [`RunError`] of the failed step, or of a watch; the motion then stands at the last level.
+pub fn run(motion: &mut dyn Motion, until: f64, ends: &[f64], watches: &mut [&mut dyn Watch]) -> Result<(), RunError> {
+    let mut passed = 0;
+    loop {
+        while ends.get(passed).is_some_and(|&end| end <= motion.t()) {
+            passed += 1;
+        }
+        let Some(report) = motion.step(ends.get(passed).copied().unwrap_or(until).min(until))? else {
+            if passed >= ends.len() {
+                return Ok(());
+            }
+            // A one-step scheme reaches this time up to rounding.
+            passed += 1;
+            continue;
+        };
+        for watch in &mut *watches {
+            if watch.see(motion, &report)?.is_break() {
+                return Ok(());
+            }
+        }
+    }
+}

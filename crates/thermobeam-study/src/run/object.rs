@@ -4,7 +4,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::{StepError, StepFailure};
 
-use super::motion::RunError;
+use super::RunError;
 use super::simulate::Run;
 use crate::scene::Scene;
 

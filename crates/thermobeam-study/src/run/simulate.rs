@@ -21,9 +21,7 @@
 //! ```
 
 use std::ops::ControlFlow;
-use std::time::Duration;
 
-use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::simulation::{self, Problem};
@@ -31,8 +29,8 @@ use thermobeam::simulation::{self, Problem};
 use super::dg::DgMotion;
 use super::driver::Driver;
 use super::history::RunHistory;
-use super::motion::{Motion, Report, RunError, Sample, Solves, Watch, run};
-use super::tally::{EnergySummary, Extremes, Iterations, Tally};
+pub use super::tally::{Contact, Run};
+use super::{Motion, Report, RunError, Watch, run};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};
 
@@ -46,120 +44,6 @@ pub enum Recording {
     Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`].
     History,
-}
-
-/// A finished run, or the completed part of a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Run {
-    /// Steps done.
-    pub steps: usize,
-    /// Iterations of these steps.
-    pub iterations: Iterations,
-    /// Time spent stepping, without observation.
-    pub wall: Duration,
-    /// The start.
-    pub first: Sample,
-    /// The last level.
-    pub last: Sample,
-    /// The free end's range.
-    pub extremes: Extremes,
-    /// Steps in contact, see [`Report::in_contact`].
-    pub contact_steps: usize,
-    /// The energy.
-    pub energy: EnergySummary,
-    /// Counts of the solver's work.
-    pub work: Solves,
-    /// Whether the temperature was computed: it is omitted if nothing heats the beam.
-    pub is_heated: bool,
-    /// Where contact began and ended, if the method locates it.
-    pub contact: Option<Contact>,
-    /// Why the run ended early, if it did.
-    pub failure: Option<RunError>,
-    /// History and frames, if requested.
-    pub history: Option<RunHistory>,
-}
-
-/// Contact, located to round-off.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Contact {
-    /// What the free end touched at the start.
-    pub started_in: Phase,
-    /// Where contact began and ended.
-    pub events: Vec<ContactEvent>,
-}
-
-impl Run {
-    /// The sums over the steps from `first` to `last`, and the properties of the motion.
-    pub(super) fn of(
-        tally: &Tally,
-        [first, last]: [Sample; 2],
-        steps: usize,
-        wall: Duration,
-        work: Solves,
-        is_heated: bool,
-    ) -> Self {
-        Self {
-            steps,
-            iterations: tally.iterations,
-            wall,
-            first,
-            last,
-            extremes: tally.extremes,
-            contact_steps: tally.contact_steps,
-            energy: tally.energy(last.energy),
-            work,
-            is_heated,
-            contact: None,
-            failure: None,
-            history: None,
-        }
-    }
-
-    /// Why the results of the run cannot be used, in words.
-    pub fn complaint(&self) -> Option<String> {
-        self.failure.as_ref().map(ToString::to_string)
-    }
-
-    /// The run, if it finished.
-    ///
-    /// # Errors
-    /// The [`RunError`] that ended it.
-    pub fn finished(self) -> Result<Self, RunError> {
-        match self.failure {
-            Some(failure) => Err(failure),
-            None => Ok(self),
-        }
-    }
-
-    /// (t, u(1, t)) of the history.
-    pub fn tip(&self) -> Vec<(f64, f64)> {
-        self.history.as_ref().map_or(vec![], RunHistory::tip)
-    }
-
-    /// Time intervals in contact: as located, or from the rows of the history.
-    pub fn contact_phases(&self) -> Vec<(f64, f64)> {
-        match (&self.contact, &self.history) {
-            (Some(contact), _) => contact.phases(self.first.t, self.last.t),
-            (None, Some(history)) => history.contact_phases(),
-            (None, None) => vec![],
-        }
-    }
-}
-
-impl Contact {
-    /// Time intervals in contact, between the start and the end of a run.
-    fn phases(&self, start: f64, end: f64) -> Vec<(f64, f64)> {
-        let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
-        for event in &self.events {
-            if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
-                phase.1 = event.t;
-            }
-            if event.to != Phase::Free {
-                phases.push((event.t, end));
-            }
-        }
-        phases
-    }
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
@@ -265,7 +149,7 @@ impl Simulator {
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.at(0.0);
-        let mut tally = Tally::new(&first);
+        let mut sums = Run::start(first);
         let mut history = match recording {
             Recording::Summary => None,
             Recording::Curve(rows) => Some(RunHistory::new(&*motion, t_end, Some(rows), first)),
@@ -273,8 +157,8 @@ impl Simulator {
         };
         let started_in = motion.contact().map(|(phase, _)| phase);
         let failure = match &mut history {
-            Some(history) => run(&mut *motion, t_end, ends, &mut [history, &mut tally, watch]),
-            None => run(&mut *motion, t_end, ends, &mut [&mut tally, watch]),
+            Some(history) => run(&mut *motion, t_end, ends, &mut [history, &mut sums, watch]),
+            None => run(&mut *motion, t_end, ends, &mut [&mut sums, watch]),
         }
         .err();
         let t = motion.t();
@@ -284,8 +168,8 @@ impl Simulator {
         }
         let events = motion.contact().map_or(vec![], |(_, events)| events.to_vec());
         let contact = started_in.map(|started_in| Contact { started_in, events });
-        let run = Run::of(&tally, [first, last], motion.steps(), motion.wall(), motion.solves(), motion.is_heated());
-        Run { contact, failure, history, ..run }
+        sums.end(last, motion.solves(), motion.is_heated());
+        Run { wall: motion.wall(), contact, failure, history, ..sums }
     }
 }
 
@@ -301,8 +185,8 @@ mod tests {
         let see = |motion: &mut dyn Motion| read.push(motion.at(motion.t()));
         let run = Simulator::new(&scene).expect("a motion").read_at(Recording::Summary, &times, see).expect("a run");
         assert!(read.iter().map(|sample| sample.t).eq(times));
-        let Extremes { u_tip_min, u_tip_max } = run.extremes;
-        assert_eq!(u_tip_min.min(0.0), u_tip_min);
-        assert!(read.iter().all(|sample| (u_tip_min..=u_tip_max).contains(&sample.u_tip)));
+        let [low, high] = [run.extremes.u_tip_min, run.extremes.u_tip_max];
+        assert_eq!(low.min(0.0), low);
+        assert!(read.iter().all(|sample| (low..=high).contains(&sample.u_tip)));
     }
 }

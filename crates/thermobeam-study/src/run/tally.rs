@@ -1,12 +1,15 @@
-//! Sums over the steps of a run, by any method.
+//! The result of a run by any method: its sums over the steps, and where it ended.
 
 use std::ops::ControlFlow;
+use std::time::Duration;
 
 use convergence_study::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
+use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;
 
-use super::motion::{Motion, Report, RunError, Sample, Unsound, Watch};
+use super::history::RunHistory;
+use super::{Motion, Report, RunError, Sample, Solves, Unsound, Watch};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -62,29 +65,65 @@ impl EnergySummary {
     }
 }
 
-/// The sums over the completed steps.
-#[derive(Debug, Clone)]
-pub(super) struct Tally {
-    pub(super) iterations: Iterations,
-    pub(super) extremes: Extremes,
-    pub(super) contact_steps: usize,
-    initial: f64,
-    /// The current energy: its initial value plus the changes.
-    now: f64,
-    largest_increase: Option<f64>,
-    largest_residual: f64,
+/// A finished run, or the completed part of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Steps done.
+    pub steps: usize,
+    /// Iterations of these steps.
+    pub iterations: Iterations,
+    /// Time spent stepping, without observation.
+    pub wall: Duration,
+    /// The start.
+    pub first: Sample,
+    /// The last level.
+    pub last: Sample,
+    /// The free end's range.
+    pub extremes: Extremes,
+    /// Steps in contact, see [`Report::in_contact`].
+    pub contact_steps: usize,
+    /// The energy.
+    pub energy: EnergySummary,
+    /// Counts of the solver's work.
+    pub work: Solves,
+    /// Whether the temperature was computed: it is omitted if nothing heats the beam.
+    pub is_heated: bool,
+    /// Where contact began and ended, if the method locates it.
+    pub contact: Option<Contact>,
+    /// Why the run ended early, if it did.
+    pub failure: Option<RunError>,
+    /// History and frames, if requested.
+    pub history: Option<RunHistory>,
 }
 
-impl Tally {
-    pub(super) fn new(start: &Sample) -> Self {
+/// Contact, located to round-off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// What the free end touched at the start.
+    pub started_in: Phase,
+    /// Where contact began and ended.
+    pub events: Vec<ContactEvent>,
+}
+
+impl Run {
+    /// A run before its first step.
+    pub(super) fn start(first: Sample) -> Self {
+        let (initial, u_tip) = (first.energy, first.u_tip);
+        let (largest_increase, largest_balance_residual) = (f64::NAN, 0.0);
         Self {
+            steps: 0,
             iterations: Iterations::default(),
-            extremes: Extremes { u_tip_min: start.u_tip, u_tip_max: start.u_tip },
+            wall: Duration::ZERO,
+            first,
+            last: first,
+            extremes: Extremes { u_tip_min: u_tip, u_tip_max: u_tip },
             contact_steps: 0,
-            initial: start.energy,
-            now: start.energy,
-            largest_increase: None,
-            largest_residual: 0.0,
+            energy: EnergySummary { initial, last: initial, largest_increase, largest_balance_residual },
+            work: Solves::default(),
+            is_heated: true,
+            contact: None,
+            failure: None,
+            history: None,
         }
     }
 
@@ -99,26 +138,68 @@ impl Tally {
         self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, high);
         self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
         // Not the difference of two totals, which would lose the digits that separate a small fall from a small rise.
-        let (change, residual) = (balance.change, balance.residual.abs());
-        self.largest_increase = Some(self.largest_increase.map_or(change, |most| max_or_nan(most, change)));
-        self.largest_residual = max_or_nan(self.largest_residual, residual);
-        self.now += change;
-        let step =
-            EnergySummary { largest_increase: change, largest_balance_residual: residual, ..self.energy(self.now) };
-        step.sound()
+        let (change, residual, energy) = (balance.change, balance.residual.abs(), &mut self.energy);
+        energy.largest_increase = if self.steps == 0 { change } else { max_or_nan(energy.largest_increase, change) };
+        energy.largest_balance_residual = max_or_nan(energy.largest_balance_residual, residual);
+        energy.last += change;
+        self.steps += 1;
+        EnergySummary { largest_increase: change, largest_balance_residual: residual, ..*energy }.sound()
     }
 
-    pub(super) fn energy(&self, last: f64) -> EnergySummary {
-        EnergySummary {
-            initial: self.initial,
-            last,
-            largest_increase: self.largest_increase.unwrap_or(f64::NAN),
-            largest_balance_residual: self.largest_residual,
+    /// Ends the run at its last level.
+    pub(super) fn end(&mut self, last: Sample, work: Solves, is_heated: bool) {
+        (self.last, self.work, self.is_heated) = (last, work, is_heated);
+        self.energy.last = last.energy;
+    }
+
+    /// Why the results of the run cannot be used, in words.
+    pub fn complaint(&self) -> Option<String> {
+        self.failure.as_ref().map(ToString::to_string)
+    }
+
+    /// The run, if it finished.
+    ///
+    /// # Errors
+    /// The [`RunError`] that ended it.
+    pub fn finished(self) -> Result<Self, RunError> {
+        match self.failure {
+            Some(failure) => Err(failure),
+            None => Ok(self),
+        }
+    }
+
+    /// (t, u(1, t)) of the history.
+    pub fn tip(&self) -> Vec<(f64, f64)> {
+        self.history.as_ref().map_or(vec![], RunHistory::tip)
+    }
+
+    /// Time intervals in contact: as located, or from the rows of the history.
+    pub fn contact_phases(&self) -> Vec<(f64, f64)> {
+        match (&self.contact, &self.history) {
+            (Some(contact), _) => contact.phases(self.first.t, self.last.t),
+            (None, Some(history)) => history.contact_phases(),
+            (None, None) => vec![],
         }
     }
 }
 
-impl Watch for Tally {
+impl Contact {
+    /// Time intervals in contact, between the start and the end of a run.
+    fn phases(&self, start: f64, end: f64) -> Vec<(f64, f64)> {
+        let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
+        for event in &self.events {
+            if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
+                phase.1 = event.t;
+            }
+            if event.to != Phase::Free {
+                phases.push((event.t, end));
+            }
+        }
+        phases
+    }
+}
+
+impl Watch for Run {
     fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());
         let unsound = |unsound| RunError::unsound(motion.steps(), motion.t(), report.dt, unsound);

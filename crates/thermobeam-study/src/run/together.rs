@@ -11,9 +11,8 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::driver::Middle;
-use super::motion::{Report, RunError, Sample};
 use super::simulate::{Run, problem};
-use super::tally::Tally;
+use super::{Report, RunError, Sample};
 use crate::scene::Scene;
 
 /// What scenes must have in common to run together.
@@ -53,59 +52,56 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
         }
-        if lanes.iter().all(|lane| lane.ended.is_some()) {
+        if lanes.iter().all(|lane| lane.run.failure.is_some()) {
             break;
         }
     }
     let share = driver.wall() / scenes.len() as u32;
-    lanes.iter_mut().for_each(|lane| lane.end(common.steps, None, driver.ensemble(), &mut level));
-    Ok(lanes.into_iter().filter_map(|lane| Some(Run { wall: share, ..lane.ended? })).collect())
+    let ended = |mut lane: LaneRun<'_>| {
+        if lane.run.failure.is_none() {
+            lane.end(driver.ensemble(), &mut level);
+        }
+        Run { wall: share, ..lane.run }
+    };
+    Ok(lanes.into_iter().map(ended).collect())
 }
 
 /// One of the scenes.
 struct LaneRun<'s> {
     k: usize,
     scene: &'s Scene,
-    first: Sample,
-    tally: Tally,
-    /// Its run, after its failure or its end.
-    ended: Option<Run>,
+    run: Run,
 }
 
 impl<'s> LaneRun<'s> {
     fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut Level) -> Self {
         let first = sample(k, scene, ensemble, level, 0).at_the_start(scene.obstacles);
-        Self { k, scene, first, tally: Tally::new(&first), ended: None }
+        Self { k, scene, run: Run::start(first) }
     }
 
     /// Adds a step; the run ends if it fails or violates the law of the energy.
     fn see(&mut self, ensemble: &Ensemble, balance: &Balance, level: &mut Level) {
-        if self.ended.is_some() {
+        if self.run.failure.is_some() {
             return;
         }
         let (k, dt, step) = (self.k, self.scene.dt(), ensemble.step());
-        match ensemble.report(k) {
-            Err(error) => self.end(step - 1, Some(error.into()), ensemble, level),
-            Ok(done) => {
-                let in_contact = ensemble.contact_force(k) != 0.0;
-                let report = Report { dt, iterations: done.iterations, in_contact };
-                if let Err(unsound) = self.tally.add(&report, balance, [ensemble.tip(k); 2]) {
-                    let failure = RunError::unsound(step, step as f64 * dt, dt, unsound);
-                    self.end(step, Some(failure), ensemble, level);
-                }
-            }
+        let outcome = ensemble.report(k).map_err(RunError::from).and_then(|done| {
+            let in_contact = ensemble.contact_force(k) != 0.0;
+            let report = Report { dt, iterations: done.iterations, in_contact };
+            let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
+            self.run.add(&report, balance, [ensemble.tip(k); 2]).map_err(unsound)
+        });
+        if let Err(failure) = outcome {
+            self.end(ensemble, level);
+            self.run.failure = Some(failure);
         }
     }
 
-    /// Ends the run after `steps` steps, unless it has ended.
-    fn end(&mut self, steps: usize, failure: Option<RunError>, ensemble: &Ensemble, level: &mut Level) {
-        let (k, first) = (self.k, self.first);
-        if self.ended.is_none() {
-            let last = if steps == 0 { first } else { sample(k, self.scene, ensemble, level, steps) };
-            let work = ensemble.work_of(k).into();
-            let run = Run::of(&self.tally, [first, last], steps, Duration::ZERO, work, ensemble.is_heated(k));
-            self.ended = Some(Run { failure, ..run });
-        }
+    /// Ends the run at the present level.
+    fn end(&mut self, ensemble: &Ensemble, level: &mut Level) {
+        let (k, run) = (self.k, &mut self.run);
+        let last = if run.steps == 0 { run.first } else { sample(k, self.scene, ensemble, level, run.steps) };
+        run.end(last, ensemble.work_of(k).into(), ensemble.is_heated(k));
     }
 }
 

@@ -39,7 +39,6 @@ pub(crate) mod limits;
 mod method;
 pub(crate) mod tables;
 
-use crate::scene::tables::FunctionField;
 use std::path::Path;
 
 use thermobeam::dg;
@@ -266,8 +265,7 @@ fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError>
     let Some(field) = get("map") else {
         return Mesh::uniform(elements).map_err(|error| root.refuse("mesh", error.to_string(), "a valid mesh"));
     };
-    let map = field.expression(Variable::S)?;
-    field.finite(&map, 1.0, 0)?;
+    let map = tables::function(&field, Variable::S, 1.0, 0)?;
     tables::checked_mesh(Mesh::mapped(elements, |s| map.eval(s)), &field)
 }
 
@@ -295,8 +293,7 @@ fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, Inpu
     }
     let function = |key: &str, conditions: &[(f64, f64)]| -> Result<Option<Expression>, InputError> {
         let Some(field) = section.as_ref().and_then(|section| section.get(key)) else { return Ok(None) };
-        let function = field.expression(Variable::X)?;
-        field.finite(&function, 1.0, 0)?;
+        let function = tables::function(&field, Variable::X, 1.0, 0)?;
         finite_at_nodes(&field, &function, mesh)?;
         for &(at, expected) in conditions {
             meets(&field, &function, key, at, expected)?;
@@ -327,7 +324,10 @@ fn finite_at_nodes(field: &Field<'_>, function: &Expression, mesh: &Mesh) -> Res
     let values = mesh.nodes().iter().map(|&at| (at, function.eval(at)));
     match values.into_iter().find(|(_, value)| !value.is_finite()) {
         None => Ok(()),
-        Some((at, found)) => Err(field.not_finite(NotFinite { variable: Variable::X, at, end: 1.0, order: 0, found })),
+        Some((at, found)) => {
+            let found = NotFinite { variable: Variable::X, at, end: 1.0, order: 0, found };
+            Err(field.invalid(found.to_string()))
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{self, Scheme};
 use thermobeam::solve::{Settings, Solver};
 
-use crate::expression::{Expression, NotFinite, Variable};
+use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
 use convergence_study::input::{Field, InputError, Misread, Section};
 
@@ -127,34 +127,20 @@ pub(crate) fn checked_mesh(mesh: Result<Mesh, MeshError>, field: &Field<'_>) -> 
     })
 }
 
-/// A field read as a function.
-pub(crate) trait FunctionField {
-    /// A function of `variable`; a message points into the text.
-    fn expression(&self, variable: Variable) -> Result<Expression, InputError>;
-
-    /// Refuses a function that is not finite on [0, end], or whose derivatives up to `order` are not.
-    fn finite(&self, function: &Expression, end: f64, order: usize) -> Result<(), InputError>;
-
-    /// The message about a function that is not finite somewhere.
-    fn not_finite(&self, found: NotFinite) -> InputError;
-}
-
-impl FunctionField for Field<'_> {
-    fn expression(&self, variable: Variable) -> Result<Expression, InputError> {
-        let expected = format!("a function of {} in quotes, such as \"1 - {}\"", variable.name(), variable.name());
-        self.parsed(&expected, |text| {
-            Expression::parse(text, variable).map_err(|error| Misread {
-                offset: error.offset,
-                reason: format!("{}\n{}", error.problem, error.excerpt()),
-            })
+/// A function of `variable`, finite on [0, end] with its derivatives up to `order`; a message points into the text.
+pub(crate) fn function(
+    field: &Field<'_>,
+    variable: Variable,
+    end: f64,
+    order: usize,
+) -> Result<Expression, InputError> {
+    let expected = format!("a function of {} in quotes, such as \"1 - {}\"", variable.name(), variable.name());
+    let function = field.parsed(&expected, |text| {
+        Expression::parse(text, variable).map_err(|error| Misread {
+            offset: error.offset,
+            reason: format!("{}\n{}", error.problem, error.excerpt()),
         })
-    }
-
-    fn finite(&self, function: &Expression, end: f64, order: usize) -> Result<(), InputError> {
-        function.check_finite(end, order).map_err(|found| self.not_finite(found))
-    }
-
-    fn not_finite(&self, found: NotFinite) -> InputError {
-        self.invalid(found.to_string())
-    }
+    })?;
+    function.check_finite(end, order).map_err(|found| field.invalid(found.to_string()))?;
+    Ok(function)
 }

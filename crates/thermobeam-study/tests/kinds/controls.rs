@@ -2,7 +2,7 @@ use std::sync::LazyLock;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::controls::matrix::Controls;
+use thermobeam_study::kinds::controls::Controls;
 use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 

@@ -1,23 +1,23 @@
-use crate::typed::{Runs, changed, passes_but_not_without_each_case};
+use crate::planted::verdict_with;
+use crate::typed::{Runs, passes_but_not_without_each_case};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind, run_cases_here};
+use convergence_study::study::{FromFile, run_cases_here};
 use thermobeam::equilibrium::Contact;
-use thermobeam_study::kinds::equilibrium::{EndStates, RestingEnd};
+use thermobeam_study::kinds::equilibrium::{AtRest, EndStates, Nearest};
 
 fn study() -> EndStates {
     EndStates::read(file("equilibria.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
+fn near(end: &mut AtRest) -> &mut Nearest {
+    end.nearest.as_mut().expect("a steady state")
+}
+
 /// The verdict with the end of one case changed.
-fn verdict(study: &EndStates, sound: &Runs<EndStates>, label: &str, change: impl Fn(&mut RestingEnd)) -> Verdict {
+fn verdict(study: &EndStates, sound: &Runs<EndStates>, label: &str, change: impl Fn(&mut AtRest)) -> Verdict {
     let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
-    let planted = changed::<EndStates>(sound, |index, end| {
-        if index == case {
-            change(end);
-        }
-    });
-    study.judge(&planted).verdict
+    verdict_with(study, sound, case, change)
 }
 
 #[test]
@@ -29,18 +29,19 @@ fn the_file_passes_but_not_without_each_case() {
 fn every_claim_about_end_states_can_fail() {
     let study = study();
     let sound = run_cases_here(&study);
-    type Defect = fn(&mut RestingEnd);
+    type Defect = fn(&mut AtRest);
     let planted: [(&str, Defect); 8] = [
-        ("paper-2-beta-5, n = 160", |end| end.error[0] = 2e-6),
-        ("paper-2-beta-5, n = 160", |end| end.error[1] = 2e-6),
+        ("paper-2-beta-5, n = 160", |end| near(end).errors[0] = 2e-6),
+        ("paper-2-beta-5, n = 160", |end| near(end).errors[1] = 2e-6),
         ("paper-2-beta-5, n = 160", |end| end.tip[0] = 0.0141797),
         ("paper-2-beta-5, n = 160", |end| {
-            end.contact = if end.contact == Contact::Upper { Contact::Lower } else { Contact::Upper };
+            let contact = &mut near(end).state.contact;
+            *contact = if *contact == Contact::Upper { Contact::Lower } else { Contact::Upper };
         }),
-        ("paper-2-beta-5, n = 40", |end| end.error[0] = 1e-5),
-        ("paper-1-beta-0, n = 160", |end| end.error[0] = 2e-6),
-        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| end.error[0] = 2e-13),
-        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| end.error[1] = 2e-13),
+        ("paper-2-beta-5, n = 40", |end| near(end).errors[0] = 1e-5),
+        ("paper-1-beta-0, n = 160", |end| near(end).errors[0] = 2e-6),
+        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| near(end).errors[0] = 2e-13),
+        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| near(end).errors[1] = 2e-13),
     ];
     for (k, (label, defect)) in planted.into_iter().enumerate() {
         assert_ne!(verdict(&study, &sound, label, defect), Verdict::Pass, "defect {k}: {label}");
@@ -51,14 +52,14 @@ fn every_claim_about_end_states_can_fail() {
 fn no_number_may_be_nan() {
     let study = study();
     let sound = run_cases_here(&study);
-    let numbers: [fn(&mut RestingEnd) -> &mut f64; 7] = [
+    let numbers: [fn(&mut AtRest) -> &mut f64; 7] = [
         |end| &mut end.t,
         |end| &mut end.tip[0],
         |end| &mut end.tip[1],
-        |end| &mut end.exact_tip[0],
-        |end| &mut end.exact_tip[1],
-        |end| &mut end.error[0],
-        |end| &mut end.error[1],
+        |end| &mut near(end).state.u_tip,
+        |end| &mut near(end).state.phi_tip,
+        |end| &mut near(end).errors[0],
+        |end| &mut near(end).errors[1],
     ];
     for ran in &sound {
         for (k, number) in numbers.into_iter().enumerate() {

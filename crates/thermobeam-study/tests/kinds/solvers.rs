@@ -6,7 +6,7 @@ use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::solvers::{Agreement, Boundary, Crossing, FixedPointStep, Found, Point, Solvers};
+use thermobeam_study::kinds::solvers::{Agreement, Boundary, FixedPointStep, Found, Point, Solvers};
 
 fn map() -> Solvers {
     Solvers::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -71,7 +71,8 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
 fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
     for index in first..sound.len() {
         let with = |change: &dyn Fn(&mut Boundary)| verdict_with(study, sound, index, |found| change(boundary(found)));
-        let with_crossing = |change: &dyn Fn(&mut Crossing)| with(&|line| change(line.found.as_mut().expect("found")));
+        let with_crossing =
+            |change: &dyn Fn(&mut FixedPointStep)| with(&|line| change(line.found.as_mut().expect("found")));
         assert_eq!(with(&|line| line.found = None), Verdict::Fail);
         assert_eq!(with(&|line| line.predicted = None), Verdict::Fail);
         assert_eq!(with(&|line| line.predicted = Some(f64::NAN)), Verdict::Fail);

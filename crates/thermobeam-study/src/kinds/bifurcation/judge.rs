@@ -4,7 +4,6 @@
 use convergence_study::judge::richardson;
 use convergence_study::text::number::decimals;
 
-use super::branches;
 use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Found, SteadyBranch};
 use crate::figures;
 use crate::kinds::prelude::*;
@@ -47,7 +46,7 @@ impl<'r> DiagramOf<'r> {
 
     /// β and u(1) at rest; NaN if the case failed.
     fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.rests.iter().map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.u_tip)))
+        self.rests.iter().map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.tip[0])))
     }
 
     fn checks(&self, study: &BifurcationStudy) -> Vec<Check> {
@@ -55,7 +54,7 @@ impl<'r> DiagramOf<'r> {
         // Without a diagram, the check of completion has failed already.
         if let Some(diagram) = self.diagram {
             checks.push(self.unambiguous(diagram));
-            checks.extend(match branches::buckles(self.scene) {
+            checks.extend(match super::buckles(self.scene) {
                 true => [buckles(diagram), self.bent_below()],
                 false => [lifts_off(diagram), self.one_state(diagram)],
             });
@@ -117,7 +116,7 @@ impl<'r> DiagramOf<'r> {
         );
         let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
         let mut figures = vec![Figure::new(id, &format!("theta-a-{theta_a}"), caption, whole)];
-        if branches::buckles(self.scene) {
+        if super::buckles(self.scene) {
             let fork = diagram.event[0];
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
             let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
@@ -183,7 +182,7 @@ fn numbers_not_finite(found: &Found) -> Vec<String> {
     not_finite(&match found {
         Found::Diagram(Diagram { event: [low, high], .. }) => vec![("event, below", *low), ("event, above", *high)],
         Found::Force(force) => vec![("force", *force)],
-        Found::Rest(rest) => vec![("u(1)", rest.u_tip), ("distance", rest.distance())],
+        Found::Rest(rest) => vec![("u(1)", rest.tip[0]), ("distance", rest.distance())],
     })
 }
 
@@ -236,8 +235,8 @@ fn force_table(forces: &[(usize, f64)]) -> Table {
 fn rest_table(study: &BifurcationStudy, scenes: &[DiagramOf<'_>]) -> Table {
     let readings = |k: usize, of: &DiagramOf<'_>| {
         let rest = of.rests[k].1;
-        let exact = rest.and_then(|rest| rest.nearest).map_or(f64::NAN, |nearest| nearest.state.u_tip);
-        [decimals(rest.map_or(f64::NAN, |rest| rest.u_tip), 8), decimals(exact, 8)]
+        let exact = rest.map_or(f64::NAN, |rest| rest.exact_tip()[0]);
+        [decimals(rest.map_or(f64::NAN, |rest| rest.tip[0]), 8), decimals(exact, 8)]
     };
     let row = |(k, beta): (usize, &f64)| {
         std::iter::once(beta.to_string()).chain(scenes.iter().flat_map(|of| readings(k, of))).collect()

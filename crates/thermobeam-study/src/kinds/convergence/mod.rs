@@ -30,7 +30,6 @@
 //! ```
 
 pub(super) mod design;
-mod untested;
 
 use convergence_study::study::Untested;
 use convergence_study::study::grid::{Grid, GridColumn, Model};
@@ -151,7 +150,7 @@ impl Kind for Convergence {
     }
 
     fn untested(&self) -> Vec<Untested> {
-        untested::untested(self)
+        design::untested(self)
     }
 }
 

@@ -13,7 +13,7 @@
 //! seed = 1
 //! ```
 
-use super::{End, Worst, beams};
+use super::{End, Worst};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::{CLOSED, Watched, of_allowed, watched};
 
@@ -145,7 +145,7 @@ impl RandomScenes {
     fn problem(&self, scene: usize) -> Result<(Problem, f64), MeshError> {
         let elements = scene % BATCH / LANES + 1;
         // Far from the seeds of other studies, which are small.
-        beams::wild(elements, (self.seed << 32) + scene as u64)
+        super::wild(elements, (self.seed << 32) + scene as u64)
     }
 
     /// Runs scenes with `group + 1` elements each to their ends.

@@ -29,7 +29,7 @@ use std::sync::Arc;
 
 use thermobeam::energy::Energy;
 
-use super::{End, Worst, beams, named_cases};
+use super::{End, Worst, named_cases};
 use crate::figures::looks;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Layout;
@@ -158,7 +158,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let of_scene = |scene: Scene| by_scheme(scene.name.clone(), true, Arc::new(move || simulate::problem(&scene)));
     let smooth = |k: u64| {
         let (mesh, seed) = (mesh.clone(), seed.wrapping_add(k));
-        by_scheme(format!("random-{k}"), false, Arc::new(move || beams::smooth(&mesh, seed)))
+        by_scheme(format!("random-{k}"), false, Arc::new(move || super::smooth(&mesh, seed)))
     };
     Ok(scenes.into_iter().flat_map(of_scene).chain((0..random as u64).flat_map(smooth)).collect())
 }

@@ -1,6 +1,6 @@
 //! The sentences of Section 5, each a check with its numbers.
 
-use super::{AtRest, Experiment, ExperimentTask, Experiments, Found, Measured, SectionGroup, straight_energy};
+use super::{AtRest, Experiment, Experiments, Found, Measured, SectionGroup, straight_energy};
 use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
 
@@ -41,16 +41,15 @@ impl<'r> OfGroup<'r> {
     /// The experiments that belong to the group.
     pub(super) fn of(
         study: &'r Experiments,
-        ran: &'r [Ran<ExperimentTask, Found>],
+        ran: &'r [Ran<usize, Found>],
         belongs: impl Fn(SectionGroup) -> bool,
     ) -> Self {
-        let run = |task: ExperimentTask| match found(ran, &task) {
+        let run = |k: usize| match found(ran, &k) {
             Some(Found::Run(run)) => Some(&**run),
             _ => None,
         };
         let group = || study.experiments.iter().enumerate().filter(|(_, experiment)| belongs(experiment.group));
-        let runs: Vec<_> =
-            group().filter_map(|(k, experiment)| Some((experiment, run(ExperimentTask::Run(k))?))).collect();
+        let runs: Vec<_> = group().filter_map(|(k, experiment)| Some((experiment, run(k)?))).collect();
         Self { complete: runs.len() == group().count() && !runs.is_empty(), runs }
     }
 
@@ -74,20 +73,20 @@ impl Measured {
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
         let of = |reading: Reading, guard: &str, tolerance: f64| reading.guarded(format!("{name}: {guard}"), tolerance);
         let ends = |reading: Reading, guard: &str| if bent { of(reading, guard, SMOOTH) } else { reading };
-        let exact = self.nearest.map(|nearest| nearest.state.u_tip);
+        let exact = self.end.nearest.map(|nearest| nearest.state.u_tip);
         vec![
             of(Reading::new("first contact above", self.first_upper).fixed(4), "first_upper", SMOOTH),
             of(Reading::new("below", self.first_lower).fixed(4), "first_lower", AFTER_BOUNCES),
             of(Reading::new("frequency of u(1)", self.frequency).fixed(4), "frequency", AFTER_BOUNCES),
             of(Reading::new("range of φ(1)", self.phi_amplitude).fixed(4), "phi_amplitude", AFTER_BOUNCES),
-            Reading::new("steady by t", self.t_steady).fixed(0),
+            Reading::new("steady by t", self.end.t).fixed(0),
             ends(Reading::new("E at the end", self.energy).fixed(8), "energy"),
-            Reading::new("u(1)", self.u_tip).scientific(3),
-            Reading::new("φ(1)", self.phi_tip).scientific(3),
+            Reading::new("u(1)", self.end.tip[0]).scientific(3),
+            Reading::new("φ(1)", self.end.tip[1]).scientific(3),
             ends(Reading::new("u(1) of the exact state", exact), "exact_u_tip"),
             Reading::new("contact force", self.contact_force),
             Reading::new("largest field", self.largest_field),
-            Reading::new("distance to a steady state", self.nearest.map_or(f64::NAN, |nearest| nearest.distance)),
+            Reading::new("distance to a steady state", self.end.distance()),
             Reading::new("largest change of the energy", self.largest_increase),
         ]
     }
@@ -99,23 +98,23 @@ impl AtRest {
         vec![
             Reading::text("steady states", self.states.to_string()),
             Reading::text("stable", self.stable.to_string()),
-            Reading::new("u(1) at rest", self.u_tip).scientific(6),
+            Reading::new("u(1) at rest", self.tip[0]).scientific(6),
             distance.shown(|distance| if self.nearest.is_some() { format!("{distance:.1e}") } else { "-".to_owned() }),
-            Reading::new("at rest by t", self.t_rest).fixed(0),
+            Reading::new("at rest by t", self.t).fixed(0),
         ]
     }
 }
 
 /// The runs to rest that completed, each with its β.
-pub(super) fn rests<'r>(study: &Experiments, ran: &'r [Ran<ExperimentTask, Found>]) -> Vec<(f64, &'r AtRest)> {
-    let rest = |(k, &beta): (usize, &f64)| match found(ran, &ExperimentTask::Rest(k)) {
+pub(super) fn rests<'r>(study: &Experiments, ran: &'r [Ran<usize, Found>]) -> Vec<(f64, &'r AtRest)> {
+    let rest = |(k, &beta): (usize, &f64)| match found(ran, &(study.experiments.len() + k)) {
         Some(Found::Rest(rest)) => Some((beta, rest)),
         _ => None,
     };
     study.rest.betas.iter().enumerate().filter_map(rest).collect()
 }
 
-pub(super) fn checks(study: &Experiments, ran: &[Ran<ExperimentTask, Found>], rests: &Rests<'_>) -> Vec<Check> {
+pub(super) fn checks(study: &Experiments, ran: &[Ran<usize, Found>], rests: &Rests<'_>) -> Vec<Check> {
     let mut checks = vec![completion(ran, |found| {
         readings::not_finite(&match found {
             Found::Run(run) => run.readings("", true),
@@ -133,7 +132,7 @@ fn time(t: Option<f64>) -> String {
 }
 
 /// All checks of the text except the number of steady states.
-fn claims(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Check> {
+fn claims(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Check> {
     let all = OfGroup::of(study, ran, |_| true);
     let first = OfGroup::of(study, ran, |group| group == SectionGroup::First);
     let increases = all.runs.iter().map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
@@ -155,8 +154,8 @@ fn claims(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Check>
 
 /// * `allowed`: upper bound on the remaining energy.
 fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
-    let energies = first
-        .list(|scene, run| format!("{:.9} for {:.9} at t = {:.0}", run.energy, straight_energy(scene), run.t_steady));
+    let energies =
+        first.list(|scene, run| format!("{:.9} for {:.9} at t = {:.0}", run.energy, straight_energy(scene), run.end.t));
     [
         Check::that(
             first.all(|scene, run| (run.energy - straight_energy(scene)).abs() <= allowed),
@@ -210,7 +209,7 @@ fn comes_to_rest(scene: &Scene, contact: Contact, run: &Measured) -> Check {
     };
     let Scene { beam, .. } = scene;
     let place = if contact == Contact::Free { "free of both obstacles" } else { name_of(contact) };
-    let is_there = run.nearest.is_some_and(|nearest| nearest.state.contact == contact);
+    let is_there = run.end.contact() == Some(contact);
     Check::that(
         presses && is_there && has_arrived(run),
         format!("θ_A = {}, β = {}: at the steady state the beam is {place}", beam.theta_a, beam.beta),
@@ -220,24 +219,24 @@ fn comes_to_rest(scene: &Scene, contact: Contact, run: &Measured) -> Check {
 
 fn ends_bent(scene: &Scene, run: &Measured) -> Check {
     Check::that(
-        run.u_tip.abs() > ARRIVED && has_arrived(run),
+        run.end.tip[0].abs() > ARRIVED && has_arrived(run),
         format!("β = {}: the stationary solution is not zero", scene.beam.beta),
-        format!("{}, one of {} steady states", at_rest(run), run.states),
+        format!("{}, one of {} steady states", at_rest(run), run.end.states),
     )
 }
 
 /// Whether the end is an exact, stable steady state.
 fn has_arrived(run: &Measured) -> bool {
-    run.nearest.is_some_and(|nearest| nearest.state.stable && nearest.distance <= ARRIVED)
+    run.end.is_stable() && run.end.distance() <= ARRIVED
 }
 
 fn at_rest(run: &Measured) -> String {
     format!(
         "u(1) = {:.9}, contact force {:.6}, at t = {:.0}; the exact state has u(1) = {:.9}",
-        run.u_tip,
+        run.end.tip[0],
         run.contact_force,
-        run.t_steady,
-        run.nearest.map_or(f64::NAN, |nearest| nearest.state.u_tip)
+        run.end.t,
+        run.end.exact_tip()[0]
     )
 }
 
@@ -245,12 +244,12 @@ fn at_rest(run: &Measured) -> String {
 ///
 /// * `complete`: whether every β has a result; otherwise no claim holds.
 fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
-    let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.u_tip.abs() <= STRAIGHT;
+    let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.tip[0].abs() <= STRAIGHT;
     let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {
         let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();
         let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
         let evidence = |(beta, rest): &&(f64, &AtRest)| {
-            format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.states, rest.u_tip)
+            format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.states, rest.tip[0])
         };
         let each: Vec<String> = within.iter().map(evidence).collect();
         let evidence = if each.is_empty() { "no β in this range".to_owned() } else { each.join("; ") };
@@ -272,7 +271,7 @@ fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
         ),
         claim(
             [f64::NEG_INFINITY, -BUCKLING],
-            |rest| rest.states >= 3 && rest.stable >= 2 && rest.u_tip.abs() > STRAIGHT && rest.is_stable(),
+            |rest| rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable(),
             "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent",
             "",
         ),

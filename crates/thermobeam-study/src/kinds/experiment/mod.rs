@@ -29,7 +29,7 @@ mod judge;
 mod report;
 
 use super::prelude::*;
-use super::steady::{ToRest, exact_states, listed_scene};
+use super::steady::{ToRest, listed_scene};
 use crate::figures::energy_at_rest;
 use crate::run::simulate::driver;
 use convergence_study::input::POSITIVE;
@@ -95,15 +95,6 @@ pub struct Experiments {
     rest: ToRest,
 }
 
-/// What a case computes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ExperimentTask {
-    /// An experiment, by its index.
-    Run(usize),
-    /// A moving beam until it rests, at the β of this index.
-    Rest(usize),
-}
-
 /// What a case finds.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
@@ -165,7 +156,8 @@ fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
 }
 
 impl Kind for Experiments {
-    type Data = ExperimentTask;
+    /// Number of the case: the experiments, then the runs to rest.
+    type Data = usize;
     type Found = Found;
 
     fn header(&self) -> &Header {
@@ -173,36 +165,25 @@ impl Kind for Experiments {
     }
 
     /// The seven experiments, then for each β a moving beam until it rests.
-    fn cases(&self) -> Vec<Case<ExperimentTask>> {
-        let run = |(k, Experiment { scene, .. }): (usize, &Experiment)| Case {
-            label: scene.name.clone(),
-            // Steady states are reached at t = 50 to 100.
-            cost: 80.0 / scene.dt() * scene.mesh.elements() as f64,
-            data: ExperimentTask::Run(k),
-        };
-        let rest = |(k, beta): (usize, &f64)| Case {
-            label: format!("to rest, beta = {beta}"),
-            cost: self.rest.cost(),
-            data: ExperimentTask::Rest(k),
-        };
-        let runs = self.experiments.iter().enumerate().map(run);
-        runs.chain(self.rest.betas.iter().enumerate().map(rest)).collect()
+    fn cases(&self) -> Vec<Case<usize>> {
+        // Steady states are reached at t = 50 to 100.
+        let cost = |scene: &Scene| 80.0 / scene.dt() * scene.mesh.elements() as f64;
+        let run = |Experiment { scene, .. }: &Experiment| (scene.name.clone(), cost(scene));
+        let rest = |beta: &f64| (format!("to rest, beta = {beta}"), self.rest.cost());
+        let cases = self.experiments.iter().map(run).chain(self.rest.betas.iter().map(rest));
+        cases.enumerate().map(|(data, (label, cost))| Case { label, cost, data }).collect()
     }
 
-    fn run(&self, task: &ExperimentTask) -> Result<Found, CaseFailure> {
-        match *task {
-            ExperimentTask::Run(k) => {
-                Ok(Found::Run(Box::new(run_until_steady(&self.experiments[k].scene, &self.until)?)))
-            }
-            ExperimentTask::Rest(k) => {
-                // The third experiment is the last.
-                let third = self.experiments.last().ok_or(CaseFailure { reason: "no experiment".to_owned() })?;
-                Ok(Found::Rest(self.rest.run(&third.scene, k)?))
-            }
+    fn run(&self, &case: &usize) -> Result<Found, CaseFailure> {
+        if let Some(Experiment { scene, .. }) = self.experiments.get(case) {
+            return Ok(Found::Run(Box::new(run_until_steady(scene, &self.until)?)));
         }
+        let count = self.experiments.len();
+        // The third experiment is the last.
+        Ok(Found::Rest(self.rest.run(&self.experiments[count - 1].scene, case - count)?))
     }
 
-    fn judge(&self, ran: &[Ran<ExperimentTask, Found>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
         report::outcome(self, ran)
     }
 }
@@ -210,22 +191,14 @@ impl Kind for Experiments {
 /// The results of an experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Time from which the beam is steady.
-    pub t_steady: f64,
+    /// The beam as soon as it is steady.
+    pub end: AtRest,
     /// The energy then.
     pub energy: f64,
-    /// u(1) then.
-    pub u_tip: f64,
-    /// φ(1) then.
-    pub phi_tip: f64,
     /// The contact force then: positive at the upper obstacle.
     pub contact_force: f64,
     /// Largest absolute nodal value of u, φ and the lifted temperature then.
     pub largest_field: f64,
-    /// Number of exact steady states.
-    pub states: usize,
-    /// The nearest of them; `None` if there is none.
-    pub nearest: Option<Nearest>,
     /// When u(1) first passes the upper obstacle, within the figures' span.
     pub first_upper: Option<f64>,
     /// When u(1) first passes the lower obstacle, within the figures' span.
@@ -331,8 +304,6 @@ impl<'a> MotionLog<'a> {
     }
 
     fn finish(self, simulation: &Simulation, end: &Level) -> Result<Measured, CaseFailure> {
-        let states = exact_states(self.scene)?;
-        let tip = end.u.len() - 1;
         let values = [&end.u, &end.phi, &end.theta].into_iter().flatten();
         let obstacles = self.scene.obstacles.as_ref();
         let upper = obstacles.and_then(|of| self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2).next());
@@ -343,14 +314,10 @@ impl<'a> MotionLog<'a> {
         let largest =
             |sign: f64| self.motion.iter().skip(1).map(|[_, _, phi]| sign * phi).fold(f64::NEG_INFINITY, max_or_nan);
         Ok(Measured {
-            t_steady: simulation.t(),
+            end: AtRest::of(self.scene, &self.scene.mesh, simulation.t(), end, |_| true)?,
             energy: simulation.energy(end).total(),
-            u_tip: end.u[tip],
-            phi_tip: end.phi[tip],
             contact_force: end.contact_force,
             largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
-            states: states.len(),
-            nearest: Nearest::of(&self.scene.mesh, end, &states),
             first_upper: upper,
             first_lower: lower,
             crossings: count,

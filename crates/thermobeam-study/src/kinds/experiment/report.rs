@@ -1,16 +1,14 @@
 //! Tables, figures and guarded numbers.
 
 use super::judge::{self, OfGroup};
-use super::{
-    CurvePoint, Experiment, ExperimentTask, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy,
-};
+use super::{CurvePoint, Experiment, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy};
 use crate::figures;
 use crate::kinds::prelude::*;
 
 /// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
 
-pub(super) fn outcome(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Outcome {
+pub(super) fn outcome(study: &Experiments, ran: &[Ran<usize, Found>]) -> Outcome {
     let rests = judge::rests(study, ran);
     let checks = judge::checks(study, ran, &rests);
     let passed = checks.iter().filter(|check| check.verdict == Verdict::Pass).count();
@@ -37,7 +35,7 @@ pub(super) fn outcome(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -
 
 type Each<'r> = [(&'r Experiment, &'r Measured)];
 
-fn figures(study: &Experiments, ran: &[Ran<ExperimentTask, Found>]) -> Vec<Figure> {
+fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
     let first = OfGroup::of(study, ran, |group| group == SectionGroup::First).runs;
     let second = OfGroup::of(study, ran, |group| matches!(group, SectionGroup::Second(_))).runs;
     let third = OfGroup::of(study, ran, |group| group == SectionGroup::Third).runs;

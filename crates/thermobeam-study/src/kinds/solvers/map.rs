@@ -263,19 +263,8 @@ fn newton(problem: &Problem, dts: &[f64], steps: usize) -> Result<Vec<(bool, Opt
 pub struct Boundary {
     /// The dt at which α = 1; `None` if α does not cross 1 within the map.
     pub predicted: Option<f64>,
-    /// The dt above which the fixed point fails; `None` if the outcome is the same at both ends of the map.
-    pub found: Option<Crossing>,
-}
-
-/// A computed boundary, and the predicted factors there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
-    /// The time step.
-    pub dt: f64,
-    /// Factor of the contact.
-    pub alpha: f64,
-    /// Factor of the coupling.
-    pub gamma: f64,
+    /// The step with the dt above which the fixed point fails; `None` if the outcome is the same at both ends of the map.
+    pub found: Option<FixedPointStep>,
 }
 
 impl Boundary {
@@ -293,10 +282,8 @@ impl Map {
         let alpha_is_below = |limit: f64| bisect(low, high, |dt| Ok(factors(&problem, dt, n_value)[0] < limit));
         let predicted = alpha_is_below(1.0)?;
         let far = alpha_is_below(FAR)?.unwrap_or(high);
-        let found = bisect(low, far, |dt| contracts(&problem, dt))?.map(|dt| {
-            let [alpha, gamma] = factors(&problem, dt, n_value);
-            Crossing { dt, alpha, gamma }
-        });
+        let step = |dt| FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS);
+        let found = bisect(low, far, |dt| contracts(&problem, dt))?.map(step).transpose()?;
         Ok(Boundary { predicted, found })
     }
 }

@@ -36,7 +36,7 @@ use thermobeam::contraction::{contact_contraction, coupling_contraction};
 
 use super::prelude::*;
 
-pub use map::{Boundary, Crossing, NewtonSteps, Point};
+pub use map::{Boundary, NewtonSteps, Point};
 pub use parts::Agreement;
 
 /// The row of the table of kinds.

@@ -4,7 +4,6 @@ use convergence_study::study::until_decided;
 
 use crate::expression::Variable;
 use crate::kinds::prelude::*;
-use crate::scene::tables::FunctionField;
 
 /// A random displacement of the interior nodes, the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,9 +47,7 @@ impl Layout {
     ) -> Result<Self, InputError> {
         let mut layout = Self { perturbation, map: None };
         if let Some(field) = section.get("map") {
-            let map = field.expression(Variable::S)?;
-            field.finite(&map, 1.0, 0)?;
-            layout.map = Some(map);
+            layout.map = Some(tables::function(&field, Variable::S, 1.0, 0)?);
             for &elements in elements {
                 tables::checked_mesh(layout.mesh(elements), &field)?;
             }

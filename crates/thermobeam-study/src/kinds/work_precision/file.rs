@@ -6,7 +6,7 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
 use super::method::{Degrees, METHODS, NamedMethod};
 use super::{Advantage, OBSERVED, ROW, WorkPrecision, Yardstick};
-use crate::error::evaluator::ErrorMeasure;
+use crate::error::ErrorMeasure;
 use crate::error::free_vibration;
 use crate::kinds::convergence::Convergence;
 use crate::kinds::prelude::*;

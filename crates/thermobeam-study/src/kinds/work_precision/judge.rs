@@ -3,7 +3,7 @@
 use super::law::{CostLaw, GridPoint, front};
 use super::method::{Measurement, NamedMethod};
 use super::{Advantage, Runs, WorkPrecision};
-use crate::error::evaluator::ErrorMeasure;
+use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
 
 /// Results of all cases.

@@ -6,11 +6,11 @@
 
 use thermobeam::dg;
 
-use crate::error::evaluator::Evaluator;
+use crate::error::Evaluator;
 use crate::error::reference::combine;
 use crate::kinds::prelude::*;
+use crate::run::Motion;
 use crate::run::family::{Family, OnMesh, Spent};
-use crate::run::motion::Motion;
 
 /// A method of solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +48,7 @@ pub const METHODS: [NamedMethod; 5] = [
 /// A run: largest errors over the times of observation, and its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
-    /// Errors in the order of [`crate::error::evaluator::ErrorMeasure::ALL`].
+    /// Errors in the order of [`crate::error::ErrorMeasure::ALL`].
     pub errors: [f64; 3],
     /// The cost, excluding the measurement.
     pub spent: Spent,

@@ -1,7 +1,7 @@
 //! The cost of an error by method: error over node-steps and solves.
 //!
 //! Every one-step method runs over the same grid of elements and steps; dG(q) runs with the degrees and steps listed in the file.
-//! Errors are those of the [`evaluator`](crate::error::evaluator), the largest over equidistant times of observation common to all
+//! Errors are those of the [`evaluator`](mod@crate::error), the largest over equidistant times of observation common to all
 //! runs; those of dG use its values at the nodes of a mesh finer than all others. A grid gives the fitted law ([`law`]), the best
 //! path dt(h), and the cost of an error E; for dG the cheapest run with that error counts. Costs are counted, not timed, so that a
 //! report is the same on every machine at any time; [`timing`](crate::timing) measures seconds.
@@ -34,8 +34,8 @@ pub mod method;
 
 use std::sync::OnceLock;
 
-use crate::error::evaluator::{ErrorMeasure, Evaluator};
 use crate::error::reference::{FINER, Traced, fine_mesh};
+use crate::error::{ErrorMeasure, Evaluator};
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Discretisation;
 use crate::run::dg::nodal;

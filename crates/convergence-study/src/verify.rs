@@ -13,7 +13,7 @@ use crate::report::{Findings, SeeAlso};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, Change, Refusal, Works};
-use crate::store::diagnosis::{Diagnosis, Fingerprints, diagnose};
+use crate::store::diagnosis::{Fingerprints, diagnose};
 use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record::Record;
@@ -129,14 +129,8 @@ impl Request {
 /// The result of a verification.
 #[derive(Debug)]
 pub struct Verification {
-    /// The studies, in the order given.
-    pub finished: Vec<Finished>,
-    /// Differences from the baseline; empty after a blessing.
-    pub changes: Vec<Change>,
-    /// The worst verdict of all studies; fail if there are differences.
-    pub verdict: Verdict,
-    /// The known facts about the cause, unless the verdict is a pass.
-    pub diagnosis: Option<Diagnosis>,
+    /// The record of the run, with all digits and times: the studies in the order given; no changes after a blessing.
+    pub record: Record,
     /// Whether the baseline was replaced, if that was requested.
     pub blessing: Option<Result<(), Refusal>>,
     /// The folder of the reports.
@@ -205,28 +199,28 @@ pub fn verify(
     let known = request.scope.known();
     let blessing = request.bless.then(|| bless(&mut baseline, &finished, request)).transpose()?;
     let changes = baseline.compare(&finished, known);
-    let verdict = verdict(&finished, &changes);
-    let diagnosis = diagnose(project, &finished, &changes, &mistakes);
-    let target = request.scope.report_folder(folder);
-    let verification = Verification { finished, changes, verdict, diagnosis, blessing, reports: target.folder.clone() };
-    // Everything is prepared before anything is written.
     let command = request.scope.command(project);
-    let provenance =
-        Provenance::collect(&request.root, command.clone(), request.effort.jobs.get(), &verification.finished);
-    let record = verification.record(&request.scope, &command).committed();
-    let see_also = see_also(&record, folder);
-    let files = Findings { project, record: &record, see_also, provenance: Some(&provenance) }.files().map_err(fail)?;
+    let verdict = verdict(&finished, &changes);
+    let mut record = Record::new(request.scope.name(), &command, verdict, Some(&changes), finished);
+    record.diagnosis = diagnose(project, &record.studies, &changes, &mistakes);
+    // Everything is prepared before anything is written.
+    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &record.studies);
+    let committed = record.clone().committed();
+    let see_also = see_also(&committed, folder);
+    let files =
+        Findings { project, record: &committed, see_also, provenance: Some(&provenance) }.files().map_err(fail)?;
     let provenance = json(&provenance).map_err(fail)?;
-    if let Some(Ok(())) = &verification.blessing {
+    if let Some(Ok(())) = &blessing {
         baseline.write(&baseline_file)?;
-        works.take(&verification.finished);
+        works.take(&record.studies);
         if !works.is_empty() {
             write_json(&works_file, &works)?;
         }
     }
+    let target = request.scope.report_folder(folder);
     target.publish(&files).map_err(fail)?;
     atomic::write(&folder.join("local").join("provenance.json"), provenance).map_err(fail)?;
-    Ok(verification)
+    Ok(Verification { record, blessing, reports: target.folder })
 }
 
 /// Accepts all changes into the baseline, or those selected: all of them or none.
@@ -346,16 +340,6 @@ fn lock_file(reports: &Path) -> PathBuf {
 fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() { own } else { Verdict::Fail }
-}
-
-impl Verification {
-    /// Everything as data, with all digits.
-    ///
-    /// * `command`: the command that was run.
-    pub fn record(&self, scope: &Scope, command: &str) -> Record {
-        let record = Record::new(scope.name(), command, self.verdict, Some(&self.changes), self.finished.clone());
-        Record { diagnosis: self.diagnosis.clone(), ..record }
-    }
 }
 
 /// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh checkout has only its Markdown.

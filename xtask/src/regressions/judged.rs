@@ -42,7 +42,7 @@ pub(super) fn judged<'r>(root: &Path, found: Vec<(&'r Regression, Found)>) -> Re
         for study in &mut found.record.studies {
             study.header.settings = settings.get(study.header.id.as_str()).map_or(vec![], |known| (*known).clone());
         }
-        let print = Fingerprint::of(&found.record.studies, found.record.changes.as_deref().unwrap_or_default());
+        let print = Fingerprint::of(&found.record.studies, found.record.moves());
         let place = regression.place(root);
         all.push(Judged { regression, found, place, print, diagnosis: Diagnosis::default(), right: [None; 3] });
     }
@@ -50,7 +50,7 @@ pub(super) fn judged<'r>(root: &Path, found: Vec<(&'r Regression, Found)>) -> Re
     for k in 0..all.len() {
         let known = known(&all, threshold, &all[k].place);
         let record = &all[k].found.record;
-        let changes = record.changes.as_deref().unwrap_or_default();
+        let changes = record.moves();
         all[k].diagnosis = diagnose(&crate::PROJECT, &record.studies, changes, &known).unwrap_or_default();
         all[k].right = right(all[k].regression, &all[k].diagnosis);
     }

@@ -47,7 +47,7 @@ fn annotations(findings: &Findings<'_>) -> String {
         let outcome = &finished.outcome;
         annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &summary(outcome))
     });
-    let changes = findings.moves().iter().map(|change| annotation("baseline", &change.to_string()));
+    let changes = findings.record.moves().iter().map(|change| annotation("baseline", &change.to_string()));
     capped(studies.chain(changes).collect())
 }
 

@@ -52,10 +52,7 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
     missing
         .iter()
         .for_each(|file| screen::tell(&format!("note: no picture {}/{file}", visible::path(&beside.join(FIGURES)))));
-    let whole = || {
-        let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
-        format!("{verdict}: {sentence}\nreport: {page}, {readme}\n")
-    };
+    let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
     flags.print(verdict, &json!({"report": folder, "missing": missing}), &flags.words(verdict, &sentence, whole))?;
     Ok(verdict.into())
 }

@@ -28,47 +28,35 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
     seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("expected a number > 0".to_owned())
 }
 
-/// Shows the progress of a run, and reports it if the run is interrupted.
-pub struct Watched {
-    /// For the cases of studies; the time left is estimated from the cost of the remaining ones.
-    bar: ProgressBar,
-    ids: Vec<String>,
-    done: Arc<Mutex<Vec<String>>>,
-}
-
-impl Watched {
-    /// Steps of the bar.
+/// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which of them had run.
+///
+/// The time left is estimated from the cost of the remaining cases.
+pub(super) fn watched<T>(
+    studies: &[Box<dyn Study>],
+    quiet: bool,
+    run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
+) -> T {
     const STEPS: f64 = 1000.0;
-
-    /// For these studies; `bar`: whether to show a progress bar.
-    pub fn new(studies: &[Box<dyn Study>], bar: bool) -> Self {
-        let ids: Vec<String> = studies.iter().map(|study| study.header().id.clone()).collect();
-        let done = Arc::new(Mutex::new(vec![]));
-        let (told, count) = (Arc::clone(&done), ids.len());
-        exit::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
-        let target = if bar { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(Self::STEPS as u64), target);
-        Self { bar: bar.with_style(style("{bar:40} {msg}, {eta} left")), ids, done }
-    }
-
-    /// Shows that a case has ended.
-    pub fn show(&self, progress: Progress) {
+    let ids: Vec<&str> = studies.iter().map(|study| study.header().id.as_str()).collect();
+    let done: Arc<Mutex<Vec<String>>> = Arc::default();
+    let (told, count) = (Arc::clone(&done), ids.len());
+    exit::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), target).with_style(style("{bar:40} {msg}, {eta} left"));
+    let ran = run(&|progress| {
         if let Some((study, verdict)) = progress.ended {
-            self.done.lock().unwrap_or_else(PoisonError::into_inner).push(self.ids[study].clone());
+            done.lock().unwrap_or_else(PoisonError::into_inner).push(ids[study].to_owned());
             if verdict != Verdict::Pass {
-                self.bar.println(format!("{}: {}", screen::verdict(verdict), self.ids[study]));
+                bar.println(format!("{}: {}", screen::verdict(verdict), ids[study]));
             }
         }
         // The study that has been running longest.
-        let running = progress.running.map_or("", |study| &self.ids[study]);
-        self.bar.set_message(format!("{} of {} cases, {running}", progress.done_cases, progress.cases));
-        self.bar.set_position((Self::STEPS * progress.done_cost / progress.cost) as u64);
-    }
-
-    /// Removes the bar.
-    pub fn clear(&self) {
-        self.bar.finish_and_clear();
-    }
+        let running = progress.running.map_or("", |study| ids[study]);
+        bar.set_message(format!("{} of {} cases, {running}", progress.done_cases, progress.cases));
+        bar.set_position((STEPS * progress.done_cost / progress.cost) as u64);
+    });
+    bar.finish_and_clear();
+    ran
 }
 
 fn style(template: &str) -> ProgressStyle {

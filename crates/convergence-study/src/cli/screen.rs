@@ -2,6 +2,7 @@
 
 use std::env;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::Path;
 
 use clap::ValueEnum;
 
@@ -94,6 +95,12 @@ fn cut(text: &str, room: usize) -> String {
 /// A verdict as a word, in its colour.
 pub fn verdict(verdict: Verdict) -> String {
     if colours() { coloured(verdict.to_string()) } else { verdict.to_string() }
+}
+
+/// Where a report is.
+pub(super) fn report_in(folder: &Path) -> String {
+    let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
+    format!("report: {page}, {readme}\n")
 }
 
 /// Columns of the terminal; `None` if standard output is not a terminal.

@@ -10,13 +10,13 @@ use crate::store::atomic;
 use crate::store::json;
 use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
-use crate::text::visible::{self, visible};
+use crate::text::visible::visible;
 use crate::verify::{publish, record};
 
 use super::exit::Outcome;
 use super::flags::Flags;
 use super::github;
-use super::running::{Limits, Watched, kept};
+use super::running::{Limits, kept, watched};
 use super::screen::{self, Format};
 
 /// Run study files from anywhere
@@ -41,11 +41,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let flags = &arguments.flags;
     // A folder that is not writable is reported before the run.
     flags.out.as_deref().map_or(Ok(()), atomic::prepare_folder)?;
-    let watched = Watched::new(&studies, !flags.quiet);
     let effort = flags.effort(arguments.limits.case_limit);
-    let finished = run::run(&studies, effort, &|progress| watched.show(progress));
-    watched.clear();
-    let mut finished = finished?;
+    let mut finished = watched(&studies, flags.quiet, |progress| run::run(&studies, effort, progress))?;
     let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
     let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
     // Searched for only if it is shown.
@@ -74,8 +71,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(folder) = &flags.out {
         publish(project, record, effort.jobs.get(), folder)?;
         if flags.format == Format::Text && !flags.quiet {
-            let [page, readme] = ["index.html", "README.md"].map(|name| visible::path(&folder.join(name)));
-            screen::print(&format!("\nreport: {page}, {readme}\n"))?;
+            screen::print(&format!("\n{}", screen::report_in(folder)))?;
         }
     }
     Ok(verdict.into())

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
-use super::running::{Limits, Watched, kept};
+use super::running::{Limits, kept, watched};
 use super::screen::{self, Format};
 use super::{github, workspace};
 use crate::judge::verdict::Verdict;
@@ -87,17 +87,15 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let effort = Effort { fail_fast: arguments.fail_fast, ..flags.effort(arguments.limits.case_limit) };
     let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
     let request = Request { scope, effort, bless: *bless, reason: reason.clone(), only: only.clone(), root, reports };
-    let watched = Watched::new(&studies, !flags.quiet);
-    let verification = verify::verify(project, &studies, &request, &|progress| watched.show(progress));
-    watched.clear();
-    let verification = verification?;
-    let record = verification.record(&request.scope, &request.scope.command(project));
+    let verification =
+        watched(&studies, flags.quiet, |progress| verify::verify(project, &studies, &request, progress))?;
+    let record = &verification.record;
     screen::print(&match flags.format {
         Format::Text => text(project, &verification, &request, arguments, started.elapsed()),
-        Format::Json => json(&record)?,
+        Format::Json => json(record)?,
     })?;
-    github::announce(&Findings { project, record: &record, see_also: None, provenance: None }, flags.format);
-    Ok(verification.verdict.into())
+    github::announce(&Findings { project, record, see_also: None, provenance: None }, flags.format);
+    Ok(record.verdict.into())
 }
 
 /// The studies that did not pass, or with a number that moved, in the newest record.
@@ -133,23 +131,25 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
 /// * `took`: from start to end.
 fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments, took: Duration) -> String {
     let Arguments { verbose, flags: Flags { quiet, .. }, .. } = arguments;
-    let (verdict, sentence) = (screen::verdict(found.verdict), sentence(&found.finished, Some(&found.changes)));
+    let (verdict, sentence) =
+        (screen::verdict(found.record.verdict), sentence(&found.record.studies, found.record.changes.as_deref()));
     let table = if *quiet { String::new() } else { overview(found, request, arguments) };
-    if found.verdict == Verdict::Pass {
-        return format!("{table}{}{verdict}: {sentence}\n", blessed(project, found, request));
+    if found.record.verdict == Verdict::Pass {
+        return format!("{table}{}{verdict}: {sentence}\n", blessed(project, found));
     }
     let took = if *quiet { String::new() } else { format!(" in {:.1} s", took.as_secs_f64()) };
-    let clearest = found.diagnosis.as_ref().map(|diagnosis| diagnosis.clearest.as_slice()).filter(|_| !verbose);
+    let clearest = found.record.diagnosis.as_ref().map(|diagnosis| diagnosis.clearest.as_slice()).filter(|_| !verbose);
     // A failing study has already said why: its numbers moved for the same reason.
-    let failed =
-        |id: &str| found.finished.iter().any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass);
+    let failed = |id: &str| {
+        found.record.studies.iter().any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
+    };
     let is_said = |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
-    let changes: Vec<Change> = found.changes.iter().filter(is_said).cloned().collect();
+    let changes: Vec<Change> = found.record.moves().iter().filter(is_said).cloned().collect();
     let parts = [
         format!("{verdict}{took}: {sentence}\n"),
-        found.diagnosis.as_ref().map(text_of_diagnosis).unwrap_or_default(),
-        text_of_failures(&found.finished, clearest),
-        moved_lines(&changes, *verbose) + &blessed(project, found, request),
+        found.record.diagnosis.as_ref().map(text_of_diagnosis).unwrap_or_default(),
+        text_of_failures(&found.record.studies, clearest),
+        moved_lines(&changes, *verbose) + &blessed(project, found),
         table,
     ];
     let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();
@@ -157,13 +157,13 @@ fn text(project: &Project, found: &Verification, request: &Request, arguments: &
 }
 
 /// What was blessed, or which command blesses.
-fn blessed(project: &Project, found: &Verification, request: &Request) -> String {
+fn blessed(project: &Project, found: &Verification) -> String {
     match &found.blessing {
         Some(Ok(())) => "baseline: blessed, see studies/baseline.json\n".to_owned(),
         Some(Err(refusal)) => format!("baseline: {}\n", visible::lines(&refusal.to_string())),
-        None if !found.changes.is_empty() && can_be_blessed(&found.finished) => {
-            let command = request.scope.command(project);
-            format!("if that is meant: {}\n", blessing(project, &command, &found.finished, &found.changes))
+        None if !found.record.moves().is_empty() && can_be_blessed(&found.record.studies) => {
+            let Record { command, studies, .. } = &found.record;
+            format!("if that is meant: {}\n", blessing(project, command, studies, found.record.moves()))
         }
         None => String::new(),
     }
@@ -173,28 +173,28 @@ fn blessed(project: &Project, found: &Verification, request: &Request) -> String
 fn overview(found: &Verification, request: &Request, Arguments { verbose, durations, .. }: &Arguments) -> String {
     let (verbose, durations) = (*verbose, *durations);
     let mut text = String::new();
-    let shown = found.diagnosis.as_ref().map_or(0, |diagnosis| diagnosis.clearest.len());
-    if verbose || found.verdict == Verdict::Pass {
-        let rows: Vec<Vec<String>> = found.finished.iter().map(row).collect();
+    let shown = found.record.diagnosis.as_ref().map_or(0, |diagnosis| diagnosis.clearest.len());
+    if verbose || found.record.verdict == Verdict::Pass {
+        let rows: Vec<Vec<String>> = found.record.studies.iter().map(row).collect();
         text = screen::table_within(screen::width(), &["study", "verdict", "seconds", "key numbers"], &rows) + "\n";
     } else {
-        let failing = found.finished.iter().filter(|study| study.outcome.verdict != Verdict::Pass).count();
+        let failing = found.record.studies.iter().filter(|study| study.outcome.verdict != Verdict::Pass).count();
         let more = failing.saturating_sub(shown);
         let rest = if more > 0 { format!("{more} more: ") } else { String::new() };
         text += &format!("{rest}--verbose lists every study and every number that changed\n");
     }
     if durations {
-        let mut slowest: Vec<&Finished> = found.finished.iter().collect();
+        let mut slowest: Vec<&Finished> = found.record.studies.iter().collect();
         slowest.sort_by_key(|study| std::cmp::Reverse(study.spent.busy));
         let row = |study: &&Finished| vec![format!("{:.2}", study.spent.busy.as_secs_f64()), study.header.id.clone()];
         let rows: Vec<Vec<String>> = slowest.iter().take(SLOWEST).map(row).collect();
         text += &(screen::table(&["seconds", "slowest studies"], &rows) + "\n");
     }
-    for Finished { header, spent, .. } in &found.finished {
+    for Finished { header, spent, .. } in &found.record.studies {
         text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
     }
-    let [page, readme] = ["index.html", "README.md"].map(|name| below(&found.reports.join(name), &request.root));
-    text += &format!("report: {page}, {readme}\n");
+    // As seen from the workspace.
+    text += &screen::report_in(found.reports.strip_prefix(&request.root).unwrap_or(&found.reports));
     if matches!(request.scope, Scope::Selection(_)) {
         text += "a selection leaves the committed report as it is\n";
     }
@@ -204,11 +204,6 @@ fn overview(found: &Verification, request: &Request, Arguments { verbose, durati
 fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
     let seconds = format!("{:.2}", spent.busy.as_secs_f64());
     vec![header.id.clone(), outcome.verdict.to_string(), seconds, key_numbers(outcome)]
-}
-
-/// A path as seen from the workspace.
-fn below(path: &Path, root: &Path) -> String {
-    visible::path(path.strip_prefix(root).unwrap_or(path))
 }
 
 /// Studies that `--durations` lists.

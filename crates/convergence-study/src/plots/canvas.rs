@@ -16,7 +16,6 @@
 //! | `data-entry` | an entry of the legend | the name of the series |
 
 use super::Scale;
-use super::rect::{Point, Rect, keep_inside};
 use super::ruler::Ruler;
 use super::style::{self, Dash};
 use plotters::backend::SVGBackend;
@@ -27,6 +26,79 @@ pub use plotters::style::text_anchor::HPos as Anchor;
 use plotters::style::text_anchor::{Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor, ShapeStyle};
 use std::fmt::Write;
+
+/// A position in px, `y` downwards.
+pub type Point = (f64, f64);
+
+/// A rectangle in px.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Left edge.
+    pub left: f64,
+    /// Upper edge; less than `bottom`.
+    pub top: f64,
+    /// Right edge.
+    pub right: f64,
+    /// Lower edge.
+    pub bottom: f64,
+}
+
+impl Rect {
+    /// Horizontal extent.
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// Vertical extent.
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    /// The point in the middle.
+    pub fn centre(&self) -> Point {
+        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+    }
+}
+
+/// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and Barsky).
+fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    let directions = [(a.0, b.0 - a.0, r.left, r.right), (a.1, b.1 - a.1, r.top, r.bottom)];
+    for (start, step, low, high) in directions {
+        if step == 0.0 {
+            if start < low || start > high {
+                return None;
+            }
+            continue;
+        }
+        let (s, t) = ((low - start) / step, (high - start) / step);
+        enter = enter.max(s.min(t));
+        leave = leave.min(s.max(t));
+    }
+    (enter <= leave).then_some((enter, leave))
+}
+
+fn along(a: Point, b: Point, s: f64) -> Point {
+    (a.0 + s * (b.0 - a.0), a.1 + s * (b.1 - a.1))
+}
+
+/// The parts of a line inside a rectangle.
+fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
+    let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
+    if line.iter().all(holds) {
+        return vec![line.to_vec()];
+    }
+    let mut kept: Vec<Vec<Point>> = Vec::new();
+    for pair in line.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let Some((enter, leave)) = inside(a, b, r) else { continue };
+        match kept.last_mut() {
+            Some(last) if enter == 0.0 && last.last() == Some(&a) => last.push(along(a, b, leave)),
+            _ => kept.push(vec![along(a, b, enter), along(a, b, leave)]),
+        }
+    }
+    kept
+}
 
 /// Grid lines per px.
 const RESOLUTION: f64 = 10.0;
@@ -44,7 +116,7 @@ pub struct Layer {
     /// Nothing outside this rectangle is shown.
     pub clip: Option<Rect>,
     /// Of lines.
-    pub dash: Option<Dash>,
+    pub dash: Dash,
     /// Texts have a white rim, readable on any colour.
     pub halo: bool,
 }
@@ -57,7 +129,7 @@ impl Layer {
 
     /// The same layer with its lines dashed.
     pub fn dashed(self, dash: Dash) -> Self {
-        Self { dash: Some(dash), ..self }
+        Self { dash, ..self }
     }
 
     fn open(&self) -> String {
@@ -72,8 +144,8 @@ impl Layer {
             );
         }
         tags.push_str("<g stroke-linejoin=\"round\"");
-        if let Some(pattern) = self.dash.and_then(Dash::pattern) {
-            let lengths: Vec<String> = pattern.iter().map(|&d| grid(d).to_string()).collect();
+        if !self.dash.is_empty() {
+            let lengths: Vec<String> = self.dash.iter().map(|&d| grid(d).to_string()).collect();
             let _ = write!(tags, " stroke-dasharray=\"{}\"", lengths.join(" "));
         }
         if self.halo {
@@ -311,4 +383,20 @@ pub(super) fn entry(name: &str) -> String {
 /// To five digits, so that the last bits of a result, which vary between machines, do not show.
 fn rounded(value: f64) -> f64 {
     format!("{value:.4e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT: Rect = Rect { left: 0.0, top: 0.0, right: 1.0, bottom: 1.0 };
+
+    #[test]
+    fn a_line_that_leaves_is_cut_on_the_rim() {
+        assert_eq!(
+            keep_inside(&[(0.5, 0.5), (2.5, 0.5), (2.5, 0.9), (0.5, 0.9)], &UNIT),
+            [vec![(0.5, 0.5), (1.0, 0.5)], vec![(1.0, 0.9), (0.5, 0.9)]]
+        );
+        assert!(keep_inside(&[(-1.0, 2.0), (2.0, 2.0)], &UNIT).is_empty());
+    }
 }

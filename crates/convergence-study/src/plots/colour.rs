@@ -1,8 +1,7 @@
 //! From values to colours, and the bar that explains them.
 
 use super::Scale;
-use super::canvas::{Anchor, Layer};
-use super::rect::Rect;
+use super::canvas::{Anchor, Layer, Rect};
 use super::ruler::{Ruler, Ticks, on_scale, power_of_ten};
 use super::sheet::{Page, elide};
 use super::style::{self, LABEL_SIZE, TICK_SIZE, text_width};

@@ -1,7 +1,6 @@
 //! All judged rates of a run in one picture: each with its interval, relative to its claim (a forest plot).
 
-use super::canvas::{Anchor, Canvas, Layer, Pen};
-use super::rect::Rect;
+use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
 use super::sheet::elide;
 use super::style::{self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, text_width};
 use crate::judge::verdict::Verdict;

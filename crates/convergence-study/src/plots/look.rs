@@ -1,29 +1,18 @@
 //! What distinguishes one series of a figure from the others: colour, dashes and shape of the markers.
 
-use super::canvas::Pen;
-use super::rect::Point;
-use super::style::{Dash, WHITE};
+use super::canvas::{Pen, Point};
+use super::style::{self, Dash, WHITE};
 use plotters::style::RGBColor;
 
-/// Shapes that stay distinct when small and without colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The shape of a marker, y downwards; shapes stay distinct when small and without colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Marker {
     /// A disc.
     Circle,
-    /// A square on its side.
-    Square,
-    /// A triangle pointing up.
-    Triangle,
-    /// A square on its corner.
-    Diamond,
-    /// A triangle pointing down.
-    Inverted,
-    /// Two diagonal strokes.
-    Cross,
-    /// A horizontal and a vertical stroke.
-    Plus,
-    /// Three strokes.
-    Star,
+    /// A filled polygon with these corners, in radii of the circle.
+    Polygon(&'static [Point]),
+    /// Strokes through the centre, each by one of its ends: no inside to leave white.
+    Strokes(&'static [Point]),
 }
 
 /// How a series' points are marked.
@@ -38,7 +27,7 @@ pub enum Marks {
     Open,
 }
 
-/// Half the height of a circle; the others are sized to look equally heavy.
+/// Half the height of a circle, in px.
 const RADIUS: f64 = 5.5;
 
 impl Marker {
@@ -49,36 +38,24 @@ impl Marker {
             Marks::Filled => self.fill(pen, at, RADIUS, colour),
             Marks::Open => {
                 self.fill(pen, at, RADIUS + 1.0, colour);
-                if !self.is_strokes() {
+                if !matches!(self, Marker::Strokes(_)) {
                     self.fill(pen, at, RADIUS - 1.4, WHITE);
                 }
             }
         }
     }
 
-    /// Made of strokes: no inside to leave white.
-    fn is_strokes(self) -> bool {
-        matches!(self, Marker::Cross | Marker::Plus | Marker::Star)
-    }
-
     fn fill(self, pen: &Pen<'_>, (x, y): Point, r: f64, colour: RGBColor) {
-        let shape = |corners: &[Point]| {
-            let path: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + r * dx, y + r * dy)).collect();
-            pen.polygon(&path, colour);
-        };
-        let stroke = |dx: f64, dy: f64| {
-            let (dx, dy) = (r * dx, r * dy);
-            pen.line(&[(x - dx, y - dy), (x + dx, y + dy)], colour, 2.4);
-        };
         match self {
             Marker::Circle => pen.disc((x, y), r, colour),
-            Marker::Square => shape(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
-            Marker::Triangle => shape(&[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)]),
-            Marker::Inverted => shape(&[(0.0, 1.25), (1.15, -0.8), (-1.15, -0.8)]),
-            Marker::Diamond => shape(&[(0.0, -1.3), (1.2, 0.0), (0.0, 1.3), (-1.2, 0.0)]),
-            Marker::Cross => [(0.9, 0.9), (0.9, -0.9)].iter().for_each(|&(a, b)| stroke(a, b)),
-            Marker::Plus => [(1.2, 0.0), (0.0, 1.2)].iter().for_each(|&(a, b)| stroke(a, b)),
-            Marker::Star => [(1.2, 0.0), (0.6, 1.04), (0.6, -1.04)].iter().for_each(|&(a, b)| stroke(a, b)),
+            Marker::Polygon(corners) => {
+                let path: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + r * dx, y + r * dy)).collect();
+                pen.polygon(&path, colour);
+            }
+            Marker::Strokes(ends) => ends.iter().for_each(|&(dx, dy)| {
+                let (dx, dy) = (r * dx, r * dy);
+                pen.line(&[(x - dx, y - dy), (x + dx, y + dy)], colour, 2.4);
+            }),
         }
     }
 }
@@ -95,18 +72,19 @@ const COLOURS: [RGBColor; 8] = [
     RGBColor(128, 128, 38),
 ];
 
+/// Circle, square, triangle, diamond, inverted triangle, cross, plus and star, sized to look equally heavy.
 const MARKERS: [Marker; 8] = [
     Marker::Circle,
-    Marker::Square,
-    Marker::Triangle,
-    Marker::Diamond,
-    Marker::Inverted,
-    Marker::Cross,
-    Marker::Plus,
-    Marker::Star,
+    Marker::Polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
+    Marker::Polygon(&[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)]),
+    Marker::Polygon(&[(0.0, -1.3), (1.2, 0.0), (0.0, 1.3), (-1.2, 0.0)]),
+    Marker::Polygon(&[(0.0, 1.25), (1.15, -0.8), (-1.15, -0.8)]),
+    Marker::Strokes(&[(0.9, 0.9), (0.9, -0.9)]),
+    Marker::Strokes(&[(1.2, 0.0), (0.0, 1.2)]),
+    Marker::Strokes(&[(1.2, 0.0), (0.6, 1.04), (0.6, -1.04)]),
 ];
 
-const DASHES: [Dash; 5] = [Dash::Solid, Dash::Long, Dash::Dotted, Dash::Mixed, Dash::Short];
+const DASHES: [Dash; 5] = [style::SOLID, style::LONG, style::DOTTED, style::MIXED, style::SHORT];
 
 /// What distinguishes one series: each of the three is enough by itself for a handful of series.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -35,18 +35,15 @@ mod forest;
 mod heat;
 mod history;
 pub mod look;
-pub mod rect;
 pub mod ruler;
 pub mod sheet;
-mod space_time;
 pub mod style;
 pub mod xy;
 
 pub use convergence::{Convergence, ErrorSeries, convergence};
 pub use forest::{Forest, ForestRate, ForestRow, forest};
-pub use heat::{Surface, surface};
+pub use heat::{SpaceTime, Surface, space_time, surface};
 pub use history::{History, history, iterations, work_precision};
-pub use space_time::{SpaceTime, space_time};
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,9 +1,8 @@
 //! A laid-out page: plot area, axes, grid, notes, and the legend below the plot, in aligned columns, never on the data.
 
 use super::Guide;
-use super::canvas::{self, Anchor, Canvas, Layer, Pen};
+use super::canvas::{self, Anchor, Canvas, Layer, Pen, Point, Rect};
 use super::look::{Look, Marks};
-use super::rect::{Point, Rect};
 use super::ruler::{Ruler, Ticks, power_of_ten};
 use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_width};
 use plotters::style::RGBColor;
@@ -118,7 +117,7 @@ impl Page {
             guides.iter().filter_map(|g| Some((self.y.px(g.value)?, g.label.as_str()))).collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         let plot = self.plot;
-        self.canvas.draw(Layer::clipped(plot).dashed(style::Dash::Short), |pen| {
+        self.canvas.draw(Layer::clipped(plot).dashed(style::SHORT), |pen| {
             for &(y, _) in &places {
                 pen.line(&[(plot.left, y), (plot.right, y)], style::MUTED, 1.4);
             }

@@ -38,33 +38,18 @@ pub const THIN: f64 = 1.2;
 /// Width of curves, in px.
 pub const LINE: f64 = 2.2;
 
-/// Dash patterns, distinct in black and white.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dash {
-    /// No gaps.
-    Solid,
-    /// Long dashes.
-    Long,
-    /// Short dashes.
-    Short,
-    /// Dots.
-    Dotted,
-    /// Dashes and dots in turn.
-    Mixed,
-}
-
-impl Dash {
-    /// The `stroke-dasharray` in px, `None` for a solid line.
-    pub fn pattern(self) -> Option<&'static [f64]> {
-        match self {
-            Dash::Solid => None,
-            Dash::Long => Some(&[12.0, 5.0]),
-            Dash::Short => Some(&[6.0, 4.0]),
-            Dash::Dotted => Some(&[2.2, 3.6]),
-            Dash::Mixed => Some(&[11.0, 4.0, 2.5, 4.0]),
-        }
-    }
-}
+/// Lengths of dashes and gaps in turn, in px; without any the line is solid. The patterns are distinct in black and white.
+pub type Dash = &'static [f64];
+/// No gaps.
+pub const SOLID: Dash = &[];
+/// Long dashes.
+pub const LONG: Dash = &[12.0, 5.0];
+/// Short dashes.
+pub const SHORT: Dash = &[6.0, 4.0];
+/// Dots.
+pub const DOTTED: Dash = &[2.2, 3.6];
+/// Dashes and dots in turn.
+pub const MIXED: Dash = &[11.0, 4.0, 2.5, 4.0];
 
 /// Width of a text in px, estimated generously: exact widths would need font files.
 pub fn text_width(text: &str, size: f64) -> f64 {

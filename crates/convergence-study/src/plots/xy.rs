@@ -1,11 +1,10 @@
 //! The core of all figures with curves: ranges, layers in order, notes on omitted data.
 
-use super::canvas::{self, Anchor, Layer};
+use super::canvas::{self, Anchor, Layer, Point, Rect};
 use super::look::{Look, Marks, look};
-use super::rect::{Point, Rect};
 use super::ruler::{Ruler, on_scale};
 use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
-use super::style::{Dash, TICK_SIZE};
+use super::style::TICK_SIZE;
 use super::{Axis, Guide, Phases, Scale, Series, style};
 use crate::judge::power_law::PowerLaw;
 use crate::text::number::counted;
@@ -67,7 +66,7 @@ impl Curve {
     }
 
     fn solid(&self) -> Look {
-        Look { dash: Dash::Solid, ..self.look }
+        Look { dash: style::SOLID, ..self.look }
     }
 }
 

@@ -124,24 +124,28 @@ fn kept_by(section: &Section<'_>, directory: &Path) -> Result<Option<Vec<PathBuf
 }
 
 fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, InputError> {
-    let allowed = "at least one table [[expect]] with error or value, order and tolerance";
-    let field = root.require("expect", allowed)?;
-    let mut expectations: Vec<Expectation> = vec![];
-    for item in field.items(allowed)? {
-        let section = item.section()?;
-        let expectation = expectation(&section, grid)?;
-        let (name, what) = (&expectation.name, expectation.what());
-        if expectations.iter().any(|earlier| (&earlier.name, earlier.what()) == (name, what)) {
-            return Err(section.refuse(what, format!("\"{}\" a second time", visible(name)), "each name once"));
+    let mut names: Vec<(String, bool)> = vec![];
+    let read = |section: &Section<'_>| {
+        let expectation = expectation(section, grid)?;
+        let name = (expectation.name.clone(), expectation.is_value);
+        if names.contains(&name) {
+            let found = format!("\"{}\" a second time", visible(&expectation.name));
+            return Err(section.refuse(expectation.what(), found, "each name once"));
         }
-        expectations.push(expectation);
-    }
+        names.push(name);
+        Ok(expectation)
+    };
+    let expectations = root.tables("expect", " with error or value, order and tolerance", read)?;
     let by_degree = expectations.iter().filter(|expectation| expectation.by_degree).count();
     let of_rates = expectations.iter().filter(|expectation| expectation.exact.is_none()).count();
     if by_degree > 0 && by_degree < of_rates {
-        return Err(field.refuse("factor in some tables and order in others", "one of the two in all of a study"));
+        return Err(root.refuse(
+            "expect",
+            "factor in some tables and order in others",
+            "one of the two in all of a study",
+        ));
     }
-    if expectations.is_empty() { Err(field.refuse_as_written(allowed)) } else { Ok(expectations) }
+    Ok(expectations)
 }
 
 /// * `grid`: whether h and dt are refined independently; each error then has two orders.

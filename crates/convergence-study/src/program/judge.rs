@@ -182,8 +182,12 @@ fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
         series: series.collect(),
         ..History::default()
     });
-    let caption = "Errors over the work that they cost: the lower and the further left, the better.".to_owned();
-    Some(Figure { file: format!("{id}-work.svg"), caption, svg })
+    Some(Figure::new(
+        id,
+        "work",
+        "Errors over the work that they cost: the lower and the further left, the better.",
+        svg,
+    ))
 }
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a sentence.
@@ -275,11 +279,11 @@ fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
         });
         row
     };
-    Table {
-        title: "Limits without an exact solution, and what the finest level is off them".to_owned(),
-        head: HEAD.map(str::to_owned).into(),
-        rows: estimates.iter().map(row).collect(),
-    }
+    Table::new(
+        "Limits without an exact solution, and what the finest level is off them",
+        HEAD,
+        estimates.iter().map(row),
+    )
 }
 
 fn bar_cells(bar: &Bar) -> [String; 4] {
@@ -321,11 +325,8 @@ fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table
         let values = columns.iter().map(|column| column.errors[level].map_or("-".to_owned(), |at| value(column, at)));
         [refinement.label.clone()].into_iter().chain(values).collect()
     };
-    Table {
-        title: "Values".to_owned(),
-        head: ["level".to_owned()].into_iter().chain(columns.iter().map(|column| column.name.clone())).collect(),
-        rows: refinements.iter().enumerate().map(row).collect(),
-    }
+    let head = ["level"].into_iter().chain(columns.iter().map(|column| column.name.as_str()));
+    Table::new("Values", head, refinements.iter().enumerate().map(row))
 }
 
 /// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates says what is wrong.

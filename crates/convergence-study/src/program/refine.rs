@@ -177,48 +177,34 @@ pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     Ok(Refine { space, time, grid, budget })
 }
 
-/// The list under one of two names; using both is refused.
+/// The list under one of two names, from coarse to fine: increasing counts, or decreasing steps; using both names is refused.
 fn one_of(section: &Section<'_>, count: &'static str, step: &'static str) -> Result<Option<Sequence>, InputError> {
-    match (section.get(count), section.get(step)) {
+    const COUNTS: &str = "a list of increasing whole numbers >= 1, or \"auto\"";
+    const STEPS: &str = "a list of decreasing numbers > 0";
+    let number = |item: &Field<'_>| Ok(item.count(1..=LARGEST_COUNT)? as f64);
+    let positive =
+        |item: &Field<'_>| item.number_where("a number > 0", |value| value > 0.0 && value.recip().is_finite());
+    let (field, name, values) = match (section.get(count), section.get(step)) {
+        (None, None) => return Ok(None),
         (Some(_), Some(field)) => {
-            Err(field.refuse(format!("{step} beside {count}"), format!("one of the two: {count} or {step}")))
+            return Err(field.refuse(format!("{step} beside {count}"), format!("one of the two: {count} or {step}")));
         }
-        (Some(field), None) => values(&field, count, true).map(Some),
-        (None, Some(field)) => values(&field, step, false).map(Some),
-        (None, None) => Ok(None),
-    }
-}
-
-/// A list from coarse to fine: increasing counts, or decreasing steps.
-fn values(field: &Field<'_>, name: &'static str, is_count: bool) -> Result<Sequence, InputError> {
-    let counts = "a list of increasing whole numbers >= 1, or \"auto\"";
-    let allowed = if is_count { counts } else { "a list of decreasing numbers > 0" };
-    if is_count && until_decided::is_auto(field) {
-        return Ok(Sequence { name, values: until_decided::FIRST.map(|count| count as f64).into() });
-    }
-    let mut values: Vec<f64> = vec![];
-    for item in field.items(allowed)? {
-        let value = if is_count {
-            item.count(1..=LARGEST_COUNT)? as f64
-        } else {
-            item.number_where("a number > 0", |value| value > 0.0 && value.recip().is_finite())?
-        };
-        let Some(&before) = values.last() else {
-            values.push(value);
-            continue;
-        };
-        let is_finer = if is_count { value > before } else { value < before };
-        if !is_finer {
-            let relation = if is_count { ">" } else { "<" };
-            return Err(item.refuse_as_written(format!("a number {relation} {before}, the level before")));
+        (Some(field), None) if until_decided::is_auto(&field) => {
+            (field, count, until_decided::FIRST.map(|count| count as f64).into())
         }
-        values.push(value);
+        (Some(field), None) => {
+            let finer: (&str, fn(f64, f64) -> bool) = ("a number >", |before, value| value > before);
+            (field, count, section.sequence((count, COUNTS, 1), number, finer)?)
+        }
+        (None, Some(field)) => {
+            let finer: (&str, fn(f64, f64) -> bool) = ("a number <", |before, value| value < before);
+            (field, step, section.sequence((step, STEPS, 1), positive, finer)?)
+        }
+    };
+    if values.len() > MOST_CASES {
+        return Err(field.refuse(format!("{} values", values.len()), format!("at most {MOST_CASES}")));
     }
-    match values.len() {
-        0 => Err(field.refuse_as_written(allowed)),
-        1..=MOST_CASES => Ok(Sequence { name, values }),
-        many => Err(field.refuse(format!("{many} values"), format!("at most {MOST_CASES}"))),
-    }
+    Ok(Some(Sequence { name, values }))
 }
 
 #[cfg(test)]

@@ -189,7 +189,7 @@ pub(super) type Link<'l> = &'l dyn Fn(&str) -> String;
 /// it ends with an empty line.
 pub(super) fn changes(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
-        findings.moves().iter().partition(|change| change.movement.needs_a_reason());
+        findings.record.moves().iter().partition(|change| change.movement.needs_a_reason());
     // Numbers of studies that fail move for the same cause.
     let fails = |id: &str| {
         findings.record.studies.iter().any(|study| study.header.id == id && !study.outcome.verdict.is_pass())
@@ -247,7 +247,7 @@ fn times(movement: &Movement) -> String {
 /// How to accept them, or why that is refused.
 fn acceptance(findings: &Findings<'_>) -> String {
     let Findings { project, record: Record { command, studies, .. }, .. } = findings;
-    match findings.moves() {
+    match findings.record.moves() {
         [] => String::new(),
         moves if can_be_blessed(studies) => {
             format!("If it is meant: `{}`.\n\n", blessing(project, command, studies, moves))

@@ -17,7 +17,6 @@ use std::io;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::baseline::Change;
 use crate::store::file_set::ReportSet;
 use crate::store::json;
 use crate::store::junit::junit;
@@ -83,11 +82,6 @@ impl Findings<'_> {
             set.add(format!("{FIGURES}/{}", figure.file), figure.svg.as_str())?;
         }
         Ok(set)
-    }
-
-    /// What moved away from the baseline, if there is one.
-    pub fn moves(&self) -> &[Change] {
-        self.record.changes.as_deref().unwrap_or_default()
     }
 
     fn figures(&self) -> impl Iterator<Item = &Figure> {

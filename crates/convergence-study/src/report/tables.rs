@@ -22,15 +22,11 @@ pub fn tables(Finished { outcome, failed_cases, .. }: &Finished, judged: bool) -
     all.filter(|table| !table.head.is_empty() && !table.rows.is_empty()).collect()
 }
 
-fn table<const N: usize>(title: &str, head: [&str; N], rows: impl Iterator<Item = [String; N]>) -> Table {
-    Table { title: title.to_owned(), head: head.map(str::to_owned).to_vec(), rows: rows.map(Vec::from).collect() }
-}
-
 fn rates(outcome: &Outcome) -> Table {
     let row = |(norm, rate): &(String, RateVerdict)| {
         let places = rate.interval.map_or(RATE_PLACES - 1, |interval| interval_places(interval, RATE_PLACES));
         let number = |rate: Option<f64>| rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, places));
-        [
+        vec![
             norm.clone(),
             rate.claim(),
             number(rate.fitted.or_else(|| rate.finest_rate())),
@@ -44,7 +40,7 @@ fn rates(outcome: &Outcome) -> Table {
     };
     let head =
         ["error in", "order claimed", "rate", "95 % interval", "extrapolated", "levels used", "verdict", "reason"];
-    let mut rates = table("Rates", head, outcome.rates.iter().map(row));
+    let mut rates = Table::new("Rates", head, outcome.rates.iter().map(row));
     if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
         rates.head.pop();
         rates.rows.iter_mut().for_each(|row| drop(row.pop()));
@@ -63,13 +59,13 @@ fn levels(rate: &RateVerdict) -> String {
 }
 
 fn checks(checks: &[Check]) -> Table {
-    let row = |check: &Check| [check.claim.clone(), check.verdict.name().to_owned(), check.evidence.clone()];
-    table(CHECKS, ["claim", "verdict", "evidence"], checks.iter().map(row))
+    let row = |check: &Check| vec![check.claim.clone(), check.verdict.name().to_owned(), check.evidence.clone()];
+    Table::new(CHECKS, ["claim", "verdict", "evidence"], checks.iter().map(row))
 }
 
 fn failures(failed: &[FailedCase]) -> Table {
-    let row = |failed: &FailedCase| [failed.label.clone(), failed.reason.clone()];
-    table("Cases without a result", ["case", "reason"], failed.iter().map(row))
+    let row = |failed: &FailedCase| vec![failed.label.clone(), failed.reason.clone()];
+    Table::new("Cases without a result", ["case", "reason"], failed.iter().map(row))
 }
 
 /// Widest table in characters, with three for the gap between columns: this fits on the page, and nearly in Markdown.

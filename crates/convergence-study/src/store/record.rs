@@ -88,6 +88,11 @@ impl Record {
         }
     }
 
+    /// Differences from the baseline, if there is one.
+    pub fn moves(&self) -> &[Change] {
+        self.changes.as_deref().unwrap_or_default()
+    }
+
     /// The same with digits that do not vary between runs and hardly between machines: see [`committed`].
     #[must_use]
     pub fn committed(mut self) -> Self {

@@ -301,13 +301,8 @@ pub fn rate_table(title: &str, rates: &Rates) -> Table {
             rate.kind.text().to_owned(),
         ]
     };
-    Table {
-        title: title.to_owned(),
-        head: ["error of", "order", "pairwise rates", "rate", "95 % interval", "verdict", "because"]
-            .map(str::to_owned)
-            .into(),
-        rows: rates.iter().map(row).collect(),
-    }
+    let head = ["error of", "order", "pairwise rates", "rate", "95 % interval", "verdict", "because"];
+    Table::new(title, head, rates.iter().map(row))
 }
 
 /// The rate with the digits that its interval justifies, in a table that also shows the interval.

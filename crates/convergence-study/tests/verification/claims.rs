@@ -187,14 +187,14 @@ fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verif
 fn a_changed_claim_fails_the_run_and_is_in_every_report() {
     let root = tempfile::tempdir().unwrap();
     let first = header("a", &CLAIMS);
-    assert_eq!(run(root.path(), &first, true, None).verdict, Verdict::Pass);
+    assert_eq!(run(root.path(), &first, true, None).record.verdict, Verdict::Pass);
     let baseline = root.path().join("studies/baseline.json");
     let before = fs::read(&baseline).unwrap();
 
     let loose = with("expect[0].tolerance", Some("0.49"));
     for bless in [false, true] {
         let found = run(root.path(), &loose, bless, None);
-        assert_eq!((found.finished[0].outcome.verdict, found.verdict), (Verdict::Pass, Verdict::Fail));
+        assert_eq!((found.record.studies[0].outcome.verdict, found.record.verdict), (Verdict::Pass, Verdict::Fail));
         assert!(found.blessing.as_ref().is_none_or(Result::is_err));
         assert_eq!(fs::read(&baseline).unwrap(), before);
         let report = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
@@ -208,10 +208,10 @@ fn a_changed_claim_fails_the_run_and_is_in_every_report() {
             report("index.html")
         );
         assert!(report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49"));
-        let xml = junit(PROJECT.name, &found.record(&Scope::Selection(vec![]), "verify")).unwrap();
+        let xml = junit(PROJECT.name, &found.record).unwrap();
         assert_eq!(report("junit.xml"), xml);
         assert!(xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"), "{xml}");
     }
-    assert_eq!(run(root.path(), &loose, true, Some("three levels only")).verdict, Verdict::Pass);
-    assert_eq!(run(root.path(), &loose, false, None).verdict, Verdict::Pass);
+    assert_eq!(run(root.path(), &loose, true, Some("three levels only")).record.verdict, Verdict::Pass);
+    assert_eq!(run(root.path(), &loose, false, None).record.verdict, Verdict::Pass);
 }

@@ -32,13 +32,13 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
     let root = tempfile::tempdir().unwrap();
     let plain = request(root.path(), &["a"]);
     let unknown = run(vec![study("a", Does::Converge)], &plain);
-    assert_eq!((unknown.verdict, unknown.changes.len()), (Verdict::Fail, 1));
+    assert_eq!((unknown.record.verdict, unknown.record.moves().len()), (Verdict::Fail, 1));
     let blessed = run(vec![study("a", Does::Converge)], &Request { bless: true, ..plain.clone() });
-    assert_eq!((blessed.verdict, blessed.blessing), (Verdict::Pass, Some(Ok(()))));
-    assert_eq!(run(vec![study("a", Does::Converge)], &plain).verdict, Verdict::Pass);
+    assert_eq!((blessed.record.verdict, blessed.blessing), (Verdict::Pass, Some(Ok(()))));
+    assert_eq!(run(vec![study("a", Does::Converge)], &plain).record.verdict, Verdict::Pass);
     let moved = Fake { scale: 1.5, ..fake("a", Does::Converge) };
     let moved = run(vec![erased(moved)], &plain);
-    assert_eq!((moved.finished[0].outcome.verdict, moved.verdict), (Verdict::Pass, Verdict::Fail));
+    assert_eq!((moved.record.studies[0].outcome.verdict, moved.record.verdict), (Verdict::Pass, Verdict::Fail));
     assert!(fs::read_to_string(root.path().join("reports/README.md")).unwrap().contains("by +50 %"));
 }
 
@@ -47,7 +47,7 @@ fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
     let root = tempfile::tempdir().unwrap();
     let bless = Request { bless: true, ..request(root.path(), &["a"]) };
     let twice = Project { front_pictures: &[("a-errors.svg", "README.md")], ..PROJECT };
-    let failed = verify(&twice, &[study("a", Does::Converge)], &bless, &|_| {}).map(|found| found.verdict);
+    let failed = verify(&twice, &[study("a", Does::Converge)], &bless, &|_| {}).map(|found| found.record.verdict);
     assert!(matches!(&failed, Err(VerificationError::Reports { .. })), "{failed:?}");
     assert!(!root.path().join("studies/baseline.json").exists());
 }
@@ -60,14 +60,14 @@ fn a_blessing_does_not_turn_a_failing_study_green() {
     let file = root.path().join("studies/baseline.json");
     let before = fs::read(&file).unwrap();
     let failing = run(vec![study("a", Does::Stay)], &bless);
-    assert_eq!(failing.verdict, Verdict::Fail);
+    assert_eq!(failing.record.verdict, Verdict::Fail);
     assert!(failing.blessing.unwrap().is_err());
     assert_eq!(fs::read(&file).unwrap(), before);
     // Nor does a baseline that agrees with what the failing study finds.
     let agreeing = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;
     fs::write(&file, agreeing).unwrap();
     let agreed = run(vec![study("a", Does::Stay)], &request(root.path(), &["a"]));
-    assert_eq!((agreed.changes.len(), agreed.verdict), (0, Verdict::Fail));
+    assert_eq!((agreed.record.moves().len(), agreed.record.verdict), (0, Verdict::Fail));
 }
 
 #[test]
@@ -128,9 +128,9 @@ fn a_selection_blesses_itself_alone() {
     run(both(), &Request { bless: true, ..quick.clone() });
     let scope = Scope::Selection(vec!["a".to_owned()]);
     let moved: Vec<Box<dyn Study>> = vec![erased(Fake { scale: 2.0, ..fake("a", Does::Converge) })];
-    assert_eq!(run(moved, &Request { bless: true, scope, ..quick.clone() }).verdict, Verdict::Pass);
+    assert_eq!(run(moved, &Request { bless: true, scope, ..quick.clone() }).record.verdict, Verdict::Pass);
     let after = run(both(), &quick);
-    assert_eq!(after.changes.iter().map(|change| change.study.as_str()).collect::<Vec<_>>(), ["a"]);
+    assert_eq!(after.record.moves().iter().map(|change| change.study.as_str()).collect::<Vec<_>>(), ["a"]);
 }
 
 #[test]

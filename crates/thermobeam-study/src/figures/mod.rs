@@ -5,7 +5,7 @@ mod animation;
 pub use animation::{Animation, animation};
 
 use convergence_study::plots::look::{Look, Marker, Marks, look};
-use convergence_study::plots::style::{self, Dash};
+use convergence_study::plots::style;
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::plots::{self, Axis, Guide, History, Phases, Series, SpaceTime};
 use convergence_study::text::lists::distinct;
@@ -137,7 +137,7 @@ fn branch_curve(branch: &Branch, look: Look) -> Curve {
         (_, false) => Marks::Open,
     };
     // The colour shows the contact state, dashes show instability.
-    let (dash, stability) = if branch.stable { (Dash::Solid, "stable") } else { (Dash::Short, "unstable") };
+    let (dash, stability) = if branch.stable { (style::SOLID, "stable") } else { (style::SHORT, "unstable") };
     let series = Series { label: format!("{}, {stability}", branch.label), points: branch.points.clone() };
     Curve { look: Look { dash, marker: Marker::Circle, ..look }, width: 2.6, marks, ..Curve::line(0, &series) }
 }
@@ -178,7 +178,7 @@ fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
 fn identity(xy: &Xy) -> Curve {
     let points = [xy.x_ruler().lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec();
     let line = Curve::line(0, &Series { label: "measured = predicted".into(), points });
-    let look = Look { colour: style::MUTED, dash: Dash::Long, ..line.look };
+    let look = Look { colour: style::MUTED, dash: style::LONG, ..line.look };
     Curve { look, width: 1.6, is_data: false, ..line }
 }
 

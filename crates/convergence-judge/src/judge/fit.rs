@@ -24,7 +24,8 @@ pub use candidates::{
     rate_interval,
 };
 pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
-pub use range::{AsymptoticRange, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range};
+pub use range::{AsymptoticRange, FADING_SPREAD, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range, scatter};
+pub(crate) use range::{changes, outlier};
 
 /// One level of a refinement study.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,7 +7,7 @@
 use thiserror::Error;
 
 use crate::judge::fit::FLOOR_MARGIN;
-pub use crate::judge::fit::Level;
+pub use crate::judge::fit::{Level, scatter};
 
 mod outcome;
 mod reading;
@@ -17,7 +17,7 @@ mod trend;
 pub use outcome::{Aside, RateVerdict, SetAside, Verdict};
 pub(crate) use reading::Reading;
 pub use reason::Reason;
-pub use trend::{departs, falls_away, grows, scatter};
+pub use trend::{departs, falls_away, grows};
 
 /// Two rates and one difference of them: with fewer, nothing tells a rate from chance.
 pub const FEWEST_LEVELS: usize = 3;

@@ -102,8 +102,8 @@ fn the_range_is_what_its_two_rules_leave() {
     let data = with_log2(&[0.0, -1.75, -3.25, -4.25, -5.25]);
     let range = asymptotic_range(&data, 0.0);
     assert_eq!((range.used, range.pre_asymptotic, range.at_floor), (2..5, 2, 0));
-    let near = with_log2(&[0.0, -1.375, -2.375, -3.375]);
-    assert_eq!(asymptotic_range(&near, 0.0).pre_asymptotic, 0, "0.375 is near");
+    let near = with_log2(&[0.0, -1.25, -2.25, -3.25]);
+    assert_eq!(asymptotic_range(&near, 0.0).pre_asymptotic, 0, "0.25 is near");
     // A level counts while its error is above, not at, the floor.
     let above = asymptotic_range(&data, data[4].error * (1.0 - 1e-12));
     assert_eq!((above.used, above.at_floor), (2..5, 0));
@@ -117,6 +117,33 @@ fn the_range_is_what_its_two_rules_leave() {
 /// Steps 1, 1/2, 1/4, ... and errors with these logarithms to base 2.
 fn with_log2(errors: &[f64]) -> Vec<Level> {
     errors.iter().zip(0..).map(|(error, k)| Level { step: 0.5_f64.powi(k), error: error.exp2() }).collect()
+}
+
+#[test]
+fn the_range_allows_for_scatter_and_keeps_a_fourth_level_of_rates_that_fade() {
+    for (rates, dropped) in [
+        // To and fro by 0.25: the coarsest rate is 0.5 from the finest.
+        (&[1.5, 1.0, 1.25, 1.0][..], 0),
+        (&[1.5, 1.25, 1.0, 1.0], 1),
+        // Three levels have one change, which is no scatter.
+        (&[1.5, 1.0], 1),
+        // Fading by half, by less, not at all, and from too far away; coarser levels.
+        (&[1.75, 1.25, 1.0], 0),
+        (&[1.6875, 1.25, 1.0], 1),
+        (&[1.5, 1.0, 1.0], 1),
+        (&[1.875, 1.25, 1.0], 1),
+        (&[1.875, 1.75, 1.25, 1.0], 1),
+        // An outlier is dropped whatever it does to the rates.
+        (&[2.0, 0.415, 3.585, 2.0, 2.0], 3),
+    ] {
+        let errors: Vec<f64> = std::iter::once(0.0)
+            .chain(rates.iter().scan(0.0, |sum, rate| {
+                *sum -= rate;
+                Some(*sum)
+            }))
+            .collect();
+        assert_eq!(asymptotic_range(&with_log2(&errors), 0.0).pre_asymptotic, dropped, "{rates:?}");
+    }
 }
 
 #[test]

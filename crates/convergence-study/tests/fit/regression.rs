@@ -88,8 +88,10 @@ fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     let weights: Vec<f64> = candidates.iter().map(|c| (c.log_weight - heaviest.log_weight).exp()).collect();
     let total: f64 = weights.iter().sum();
     let rate = candidates.iter().zip(&weights).map(|(c, w)| w * c.rate).sum::<f64>() / total;
-    let square = |c: &Explanation| c.half_width * c.half_width + 4.0 * (c.rate - rate) * (c.rate - rate);
-    let half = (candidates.iter().zip(&weights).map(|(c, w)| w * square(c)).sum::<f64>() / total).sqrt();
+    let mean = |value: &dyn Fn(&Explanation) -> f64| {
+        candidates.iter().zip(&weights).map(|(c, w)| w * value(c)).sum::<f64>() / total
+    };
+    let half = mean(&|c| c.half_width).hypot(2.0 * mean(&|c| (c.rate - rate) * (c.rate - rate)).sqrt());
     (rate, heaviest.pollution, [rate - half, rate + half])
 }
 

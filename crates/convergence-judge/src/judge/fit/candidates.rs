@@ -29,7 +29,7 @@ pub const SLOW_PENALTY: f64 = 3.0;
 pub const SLOW: f64 = 0.75;
 
 /// Factor on the half-width of every candidate, for terms that no candidate has: the intervals of the [calibration](crate::judge::calibration) then
-/// hold the order at least 93 times in 100 in every family of errors; with a factor of 1, 91 times.
+/// hold the order at least 92 times in 100 in every family of errors; with a factor of 1, 90 times.
 pub const SAFETY: f64 = 1.3;
 
 /// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.
@@ -77,8 +77,8 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         sum / candidates.iter().map(weight).sum::<f64>()
     };
     let rate = mean(&|candidate| candidate.rate);
-    // Two standard deviations between the candidates, and the half-width of each.
-    let half = mean(&|c| c.half_width.powi(2) + 4.0 * (c.rate - rate).powi(2)).sqrt();
+    // Two standard deviations between the candidates, and the mean half-width.
+    let half = (mean(&|c| c.half_width).powi(2) + 4.0 * mean(&|c| (c.rate - rate).powi(2))).sqrt();
     let scatter = mean(&|c| c.scatter.powi(2)).sqrt();
     let sound = rate.is_finite() && half.is_finite();
     sound.then_some(RateInterval { rate, pollution: heaviest.pollution, interval: [rate - half, rate + half], scatter })

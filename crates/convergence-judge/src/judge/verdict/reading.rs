@@ -6,7 +6,7 @@ use super::outcome::{Aside, SetAside};
 use super::reason::Reason;
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
-    AsymptoticRange, Level, RateInterval, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
+    AsymptoticRange, Level, RateInterval, asymptotic_range, extrapolated_rate, outlier, pairwise_rates, rate_interval,
 };
 
 /// A sequence of errors, read once and compared with any claim.
@@ -117,6 +117,7 @@ impl<'a> Reading<'a> {
         let finest = rates.last().copied().unwrap_or(f64::NAN);
         match compare(fit.interval, order, tolerance) {
             Reason::TooLow => Reason::TooLow,
+            Reason::Agrees if trend::emerges(rates, tolerance) => Reason::NotAsymptotic,
             Reason::Agrees if self.outlier().is_some() => Reason::Outlier,
             Reason::Agrees if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
             Reason::Agrees if (finest - order).abs() > tolerance => Reason::LastPair,
@@ -128,7 +129,7 @@ impl<'a> Reading<'a> {
 
     /// The level that does not fit its neighbours.
     pub(super) fn outlier(&self) -> Option<usize> {
-        trend::outlier(&self.sequence[..self.range.used.end], self.range.pre_asymptotic)
+        outlier(&self.sequence[..self.range.used.end], self.range.pre_asymptotic)
     }
 
     /// Ratio of the coarsest step above the floor to the finest; infinite if there is none.

@@ -11,9 +11,9 @@ use thermobeam_study::error::free_vibration;
 use thermobeam_study::predict::choice::{Choice, Quantity};
 use thermobeam_study::predict::estimate::{Budget, Estimate, Source};
 use thermobeam_study::predict::{self, Cost, MOST_WORK, Reason, Unreachable, Work};
-use thermobeam_study::run::Sample;
 use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
+use thermobeam_study::run::{Motion, Sample};
 use thermobeam_study::scene::{Method, Scene};
 
 /// Runs a search with the usual limit of work.
@@ -427,9 +427,8 @@ fn made(choice: &Choice) -> [f64; 2] {
     let mut run = on.start(stepping.scheme, stepping.settings, steps).unwrap();
     let mut worst = [0.0_f64; 2];
     for index in 0..steps {
-        run.advance(1).unwrap();
-        let t = run.t();
-        let [norm, _, tip] = evaluator.measure(run.level(), index, t);
+        run.step(f64::INFINITY).unwrap();
+        let [norm, _, tip] = evaluator.measure(&run.on(on.mesh()), index, run.t());
         worst = [worst[0].max(tip), worst[1].max(norm)];
     }
     // The family is released with u(1) = 0.1, the scene with 1.

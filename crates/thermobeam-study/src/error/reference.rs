@@ -11,6 +11,7 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;
 
+use crate::run::driver::{map_fields, on_mesh};
 use crate::run::simulate::{Recording, Simulator};
 use crate::scene::{Scene, resampled};
 
@@ -75,7 +76,7 @@ impl Traced {
     pub(crate) fn errors_of(&self, level: &Level, mesh: &Mesh, k: usize) -> [f64; 2] {
         let (fine, [few, many]) =
             (&self.levels[k], [mesh, &self.mesh].map(|mesh| mesh.lengths().collect::<Vec<f64>>()));
-        let extended = prolong(level, mesh.nodes(), self.mesh.nodes());
+        let extended = on_mesh(level, mesh, &self.mesh);
         let restricted = restrict(fine, self.mesh.elements() / mesh.elements());
         [distance(&many, &extended, fine), distance(&few, level, &restricted)]
     }
@@ -97,17 +98,6 @@ pub(crate) fn distance_of_curves(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, max_or_nan)
 }
 
-fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
-    Level {
-        u: map(&level.u),
-        v: map(&level.v),
-        phi: map(&level.phi),
-        w: map(&level.w),
-        theta: map(&level.theta),
-        contact_force: level.contact_force,
-    }
-}
-
 /// `weight * a + (1 - weight) * b`, field by field.
 pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
     let mix =
@@ -125,20 +115,4 @@ pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
 /// Values at every `stride`-th node.
 fn restrict(level: &Level, stride: usize) -> Level {
     map_fields(level, |y| y.iter().step_by(stride).copied().collect())
-}
-
-/// The same P1 functions on another mesh, which must contain the old nodes.
-fn prolong(level: &Level, nodes: &[f64], fine: &[f64]) -> Level {
-    map_fields(level, |y| {
-        let mut left = 0;
-        fine.iter()
-            .map(|&x| {
-                while left + 2 < nodes.len() && nodes[left + 1] <= x {
-                    left += 1;
-                }
-                let fraction = (x - nodes[left]) / (nodes[left + 1] - nodes[left]);
-                (1.0 - fraction) * y[left] + fraction * y[left + 1]
-            })
-            .collect()
-    })
 }

@@ -28,13 +28,14 @@
 use convergence_study::plots::look::{Marks, look};
 use convergence_study::plots::xy::{Curve, Xy};
 use convergence_study::text::number::counted;
-use thermobeam::dg::{Initial, Load, MAX_DEGREE, MAX_TIME_DEGREE, Problem, Simulation, Space, Stepping};
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 
 use super::prelude::*;
 use super::tables::{Layout, control, manufactured};
 use crate::error::free_vibration;
-use crate::exact::any_order::{self, ErrorMeter, ManufacturedLoad};
-use crate::run::dg::work_of_a_pass;
+use crate::exact::any_order::ErrorMeter;
+use crate::run::Motion;
+use crate::run::dg::DgMotion;
 use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
@@ -216,18 +217,14 @@ impl Kind for AnyOrder {
     /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes. A study over time has the
     /// largest L2 errors of u and u_t inside steps instead of the slopes.
     fn run(&self, resolution: &Resolution) -> Result<NamedErrors, CaseFailure> {
-        let mut simulation = self.simulation(*resolution)?;
+        let mut motion = self.motion(*resolution)?;
         // The solver's temperature: its unknown is lifted by the solver's own θ_A.
         let theta_a = self.solver.beam.theta_a;
-        let mut level = simulation.level().clone();
+        let mut level = motion.simulation().level().clone();
         let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
-        let mut patience = Patience::new(work_of_a_pass(&simulation, resolution.time_degree));
-        let mut meter = ErrorMeter::new(&self.exact, theta_a, simulation.space());
-        loop {
-            patience.check(simulation.work().steps, || simulation.t())?;
-            if simulation.step(self.t_end)?.is_none() {
-                break;
-            }
+        let mut meter = ErrorMeter::new(&self.exact, theta_a, motion.simulation().space());
+        while motion.step(self.t_end)?.is_some() {
+            let simulation = motion.simulation();
             // Only a study over time judges these.
             if self.over == Over::Time {
                 let (from, to) = (simulation.old_level().t, simulation.t());
@@ -240,7 +237,7 @@ impl Kind for AnyOrder {
                 }
             }
         }
-        let [values, slopes] = meter.errors(simulation.level());
+        let [values, slopes] = meter.errors(motion.simulation().level());
         let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
         Ok(match self.over {
             Over::Time => vec![("ends", together(values)), ("u inside", inside_u), ("u_t inside", inside_u_t)],
@@ -268,24 +265,12 @@ impl Kind for AnyOrder {
 type OneRun = Ran<Resolution, NamedErrors>;
 
 impl AnyOrder {
-    fn simulation(&self, resolution: Resolution) -> Result<Simulation, CaseFailure> {
+    fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
         let Resolution { degree, elements, time_degree, steps } = resolution;
         let dt = self.t_end / steps as f64;
         let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
-        let (Coefficients { beam, obstacles }, theory) = (self.solver, &self.theory);
-        // The clamped end is wrong from the start: the initial data must match its temperature, or the first step fails.
-        let shift = beam.theta_a - theory.beam.theta_a;
-        let exact = any_order::initial(&self.exact);
-        let theta = exact.theta;
-        let initial = Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..exact };
-        let problem = Problem { beam, obstacles, mesh: self.layout.mesh(elements)?, degree, initial };
-        if !self.loaded {
-            return Ok(Simulation::new(problem, stepping)?);
-        }
-        let load = |space: &Space| -> Box<dyn Load> {
-            Box::new(ManufacturedLoad::new(&self.exact, &theory.beam, theory.obstacles, space))
-        };
-        Ok(Simulation::with_load(problem, stepping, load)?)
+        let (loads, mesh) = (self.loaded.then_some(&self.theory), self.layout.mesh(elements)?);
+        Ok(DgMotion::manufactured(&self.exact, loads, self.solver, mesh, degree, stepping)?)
     }
 
     /// Rates over h or dt; one figure shows each degree's errors together.

@@ -11,7 +11,9 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Level;
 
 use super::{Motion, Report, RunError, Sample, Solves};
-use crate::scene::Scene;
+use crate::exact::any_order::{self, ManufacturedLoad};
+use crate::exact::solution::Manufactured;
+use crate::scene::{Coefficients, Scene};
 
 /// Maximum number of times of a history by dG: more than a figure has columns.
 const ROWS: usize = 4000;
@@ -39,8 +41,37 @@ impl DgMotion {
         Ok(Self::of(simulation, &scene.beam, scene.obstacles, stepping))
     }
 
-    /// Continues a given simulation.
-    pub(crate) fn of(simulation: dg::Simulation, beam: &Beam, obstacles: Option<Obstacles>, by: dg::Stepping) -> Self {
+    /// A manufactured solution at t = 0.
+    ///
+    /// * `loads`: the coefficients of the loads that keep it in place; a free vibration of a cold beam needs none.
+    /// * `solver`: the solver's own coefficients.
+    ///
+    /// # Errors
+    /// [`SetupError`] if the solver refuses the numbers.
+    pub(crate) fn manufactured(
+        exact: &Manufactured,
+        loads: Option<&Coefficients>,
+        Coefficients { beam, obstacles }: Coefficients,
+        mesh: Mesh,
+        degree: usize,
+        by: dg::Stepping,
+    ) -> Result<Self, SetupError> {
+        // A clamped end that is too hot is so from the start: the initial data must match it, or the first step fails.
+        let shift = beam.theta_a - loads.map_or(0.0, |theory| theory.beam.theta_a);
+        let start = any_order::initial(exact);
+        let theta = start.theta;
+        let initial = dg::Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..start };
+        let problem = dg::Problem { beam, obstacles, mesh, degree, initial };
+        let simulation = match loads {
+            None => dg::Simulation::new(problem, by),
+            Some(theory) => dg::Simulation::with_load(problem, by, |space| {
+                Box::new(ManufacturedLoad::new(exact, &theory.beam, theory.obstacles, space))
+            }),
+        }?;
+        Ok(Self::of(simulation, &beam, obstacles, by))
+    }
+
+    fn of(simulation: dg::Simulation, beam: &Beam, obstacles: Option<Obstacles>, by: dg::Stepping) -> Self {
         Self {
             level: simulation.level().clone(),
             patience: Patience::new(work_of_a_pass(&simulation, by.degree)),
@@ -58,7 +89,7 @@ impl DgMotion {
 }
 
 /// The work of a pass, for a limit on it: the blocks of a step are dense in time.
-pub(crate) fn work_of_a_pass(simulation: &dg::Simulation, time_degree: usize) -> usize {
+fn work_of_a_pass(simulation: &dg::Simulation, time_degree: usize) -> usize {
     simulation.space().blocks() * (time_degree + 1).pow(2)
 }
 

@@ -37,11 +37,15 @@ pub(crate) struct Driver {
     new: Level,
     /// The energy at t = 0.
     initial: f64,
-    middle: Middle,
     patience: Patience,
     wall: Duration,
     is_timed: bool,
+    /// Computes the loads of a step at its middle.
+    fill: Box<Fill>,
 }
+
+/// Writes the loads at a time.
+type Fill = dyn FnMut(f64, &mut [[f64; 3]]);
 
 impl Driver {
     /// Starts at t = 0.
@@ -52,9 +56,22 @@ impl Driver {
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
-        let middle = Middle::of(&simulation.problem().mesh);
         let initial = simulation.energy(&old).total();
-        Ok(Self { simulation, old, new, initial, middle, patience, wall: Duration::ZERO, is_timed: false })
+        Ok(Self {
+            simulation,
+            old,
+            new,
+            initial,
+            patience,
+            wall: Duration::ZERO,
+            is_timed: false,
+            fill: Box::new(|_, _| ()),
+        })
+    }
+
+    /// Fills the loads of each step by [`Motion::step`] at its middle t_{n-½}; [`Stepping::loaded`] must be set.
+    pub(crate) fn loaded(self, fill: impl FnMut(f64, &mut [[f64; 3]]) + 'static) -> Self {
+        Self { fill: Box::new(fill), ..self }
     }
 
     /// Reads the clock before and after each step, at a cost of some 50 ns.
@@ -129,9 +146,12 @@ impl Driver {
         energy.sound().map_err(|unsound| RunError::unsound(step, t, dt, unsound))
     }
 
-    /// Does a step without loads, and reads the level at its end.
+    /// Does a step, and reads the level at its end.
     fn shown(&mut self) -> Result<StepReport, RunError> {
-        let report = self.advance(|_, _| ())?;
+        let mut fill = std::mem::replace(&mut self.fill, Box::new(|_, _| ()));
+        let outcome = self.advance(&mut fill);
+        self.fill = fill;
+        let report = outcome?;
         std::mem::swap(&mut self.old, &mut self.new);
         self.simulation.observe(&mut self.new);
         Ok(report)
@@ -150,6 +170,25 @@ pub(crate) fn thinned(len: usize, most: usize) -> Vec<usize> {
         return (0..len).collect();
     }
     (0..most).map(|k| k * (len - 1) / (most - 1)).collect()
+}
+
+/// A level with each field replaced.
+pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
+    let Level { u, v, phi, w, theta, contact_force } = level;
+    Level { u: map(u), v: map(v), phi: map(phi), w: map(w), theta: map(theta), contact_force: *contact_force }
+}
+
+/// The P1 functions of a level at the nodes of another mesh.
+pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
+    let nodes = mesh.nodes();
+    map_fields(level, |y| {
+        let value = |&x: &f64| {
+            let i = nodes.partition_point(|&node| node <= x).clamp(1, nodes.len() - 1) - 1;
+            let s = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
+            (1.0 - s) * y[i] + s * y[i + 1]
+        };
+        other.nodes().iter().map(value).collect()
+    })
 }
 
 impl Motion for Driver {
@@ -172,9 +211,9 @@ impl Motion for Driver {
 
     fn at(&mut self, _: f64) -> Sample {
         let (simulation, level) = (&self.simulation, &self.new);
-        let Problem { beam, obstacles, .. } = simulation.problem();
+        let Problem { beam, obstacles, mesh, .. } = simulation.problem();
         let energy = simulation.energy(level).total();
-        let sample = Sample::of(level, simulation.t(), self.middle, beam.theta_a, energy);
+        let sample = Sample::of(level, simulation.t(), mesh, beam.theta_a, energy);
         // No step leads to the start, so its contact force is that of the law.
         if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
     }
@@ -199,17 +238,7 @@ impl Motion for Driver {
     }
 
     fn on(&self, mesh: &Mesh) -> Level {
-        let nodes = self.simulation.problem().mesh.nodes();
-        let at = |y: &[f64]| {
-            let value = |&x: &f64| {
-                let i = nodes.partition_point(|&node| node <= x).clamp(1, nodes.len() - 1) - 1;
-                let s = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
-                (1.0 - s) * y[i] + s * y[i + 1]
-            };
-            mesh.nodes().iter().map(value).collect()
-        };
-        let Level { u, v, phi, w, theta, .. } = &self.new;
-        Level { u: at(u), v: at(v), phi: at(phi), w: at(w), theta: at(theta), contact_force: 0.0 }
+        Level { contact_force: 0.0, ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh) }
     }
 
     fn extremes(&self) -> [f64; 2] {
@@ -233,30 +262,17 @@ impl Motion for Driver {
     }
 }
 
-/// Position of x = 1/2 in a mesh.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Middle {
-    /// The node left of it, or at it.
-    node: usize,
-    /// The fraction of the way to the next node.
-    fraction: f64,
-}
-
-impl Middle {
-    pub(super) fn of(mesh: &Mesh) -> Self {
-        let nodes = mesh.nodes();
-        // The first node is 0 and the last is 1, so there is always one on either side.
-        let node = nodes.partition_point(|&x| x <= 0.5) - 1;
-        Self { node, fraction: (0.5 - nodes[node]) / (nodes[node + 1] - nodes[node]) }
-    }
-
-    fn value(self, y: &[f64]) -> f64 {
-        (1.0 - self.fraction) * y[self.node] + self.fraction * y[self.node + 1]
-    }
+/// The value of a P1 function at x = 1/2.
+fn middle(mesh: &Mesh, y: &[f64]) -> f64 {
+    let nodes = mesh.nodes();
+    // The first node is 0 and the last is 1, so there is always one on either side.
+    let node = nodes.partition_point(|&x| x <= 0.5) - 1;
+    let fraction = (0.5 - nodes[node]) / (nodes[node + 1] - nodes[node]);
+    (1.0 - fraction) * y[node] + fraction * y[node + 1]
 }
 
 impl Sample {
-    pub(super) fn of(level: &Level, t: f64, middle: Middle, theta_a: f64, energy: f64) -> Self {
+    pub(crate) fn of(level: &Level, t: f64, mesh: &Mesh, theta_a: f64, energy: f64) -> Self {
         let tip = level.u.len() - 1;
         Self {
             t,
@@ -265,7 +281,7 @@ impl Sample {
             u_t_tip: level.v[tip],
             phi_t_tip: level.w[tip],
             // The lifting θ_A (1 - x) is linear, so adding its midpoint value is exact on any mesh.
-            theta_mid: middle.value(&level.theta) + 0.5 * theta_a,
+            theta_mid: middle(mesh, &level.theta) + 0.5 * theta_a,
             // For a free tip the solver returns a zero with the sign of the displacement: -0 + 0 is 0.
             contact_force: level.contact_force + 0.0,
             energy,
@@ -314,7 +330,7 @@ mod tests {
     fn the_middle_is_interpolated_where_it_is_no_node() {
         let value = |nodes: Vec<f64>| {
             let y: Vec<f64> = nodes.iter().map(|x| 3.0 * x - 1.0).collect();
-            Middle::of(&Mesh::from_nodes(nodes).unwrap()).value(&y)
+            middle(&Mesh::from_nodes(nodes).unwrap(), &y)
         };
         for nodes in [vec![0.0, 1.0], vec![0.0, 0.5, 1.0], vec![0.0, 0.1, 0.7, 1.0], vec![0.0, 0.9, 1.0]] {
             assert!((value(nodes) - 0.5).abs() < 1e-15);

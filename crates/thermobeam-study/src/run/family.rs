@@ -1,17 +1,19 @@
 //! One problem on any mesh and with any step: the basis of everything that trades cost against error.
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
-//! vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step. The caller advances a [`FamilyRun`], so
-//! that several can proceed together and be compared at common times. A run counts its cost: [`Spent`].
+//! vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step. The caller steps the [`Motion`], so
+//! that several can proceed together and be compared at common times. Its cost is counted: [`Spent`].
 
-use crate::exact::any_order::{self, ManufacturedLoad};
+use std::sync::Arc;
+
 use crate::exact::factors::Factors;
 use crate::exact::solution::Manufactured;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::run::Motion;
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
-use crate::scene::{Scene, resampled};
+use crate::scene::{Coefficients, Scene, resampled};
 use convergence_study::study::CaseFailure;
 use thermobeam::dg;
 use thermobeam::error::SetupError;
@@ -19,7 +21,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Level, Settings};
+use thermobeam::solve::Settings;
 
 /// The cost of a computation. The first two numbers are the same on every machine, the third never is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,6 +32,18 @@ pub struct Spent {
     pub node_solves: f64,
     /// Seconds of the solver alone.
     pub seconds: f64,
+}
+
+impl Spent {
+    /// The cost of a motion by a one-step scheme so far.
+    pub(crate) fn of(motion: &impl Motion, elements: usize) -> Self {
+        let elements = elements as f64;
+        Self {
+            node_steps: elements * motion.steps() as f64,
+            node_solves: elements * motion.solves().passes as f64,
+            seconds: motion.wall().as_secs_f64(),
+        }
+    }
 }
 
 impl std::ops::AddAssign for Spent {
@@ -109,15 +123,8 @@ impl Family {
             }
             Start::Exact(exact) => exact,
         };
-        let problem = dg::Problem { beam, obstacles, mesh, degree, initial: any_order::initial(exact) };
-        let load = |space: &dg::Space| -> Box<dyn dg::Load> {
-            Box::new(ManufacturedLoad::new(exact, &beam, obstacles, space))
-        };
-        let simulation = match self.loaded {
-            true => dg::Simulation::with_load(problem, stepping, load),
-            false => dg::Simulation::new(problem, stepping),
-        }?;
-        Ok(DgMotion::of(simulation, &beam, obstacles, stepping))
+        let own = Coefficients { beam, obstacles };
+        DgMotion::manufactured(exact, self.loaded.then_some(&own), own, mesh, degree, stepping)
     }
 
     /// The problem on a mesh of `elements` elements, graded like the scene's.
@@ -136,7 +143,7 @@ impl Family {
                 factors.at(exact, 0.0);
                 let theta_a = self.beam.theta_a;
                 let initial = Nodal::of(exact, &mesh).initial(&mesh, &factors, theta_a, theta_a);
-                (initial, self.loaded.then(|| Sources::strong(exact, &self.beam, &mesh)))
+                (initial, self.loaded.then(|| Arc::new(Sources::strong(exact, &self.beam, &mesh))))
             }
         };
         let problem = Problem { beam: self.beam, obstacles: self.obstacles, mesh, initial };
@@ -148,7 +155,7 @@ impl Family {
 pub struct OnMesh<'a> {
     of: &'a Family,
     problem: Problem,
-    sources: Option<Sources>,
+    sources: Option<Arc<Sources>>,
 }
 
 impl OnMesh<'_> {
@@ -157,65 +164,22 @@ impl OnMesh<'_> {
         &self.problem.mesh
     }
 
-    /// Writes the loads at time t; does nothing if there are none.
-    fn fill(&self, t: f64, factors: &mut Factors, load: &mut [[f64; 3]]) {
-        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else { return };
-        factors.at(exact, t);
-        let u = &factors.u.value;
-        let force = self.of.obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
-        sources.fill(factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
-    }
-
     /// Starts at t = 0 with a scheme and `steps` steps to do.
     ///
     /// # Errors
     /// [`CaseFailure`] if the solver refuses the numbers.
-    pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<FamilyRun<'_>, CaseFailure> {
+    pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<impl Motion, CaseFailure> {
         let dt = self.of.t_end / steps as f64;
         let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
         let driver = Driver::new(self.problem.clone(), stepping)?.timed();
-        Ok(FamilyRun { on: self, driver, factors: Factors::default() })
-    }
-}
-
-/// A running simulation that counts its cost.
-pub struct FamilyRun<'a> {
-    on: &'a OnMesh<'a>,
-    driver: Driver,
-    factors: Factors,
-}
-
-impl FamilyRun<'_> {
-    /// Does `steps` steps. The clock runs only in the solver.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] with the solver's message.
-    pub fn advance(&mut self, steps: usize) -> Result<(), CaseFailure> {
-        let Self { on, driver, factors } = self;
-        for _ in 0..steps {
-            driver.advance(|t, load| on.fill(t, factors, load))?;
-        }
-        Ok(())
-    }
-
-    /// The current level.
-    pub fn level(&mut self) -> &Level {
-        self.driver.level()
-    }
-
-    /// The current time.
-    pub fn t(&self) -> f64 {
-        self.driver.simulation().t()
-    }
-
-    /// Its cost so far.
-    pub fn spent(&self) -> Spent {
-        let simulation = self.driver.simulation();
-        let elements = simulation.lengths().len() as f64;
-        Spent {
-            node_steps: elements * simulation.step() as f64,
-            node_solves: elements * simulation.work().passes as f64,
-            seconds: self.driver.wall().as_secs_f64(),
-        }
+        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else { return Ok(driver) };
+        let (sources, exact, obstacles) = (sources.clone(), exact.clone(), self.of.obstacles);
+        let mut factors = Factors::default();
+        Ok(driver.loaded(move |t, load| {
+            factors.at(&exact, t);
+            let u = &factors.u.value;
+            let force = obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
+            sources.fill(&factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
+        }))
     }
 }

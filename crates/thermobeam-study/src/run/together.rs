@@ -10,7 +10,6 @@ use thermobeam::scheme::Scheme;
 use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
-use super::driver::Middle;
 use super::simulate::{Run, problem};
 use super::{Report, RunError, Sample};
 use crate::scene::Scene;
@@ -108,7 +107,7 @@ impl<'s> LaneRun<'s> {
 fn sample(k: usize, scene: &Scene, ensemble: &Ensemble, level: &mut Level, step: usize) -> Sample {
     ensemble.observe(k, level);
     let (t, energy) = (step as f64 * scene.dt(), ensemble.energy(k, level).total());
-    Sample::of(level, t, Middle::of(&scene.mesh), scene.beam.theta_a, energy)
+    Sample::of(level, t, &scene.mesh, scene.beam.theta_a, energy)
 }
 
 /// Simulations running in lanes: time limit, step, energy balances shown to an observer.

@@ -6,7 +6,6 @@ use std::str::FromStr;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use convergence_study::store::content_hash;
-use thiserror::Error;
 
 /// A numeric key of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -117,13 +116,6 @@ pub struct Share {
     of: u64,
 }
 
-/// A text that is not a share.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("expected k/n with 1 <= k <= n, such as 3/8; found {found:?}")]
-pub struct ShareError {
-    found: String,
-}
-
 impl Share {
     /// The whole sweep.
     pub const ALL: Self = Self { number: 1, of: 1 };
@@ -135,14 +127,14 @@ impl Share {
 }
 
 impl FromStr for Share {
-    type Err = ShareError;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, ShareError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let share = text.split_once('/').and_then(|(number, of)| {
             let share = Self { number: number.parse().ok()?, of: of.parse().ok()? };
             (1..=share.of).contains(&share.number).then_some(share)
         });
-        share.ok_or_else(|| ShareError { found: text.to_owned() })
+        share.ok_or_else(|| format!("expected k/n with 1 <= k <= n, such as 3/8; found {text:?}"))
     }
 }
 

@@ -65,9 +65,6 @@ impl<'r> OfGroup<'r> {
     }
 }
 
-/// Results with their β, in ascending order of it.
-pub(super) type Rests<'r> = [(f64, &'r AtRest)];
-
 impl Measured {
     /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
@@ -114,7 +111,7 @@ pub(super) fn rests<'r>(study: &Experiments, ran: &'r [Ran<usize, Found>]) -> Ve
     study.rest.betas.iter().enumerate().filter_map(rest).collect()
 }
 
-pub(super) fn checks(study: &Experiments, ran: &[Ran<usize, Found>], rests: &Rests<'_>) -> Vec<Check> {
+pub(super) fn checks(study: &Experiments, ran: &[Ran<usize, Found>], rests: &[(f64, &AtRest)]) -> Vec<Check> {
     let mut checks = vec![completion(ran, |found| {
         readings::not_finite(&match found {
             Found::Run(run) => run.readings("", true),
@@ -141,7 +138,7 @@ fn claims(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Check> {
         "the energy rises in none of the experiments",
         format!("largest change in a step: {}", increases.collect::<Vec<_>>().join(", ")),
     )];
-    checks.extend(ends_straight(&first, REMAINS * study.until.rate));
+    checks.extend(ends_straight(&first, REMAINS * study.rate));
     checks.extend(moves(&first));
     // If a run is missing, the check of completion has failed.
     checks.extend(all.runs.iter().filter_map(|(Experiment { group, scene }, run)| match *group {
@@ -243,7 +240,7 @@ fn at_rest(run: &Measured) -> String {
 /// The paper's last sentence: how many steady states there are below β = -1/2, and in which a moving beam comes to rest.
 ///
 /// * `complete`: whether every β has a result; otherwise no claim holds.
-fn counts(rests: &Rests<'_>, complete: bool) -> [Check; 3] {
+fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
     let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.tip[0].abs() <= STRAIGHT;
     let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {
         let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();

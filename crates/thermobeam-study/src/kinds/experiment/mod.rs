@@ -31,6 +31,7 @@ mod report;
 use super::prelude::*;
 use super::steady::{ToRest, listed_scene};
 use crate::figures::energy_at_rest;
+use crate::run::Sample;
 use crate::run::simulate::driver;
 use convergence_study::input::POSITIVE;
 use thermobeam::simulation::Simulation;
@@ -74,9 +75,11 @@ struct Experiment {
     scene: Scene,
 }
 
-/// When to end a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Until {
+/// The study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Experiments {
+    header: Header,
+    experiments: Vec<Experiment>,
     /// A longer run fails.
     t_max: f64,
     /// Span over which the energy's fall is measured: longer than an oscillation, because the beam stands still at
@@ -84,14 +87,6 @@ struct Until {
     window: f64,
     /// Fall of the energy per unit of time below which the state is steady.
     rate: f64,
-}
-
-/// The study.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Experiments {
-    header: Header,
-    experiments: Vec<Experiment>,
-    until: Until,
     rest: ToRest,
 }
 
@@ -108,15 +103,15 @@ impl FromFile for Experiments {
     fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "experiments", "run", "steady"])?;
         let run = root.table("run", &["elements", "dt", "t_max", "window", "rate"])?;
-        let until =
-            Until { t_max: run.positive("t_max")?, window: run.positive("window")?, rate: run.positive("rate")? };
-        let t_max = run.require("t_max", POSITIVE)?;
+        let (t_max, window, rate) = (run.positive("t_max")?, run.positive("window")?, run.positive("rate")?);
+        let field = run.require("t_max", POSITIVE)?;
         let mut experiments = experiments(root, folder)?;
         for Experiment { scene, .. } in &mut experiments {
             refine(&run, scene)?;
-            limits::steps_until(&t_max, until.t_max, scene.dt(), limits::STEPS)?;
+            limits::steps_until(&field, t_max, scene.dt(), limits::STEPS)?;
         }
-        Ok(Self { header, experiments, until, rest: ToRest::read(&root.table("steady", &ToRest::KEYS)?)? })
+        let rest = ToRest::read(&root.table("steady", &ToRest::KEYS)?)?;
+        Ok(Self { header, experiments, t_max, window, rate, rest })
     }
 }
 
@@ -176,7 +171,7 @@ impl Kind for Experiments {
 
     fn run(&self, &case: &usize) -> Result<Found, CaseFailure> {
         if let Some(Experiment { scene, .. }) = self.experiments.get(case) {
-            return Ok(Found::Run(Box::new(run_until_steady(scene, &self.until)?)));
+            return Ok(Found::Run(Box::new(self.run_until_steady(scene)?)));
         }
         let count = self.experiments.len();
         // The third experiment is the last.
@@ -212,48 +207,37 @@ pub struct Measured {
     /// Largest change of the energy in a step: negative if the energy falls in every step.
     pub largest_increase: f64,
     /// Free end and energy over time.
-    pub points: Vec<CurvePoint>,
+    pub points: Vec<Sample>,
     /// Times of the first seconds, each with u at each node.
     pub frames: Vec<(f64, Vec<f64>)>,
 }
 
-/// A point of the curves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurvePoint {
-    /// Time.
-    pub t: f64,
-    /// u(1).
-    pub u_tip: f64,
-    /// φ(1).
-    pub phi_tip: f64,
-    /// The energy.
-    pub energy: f64,
-}
-
-/// Runs a scene until its energy is steady.
-///
-/// # Errors
-/// A step that fails, steady states that cannot be found, or a beam that still moves at `t_max`.
-fn run_until_steady(scene: &Scene, until: &Until) -> Result<Measured, CaseFailure> {
-    let mut driver = driver(scene)?;
-    let mut log = MotionLog::new(scene, &mut driver);
-    let window = (until.window / scene.dt()).round().max(1.0) as usize;
-    let mut fall = 0.0;
-    loop {
-        let Step { old, new, simulation, .. } = driver.stepped()?;
-        // Summed from differences: the round-off of the total would hide a slow fall.
-        let change = simulation.energy_change(old, new);
-        log.largest_increase = max_or_nan(log.largest_increase, change);
-        log.add(simulation, new);
-        fall -= change;
-        if simulation.step() % window == 0 {
-            if fall <= until.rate * until.window {
-                return log.finish(simulation, new);
+impl Experiments {
+    /// Runs a scene until its energy is steady.
+    ///
+    /// # Errors
+    /// A step that fails, steady states that cannot be found, or a beam that still moves at `t_max`.
+    fn run_until_steady(&self, scene: &Scene) -> Result<Measured, CaseFailure> {
+        let mut driver = driver(scene)?;
+        let mut log = MotionLog::new(scene, &mut driver);
+        let window = (self.window / scene.dt()).round().max(1.0) as usize;
+        let mut fall = 0.0;
+        loop {
+            let Step { old, new, simulation, .. } = driver.stepped()?;
+            // Summed from differences: the round-off of the total would hide a slow fall.
+            let change = simulation.energy_change(old, new);
+            log.largest_increase = max_or_nan(log.largest_increase, change);
+            log.add(simulation, new);
+            fall -= change;
+            if simulation.step() % window == 0 {
+                if fall <= self.rate * self.window {
+                    return log.finish(simulation, new);
+                }
+                fall = 0.0;
             }
-            fall = 0.0;
-        }
-        if !(simulation.t() < until.t_max) {
-            return Err(CaseFailure { reason: format!("not steady by t = {}", until.t_max) });
+            if !(simulation.t() < self.t_max) {
+                return Err(CaseFailure { reason: format!("not steady by t = {}", self.t_max) });
+            }
         }
     }
 }
@@ -264,7 +248,7 @@ struct MotionLog<'a> {
     /// (t, u(1), φ(1)) at the start and after each step in the figures' span.
     motion: Vec<[f64; 3]>,
     largest_increase: f64,
-    points: Vec<CurvePoint>,
+    points: Vec<Sample>,
     frames: Vec<(f64, Vec<f64>)>,
 }
 
@@ -291,8 +275,8 @@ impl<'a> MotionLog<'a> {
         // Beyond the figures' span only slow, smooth motion is left.
         let stride = ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };
         if step.is_multiple_of(stride) {
-            let energy = simulation.energy(level).total();
-            self.points.push(CurvePoint { t, u_tip: level.u[tip], phi_tip: level.phi[tip], energy });
+            let (Scene { mesh, beam, .. }, energy) = (self.scene, simulation.energy(level).total());
+            self.points.push(Sample::of(level, t, mesh, beam.theta_a, energy));
         }
     }
 

@@ -1,9 +1,10 @@
 //! Tables, figures and guarded numbers.
 
 use super::judge::{self, OfGroup};
-use super::{CurvePoint, Experiment, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy};
+use super::{Experiment, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy};
 use crate::figures;
 use crate::kinds::prelude::*;
+use crate::run::Sample;
 
 /// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
@@ -53,7 +54,7 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
         });
         Figure::new(id, "beam", caption, svg)
     });
-    let above = |experiment: &Experiment, point: &CurvePoint| point.energy - straight_energy(&experiment.scene);
+    let above = |experiment: &Experiment, point: &Sample| point.energy - straight_energy(&experiment.scene);
     let decay = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
     let drawn = [
         (
@@ -100,7 +101,7 @@ fn curves(
     runs: &Each<'_>,
     y: plots::Axis,
     until_steady: bool,
-    value: impl Fn(&Experiment, &CurvePoint) -> f64,
+    value: impl Fn(&Experiment, &Sample) -> f64,
 ) -> plots::History {
     let curve = |(experiment, run): &(&Experiment, &Measured)| {
         let scene = &experiment.scene;
@@ -140,7 +141,7 @@ fn rotation(runs: &Each<'_>) -> plots::History {
 }
 
 fn tip(runs: &Each<'_>) -> plots::History {
-    let curve = |label: &str, value: fn(&CurvePoint) -> f64| {
+    let curve = |label: &str, value: fn(&Sample) -> f64| {
         let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
         plots::Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
     };

@@ -17,7 +17,7 @@
 //! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is sufficient, with the buckling force B and
 //! the mean axial force m >= β.
 
-use super::{FixedPointStep, SolverTask, factors, iterate};
+use super::{FixedPointStep, SolverTask, factors};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::{Watched, Worst, watched};
 
@@ -233,29 +233,22 @@ impl Map {
     pub(super) fn row(&self, value: f64) -> Result<Vec<Point>, CaseFailure> {
         let (problem, dts) = (self.problem(value)?, self.time_steps());
         let n_value = axial_force(&problem);
-        let newton = newton(&problem, &dts, self.steps)?;
-        let point = |(dt, (newton_completes, newton)): (f64, (bool, Option<NewtonSteps>))| {
-            let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
-            Ok(Point { step, newton_completes, newton })
-        };
-        dts.iter().copied().zip(newton).map(point).collect()
+        // By Newton's method the most iterations, and the contact force after the first step if it succeeded.
+        let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
+        let problems = vec![problem.clone(); dts.len()];
+        let runs = watched(problems, &dts, EULER_CRANK_NICOLSON, self.steps, |k, iterations, level| {
+            let (most, contact_force) = &mut seen[k];
+            *most = iterations.max(*most);
+            contact_force.get_or_insert(level.contact_force);
+        })?;
+        let point =
+            |((Watched { worst, failure }, dt), (iterations, contact_force)): ((_, f64), (usize, Option<f64>))| {
+                let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
+                let newton = contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst });
+                Ok(Point { step, newton_completes: failure.is_none(), newton })
+            };
+        runs.into_iter().zip(dts).zip(seen).map(point).collect()
     }
-}
-
-/// Newton's method for several time steps in parallel lanes: whether all steps were completed, and their results.
-fn newton(problem: &Problem, dts: &[f64], steps: usize) -> Result<Vec<(bool, Option<NewtonSteps>)>, CaseFailure> {
-    // The most iterations, and the contact force after the first step if it succeeded.
-    let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
-    let problems = vec![problem.clone(); dts.len()];
-    let runs = watched(problems, dts, EULER_CRANK_NICOLSON, steps, |k, iterations, level| {
-        let (most, contact_force) = &mut seen[k];
-        *most = iterations.max(*most);
-        contact_force.get_or_insert(level.contact_force);
-    })?;
-    let steps = |(Watched { worst, failure }, (iterations, contact_force)): (Watched, (usize, Option<f64>))| {
-        (failure.is_none(), contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst }))
-    };
-    Ok(runs.into_iter().zip(seen).map(steps).collect())
 }
 
 /// Predicted and measured boundary on a line of constant second parameter.
@@ -283,15 +276,16 @@ impl Map {
         let predicted = alpha_is_below(1.0)?;
         let far = alpha_is_below(FAR)?.unwrap_or(high);
         let step = |dt| FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS);
-        let found = bisect(low, far, |dt| contracts(&problem, dt))?.map(step).transpose()?;
+        let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?.map(step).transpose()?;
         Ok(Boundary { predicted, found })
     }
 }
 
 /// Whether the increments shrink, however slowly.
-fn contracts(problem: &Problem, dt: f64) -> Result<bool, CaseFailure> {
+fn contracts(problem: &Problem, dt: f64, n_value: f64) -> Result<bool, CaseFailure> {
     for iterations in SETTLED - CONSECUTIVE..SETTLED {
-        let (converged, _, contraction) = iterate(problem, dt, TOLERANCE, iterations)?;
+        let FixedPointStep { converged, contraction, .. } =
+            FixedPointStep::run(problem, dt, n_value, TOLERANCE, iterations)?;
         if converged || !contraction.is_some_and(|ratio| ratio < 1.0) {
             return Ok(converged);
         }

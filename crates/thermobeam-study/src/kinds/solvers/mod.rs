@@ -203,34 +203,29 @@ impl FixedPointStep {
     ///
     /// # Errors
     /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
-    fn run(problem: &Problem, dt: f64, n_value: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
-        let (converged, iterations, contraction) = iterate(problem, dt, tolerance, iterations)?;
+    fn run(
+        problem: &Problem,
+        dt: f64,
+        n_value: f64,
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Result<Self, CaseFailure> {
+        let settings = Settings { solver: Solver::FixedPoint, tolerance, max_iterations, ..Settings::default() };
+        let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
+        let outcome = Driver::new(problem.clone(), stepping)?.advance(|_, _| ());
+        let (iterations, contraction) = match &outcome {
+            Ok(report) => (report.iterations, report.contraction),
+            Err(RunError::Step(error)) => match error.failure {
+                StepFailure::Diverged { iterations, contraction, .. }
+                | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, Some(contraction)),
+                StepFailure::NonFinite { iterations, .. } => (iterations, Some(f64::INFINITY)),
+                _ => (0, Some(f64::INFINITY)),
+            },
+            Err(other) => return Err(other.clone().into()),
+        };
         let [alpha, gamma] = factors(problem, dt, n_value);
-        Ok(Self { dt, alpha, gamma, converged, iterations, contraction })
+        Ok(Self { dt, alpha, gamma, converged: outcome.is_ok(), iterations, contraction })
     }
-}
-
-/// Whether the first step converges, its iterations, and the ratio of its last two increments.
-fn iterate(
-    problem: &Problem,
-    dt: f64,
-    tolerance: f64,
-    max_iterations: usize,
-) -> Result<(bool, usize, Option<f64>), CaseFailure> {
-    let settings = Settings { solver: Solver::FixedPoint, tolerance, max_iterations, ..Settings::default() };
-    let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
-    let failure = match Driver::new(problem.clone(), stepping)?.advance(|_, _| ()) {
-        Ok(report) => return Ok((true, report.iterations, report.contraction)),
-        Err(RunError::Step(error)) => error.failure,
-        Err(other) => return Err(other.into()),
-    };
-    let (iterations, contraction) = match failure {
-        StepFailure::Diverged { iterations, contraction, .. }
-        | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, contraction),
-        StepFailure::NonFinite { iterations, .. } => (iterations, f64::INFINITY),
-        _ => (0, f64::INFINITY),
-    };
-    Ok((false, iterations, Some(contraction)))
 }
 
 /// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite if the

@@ -59,6 +59,12 @@ pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| max_or_nan(errors[k], found[k]))
 }
 
+/// Does this number of steps.
+fn advance(motion: &mut impl Motion, steps: usize) -> Result<(), CaseFailure> {
+    (0..steps).try_for_each(|_| motion.step(f64::INFINITY).map(drop))?;
+    Ok(())
+}
+
 impl OneStep {
     /// Steps of unit size per step of the coarse run: 3 if a second run halves the step.
     pub(super) fn runs(&self) -> f64 {
@@ -81,20 +87,17 @@ impl OneStep {
         let mut half = if self.extrapolated { Some(on.start(self.scheme, settings, 2 * steps)?) } else { None };
         let mut errors = [0.0_f64; 3];
         for index in 0..observations {
-            run.advance(steps / observations)?;
-            let t = run.t();
-            let found = match &mut half {
-                None => evaluator.measure(run.level(), index, t),
-                Some(half) => {
-                    half.advance(2 * steps / observations)?;
-                    evaluator.measure(&combine(half.level(), run.level(), 2.0), index, t)
-                }
-            };
-            errors = worst(errors, found);
+            advance(&mut run, steps / observations)?;
+            let (mut level, t) = (run.on(on.mesh()), run.t());
+            if let Some(half) = &mut half {
+                advance(half, 2 * steps / observations)?;
+                level = combine(&half.on(on.mesh()), &level, 2.0);
+            }
+            errors = worst(errors, evaluator.measure(&level, index, t));
         }
-        let mut spent = run.spent();
-        if let Some(half) = half {
-            spent += half.spent();
+        let mut spent = Spent::of(&run, on.mesh().elements());
+        if let Some(half) = &half {
+            spent += Spent::of(half, on.mesh().elements());
         }
         Ok(Measurement { errors, spent })
     }

@@ -68,24 +68,16 @@ impl Shift {
     }
 }
 
-/// When two numbers count as different.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    judge: Judge,
-    within: f64,
-}
-
-impl Settings {
-    /// * `floor`: errors not above it are ignored; by default the floor of [`Judge`].
-    /// * `within`: errors that differ by less, as a share, are the same.
-    ///
-    /// # Errors
-    /// [`JudgeError`] for an invalid floor.
-    pub fn new(floor: Option<f64>, within: f64) -> Result<Self, JudgeError> {
-        // The tolerance decides nothing here: the runs have judged the claims.
-        let judge = Judge::new(ORDER_SHIFT)?;
-        Ok(Self { judge: floor.map_or(Ok(judge.clone()), |floor| judge.with_floor(floor))?, within })
-    }
+/// The rule by which errors are compared.
+///
+/// * `floor`: errors not above it are ignored; by default the floor of [`Judge`].
+///
+/// # Errors
+/// [`JudgeError`] for an invalid floor.
+pub fn rule(floor: Option<f64>) -> Result<Judge, JudgeError> {
+    // The tolerance decides nothing here: the runs have judged the claims.
+    let judge = Judge::new(ORDER_SHIFT)?;
+    floor.map_or(Ok(judge.clone()), |floor| judge.with_floor(floor))
 }
 
 /// What became of one thing.
@@ -128,13 +120,15 @@ pub struct Comparison {
 }
 
 /// Compares two records; studies are matched by their ids.
-pub fn compare(old: &Record, new: &Record, settings: &Settings) -> Comparison {
-    let mut found =
-        Comparison { within: settings.within, change: Shift::Same, studies: 0, findings: vec![], gained: vec![] };
+///
+/// * `rule`: see [`rule()`].
+/// * `within`: errors that differ by less, as a share, are the same.
+pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Comparison {
+    let mut found = Comparison { within, change: Shift::Same, studies: 0, findings: vec![], gained: vec![] };
     for was in &old.studies {
         let id = &was.header.id;
         match new.studies.iter().find(|study| study.header.id == *id) {
-            Some(is) => found.add(was, is, settings),
+            Some(is) => found.add(was, is, rule),
             None => {
                 found.findings.push(whole(id, Shift::Lost, "the new record does not have the study".to_owned()));
             }
@@ -153,16 +147,16 @@ fn whole(study: &str, change: Shift, reason: String) -> Finding {
 
 impl Comparison {
     /// Adds a study that both records have.
-    fn add(&mut self, was: &Finished, is: &Finished, settings: &Settings) {
+    fn add(&mut self, was: &Finished, is: &Finished, rule: &Judge) {
         self.studies += 1;
         let id = &was.header.id;
         let [known, found] = [was, is].map(|study| names(&study.outcome));
         self.gained.extend(found.iter().filter(|name| !known.contains(name)).map(|name| format!("{id}: {name}")));
         let before = self.findings.len();
         for name in known {
-            let [old, new] = [was, is].map(|study| ErrorSequence::new(&study.outcome, name, settings));
+            let [old, new] = [was, is].map(|study| ErrorSequence::new(&study.outcome, name, rule));
             let orders = [old.order, new.order];
-            let (change, reason) = Both { old, new, settings }.judged();
+            let (change, reason) = Both { old, new, floor: rule.floor(), within: self.within }.judged();
             self.findings.push(Finding { study: id.clone(), norm: Some(name.clone()), change, reason, orders });
         }
         let own = self.findings[before..].iter().map(|finding| finding.change).max();
@@ -194,7 +188,7 @@ struct ErrorSequence<'r> {
 }
 
 impl<'r> ErrorSequence<'r> {
-    fn new(outcome: &'r Outcome, name: &str, settings: &Settings) -> Self {
+    fn new(outcome: &'r Outcome, name: &str, rule: &Judge) -> Self {
         let point = |level: &'r LevelErrors| {
             let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
             Some((level, Level { step: level.step.unwrap_or(f64::NAN), error: *error }))
@@ -204,7 +198,7 @@ impl<'r> ErrorSequence<'r> {
         let is_sequence =
             levels.iter().all(|level| level.step > 0.0) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
         let rate = outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate);
-        let read = || is_sequence.then(|| settings.judge.judge(&levels, 1.0)).and_then(|rate| order_of(&rate));
+        let read = || is_sequence.then(|| rule.judge(&levels, 1.0)).and_then(|rate| order_of(&rate));
         Self { points, is_sequence, rate, order: rate.and_then(order_of).or_else(read) }
     }
 
@@ -255,7 +249,10 @@ fn between(points: &[[f64; 2]], x: f64) -> Option<[f64; 2]> {
 struct Both<'r> {
     old: ErrorSequence<'r>,
     new: ErrorSequence<'r>,
-    settings: &'r Settings,
+    /// Smaller errors count as this.
+    floor: f64,
+    /// As for [`compare`].
+    within: f64,
 }
 
 impl Both<'_> {
@@ -316,7 +313,7 @@ impl Both<'_> {
 
     /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its uncertainty.
     fn ratios(&self) -> Vec<(&LevelErrors, [f64; 2])> {
-        let floor = self.settings.judge.floor();
+        let floor = self.floor;
         let ratio = |(level, at): &(&'_ LevelErrors, Level)| {
             let same = self.old.at(level).map(|error| [error.max(floor).ln(), 0.0]);
             let over_step = || self.old.interpolated(|_, at| Some([at.step, at.error.max(floor)]), at.step);
@@ -330,7 +327,7 @@ impl Both<'_> {
     }
 
     fn larger(&self) -> Option<String> {
-        let (ratios, limit) = (self.ratios(), self.settings.within.ln_1p());
+        let (ratios, limit) = (self.ratios(), self.within.ln_1p());
         let larger: Vec<_> = ratios.iter().filter(|(_, [ratio, doubt])| ratio - doubt > limit).collect();
         let (level, [ratio, _]) = larger.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
         let levels = format!("{} of {} levels that both have", larger.len(), ratios.len());
@@ -338,7 +335,7 @@ impl Both<'_> {
     }
 
     fn cost(&self) -> (Shift, String) {
-        let (ratios, limit) = (self.ratios(), self.settings.within.ln_1p());
+        let (ratios, limit) = (self.ratios(), self.within.ln_1p());
         let count = ratios.len();
         if count == 0 {
             let is_empty = self.old.points.is_empty() && self.new.points.is_empty();
@@ -367,12 +364,12 @@ impl Both<'_> {
     /// the limit count as equal, so the work is uncertain by its growth over that share of the error.
     fn work(&self) -> Option<[f64; 2]> {
         let error = self.old.points.last()?.1.error.max(self.new.points.last()?.1.error);
-        if !(error > self.settings.judge.floor()) {
+        if !(error > self.floor) {
             return None;
         }
         let [before, after] = [self.old.work_at(error)?, self.new.work_at(error)?];
         let [.., (coarse, large), (fine, small)] = self.new.points.as_slice() else { return None };
         let growth = (work(fine)? / work(coarse)?).ln() / (large.error / small.error).ln();
-        Some([after[0] - before[0], before[1] + after[1] + self.settings.within.ln_1p() * growth.abs()])
+        Some([after[0] - before[0], before[1] + after[1] + self.within.ln_1p() * growth.abs()])
     }
 }

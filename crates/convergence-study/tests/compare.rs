@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use convergence_study::compare::{Comparison, Settings, Shift, WITHIN, compare};
+use convergence_study::compare::{Comparison, Shift, WITHIN, compare, rule};
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
 use convergence_study::run::{Finished, Spent};
 use convergence_study::store::json;
@@ -55,7 +55,7 @@ fn sound(id: &str) -> Finished {
 }
 
 fn compared(old: Finished, new: Finished) -> Comparison {
-    compare(&record(vec![old]), &record(vec![new]), &Settings::new(None, WITHIN).unwrap())
+    compare(&record(vec![old]), &record(vec![new]), &rule(None).unwrap(), WITHIN)
 }
 
 /// The errors that differ, each with its change.
@@ -76,7 +76,7 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     };
     let old = studies(&smooth(1.0, 2.0), &smooth(3.0, 1.0));
     let new = studies(&smooth(1.05, 2.0), &smooth(3.0, 0.5));
-    let comparison = compare(&old, &new, &Settings::new(None, WITHIN).unwrap());
+    let comparison = compare(&old, &new, &rule(None).unwrap(), WITHIN);
     assert_eq!(found(&comparison), [("L2", Shift::Worse), ("H1", Shift::Worse)]);
     assert_eq!((comparison.studies, comparison.gained.len(), comparison.findings.len()), (3, 0, 6));
     let [larger, lower] = [2, 5].map(|k| &comparison.findings[k]);
@@ -85,17 +85,19 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     assert!(larger.reason.starts_with(words) && larger.reason.ends_with(": 1.05 times"), "{}", larger.reason);
     assert!(lower.reason.starts_with("order 1.0") && lower.reason.contains("→ 0.5"), "{}", lower.reason);
     // The other way round both are better.
-    let comparison = compare(&new, &old, &Settings::new(None, WITHIN).unwrap());
+    let comparison = compare(&new, &old, &rule(None).unwrap(), WITHIN);
     assert_eq!(found(&comparison), [("L2", Shift::Better), ("H1", Shift::Better)]);
-    assert_eq!(compare(&old, &old, &Settings::new(None, WITHIN).unwrap()).change, Shift::Same);
+    assert_eq!(compare(&old, &old, &rule(None).unwrap(), WITHIN).change, Shift::Same);
 }
 
 #[test]
 fn a_difference_below_the_limit_is_none() {
     let new = || study("a", &COUNTS, smooth(1.005, 2.0), smooth(3.0, 1.0));
     assert_eq!(compared(sound("a"), new()).change, Shift::Same);
-    let strict = Settings::new(None, 0.001).unwrap();
-    assert_eq!(compare(&record(vec![sound("a")]), &record(vec![new()]), &strict).change, Shift::Worse);
+    assert_eq!(
+        compare(&record(vec![sound("a")]), &record(vec![new()]), &rule(None).unwrap(), 0.001).change,
+        Shift::Worse
+    );
 }
 
 #[test]
@@ -139,9 +141,8 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
         assert_eq!(gained.change, Shift::Same, "{gained:?}");
         assert_eq!(gained.gained.iter().any(|name| name == "a: H1"), why.ends_with("the error"), "{gained:?}");
     }
-    let settings = Settings::new(None, WITHIN).unwrap();
     let [old, new] = [record(vec![sound("a"), sound("b")]), record(vec![sound("a"), sound("c")])];
-    let comparison = compare(&old, &new, &settings);
+    let comparison = compare(&old, &new, &rule(None).unwrap(), WITHIN);
     assert_eq!((comparison.change, comparison.gained), (Shift::Lost, vec!["the study c".to_owned()]));
     assert_eq!(comparison.findings.last().map(|finding| (&*finding.study, finding.change)), Some(("b", Shift::Lost)));
 }
@@ -206,8 +207,7 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
 fn noise_and_errors_at_the_floor_differ_from_nothing() {
     let noisy = |seed: f64| move |h: f64| h * h * (1.0 + 0.03 * (seed / h).sin());
     let of = |seed: f64| unjudged(study("a", &COUNTS, noisy(seed), |h| 1e-13 * (seed * h).cos().abs()).outcome.levels);
-    let compared =
-        |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &Settings::new(None, within).unwrap());
+    let compared = |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &rule(None).unwrap(), within);
     assert_eq!(compared(0.1).change, Shift::Same, "{:?}", compared(0.1));
     // Errors at the same step are deterministic: with 3 % of scatter some have changed by more than 1 %.
     assert_eq!(found(&compared(WITHIN)), [("L2", Shift::Worse)]);

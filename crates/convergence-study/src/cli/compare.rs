@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::screen;
-use crate::compare::{Comparison, Finding, Order, Settings, Shift, WITHIN, compare};
+use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare, rule};
 use crate::judge::verdict::Verdict;
 use crate::store::record::Record;
 use crate::text::visible::{self, visible};
@@ -43,8 +43,8 @@ fn share(text: &str) -> Result<f64, String> {
 /// Files that are not records, and records without a common study.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
     let Arguments { old, new, within, floor, all, flags } = arguments;
-    let settings = Settings::new(*floor, *within)?;
-    let comparison = compare(&Record::read(old)?, &Record::read(new)?, &settings);
+    let rule = rule(*floor)?;
+    let comparison = compare(&Record::read(old)?, &Record::read(new)?, &rule, *within);
     if comparison.studies == 0 {
         let [old, new] = [old, new].map(|path| visible::path(path));
         return Err(Unusable::because(&format!("{new}: found no study that {old} has, too; expected at least one")));

@@ -82,9 +82,7 @@ const INTERRUPTED: i32 = 130;
 /// Longest wait for pending writes.
 const PATIENCE: Duration = Duration::from_millis(800);
 
-type Said = Box<dyn Fn() -> String + Send>;
-
-static SAID: Mutex<Option<Said>> = Mutex::new(None);
+static SAID: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
 /// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it has no work of its own to
 /// finish, and signals would end its thread.

@@ -81,14 +81,11 @@ struct HeatMap {
     colours: ColourScale,
 }
 
-/// The position of the cell of a row and a column.
-type CellAt<'p> = &'p dyn Fn(usize, usize) -> Rect;
-
 impl HeatMap {
     /// Draws them, with the colour bar next to them.
     ///
-    /// * `on_top`: draws on the cells.
-    fn draw(&self, plan: Layout, on_top: impl FnOnce(&mut Page, CellAt<'_>)) -> String {
+    /// * `on_top`: draws on the cells, whose positions it gets by row and column.
+    fn draw(&self, plan: Layout, on_top: impl FnOnce(&mut Page, &dyn Fn(usize, usize) -> Rect)) -> String {
         let mut sheet = Layout { right: self.colours.margin(), ..plan }.lay_out();
         let px = |ruler: &Ruler, edges: &[f64]| edges.iter().map(|&edge| ruler.px_of(edge)).collect::<Vec<_>>();
         let (x, y) = (px(&sheet.x, &self.x), px(&sheet.y, &self.y));
@@ -99,7 +96,7 @@ impl HeatMap {
         sheet.finish()
     }
 
-    fn paint(&self, canvas: &mut Canvas, place: CellAt<'_>) {
+    fn paint(&self, canvas: &mut Canvas, place: &dyn Fn(usize, usize) -> Rect) {
         let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
         for (k, row) in self.values.iter().enumerate() {
             let colours: Vec<_> = row.iter().map(|&value| self.colours.colour(value)).collect();
@@ -173,7 +170,7 @@ fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
 }
 
 /// Writes its value into each cell, if there is room for all of them.
-fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: CellAt<'_>) {
+fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: &dyn Fn(usize, usize) -> Rect) {
     const CLEAR: f64 = 6.0;
     let cells = values.iter().enumerate().flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
     let written = cells.filter(|(.., value)| value.is_finite());
@@ -216,7 +213,7 @@ fn boundary_look(k: usize) -> Look {
     Look { colour, ..look(k) }
 }
 
-fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: CellAt<'_>) {
+fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usize) -> Rect) {
     sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
         for (k, row) in marked.iter().enumerate() {
             let mut j = 0;

@@ -44,7 +44,9 @@ pub(super) struct Page {
     pub(super) y: Ruler,
     x_ticks: Ticks,
     y_ticks: Ticks,
-    legend: Legend,
+    /// Columns of the legend, and their width in px.
+    columns: usize,
+    column_width: f64,
     plan: Layout,
 }
 
@@ -58,8 +60,9 @@ impl Layout {
         let headline = self.above.is_some() || y_ticks.exponent != 0;
         let top = EDGE + if self.title.is_some() { 32.0 } else { 0.0 } + if headline { 24.0 } else { 0.0 };
         let plot = Rect { left, top, right, bottom: top + style::PLOT_HEIGHT };
-        let legend = Legend::arrange(self.legend.clone(), style::WIDTH - 2.0 * EDGE);
-        let height = legend_top(&plot) + legend.height() + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
+        let (columns, column_width) = arranged(&self.legend);
+        let height =
+            legend_top(&plot) + legend_height(&self.legend, columns) + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
         Page {
             canvas: Canvas::new(style::WIDTH, height.round()),
             x: self.x.laid_out(plot.left, plot.right),
@@ -67,7 +70,8 @@ impl Layout {
             plot,
             x_ticks,
             y_ticks,
-            legend,
+            columns,
+            column_width,
             plan: self,
         }
     }
@@ -146,10 +150,22 @@ impl Page {
         self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")), &attributes)
     }
 
+    /// Draws the legend centred on the plot but always within the page, its first row below `top`.
+    fn draw_legend(&mut self, top: f64) {
+        let Self { columns, column_width, plan, canvas, .. } = self;
+        let width = *columns as f64 * *column_width - COLUMN_GAP;
+        let left = (self.plot.centre().0 - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
+        for (k, entry) in plan.legend.iter().enumerate() {
+            let x = left + (k % *columns) as f64 * *column_width;
+            let y = top + ((k / *columns) as f64 + 0.5) * ROW_HEIGHT;
+            canvas.group(&canvas::entry(&entry.label), |canvas| draw_entry(canvas, entry, (x, y), *column_width));
+        }
+    }
+
     fn draw_foot(&mut self) {
         let top = legend_top(&self.plot);
-        self.legend.draw(&mut self.canvas, self.plot.centre().0, top);
-        let first = top + self.legend.height() + 0.5 * NOTE_HEIGHT;
+        self.draw_legend(top);
+        let first = top + legend_height(&self.plan.legend, self.columns) + 0.5 * NOTE_HEIGHT;
         let left = self.plot.left;
         let notes = &self.plan.notes;
         self.canvas.draw(Layer::default(), |pen| {
@@ -247,69 +263,49 @@ pub struct Entry {
     pub label: String,
 }
 
-/// Entries arranged for a page of given width.
-#[derive(Clone, Debug)]
-pub(super) struct Legend {
-    entries: Vec<Entry>,
-    columns: usize,
-    column_width: f64,
+/// As many equal columns as fit on the page, rows filled evenly: their number, and their width in px.
+fn arranged(entries: &[Entry]) -> (usize, f64) {
+    let width = style::WIDTH - 2.0 * EDGE;
+    let widest = entries.iter().map(|e| text_width(&e.label, TICK_SIZE)).fold(0.0, f64::max);
+    let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
+    let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
+    let rows = entries.len().div_ceil(most).max(1);
+    (entries.len().div_ceil(rows).max(1), column_width)
 }
 
-impl Legend {
-    /// As many equal columns as fit, rows filled evenly.
-    pub(super) fn arrange(entries: Vec<Entry>, width: f64) -> Self {
-        let widest = entries.iter().map(|e| text_width(&e.label, TICK_SIZE)).fold(0.0, f64::max);
-        let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
-        let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
-        let rows = entries.len().div_ceil(most).max(1);
-        Self { columns: entries.len().div_ceil(rows).max(1), column_width, entries }
-    }
+/// Height of all rows in px.
+fn legend_height(entries: &[Entry], columns: usize) -> f64 {
+    entries.len().div_ceil(columns) as f64 * ROW_HEIGHT
+}
 
-    /// Height of all rows in px.
-    pub(super) fn height(&self) -> f64 {
-        self.entries.len().div_ceil(self.columns) as f64 * ROW_HEIGHT
-    }
-
-    /// Draws the legend centred on `centre`, its first row below `top`.
-    pub(super) fn draw(&self, canvas: &mut Canvas, centre: f64, top: f64) {
-        let width = self.columns as f64 * self.column_width - COLUMN_GAP;
-        // Centred on the plot, but always within the page.
-        let left = (centre - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
-        for (k, entry) in self.entries.iter().enumerate() {
-            let x = left + (k % self.columns) as f64 * self.column_width;
-            let y = top + ((k / self.columns) as f64 + 0.5) * ROW_HEIGHT;
-            canvas.group(&canvas::entry(&entry.label), |canvas| self.draw_entry(canvas, entry, x, y));
-        }
-    }
-
-    fn draw_entry(&self, canvas: &mut Canvas, entry: &Entry, x: f64, y: f64) {
-        let text_at = (x + SWATCH_WIDTH + SWATCH_GAP, y);
-        let room = self.column_width - SWATCH_WIDTH - SWATCH_GAP;
-        let label = elide(&entry.label, TICK_SIZE, room);
-        let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
-        let patch = Rect { left: x + 6.0, top: y - 8.0, right: x + SWATCH_WIDTH - 2.0, bottom: y + 8.0 };
-        match entry.swatch {
-            Swatch::Line { look, width, marks } => {
-                if width > 0.0 {
-                    let ends = [(x, y), (x + SWATCH_WIDTH, y)];
-                    canvas.draw(Layer::default().dashed(look.dash), |pen| pen.line(&ends, look.colour, width));
-                }
-                canvas.draw(Layer::default(), |pen| {
-                    look.marker.draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
-                    write(pen);
-                });
+/// Draws an entry at `x`, its row centred on `y`, in a column of this width.
+fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, width: f64) {
+    let text_at = (x + SWATCH_WIDTH + SWATCH_GAP, y);
+    let room = width - SWATCH_WIDTH - SWATCH_GAP;
+    let label = elide(&entry.label, TICK_SIZE, room);
+    let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
+    let patch = Rect { left: x + 6.0, top: y - 8.0, right: x + SWATCH_WIDTH - 2.0, bottom: y + 8.0 };
+    match entry.swatch {
+        Swatch::Line { look, width, marks } => {
+            if width > 0.0 {
+                let ends = [(x, y), (x + SWATCH_WIDTH, y)];
+                canvas.draw(Layer::default().dashed(look.dash), |pen| pen.line(&ends, look.colour, width));
             }
-            Swatch::Fill(colour) => canvas.draw(Layer::default(), |pen| {
-                pen.rect(patch, colour);
-                pen.frame(patch, style::GRID, 1.0);
+            canvas.draw(Layer::default(), |pen| {
+                look.marker.draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
                 write(pen);
-            }),
-            Swatch::Hatch(colour) => canvas.draw(Layer::default(), |pen| {
-                pen.rect(patch, colour);
-                pen.hatch(patch);
-                write(pen);
-            }),
+            });
         }
+        Swatch::Fill(colour) => canvas.draw(Layer::default(), |pen| {
+            pen.rect(patch, colour);
+            pen.frame(patch, style::GRID, 1.0);
+            write(pen);
+        }),
+        Swatch::Hatch(colour) => canvas.draw(Layer::default(), |pen| {
+            pen.rect(patch, colour);
+            pen.hatch(patch);
+            write(pen);
+        }),
     }
 }
 

@@ -182,12 +182,11 @@ pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     format!("## {TITLE}\n\n{}\n", diagnosis.lines().into_iter().map(line).collect::<String>())
 }
 
-/// A study's id in Markdown, with a link if the text can have one.
-pub(super) type Link<'l> = &'l dyn Fn(&str) -> String;
-
 /// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may be empty, otherwise
 /// it ends with an empty line.
-pub(super) fn changes(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
+///
+/// * `link`: a study's id in Markdown, with a link if the text can have one.
+pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Vec<String> {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
         findings.record.moves().iter().partition(|change| change.movement.needs_a_reason());
     // Numbers of studies that fail move for the same cause.
@@ -198,7 +197,7 @@ pub(super) fn changes(findings: &Findings<'_>, link: Link<'_>) -> Vec<String> {
     vec![of_claims(&claims, link), worst(&numbers, link), acceptance(findings), all(&numbers)]
 }
 
-fn of_claims(changes: &[&Change], link: Link<'_>) -> String {
+fn of_claims(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
     if changes.is_empty() {
         return String::new();
     }
@@ -211,7 +210,7 @@ fn of_claims(changes: &[&Change], link: Link<'_>) -> String {
 }
 
 /// One row for each study: its worst number.
-fn worst(changes: &[&Change], link: Link<'_>) -> String {
+fn worst(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
     if changes.is_empty() {
         return String::new();
     }

@@ -78,11 +78,8 @@ fn origin(findings: &Findings<'_>) -> String {
     origin
 }
 
-/// Studies with their group, in the order of the page.
-type Groups<'f> = Vec<(&'f str, Vec<&'f Finished>)>;
-
-/// Those that did not pass, then the others by the property they claim.
-fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
+/// Studies with their group, in the order of the page: those that did not pass, then the others by the property they claim.
+fn groups<'f>(findings: &Findings<'f>) -> Vec<(&'f str, Vec<&'f Finished>)> {
     let mut groups = vec![("did not pass", failures::in_order(&findings.record.studies))];
     for (label, mut studies) in forest::grouped(findings.project, &findings.record.studies) {
         studies.retain(|study| study.outcome.verdict == Verdict::Pass);
@@ -93,7 +90,7 @@ fn groups<'f>(findings: &Findings<'f>) -> Groups<'f> {
 }
 
 /// All verdicts in one table, below the controls, which need scripts.
-fn overview(groups: &Groups<'_>) -> String {
+fn overview(groups: &[(&str, Vec<&Finished>)]) -> String {
     let row = |Finished { header, outcome, .. }: &Finished| {
         format!(
             "<tr data-study=\"{id}\"><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",

@@ -77,7 +77,8 @@ impl Traced {
         let (fine, [few, many]) =
             (&self.levels[k], [mesh, &self.mesh].map(|mesh| mesh.lengths().collect::<Vec<f64>>()));
         let extended = on_mesh(level, mesh, &self.mesh);
-        let restricted = restrict(fine, self.mesh.elements() / mesh.elements());
+        let stride = self.mesh.elements() / mesh.elements();
+        let restricted = map_fields(fine, |y| y.iter().step_by(stride).copied().collect());
         [distance(&many, &extended, fine), distance(&few, level, &restricted)]
     }
 }
@@ -110,9 +111,4 @@ pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
         theta: mix(&a.theta, &b.theta),
         contact_force: weight * a.contact_force + (1.0 - weight) * b.contact_force,
     }
-}
-
-/// Values at every `stride`-th node.
-fn restrict(level: &Level, stride: usize) -> Level {
-    map_fields(level, |y| y.iter().step_by(stride).copied().collect())
 }

@@ -74,7 +74,8 @@ impl DgMotion {
     fn of(simulation: dg::Simulation, beam: &Beam, obstacles: Option<Obstacles>, by: dg::Stepping) -> Self {
         Self {
             level: simulation.level().clone(),
-            patience: Patience::new(work_of_a_pass(&simulation, by.degree)),
+            // The blocks of a step are dense in time.
+            patience: Patience::new(simulation.space().blocks() * (by.degree + 1).pow(2)),
             simulation,
             theta_a: beam.theta_a,
             obstacles,
@@ -86,11 +87,6 @@ impl DgMotion {
     pub(crate) fn simulation(&self) -> &dg::Simulation {
         &self.simulation
     }
-}
-
-/// The work of a pass, for a limit on it: the blocks of a step are dense in time.
-fn work_of_a_pass(simulation: &dg::Simulation, time_degree: usize) -> usize {
-    simulation.space().blocks() * (time_degree + 1).pow(2)
 }
 
 impl Motion for DgMotion {

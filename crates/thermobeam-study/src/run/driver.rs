@@ -95,11 +95,6 @@ impl Driver {
         (&self.simulation, &self.new)
     }
 
-    /// Time spent in the solver, if [`Driver::timed`].
-    pub(crate) fn wall(&self) -> Duration {
-        self.wall
-    }
-
     /// Does one step.
     ///
     /// * `fill`: computes the loads of the step at its middle t_{n-½}, if [`Stepping::loaded`] is set.

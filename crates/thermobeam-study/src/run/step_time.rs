@@ -12,7 +12,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Stepping};
 use thermobeam::solve::{Settings, Solver, Start, Work};
 
-use crate::run::driver::Driver;
+use crate::run::driver::{Driver, Step};
 use crate::run::simulate;
 use crate::run::together::EnsembleDriver;
 use crate::scene::Scene;
@@ -70,33 +70,27 @@ impl Timed {
 
     /// Seconds, steps and work, to the end or to a failing step; none of the paper's scenes fails.
     fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
+        let timed = |step: &mut dyn FnMut() -> bool| {
+            let start = Instant::now();
+            let _ = (0..steps).all(|_| step());
+            start.elapsed().as_secs_f64()
+        };
         if self.in_lanes {
             let (problems, dt) = (vec![self.problem.clone(); LANES], [self.stepping.dt; LANES]);
             let mut driver = EnsembleDriver::new(problems, &dt, self.stepping.scheme, self.stepping.settings)?;
-            let start = Instant::now();
-            for _ in 0..steps {
-                let done =
-                    if self.balanced { driver.stepped().map(|shown| _ = black_box(shown)) } else { driver.advance() };
-                if done.is_err() {
-                    break;
-                }
-            }
-            let seconds = start.elapsed().as_secs_f64();
+            let seconds = timed(&mut || match self.balanced {
+                true => driver.stepped().map(|shown| _ = black_box(shown)).is_ok(),
+                false => driver.advance().is_ok(),
+            });
             return Ok((seconds, driver.ensemble().step().max(1), driver.ensemble().work()));
         }
         let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
-        let start = Instant::now();
-        for _ in 0..steps {
-            let done = if self.balanced {
-                driver.stepped().map(|step| _ = black_box(step.simulation.balance(step.old, step.new)))
-            } else {
-                driver.advance(|_, _| ()).map(drop)
-            };
-            if done.is_err() {
-                break;
-            }
-        }
-        Ok((start.elapsed().as_secs_f64(), driver.simulation().step().max(1), driver.simulation().work()))
+        let balance = |step: Step<'_>| _ = black_box(step.simulation.balance(step.old, step.new));
+        let seconds = timed(&mut || match self.balanced {
+            true => driver.stepped().map(balance).is_ok(),
+            false => driver.advance(|_, _| ()).is_ok(),
+        });
+        Ok((seconds, driver.simulation().step().max(1), driver.simulation().work()))
     }
 }
 

@@ -62,11 +62,8 @@ impl Manifest {
     /// Reads the manifest of a folder; `None` if there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
-        let damaged = |reason: String| SweepError::Damaged {
-            file: path.clone(),
-            line: None,
-            reason: format!("expected the manifest of a sweep: {reason}"),
-        };
+        let damaged =
+            |reason: String| SweepError::damaged(&path, format!("expected the manifest of a sweep: {reason}"));
         match std::fs::read(&path) {
             Ok(bytes) => {
                 let read: Self = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
@@ -84,12 +81,8 @@ impl Manifest {
 
     /// Reads the manifest of a folder that must have one.
     fn require(folder: &Path) -> Result<Self, SweepError> {
-        let missing = || SweepError::Damaged {
-            file: folder.to_owned(),
-            line: None,
-            reason: format!("not the folder of a sweep: it has no {MANIFEST}"),
-        };
-        Self::read(folder)?.ok_or_else(missing)
+        let reason = format!("not the folder of a sweep: it has no {MANIFEST}");
+        Self::read(folder)?.ok_or_else(|| SweepError::damaged(folder, reason))
     }
 
     /// Refuses the folder of another sweep or share.
@@ -155,7 +148,7 @@ impl Journal {
             let bytes = file.metadata().map_err(|error| atomic::naming(&path, &error))?.len();
             if bytes > 0 {
                 let reason = format!("expected {MANIFEST} beside it, which names the sweep; found none");
-                return Err(SweepError::Damaged { file: path, line: None, reason });
+                return Err(SweepError::damaged(&path, reason));
             }
             atomic::write(
                 &folder.join(MANIFEST),

@@ -73,6 +73,13 @@ pub enum SweepError {
     },
 }
 
+impl SweepError {
+    /// About a whole file, or a folder.
+    pub(super) fn damaged(file: &Path, reason: String) -> Self {
+        Self::Damaged { file: file.to_owned(), line: None, reason }
+    }
+}
+
 /// The position of a line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {

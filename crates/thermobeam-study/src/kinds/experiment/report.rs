@@ -34,8 +34,6 @@ pub(super) fn outcome(study: &Experiments, ran: &[Ran<usize, Found>]) -> Outcome
     }
 }
 
-type Each<'r> = [(&'r Experiment, &'r Measured)];
-
 fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
     let first = OfGroup::of(study, ran, |group| group == SectionGroup::First).runs;
     let second = OfGroup::of(study, ran, |group| matches!(group, SectionGroup::Second(_))).runs;
@@ -90,7 +88,7 @@ fn beta_label(experiment: &Experiment) -> String {
     format!("β = {}", experiment.scene.beam.beta).replace('-', "−")
 }
 
-fn obstacles(runs: &Each<'_>) -> Vec<plots::Guide> {
+fn obstacles(runs: &[(&Experiment, &Measured)]) -> Vec<plots::Guide> {
     figures::obstacle_lines(runs.first().and_then(|(experiment, _)| experiment.scene.obstacles))
 }
 
@@ -98,7 +96,7 @@ fn obstacles(runs: &Each<'_>) -> Vec<plots::Guide> {
 ///
 /// * `until_steady`: whether the whole curve is shown; otherwise it ends at the scene's t_end, as in the paper.
 fn curves(
-    runs: &Each<'_>,
+    runs: &[(&Experiment, &Measured)],
     y: plots::Axis,
     until_steady: bool,
     value: impl Fn(&Experiment, &Sample) -> f64,
@@ -118,7 +116,7 @@ fn curves(
     }
 }
 
-fn energy(runs: &Each<'_>, until_steady: bool) -> plots::History {
+fn energy(runs: &[(&Experiment, &Measured)], until_steady: bool) -> plots::History {
     let limit = |(e, _): &(&Experiment, &Measured)| {
         let value = straight_energy(&e.scene);
         let label = format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
@@ -131,16 +129,16 @@ fn energy(runs: &Each<'_>, until_steady: bool) -> plots::History {
     }
 }
 
-fn displacement(runs: &Each<'_>) -> plots::History {
+fn displacement(runs: &[(&Experiment, &Measured)]) -> plots::History {
     let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
     plots::History { guides: obstacles(runs), ..curves(runs, y, false, |_, point| point.u_tip) }
 }
 
-fn rotation(runs: &Each<'_>) -> plots::History {
+fn rotation(runs: &[(&Experiment, &Measured)]) -> plots::History {
     curves(runs, plots::Axis::linear("tip rotation φ(1, t) (dimensionless)"), false, |_, point| point.phi_tip)
 }
 
-fn tip(runs: &Each<'_>) -> plots::History {
+fn tip(runs: &[(&Experiment, &Measured)]) -> plots::History {
     let curve = |label: &str, value: fn(&Sample) -> f64| {
         let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
         plots::Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }

@@ -22,9 +22,6 @@ const EXACT: f64 = 1e-18;
 type MapRows<'r> = [(f64, &'r [Point])];
 type Lines<'r> = [(f64, &'r Boundary)];
 
-/// The quantity that a map shows at a point.
-type Value<'v> = dyn Fn(&Point) -> Option<f64> + 'v;
-
 impl Map {
     pub(super) fn judge(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Outcome {
         let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
@@ -206,7 +203,12 @@ impl Map {
     fn figures(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
         let over = self.over.name();
         // Missing values mean that the solver fails, and the map is hatched; values below `least` are shown as `least`.
-        let draw = |file: &str, caption: String, (z, least), fails: &str, value: &Value<'_>, boundaries| {
+        let draw = |file: &str,
+                    caption: String,
+                    (z, least),
+                    fails: &str,
+                    value: &dyn Fn(&Point) -> Option<f64>,
+                    boundaries| {
             let cell = |point: &Point| match value(point) {
                 // `max` would replace NaN by `least`.
                 Some(value) if !value.is_nan() => f64::max(value, least),

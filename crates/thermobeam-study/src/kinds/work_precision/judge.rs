@@ -6,9 +6,6 @@ use super::{Advantage, Runs, WorkPrecision};
 use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
 
-/// Results of all cases.
-type AllRuns = [Ran<Runs, Vec<Measurement>>];
-
 /// Errors whose cost is shown.
 const TARGETS: [f64; 7] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 /// The error of a single run may lie below the law by this multiple of the allowed misfit: there the errors of space and
@@ -77,7 +74,7 @@ impl MethodRow {
     }
 }
 
-pub(super) fn judge(study: &WorkPrecision, ran: &AllRuns) -> Outcome {
+pub(super) fn judge(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Outcome {
     let rows = rows(study, ran);
     let mut checks = vec![completion(ran, |runs| {
         readings::not_finite(&runs.iter().flat_map(|run| found(study, run)).collect::<Vec<_>>())
@@ -107,7 +104,12 @@ fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> 
 }
 
 /// The runs of a method, with one error each; NaN if a run failed.
-fn points(study: &WorkPrecision, ran: &AllRuns, method: &NamedMethod, quantity: usize) -> Vec<GridPoint> {
+fn points(
+    study: &WorkPrecision,
+    ran: &[Ran<Runs, Vec<Measurement>>],
+    method: &NamedMethod,
+    quantity: usize,
+) -> Vec<GridPoint> {
     let mut points = vec![];
     for Ran { case, found } in ran {
         let (h, dts) = match case.data {
@@ -133,7 +135,7 @@ fn points(study: &WorkPrecision, ran: &AllRuns, method: &NamedMethod, quantity: 
     points
 }
 
-fn rows(study: &WorkPrecision, ran: &AllRuns) -> Vec<MethodRow> {
+fn rows(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Vec<MethodRow> {
     let mut rows = vec![];
     for method in study.methods() {
         let points = [0, 1, 2].map(|quantity| points(study, ran, &method, quantity));
@@ -260,7 +262,7 @@ fn laws(rows: &[MethodRow]) -> Table {
 }
 
 /// The runs without a fitted law.
-fn runs(study: &WorkPrecision, ran: &AllRuns) -> Table {
+fn runs(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Table {
     let single = ran.iter().filter(|ran| study.diagonal.is_some() || matches!(ran.case.data, Runs::Dg(_)));
     let line = |ran: &Ran<Runs, Vec<Measurement>>| {
         let run = ran.ok().and_then(|runs| runs.first());

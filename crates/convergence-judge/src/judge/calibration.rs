@@ -39,11 +39,9 @@
 
 use thiserror::Error;
 
-use self::laws::{
-    Group, HIDDEN_SHARES, LAWS, Law, Mesh, Meshes, Table, USUAL, WIDE, hidden_term, three_terms, wrong_limit,
-};
+use self::laws::{Group, HIDDEN_SHARES, LAWS, Law, Meshes, Table, USUAL, WIDE, hidden_term, three_terms, wrong_limit};
 use crate::judge::claims;
-use crate::judge::fit::{Level, pairwise_rates};
+use crate::judge::fit::{Level, fit_line, pairwise_rates};
 use crate::judge::random::SplitMix;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, JudgeError, Reading, Reason, Verdict};
 use crate::time_limit::{Patience, TimeUp};
@@ -254,11 +252,7 @@ impl<'a> Evidence<'a> {
 
 /// Slope of the least-squares line through the logarithms.
 fn slope(levels: &[Level]) -> f64 {
-    let points: Vec<[f64; 2]> = levels.iter().map(|level| [level.step.ln(), level.error.ln()]).collect();
-    let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / points.len() as f64;
-    let centre = [mean(0), mean(1)];
-    let moment = |k: usize| points.iter().map(|point| (point[0] - centre[0]) * (point[k] - centre[k])).sum::<f64>();
-    moment(1) / moment(0)
+    fit_line(levels).map_or(f64::NAN, |line| line.slope)
 }
 
 fn rules(
@@ -270,9 +264,9 @@ fn rules(
 ) -> Result<Sheet, CalibrationError> {
     let judges = CLAIMS.map(|(tolerance, _)| judge(tolerance));
     let mut shares = [[Share::default(); 3 * CLAIMS.len()]; RULES.len()];
-    for (mesh, law) in meshes.each().flat_map(|mesh| LAWS.iter().map(move |law| (mesh, law))) {
+    for ((levels, ratio), law) in meshes.each().flat_map(|mesh| LAWS.iter().map(move |law| (mesh, law))) {
         for _ in 0..tables {
-            let table = law.draw(mesh, draw.next()?);
+            let table = law.draw(levels, ratio, draw.next()?);
             let evidence = Evidence::new(&Judge::default().with_floor(0.0)?, &table.levels);
             for (place, (judge, (_, off))) in judges.iter().zip(CLAIMS).enumerate() {
                 let judge = judge.as_ref().map_err(|error| *error)?;
@@ -317,7 +311,7 @@ fn levels(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
         let (mut shares, mut work) = ([Share::default(); 4], Share::default());
         for law in &LAWS {
             for _ in 0..tables {
-                let table = law.draw(Mesh { levels, ratio: 2.0 }, draw.next()?);
+                let table = law.draw(levels, 2.0, draw.next()?);
                 let evidence = Evidence::new(&judge, &table.levels);
                 if let Some(order) = table.order {
                     let verdict = evidence.decide(usize::from(is_added), &judge, order);
@@ -474,7 +468,7 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
         let mut shares = [Share::default(); 7];
         for law in &LAWS {
             for _ in 0..tables {
-                let table = law.draw(Mesh { levels, ratio: 2.0 }, draw.next()?);
+                let table = law.draw(levels, 2.0, draw.next()?);
                 let least = |order: f64| claims::at_least(judge.judge(&table.levels, order)).verdict;
                 let Some(order) = table.order else {
                     shares[0].count(least(table.shown + 2.0 * DEFAULT_TOLERANCE).is_pass());

@@ -16,15 +16,13 @@
 //! * [`asymptotic_range`]: which levels any of these may use;
 
 mod candidates;
-mod line;
 mod range;
 
 pub use candidates::{
     PENALTY, POLLUTION_EXPONENTS, RateInterval, SAFETY, SCATTER_EXPONENTS, SLOW, SLOW_PENALTY, SLOWEST_POLLUTION,
     rate_interval,
 };
-pub use line::{LineFit, extrapolated_rate, fit_line, pairwise_rates};
-pub use range::{AsymptoticRange, FADING_SPREAD, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range, scatter};
+pub use range::{FADING_SPREAD, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range, scatter};
 pub(crate) use range::{changes, outlier};
 
 /// One level of a refinement study.
@@ -75,4 +73,119 @@ const STUDENT: [f64; 30] = [
 /// Above 30 degrees of freedom it returns the last entry of the table, which is larger and therefore safe.
 pub fn student_t(dof: usize) -> f64 {
     dof.checked_sub(1).map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
+}
+
+/// Rate between each level and the next: `(log e_k - log e_{k+1}) / (log h_k - log h_{k+1})`.
+///
+/// As measured: a negative or NaN error gives a NaN rate, and zero or infinity an infinite one, each in its place.
+/// The logarithms are taken first, because the quotient of two negative errors would look like a rate.
+///
+/// * Returns one rate fewer than there are levels.
+pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
+    let rate = |pair: &[Level]| (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln());
+    levels.windows(2).map(rate).collect()
+}
+
+/// Straight line log e = intercept + slope log h by least squares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineFit {
+    /// The fitted rate.
+    pub slope: f64,
+    /// log C, at h = 1.
+    pub intercept: f64,
+    /// Residual standard deviation of log e, the root of (sum of squares) / dof; NaN when dof is 0.
+    pub deviation: f64,
+    /// Degrees of freedom, levels - 2.
+    pub dof: usize,
+    /// `slope ± t deviation / √Σ(log h - mean)²`; the whole real line when dof is 0.
+    pub interval: [f64; 2],
+}
+
+/// Least-squares fit of log e on log h over all the levels given, with the Student-t interval of the slope.
+///
+/// The interval assumes scatter about a straight line. Convergence data bend instead: the slope is then the mean of the
+/// pairwise rates, not their limit, and [`rate_interval`] is the one to trust.
+///
+/// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do not differ.
+pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
+    let (x, y) = logarithms(levels)?;
+    let n = x.len() as f64;
+    let (x_mean, y_mean) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let sxx: f64 = x.iter().map(|x| (x - x_mean).powi(2)).sum();
+    let sxy: f64 = x.iter().zip(&y).map(|(x, y)| (x - x_mean) * (y - y_mean)).sum();
+    let slope = sxy / sxx;
+    let rss: f64 = x.iter().zip(&y).map(|(x, y)| (y - y_mean - slope * (x - x_mean)).powi(2)).sum();
+    let dof = x.len() - 2;
+    let deviation = (rss / dof as f64).sqrt();
+    let half = if dof == 0 { f64::INFINITY } else { student_t(dof) * deviation / sxx.sqrt() };
+    let interval = [slope - half, slope + half];
+    slope.is_finite().then_some(LineFit { slope, intercept: y_mean - slope * x_mean, deviation, dof, interval })
+}
+
+/// (log h, log e) of the levels, or `None` when a value is not finite or there are fewer than two.
+fn logarithms(levels: &[Level]) -> Option<(Vec<f64>, Vec<f64>)> {
+    let x: Vec<f64> = levels.iter().map(|level| level.step.ln()).collect();
+    let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
+    let usable = x.len() >= 2 && x.iter().chain(&y).all(|value| value.is_finite());
+    usable.then_some((x, y))
+}
+
+/// Range of pollution exponents that [`extrapolated_rate`] searches.
+const EXPONENT_SEARCH: [f64; 2] = [0.25, 8.0];
+
+/// Rates that differ by less than this are equal, in units of the round-off of a logarithm.
+const SAME_RATE: f64 = 1e-9;
+
+/// Limit of the pairwise rates as h → 0, from the last three of them.
+///
+/// A pollution c h^r in (a) of the [module](self) shifts the rate between h_k and h_{k+1} by c w_k(r), to first order in c, where
+///
+/// ```text
+///     w_k(r) = (h_k^r - h_{k+1}^r) / log(h_k / h_{k+1}).
+/// ```
+///
+/// So (q_3 - q_2) / (q_2 - q_1) = (w_3 - w_2) / (w_2 - w_1) =: κ(r), which falls from level to level as r grows; it is
+/// solved for r, and the limit is p = q_3 - (q_3 - q_2) w_3 / (w_3 - w_2). For a constant step ratio κ = ratio^-r, and
+/// this is Aitken's p = q_3 - (q_3 - q_2)² / ((q_3 - q_2) - (q_2 - q_1)).
+///
+/// * Returns the last rate when the three agree to round-off; `None` with fewer than three rates, when one is not
+///   finite, or when they do not converge (scatter, or departure): no r in [1/4, 8] explains them.
+pub fn extrapolated_rate(levels: &[Level]) -> Option<f64> {
+    let tail = levels.get(levels.len().checked_sub(4)?..)?;
+    let rates = pairwise_rates(tail);
+    let (before, last) = (rates[1] - rates[0], rates[2] - rates[1]);
+    if !(before.is_finite() && last.is_finite()) {
+        return None;
+    }
+    if before.abs().max(last.abs()) <= SAME_RATE {
+        return Some(rates[2]);
+    }
+    let exponent = solve_exponent(tail, last / before)?;
+    let w = shifts(tail, exponent);
+    Some(rates[2] - last * w[2] / (w[2] - w[1]))
+}
+
+/// w_1, w_2, w_3 of [`extrapolated_rate`], with steps in units of the coarsest of the four.
+fn shifts(tail: &[Level], exponent: f64) -> [f64; 3] {
+    let power = |k: usize| (tail[k].step / tail[0].step).powf(exponent);
+    let shift = |k: usize| (power(k) - power(k + 1)) / (tail[k].step / tail[k + 1].step).ln();
+    [shift(0), shift(1), shift(2)]
+}
+
+/// Solves κ(r) = `contraction` by bisection; `None` when the search interval holds no solution.
+fn solve_exponent(tail: &[Level], contraction: f64) -> Option<f64> {
+    let excess = |exponent: f64| {
+        let w = shifts(tail, exponent);
+        (w[2] - w[1]) / (w[1] - w[0]) - contraction
+    };
+    let [mut low, mut high] = EXPONENT_SEARCH;
+    if !(excess(low) >= 0.0 && excess(high) <= 0.0) {
+        return None;
+    }
+    // 50 halvings of an interval of length 8 reach the spacing of doubles.
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if excess(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    Some(0.5 * (low + high))
 }

@@ -121,15 +121,6 @@ impl Adding {
     }
 }
 
-/// What is refined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refined {
-    /// The mesh, at the finest time step.
-    Space,
-    /// The time step, on the finest mesh.
-    Time,
-}
-
 /// Errors for all pairs of mesh widths and time steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridErrors<'a> {
@@ -170,10 +161,7 @@ impl GridErrors<'_> {
     /// [`JudgeError`] for a meaningless tolerance.
     pub fn judge(&self, adding: Adding, orders: [f64; 2], tolerance: f64) -> Result<[RateVerdict; 2], JudgeError> {
         let [p, q] = orders;
-        let both = [
-            self.judge_one(Refined::Space, adding, p, tolerance)?,
-            self.judge_one(Refined::Time, adding, q, tolerance)?,
-        ];
+        let both = [self.judge_one(true, adding, p, tolerance)?, self.judge_one(false, adding, q, tolerance)?];
         if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
             return Ok(both);
         }
@@ -194,8 +182,8 @@ impl GridErrors<'_> {
     fn rest(&self, adding: Adding, judged: &[RateVerdict; 2]) -> [f64; 2] {
         let power = adding.power();
         let (mut rest, mut known) = (1.0 / power, MISFITS_OF_REST * self.misfit(adding));
-        for (refined, judged) in [Refined::Space, Refined::Time].into_iter().zip(judged) {
-            let [.., before, finest] = self.line(refined, 0)[..] else { return [f64::NAN; 2] };
+        for (in_space, judged) in [true, false].into_iter().zip(judged) {
+            let [.., before, finest] = self.line(in_space, 0)[..] else { return [f64::NAN; 2] };
             let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
             let off: Vec<f64> = judged.pairwise[..judged.used.end - 1].iter().map(|rate| rate - judged.order).collect();
             let fade = match off[..] {
@@ -211,16 +199,10 @@ impl GridErrors<'_> {
         [rest, known]
     }
 
-    /// Judges one of the two orders by itself.
-    fn judge_one(
-        &self,
-        refined: Refined,
-        adding: Adding,
-        order: f64,
-        tolerance: f64,
-    ) -> Result<RateVerdict, JudgeError> {
+    /// Judges one of the two orders by itself, that in h or that in dt.
+    fn judge_one(&self, in_space: bool, adding: Adding, order: f64, tolerance: f64) -> Result<RateVerdict, JudgeError> {
         let (judge, misfit, power) = (Judge::new(tolerance)?, self.misfit(adding), adding.power());
-        let lines = [0, 1].map(|from_finest| self.line(refined, from_finest));
+        let lines = [0, 1].map(|from_finest| self.line(in_space, from_finest));
         let [finest, next] = lines.each_ref().map(|errors| judge.clone().with_floor(floor(errors, misfit, power)));
         let (finest, next) = (finest?, next?);
         let levels = reduced(&finest, &lines[0], power, order);
@@ -235,12 +217,12 @@ impl GridErrors<'_> {
     }
 
     /// The errors over the refined levels, at the finest level of the other step or this many before it; NaN if there is none.
-    fn line(&self, refined: Refined, from_finest: usize) -> Vec<Level> {
+    fn line(&self, in_space: bool, from_finest: usize) -> Vec<Level> {
         let (rows, columns) = (self.h.len(), self.dt.len());
-        let steps = if refined == Refined::Space { self.h } else { self.dt };
-        let index = |k: usize| match refined {
-            Refined::Space => ((k + 1) * columns).checked_sub(1 + from_finest),
-            Refined::Time => (rows * columns + k).checked_sub((1 + from_finest) * columns),
+        let steps = if in_space { self.h } else { self.dt };
+        let index = |k: usize| match in_space {
+            true => ((k + 1) * columns).checked_sub(1 + from_finest),
+            false => (rows * columns + k).checked_sub((1 + from_finest) * columns),
         };
         let error = |k: usize| index(k).and_then(|index| self.errors.get(index)).copied().unwrap_or(f64::NAN);
         steps.iter().enumerate().map(|(k, &step)| Level { step, error: error(k) }).collect()

@@ -14,7 +14,7 @@ mod reading;
 mod reason;
 mod trend;
 
-pub use outcome::{Aside, RateVerdict, SetAside, Verdict};
+pub use outcome::{Aside, PowerLaw, RateVerdict, SetAside, Verdict};
 pub(crate) use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away, grows};

@@ -7,7 +7,7 @@ use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
 use super::xy::{Curve, Outline, Xy};
 use super::{Axis, Guide, Scale, style};
-use crate::judge::power_law::PowerLaw;
+use crate::judge::verdict::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 
 /// Horizontal leg and tallest vertical leg, as fractions of the plot.

@@ -6,7 +6,7 @@ use super::ruler::{Ruler, on_scale};
 use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
 use super::style::TICK_SIZE;
 use super::{Axis, Guide, Phases, Scale, Series, style};
-use crate::judge::power_law::PowerLaw;
+use crate::judge::verdict::PowerLaw;
 use crate::text::number::counted;
 
 /// Room left around the data, as a fraction of its range.

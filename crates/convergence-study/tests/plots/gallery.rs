@@ -1,6 +1,6 @@
 //! Made-up data that look like the real thing, one set per figure.
 
-use convergence_study::judge::power_law::PowerLaw;
+use convergence_study::judge::verdict::PowerLaw;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::*;
 

@@ -3,7 +3,7 @@
 mod gallery;
 mod laws;
 
-use convergence_study::judge::power_law::PowerLaw;
+use convergence_study::judge::verdict::PowerLaw;
 use convergence_study::plots::*;
 use laws::{UNITS, bounds, elements, number, parse};
 use roxmltree::Node;

@@ -105,21 +105,17 @@ pub fn of_grids(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError
             let constant = size * sound[sound.len() - 1];
             let judged = law.judge(&sound)?;
             shares[0].count(both_pass(&judged));
-            for (rate, order) in judged.iter().zip(law.orders) {
-                shares[1].count(rate.verdict == Verdict::Fail);
-                if let Some([low, high]) = rate.interval {
-                    shares[2].count(low <= order && order <= high);
-                }
-            }
             shares[3].count(hidden.judge(&hidden.errors(|error| error))?[0].verdict.is_pass());
             shares[4].count(both_pass(&law.judge(&law.errors(|error| (error + constant).abs()))?));
             shares[5].count(both_pass(&law.judge(&law.errors(|error| error.hypot(constant)))?));
             let noisy = law.judge(&law.errors(|error| error * (0.01 * random.normal()).exp()))?;
             shares[6].count(both_pass(&noisy));
-            for (rate, order) in noisy.iter().zip(law.orders) {
-                shares[7].count(rate.verdict == Verdict::Fail);
-                if let Some([low, high]) = rate.interval {
-                    shares[8].count(low <= order && order <= high);
+            for (place, rates) in [(1, judged), (7, noisy)] {
+                for (rate, order) in rates.iter().zip(law.orders) {
+                    shares[place].count(rate.verdict == Verdict::Fail);
+                    if let Some([low, high]) = rate.interval {
+                        shares[place + 1].count(low <= order && order <= high);
+                    }
                 }
             }
         }

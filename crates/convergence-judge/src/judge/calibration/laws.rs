@@ -11,15 +11,6 @@
 use crate::judge::fit::Level;
 use crate::judge::random::SplitMix;
 
-/// Number of levels and step ratio of a table.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mesh {
-    /// Levels m.
-    pub levels: usize,
-    /// Ratio of each step to the next.
-    pub ratio: f64,
-}
-
 /// 3 to 12 levels, ratios 1.1 to 4: what papers use, sound or not.
 pub const WIDE: Meshes = Meshes { levels: &[3, 4, 5, 6, 8, 12], ratios: &[1.1, 1.3, 2.0, 4.0] };
 
@@ -36,9 +27,9 @@ pub struct Meshes {
 }
 
 impl Meshes {
-    /// Each combination, the ratio running faster.
-    pub fn each(self) -> impl Iterator<Item = Mesh> {
-        self.levels.iter().flat_map(move |&levels| self.ratios.iter().map(move |&ratio| Mesh { levels, ratio }))
+    /// Each number of levels with each ratio, which runs faster.
+    pub fn each(self) -> impl Iterator<Item = (usize, f64)> {
+        self.levels.iter().flat_map(move |&levels| self.ratios.iter().map(move |&ratio| (levels, ratio)))
     }
 }
 
@@ -155,9 +146,9 @@ pub struct Table {
 }
 
 impl Law {
-    /// Draws the numbers of the law and its errors on the mesh.
-    pub(crate) fn draw(&self, mesh: Mesh, random: &mut SplitMix) -> Table {
-        let steps: Vec<f64> = (0..mesh.levels).map(|k| mesh.ratio.powi(-(k as i32))).collect();
+    /// Draws the numbers of the law and its errors on so many levels, each step this many times the next.
+    pub(crate) fn draw(&self, levels: usize, ratio: f64, random: &mut SplitMix) -> Table {
+        let steps: Vec<f64> = (0..levels).map(|k| ratio.powi(-(k as i32))).collect();
         self.draw_at(&steps, random)
     }
 
@@ -324,11 +315,10 @@ mod tests {
     /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
     #[test]
     fn each_law_has_the_order_that_it_says() {
-        let mesh = Mesh { levels: 60, ratio: 2.0 };
         let mut random = SplitMix::new(11);
         for law in &LAWS {
             for _ in 0..20 {
-                let table = law.draw(mesh, &mut random);
+                let table = law.draw(60, 2.0, &mut random);
                 let finest = pairwise_rates(&table.levels)[58];
                 match (law.group, table.order) {
                     (Group::Stagnating, order) => assert!(order.is_none(), "{}", law.name),

@@ -2,7 +2,7 @@
 //!
 //! [The rule](crate::judge::verdict), section "interval", states what is computed here and the reason for every constant.
 
-use super::{Level, line::logarithms, student_t};
+use super::{Level, logarithms, student_t};
 
 /// Exponents r of the polluted candidates.
 ///

@@ -26,18 +26,7 @@ const OFF_THE_LINE: f64 = 2.0;
 /// How far the rate from one neighbour of an outlier to the other may be from the finest rate.
 const SAME_RATE: f64 = 0.1;
 
-/// The levels from which a rate may be read, and how many were set aside on either side.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct AsymptoticRange {
-    /// Indices of the levels used.
-    pub used: Range<usize>,
-    /// Coarse levels set aside: their rates are still changing.
-    pub pre_asymptotic: usize,
-    /// Fine levels set aside: at the round-off floor.
-    pub at_floor: usize,
-}
-
-/// The asymptotic range, by two rules applied in this order:
+/// The indices of the levels from which a rate may be read, by two rules applied in this order:
 ///
 /// 1. Fine levels are dropped as long as the finest error is at most `floor`. The floor is an absolute number that the
 ///    caller knows ([`FLOOR_MARGIN`] times round-off or solver tolerance) and is *never* guessed from the data: errors
@@ -48,7 +37,7 @@ pub struct AsymptoticRange {
 ///
 /// The range may end up shorter than any fit needs; the judge deals with that. Errors must be positive and finite: a
 /// NaN rate drops every level before it.
-pub fn asymptotic_range(levels: &[Level], floor: f64) -> AsymptoticRange {
+pub fn asymptotic_range(levels: &[Level], floor: f64) -> Range<usize> {
     let resolved = |level: &Level| level.error > floor;
     let end = levels.iter().rposition(resolved).map_or(0, |finest| finest + 1);
     let rates = pairwise_rates(&levels[..end]);
@@ -66,7 +55,7 @@ pub fn asymptotic_range(levels: &[Level], floor: f64) -> AsymptoticRange {
             start = fourth;
         }
     }
-    AsymptoticRange { used: start..end, pre_asymptotic: start, at_floor: levels.len() - end }
+    start..end
 }
 
 /// Whether the changes of three rates fade like those of pollution.

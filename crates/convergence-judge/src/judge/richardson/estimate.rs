@@ -4,8 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use thiserror::Error;
 
-use super::gci::{Gci, observed_order};
-use super::growth;
+use super::{Gci, growth, observed_order};
 use crate::judge::fit::{FLOOR_MARGIN, Level};
 use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason};
 
@@ -143,9 +142,7 @@ impl Estimator {
         let gci = usable.and_then(|()| Gci::of(values, order, judge.tolerance()));
         Estimate { judged, bar, gci }
     }
-}
 
-impl Estimator {
     /// The same without a claimed order: limit and index use the observed one, and nothing is confirmed.
     pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
         let judged = self.estimate(values, f64::NAN).judged;

@@ -4,7 +4,6 @@ use std::{fmt, ops::Range};
 
 use super::reading::Reading;
 use super::reason::Reason;
-use crate::judge::power_law::PowerLaw;
 use crate::text::json::{nan, nan_pair, nans};
 use crate::text::number::{
     RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text, plain_text,
@@ -84,6 +83,30 @@ impl Aside {
     }
 }
 
+/// `error = constant · step^rate`, a straight line in a figure with logarithmic axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PowerLaw {
+    /// Observed exponent.
+    pub rate: f64,
+    /// Error at step 1.
+    pub constant: f64,
+}
+
+impl PowerLaw {
+    /// The error that the law gives for a step.
+    ///
+    /// ```
+    /// use convergence_judge::judge::verdict::judge_pairs;
+    ///
+    /// let errors = [0.4, 0.2, 0.1, 0.05].map(|h: f64| (h, 3.0 * h * h));
+    /// let law = judge_pairs(errors, 2.0, 0.05).power_law().expect("four levels give a rate");
+    /// assert!((law.error_at(0.01) - 3e-4).abs() < 1e-12);
+    /// ```
+    pub fn error_at(&self, step: f64) -> f64 {
+        self.constant * step.powf(self.rate)
+    }
+}
+
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RateVerdict {
@@ -137,12 +160,11 @@ impl RateVerdict {
     pub fn found(&self, most: usize) -> Option<String> {
         let (fitted, interval) = (self.fitted?, self.interval?);
         let fitted = decimals(fitted, interval_places(interval, most));
-        let (first, last, levels) = (self.used.start + 1, self.used.end, self.pairwise.len() + 1);
         let interval = interval_text(interval, most);
         // A narrow interval begins with its middle.
         let rate = if interval.contains(" ± ") { interval } else { format!("{fitted} ({interval})") };
-        let all = self.used == (0..levels);
-        Some(if all { rate } else { format!("{rate} from levels {first} to {last} of {levels}") })
+        let all = self.used == (0..self.pairwise.len() + 1);
+        Some(if all { rate } else { format!("{rate} {}", self.levels_in_words()) })
     }
 
     /// The claim: `2 ± 0.05`.
@@ -247,39 +269,30 @@ impl RateVerdict {
 
     /// Builds the verdict, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
-        let levels = reading.levels;
-        let used = reading.used.clone();
-        let (fitted, interval) = reading.fit.map_or((None, None), |fit| (Some(fit.rate), Some(fit.interval)));
         let level = reading.outlier().filter(|_| kind == Reason::Outlier);
         let outlier = level.map(|level| format!("level {} does not fit its neighbours", level + 1));
-        let text = outlier.clone().unwrap_or_else(|| kind.text().to_owned());
-        let reason = match interval {
-            Some(interval) => {
-                let (first, last) = (used.start + 1, used.end);
-                let rate = interval_text(interval, RATE_PLACES);
-                let found = format!("{text}: {rate} from levels {first} to {last} of {levels}");
-                if kind == Reason::ClaimUnusable {
-                    found
-                } else {
-                    format!("{found}, claimed {} ± {}", order_text(order), plain_text(tolerance))
-                }
-            }
-            None => text,
-        };
-        Self {
+        let reason = outlier.clone().unwrap_or_else(|| kind.text().to_owned());
+        let mut found = Self {
             order,
             tolerance,
             pairwise: reading.pairwise.clone(),
-            fitted,
+            fitted: reading.fit.map(|fit| fit.rate),
             constant: reading.constant(),
-            interval,
+            interval: reading.fit.map(|fit| fit.interval),
             extrapolated: reading.extrapolated,
-            used,
+            used: reading.used.clone(),
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),
             kind,
             because: outlier.unwrap_or_else(|| kind.brief().to_owned()),
             reason,
+        };
+        if let Some(interval) = found.interval {
+            found.reason += &format!(": {} {}", interval_text(interval, RATE_PLACES), found.levels_in_words());
+            if kind != Reason::ClaimUnusable {
+                found.reason += &format!(", claimed {}", found.claim());
+            }
         }
+        found
     }
 }

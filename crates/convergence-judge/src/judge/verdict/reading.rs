@@ -6,7 +6,7 @@ use super::outcome::{Aside, SetAside};
 use super::reason::Reason;
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
-    AsymptoticRange, Level, RateInterval, asymptotic_range, extrapolated_rate, outlier, pairwise_rates, rate_interval,
+    Level, RateInterval, asymptotic_range, extrapolated_rate, outlier, pairwise_rates, rate_interval,
 };
 
 /// A sequence of errors, read once and compared with any claim.
@@ -17,7 +17,8 @@ pub(crate) struct Reading<'a> {
     pub(super) levels: usize,
     /// All rates between neighbouring levels.
     pub(super) pairwise: Vec<f64>,
-    range: AsymptoticRange,
+    /// The asymptotic range.
+    range: Range<usize>,
     /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels above the floor.
     pub(super) used: Range<usize>,
     pub(crate) fit: Option<RateInterval>,
@@ -30,11 +31,11 @@ impl<'a> Reading<'a> {
     pub(super) fn new(sequence: &'a [Level], floor: f64) -> Self {
         let unusable = unusable(sequence);
         let range = match unusable {
-            Some(_) => AsymptoticRange { used: 0..0, pre_asymptotic: 0, at_floor: 0 },
+            Some(_) => 0..0,
             None => asymptotic_range(sequence, floor),
         };
-        let end = range.used.end;
-        let start = if range.used.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.used.start };
+        let end = range.end;
+        let start = if range.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.start };
         let fit = rate_interval(&sequence[start..end]);
         let used = if fit.is_some() { start..end } else { 0..0 };
         Self {
@@ -65,8 +66,8 @@ impl<'a> Reading<'a> {
         if self.unusable.is_some() {
             return vec![];
         }
-        let above_floor = self.range.used.end;
-        let coarse = 0..if self.used.is_empty() { self.range.used.start } else { self.used.start };
+        let above_floor = self.range.end;
+        let coarse = 0..if self.used.is_empty() { self.range.start } else { self.used.start };
         let aside = |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
         let because = if self.outlier().is_some() { Aside::Outlier } else { Aside::PreAsymptotic };
         aside(coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
@@ -85,7 +86,7 @@ impl<'a> Reading<'a> {
 
     /// Steps 4 to 7: reasons not to use the interval.
     fn not_convergent(&self, order: f64) -> Option<Reason> {
-        let above_floor = self.range.used.end;
+        let above_floor = self.range.end;
         // The step down to the floor is a rate like any other and may be wild; rates between levels at the floor mean nothing.
         let down_to_floor = &self.pairwise[..self.pairwise.len().min(above_floor)];
         let rates = self.rates();
@@ -96,9 +97,9 @@ impl<'a> Reading<'a> {
             Some(Reason::FallsAway)
         } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
             Some(Reason::WildRate)
-        } else if self.range.used.len() >= FEWEST_LEVELS {
+        } else if self.range.len() >= FEWEST_LEVELS {
             None
-        } else if self.range.at_floor >= self.range.pre_asymptotic {
+        } else if self.levels - above_floor >= self.range.start {
             Some(Reason::RoundOffFloor)
         } else if self.outlier().is_some() {
             Some(Reason::Outlier)
@@ -129,18 +130,18 @@ impl<'a> Reading<'a> {
 
     /// The level that does not fit its neighbours.
     pub(super) fn outlier(&self) -> Option<usize> {
-        outlier(&self.sequence[..self.range.used.end], self.range.pre_asymptotic)
+        outlier(&self.sequence[..self.range.end], self.range.start)
     }
 
     /// Ratio of the coarsest step above the floor to the finest; infinite if there is none.
     fn span(&self) -> f64 {
-        let above_floor = &self.sequence[..self.range.used.end];
+        let above_floor = &self.sequence[..self.range.end];
         above_floor.first().zip(above_floor.last()).map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
     }
 
     /// The rates between levels above the floor.
     fn rates(&self) -> &[f64] {
-        &self.pairwise[..self.range.used.end.saturating_sub(1)]
+        &self.pairwise[..self.range.end.saturating_sub(1)]
     }
 }
 

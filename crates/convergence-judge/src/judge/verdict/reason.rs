@@ -2,8 +2,8 @@
 
 use super::Verdict;
 
-/// The reason for a verdict; each reason has one verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize)]
+/// The reason for a verdict; each reason has one verdict, and they are in the order pass, fail, inconclusive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, serde::Serialize, serde::Deserialize)]
 #[serde(into = "&'static str", try_from = "String")]
 pub enum Reason {
     /// The whole interval lies in the band about the order.
@@ -112,19 +112,11 @@ impl Reason {
         Self::AtTheEdge,
     ];
 
-    /// The verdict that goes with this reason.
+    /// The verdict that goes with this reason: first the one that passes, then those that fail, then the others.
     pub fn verdict(self) -> Verdict {
         match self {
             Self::Agrees => Verdict::Pass,
-            Self::NoResult
-            | Self::NonFiniteError
-            | Self::NegativeError
-            | Self::ErrorGrows
-            | Self::FallsAway
-            | Self::WrongLimit
-            | Self::TooLow
-            | Self::TooHigh
-            | Self::ConstantOff => Verdict::Fail,
+            failing if failing <= Self::ConstantOff => Verdict::Fail,
             _ => Verdict::Inconclusive,
         }
     }

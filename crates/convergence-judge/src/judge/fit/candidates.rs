@@ -29,7 +29,7 @@ pub const SLOW_PENALTY: f64 = 3.0;
 pub const SLOW: f64 = 0.75;
 
 /// Factor on the half-width of every candidate, for terms that no candidate has: the intervals of the [calibration](crate::judge::calibration) then
-/// hold the order at least 92 times in 100 in every family of errors; with a factor of 1, 90 times.
+/// hold the order 91.8 times in 100 in the worst family of errors that is declared; with a factor of 1, 89.7 times.
 pub const SAFETY: f64 = 1.3;
 
 /// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.

@@ -10,8 +10,8 @@ const GROWTH: f64 = 1.3;
 
 /// The same if nothing but a term half an order lower, or one that vanishes more slowly, can be meant: all changes grow.
 ///
-/// For `e = h^p (1 + f h^-δ)` on halved steps the changes grow by `2^δ (1 + s) / (1 + 4^δ s)`, s = f h^-δ on the coarsest of the four levels that make
-/// two changes. For δ = 1/2 that is more than 1.1 up to s = 0.4; pollution 1 + 3 h^(1/3), still far from fading, makes them grow by less.
+/// For `e = h^p (1 + f h^-δ)` on halved steps the changes grow by `2^δ (1 + s) / (1 + 4^δ s)`, s = f h^-δ in the middle of the coarsest of the
+/// three pairs of levels. For δ = 1/2 that is more than 1.1 up to s = 0.4; pollution 1 + 3 h^(1/3), still far from fading, makes them grow by less.
 const STEADY_GROWTH: f64 = 1.1;
 
 /// Least growth over a change of the other sign: noise makes changes of similar size to and fro.

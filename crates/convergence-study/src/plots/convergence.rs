@@ -153,19 +153,19 @@ fn label(series: &ErrorSeries) -> String {
     texts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-fn trends(series: &[ErrorSeries]) -> Vec<Trend> {
+fn trends(series: &[ErrorSeries]) -> Vec<LogCurve> {
     let log = |&(x, y): &(f64, f64)| Some((on_scale(Scale::Log, x)?, on_scale(Scale::Log, y)?));
     let trend = |s: &ErrorSeries| {
         let mut points: Vec<(f64, f64)> = s.points.iter().filter_map(log).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Trend { points, order: s.order }
+        LogCurve { points, order: s.order }
     };
     series.iter().map(trend).collect()
 }
 
 /// A curve in the logarithms of its coordinates, and the order that theory gives it.
 #[derive(Clone, Debug)]
-struct Trend {
+struct LogCurve {
     /// Ascending in x.
     points: Vec<(f64, f64)>,
     order: Option<f64>,
@@ -181,7 +181,7 @@ struct Triangle {
 }
 
 /// Triangles for the given orders, and the value the vertical axis must reach down to.
-fn triangles(orders: &[f64], trends: &[Trend], x: &Ruler, y: &Ruler) -> (Vec<Outline>, f64) {
+fn triangles(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> (Vec<Outline>, f64) {
     let drawable: Vec<f64> = orders.iter().copied().filter(|p| p.is_finite() && *p > 0.0).collect();
     let mut y = *y;
     for _ in 0..MAX_EXTENSIONS {
@@ -193,7 +193,7 @@ fn triangles(orders: &[f64], trends: &[Trend], x: &Ruler, y: &Ruler) -> (Vec<Out
     (Vec::new(), 10f64.powf(y.lo))
 }
 
-fn place_all(orders: &[f64], trends: &[Trend], x: &Ruler, y: &Ruler) -> Option<Vec<Triangle>> {
+fn place_all(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> Option<Vec<Triangle>> {
     let mut placed: Vec<Triangle> = Vec::new();
     for &order in orders {
         let next = candidates(order, trends, x, y).find(|t| t.is_free(trends, &placed, x, y))?;
@@ -203,11 +203,11 @@ fn place_all(orders: &[f64], trends: &[Trend], x: &Ruler, y: &Ruler) -> Option<V
 }
 
 /// Places right below a curve: first curves of exactly this order, then from right to left.
-fn candidates(order: f64, trends: &[Trend], x: &Ruler, y: &Ruler) -> impl Iterator<Item = Triangle> {
+fn candidates(order: f64, trends: &[LogCurve], x: &Ruler, y: &Ruler) -> impl Iterator<Item = Triangle> {
     let (width, height) = (x.hi - x.lo, y.hi - y.lo);
     let leg = (LEG * width).min(TALLEST * height / order);
-    let has_order = move |t: &&Trend| t.order.is_some_and(|p| (p - order).abs() < 1e-9);
-    let (own, other): (Vec<&Trend>, Vec<&Trend>) = trends.iter().partition(has_order);
+    let has_order = move |t: &&LogCurve| t.order.is_some_and(|p| (p - order).abs() < 1e-9);
+    let (own, other): (Vec<&LogCurve>, Vec<&LogCurve>) = trends.iter().partition(has_order);
     let (x, y) = (*x, *y);
     let places = own.into_iter().chain(other).flat_map(|t| (4..19).rev().map(move |k| (t, f64::from(k) / 20.0)));
     places.filter_map(move |(trend, at)| {
@@ -223,7 +223,7 @@ fn samples(left: f64, right: f64) -> impl Iterator<Item = f64> {
     (0..=SAMPLES).map(move |k| left + (right - left) * k as f64 / SAMPLES as f64)
 }
 
-impl Trend {
+impl LogCurve {
     /// The curve's height at `x`, between its points.
     fn at(&self, x: f64) -> Option<f64> {
         let pair = self.points.windows(2).find(|w| w[0].0 <= x && x <= w[1].0)?;
@@ -238,11 +238,11 @@ impl Triangle {
     }
 
     /// Whether triangle and texts keep clear of all curves, the other triangles and the frame.
-    fn is_free(&self, trends: &[Trend], placed: &[Triangle], x: &Ruler, y: &Ruler) -> bool {
+    fn is_free(&self, trends: &[LogCurve], placed: &[Triangle], x: &Ruler, y: &Ruler) -> bool {
         let (width, height) = (x.hi - x.lo, y.hi - y.lo);
         let bottom = self.base - TEXT_BELOW * height;
         let right = self.right + TEXT_RIGHT * width;
-        let clear_of = |t: &Trend| {
+        let clear_of = |t: &LogCurve| {
             samples(self.left, right).all(|s| match t.at(s) {
                 None => true,
                 Some(v) if v < bottom => true,
@@ -285,7 +285,7 @@ mod tests {
     #[test]
     fn a_triangle_lies_below_its_curve_and_above_the_bottom() {
         let points: Vec<(f64, f64)> = (0..5).map(|k| (-f64::from(4 - k), -2.0 * f64::from(4 - k))).collect();
-        let trends = [Trend { points, order: Some(2.0) }];
+        let trends = [LogCurve { points, order: Some(2.0) }];
         let (x, y) = (Ruler::between(Scale::Log, -4.2, 0.2), Ruler::between(Scale::Log, -8.4, 0.4));
         let (outlines, bottom) = triangles(&[1.0, 2.0], &trends, &x, &y);
         assert_eq!(outlines.len(), 2);

@@ -144,7 +144,7 @@ impl Planned {
             "the cheapest: the error of any other run is its difference to such a run"
         };
         let mut lines = vec![
-            line("asked for", format!("{:.3e}", self.target), self.quantity.meaning()),
+            line("target", format!("{:.3e}", self.target), self.quantity.meaning()),
             line(
                 "made",
                 format!("{error:.3e}"),

@@ -34,7 +34,7 @@ fn an_accuracy_asked_for_is_told_with_its_method_and_what_the_scenes_own_would_n
 
     let text = with(&["--target-error", "1e-2", "--quantity", "theorem-3.4"]);
     assert_eq!(text.status, Some(0));
-    for piece in ["asked for", "estimated", "Theorem 3.4", "the cheapest", "node-steps by euler-crank-nicolson"] {
+    for piece in ["target", "estimated", "Theorem 3.4", "the cheapest", "node-steps by euler-crank-nicolson"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

@@ -105,7 +105,7 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
 
     let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
     assert_eq!(text.status, Some(0));
-    for piece in ["asked for", "estimated", "inside steps included", "half the steps", "runs to find it"] {
+    for piece in ["target", "estimated", "inside steps included", "half the steps", "runs to find it"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

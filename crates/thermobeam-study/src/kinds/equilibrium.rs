@@ -119,7 +119,7 @@ impl Kind for EndStates {
             let (t, level) = settle(&scene, self.speed, self.t_max)?;
             AtRest::of(&scene, &scene.mesh, t, &level, is_stable)
         } else {
-            let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("no run of any order is asked for"))?;
+            let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("the study has no run of any order"))?;
             let Traced { mesh, levels, .. } = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
             AtRest::of(scene, &mesh, *t_end, levels.last().ok_or_else(|| absent("the run has no end"))?, is_stable)
         }?;

@@ -156,12 +156,12 @@ impl RandomErrors {
         let svg = plots::work_precision(&plots::History {
             title: Some("Errors of the runs chosen".to_owned()),
             x_label: "work of a scene's searches (unknowns times solves)".to_owned(),
-            y: plots::Axis::log("largest error of u(1, t) over the error asked for"),
+            y: plots::Axis::log("largest error of u(1, t) / target error"),
             series: vec![plots::Series { label: "random scenes".to_owned(), points }],
             ..plots::History::default()
         });
         let caption =
-            "Largest errors of the runs chosen for random scenes, in units of the errors asked for: all below 1.";
+            "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
         Figure::new(&self.header.id, "errors", caption, svg)
     }
 }
@@ -223,7 +223,7 @@ impl Kind for RandomErrors {
             ),
             Check::that(
                 over_target <= 1.0 && !found.is_empty(),
-                "no run that was chosen misses the error asked for",
+                "no chosen run misses its target error",
                 format!("the largest is {over_target:.2} of it, of {} runs", self.targets.len() * found.len()),
             ),
             Check::that(refused.is_empty(), "every search ends with a run", refused.join("; ")),
@@ -238,11 +238,11 @@ impl Kind for RandomErrors {
         let rows: Vec<_> = found.iter().map(|(ran, found)| (vec![ran.case.label.clone()], found.readings())).collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
         let headline = format!(
-            "{} scenes: errors at most {over_estimate:.2} of their estimates and {over_target:.2} of the error asked for",
+            "{} scenes: errors at most {over_estimate:.2} of their estimates and {over_target:.2} of the target error",
             found.len()
         );
         Outcome {
-            tables: vec![readings::table("Errors over what was told", &["scene"], &rows)],
+            tables: vec![readings::table("Errors relative to the estimates and targets", &["scene"], &rows)],
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
             headline: headline.clone(),

@@ -83,10 +83,13 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
             _ if is_row && !is_comment(&line) => rows.push((line, cells)),
             // A row with a word in place of a number is one, so that the word is refused.
             false if begins > 0 && 2 * begins >= cells.len() && !is_comment(&line) => rows.push((line, cells)),
-            true => heads.push(line.trim_start_matches(['#', '%', '!'])),
+            true => heads.push(line),
             false => {}
         }
     }
+    // A comment has the names only if no other line does.
+    heads.sort_by_key(|line| !is_comment(line));
+    heads.iter_mut().for_each(|line| *line = line.trim_start_matches(['#', '%', '!']));
     if rows.is_empty() {
         return pairs::read(text, false).unwrap_or_default();
     }

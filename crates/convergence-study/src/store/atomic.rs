@@ -76,7 +76,8 @@ pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     for entry in entries.into_iter().flatten() {
         let entry = entry.map_err(|error| naming(folder, &error))?;
         if entry.file_name().to_str().is_some_and(is_leftover) {
-            fs::remove_file(entry.path()).map_err(|error| naming(&entry.path(), &error))?;
+            // Another run may have removed its own probe since the folder was read.
+            if_there(fs::remove_file(entry.path())).map_err(|error| naming(&entry.path(), &error))?;
         }
     }
     Ok(())

@@ -12,7 +12,7 @@ use super::curves::{Curves, Rows, curves};
 use super::reference::{Reference, Wanted, finer, reference};
 use super::{Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
-use crate::scene::{Method, Scene};
+use crate::scene::Scene;
 
 /// Error of the first reference, in units of the largest value of a curve.
 const ROUGH: f64 = 1e-4;
@@ -201,19 +201,10 @@ fn dominant(quantities: &[Estimate]) -> Option<Source> {
 }
 
 fn advice(scene: &Scene, dominant: Option<Source>) -> &'static str {
-    match (dominant, scene.method) {
-        (Some(Source::Space), Method::OneStep(_)) => "Space first: take twice the elements.",
-        (Some(Source::Space), Method::Dg(_)) => "Space first: raise mesh.degree by 2, or add elements near x = 1.",
-        (Some(Source::Time), Method::OneStep(stepping)) if stepping.scheme.order > 1.0 => {
-            "Time first: take half of dt."
-        }
-        (Some(Source::Time), Method::OneStep(_)) => {
-            "Time first: take half of dt, or the scheme \"midpoint\", which may leave far less."
-        }
-        (Some(Source::Time), Method::Dg(_)) => {
-            "Time first: halve dt, restart_dt and growth - 1; where nothing touches, a higher time.degree is cheaper."
-        }
-        (None, _) => {
+    match dominant {
+        Some(Source::Space) => scene.method.finer_space(),
+        Some(Source::Time) => scene.method.finer_time(),
+        None => {
             "Neither alone lowers the errors: refine space and time together; if that does not help, take a smaller tolerance."
         }
     }

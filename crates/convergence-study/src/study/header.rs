@@ -87,7 +87,9 @@ pub fn field(item: &str) -> String {
     let item = item.rsplit_once(": ").map_or(item, |(_, rest)| rest);
     let is_level = |part: &&str| {
         let is_set = part.split_once(" = ").is_some_and(|(name, _)| !name.contains(' '));
-        is_set || part.starts_with(|c: char| c.is_ascii_digit()) || *part == "finest level"
+        // The second argument of `u(1, 1)` is no level.
+        let is_number = part.starts_with(|c: char| c.is_ascii_digit()) && !part.ends_with(')');
+        is_set || is_number || *part == "finest level"
     };
     let parts: Vec<&str> = item.split(", ").filter(|part| !is_level(part)).collect();
     if parts.is_empty() { item.to_owned() } else { parts.join(", ") }
@@ -129,6 +131,7 @@ mod tests {
             ("rate p = 1, fields", "fields"),
             ("error mean, successive, n = 16, 800 steps", "mean, successive"),
             ("case-1: u(1) at t = 1", "u(1) at t = 1"),
+            ("error u(1, 1), n = 8", "u(1, 1)"),
             ("n = 8", "n = 8"),
         ] {
             assert_eq!(field(item), expected);

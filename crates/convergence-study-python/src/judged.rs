@@ -40,7 +40,7 @@ impl Judgement {
         let axis = if self.step == "dt" { Axis::Time } else { Axis::Space };
         let columns = vec![ErrorColumn { name: self.name.clone(), errors, claim, look: 0 }];
         let levels = Levels { axis, refinements: self.levels.iter().map(refinement).collect(), columns };
-        levels.figure(String::new(), None, String::new(), &[(self.name.clone(), self.rate.clone())]).svg
+        levels.figure("", None, String::new(), &[(self.name.clone(), self.rate.clone())]).svg
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use convergence_study::program;
-use convergence_study::run::{Finished, run_one};
+use convergence_study::run::Finished;
 use convergence_study::study::until_decided::{self, FIRST, Next};
 use convergence_study::study::{
     Claim, ErrorsOverLevels, Header, Kind, NamedErrors, STEPS, header::is_name, levels, run_cases_here,
@@ -144,7 +144,7 @@ pub(crate) fn of_table(
         levels.iter().map(|level| vec![("h".to_owned(), level.step), ("error".to_owned(), level.error)]).collect();
     let counts: Vec<usize> = (1..=found.len()).collect();
     let study = study_of(header(name, &claims, &counts.len().to_string()), &claims, &counts, &found);
-    Ok(Study { finished: py.detach(|| run_one(&study.counting("level", convergence_study::study::Axis::Space))) })
+    Ok(Study { finished: py.detach(|| study.counting("level", convergence_study::study::Axis::Space).run()) })
 }
 
 /// The errors returned by a level.
@@ -237,7 +237,7 @@ pub(crate) fn study(
     let words: Vec<String> = counts.iter().map(ToString::to_string).collect();
     let header = header(name, &claims, &if is_auto { "auto".to_owned() } else { words.join(", ") });
     let study = study_of(header, &claims, &counts, &results);
-    let mut finished = py.detach(|| run_one(&study));
+    let mut finished = py.detach(|| study.run());
     if is_auto {
         finished.outcome =
             until_decided::ended(finished.outcome, next, &study.levels(&run_cases_here(&study)), budget, "s");

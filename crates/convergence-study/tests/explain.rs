@@ -29,7 +29,7 @@ const PROJECT: Project = Project {
 
 fn read(header: Header, _: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     let study = levels([4, 8, 16, 32, 64], |n| [("l2", 1.0 / n as f64)]).counting("cells", Axis::Space);
-    Ok(erased(study.described(header).claiming("l2", Claim::new(1.0, 0.05))))
+    Ok(erased(header, study.claiming("l2", Claim::new(1.0, 0.05))))
 }
 
 fn example(kind: &str) -> Box<dyn Study> {

@@ -6,7 +6,7 @@ use convergence_study::input;
 use convergence_study::project::Project;
 use convergence_study::report;
 use convergence_study::store::atomic;
-use convergence_study::study::{FromFile, Kind, Table};
+use convergence_study::study::{Described, Table};
 use thermobeam_study::kinds::work_precision::{self, WorkPrecision};
 use thermobeam_study::run::step_time;
 use thermobeam_study::scene::Scene;
@@ -55,7 +55,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let mut studies = vec![];
     for file in workspace::studies(project, &root)? {
         if file.study.header().kind == work_precision::ROW.name {
-            studies.push(WorkPrecision::read(&file.path)?);
+            studies.push(Described::<WorkPrecision>::read(&file.path)?);
         }
     }
     let Flags { quiet, format, out, .. } = &arguments.flags;
@@ -141,11 +141,11 @@ fn heading(project: &Project, scene: &Path) -> String {
 }
 
 /// Run time against error, in every quantity.
-fn accuracy(study: &WorkPrecision, page: &mut Page) -> Result<(), Unusable> {
+fn accuracy(Described { header, kind: study }: &Described<WorkPrecision>, page: &mut Page) -> Result<(), Unusable> {
     let runs = timing::timed(study).map_err(|failure| Unusable::because(&failure.reason))?;
-    let id = &study.header().id;
+    let id = &header.id;
     for &quantity in study.quantities() {
-        let table = timing::table(study, quantity, &runs);
+        let table = timing::table(id, study, quantity, &runs);
         if table.rows.is_empty() {
             continue;
         }

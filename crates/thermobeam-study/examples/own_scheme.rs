@@ -39,7 +39,7 @@ const STUDY: &str = r#"
 fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error>> {
     let mut study = Convergence::parse(STUDY, "my-scheme.toml".as_ref())?;
     (study.refine.scheme, study.expect[0].1.order) = (scheme, order);
-    let outcome = run_one(&study).outcome;
+    let outcome = run_one(&study);
     Ok((outcome.verdict, outcome.rates[0].1.reason.clone()))
 }
 

@@ -5,7 +5,7 @@
 use std::error::Error;
 
 use convergence_study::run::run_one;
-use convergence_study::study::{Axis, Claim, FromFile as _, Header};
+use convergence_study::study::{Axis, Claim, FromFile as _};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::Settings;
@@ -44,20 +44,13 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         settings: Settings { tolerance: 1e-13, ..Settings::default() },
     };
     let theory = Coefficients { beam: Beam::default(), obstacles: None };
-    Ok(Convergence {
-        header: Header::new("my-own", "Second order to the interpolant"),
-        theory,
-        solver: theory,
-        exact,
-        refine,
-        expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))],
-    })
+    Ok(Convergence { theory, solver: theory, exact, refine, expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))] })
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (rust, toml) = (in_rust()?, Convergence::parse(TOML, "my-own.toml".as_ref())?);
     // Cases are pure: they may run in any order, on any thread.
-    let (rust, toml) = (run_one(&rust).outcome, run_one(&toml).outcome);
+    let (rust, toml) = (run_one(&rust), run_one(&toml));
     for (level, error) in rust.levels.iter().map(|level| (level, level.error("superclose"))) {
         println!("n = {:3}   superclose {error:.4e}", level.parameter("elements").unwrap_or(f64::NAN));
     }

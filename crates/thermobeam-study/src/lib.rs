@@ -28,7 +28,7 @@
 //!     "#,
 //!     "my-own.toml".as_ref(),
 //! )?;
-//! assert_eq!(run_one(&study).outcome.verdict, Verdict::Pass);
+//! assert_eq!(run_one(&study).verdict, Verdict::Pass);
 //! # Ok::<(), convergence_study::input::InputError>(())
 //! ```
 //!

@@ -3,7 +3,7 @@
 //! Compares all methods of a work-precision study, and dG with a general integrator on the same elements.
 
 use convergence_study::plots;
-use convergence_study::study::{CaseFailure, Kind, Table};
+use convergence_study::study::{CaseFailure, Table};
 use serde::Deserialize;
 use thermobeam::parameters::Beam;
 
@@ -80,7 +80,7 @@ pub fn timed(study: &WorkPrecision) -> Result<Vec<Timed>, CaseFailure> {
 }
 
 /// The cost of each error in milliseconds: for each method that of its fastest run with at most that error.
-pub fn table(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> Table {
+pub fn table(id: &str, study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> Table {
     let methods: Vec<&str> = study.methods().map(|method| method.name).collect();
     let line = |error: f64| {
         let runs = methods.iter().map(|method| fastest(timed, method, quantity, error));
@@ -88,11 +88,9 @@ pub fn table(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> 
         let cells = runs.map(|run| run.map_or("-".to_owned(), |run| run.cell(3)));
         Some([format!("{error:e}")].into_iter().chain(cells).chain([winner.method.to_owned()]).collect())
     };
-    let title = format!(
-        "{}: milliseconds (elements x steps) for an error in {}, the fastest run that is as good",
-        study.header().id,
-        quantity.name()
-    );
+    let name = quantity.name();
+    let title =
+        format!("{id}: milliseconds (elements x steps) for an error in {name}, the fastest run that is as good");
     let head = ["error"].into_iter().chain(methods.iter().copied()).chain(["fastest"]);
     Table::new(title, head, TARGETS.into_iter().filter_map(line))
 }

@@ -81,10 +81,10 @@ fn every_defect_leaves_a_mark_that_no_refinement_removes() {
 fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
     let mut study = convergence("theorem-3.4-space.toml");
     study.refine.elements = vec![64, 128, 256, 512];
-    assert_eq!(run_one(&study).outcome.verdict, Verdict::Pass);
+    assert_eq!(run_one(&study).verdict, Verdict::Pass);
     let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap() + "\n[control]\nzeta = 0.10001\n";
     study.solver = Convergence::parse(&text, "wrong.toml".as_ref()).unwrap().solver;
-    let outcome = run_one(&study).outcome;
+    let outcome = run_one(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.summary.contains("superclose"), "{}", outcome.summary);
 }

@@ -52,7 +52,7 @@ use crate::study::{Claim, Header, read_claim};
 /// The default time limit of a case.
 const TIMEOUT: Duration = Duration::from_secs(600);
 
-pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
+pub(super) fn read(header: &Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
     root.allow(&["study", "program", "refine", "expect"])?;
     let section = root.require("program", "a table with the command")?.section()?;
     section.allow(&["command", "directory", "timeout", "files", "cache"])?;
@@ -67,7 +67,7 @@ pub(super) fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<
     let written = section.get("directory").map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
     let store = kept_by(&section, &directory)?.map(|files| Store::new(folder, &header.id, written, files));
     let expect = expectations(root, refine.grid)?;
-    Ok(Program { header, words, directory, timeout, store, anew: false, refine, expect })
+    Ok(Program { words, directory, timeout, store, anew: false, refine, expect })
 }
 
 /// The folder in which the program runs, as an absolute path: the program's name is relative to it, too.

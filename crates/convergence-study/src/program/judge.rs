@@ -42,8 +42,8 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     };
     let mut outcome = grid.judge();
     outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));
-    let mut figures = grid.figures(&study.header.id, "error");
-    figures.extend(work_precision(&study.header.id, levels, ran));
+    let mut figures = grid.figures("error");
+    figures.extend(work_precision(levels, ran));
     Outcome {
         // These errors are not judged over either step alone.
         levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
@@ -63,7 +63,7 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
-    let (rates, mut checks, id) = (levels.judge(), exact(study, ran), &study.header.id);
+    let (rates, mut checks) = (levels.judge(), exact(study, ran));
     checks.push(completion(ran));
     let values = of_values(study, ran, &levels.refinements);
     let quantities = [levels.quantities(&rates), values.quantities].concat();
@@ -71,8 +71,8 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     // The figure is over h.
     if !levels.columns.is_empty() && !by_degree(study) {
         let caption = "Errors over levels of refinement.".to_owned();
-        figures.push(levels.figure(format!("{id}-errors.svg"), None, caption, &rates));
-        figures.extend(work_precision(id, levels, ran));
+        figures.push(levels.figure("errors", None, caption, &rates));
+        figures.extend(work_precision(levels, ran));
     }
     let rates = [rates, values.rates].concat();
     let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
@@ -166,7 +166,7 @@ fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
 }
 
 /// Errors over the work that the program counts, if every answer contains it.
-fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
+fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
     let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
     let claimed: Vec<_> = levels.columns.iter().filter(|column| column.claim.is_some()).collect();
@@ -182,12 +182,7 @@ fn work_precision(id: &str, levels: &Levels, ran: &[Run]) -> Option<Figure> {
         series: series.collect(),
         ..History::default()
     });
-    Some(Figure::new(
-        id,
-        "work",
-        "Errors over the work that they cost: the lower and the further left, the better.",
-        svg,
-    ))
+    Some(Figure::new("work", "Errors over the work that they cost: the lower and the further left, the better.", svg))
 }
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a sentence.
@@ -257,7 +252,7 @@ fn differences(
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
     // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates.iter().filter(|(_, rate)| rate.kind != Reason::NoResult).cloned().collect();
-    levels.figure(format!("{}-differences.svg", study.header.id), None, caption.to_owned(), &drawn)
+    levels.figure("differences", None, caption.to_owned(), &drawn)
 }
 
 const HEAD: [&str; 9] =

@@ -67,7 +67,6 @@ pub const PROJECT: Project =
 /// A study of a program, validated.
 #[derive(Debug, Clone)]
 pub struct Program {
-    header: Header,
     /// The program and its arguments.
     words: Vec<String>,
     /// The folder in which it runs.
@@ -83,7 +82,7 @@ pub struct Program {
 }
 
 impl FromFile for Program {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(header: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         file::read(header, root, folder)
     }
 }
@@ -116,10 +115,6 @@ impl Program {
 impl Kind for Program {
     type Data = Resolution;
     type Found = Answer;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<Resolution>> {
         let case = |data: Resolution| Case { label: data.label.clone(), cost: data.cost(), data };

@@ -1,6 +1,6 @@
 //! Levels of a function, run and asserted in one line, for tests of a solver.
 
-use super::{Finished, run_one};
+use super::{Finished, run_kind};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, Shown};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Judge, ROUND_OFF_FLOOR, Verdict, judge};
@@ -34,7 +34,7 @@ where
 {
     /// Runs all levels, on all threads of the machine, and judges them.
     pub fn run(&self) -> Finished {
-        run_one(self)
+        run_kind(&self.header, self)
     }
 
     /// Runs and judges it, for a test.

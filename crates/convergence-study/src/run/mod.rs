@@ -137,12 +137,16 @@ pub fn run_within(
     run_planned(planned.collect(), effort, allowed, progress)
 }
 
-/// Runs one study on all threads of the machine, as [`run`] does.
+/// The outcome of one study, run on all threads of the machine, as [`run`] does; its figures are called `study-<what>.svg`.
 ///
 /// # Panics
 /// The operating system refuses the threads.
-pub fn run_one<K: Kind>(study: &K) -> Finished {
-    let planned = vec![Planned::new(study.header(), || plan(study))];
+pub fn run_one<K: Kind>(kind: &K) -> Outcome {
+    run_kind(&Header::new("study", ""), kind).outcome
+}
+
+fn run_kind<K: Kind>(header: &Header, kind: &K) -> Finished {
+    let planned = vec![Planned::new(header, || plan(kind))];
     let finished = run_planned(planned, available().into(), &|_, _| None, &|_| {}).map(|mut finished| finished.pop());
     finished.expect("the threads are refused").expect("a study that was run")
 }

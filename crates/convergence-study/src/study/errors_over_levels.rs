@@ -50,7 +50,7 @@ impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
 /// fails.
 #[derive(Debug, Clone)]
 pub struct ErrorsOverLevels<F> {
-    header: Header,
+    pub(crate) header: Header,
     axis: Axis,
     counted: String,
     counts: Vec<usize>,
@@ -152,10 +152,6 @@ where
     type Data = usize;
     type Found = NamedErrors;
 
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
     /// A finer level is assumed to cost more.
     fn cases(&self) -> Vec<Case<usize>> {
         let case = |&count: &usize| Case { label: self.label(count), cost: count as f64, data: count };
@@ -179,7 +175,7 @@ where
             let (claim, evidence) = ("an order is claimed".to_owned(), "no order of any error is claimed".to_owned());
             checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence });
         }
-        levels.outcome(&self.header.id, "errors", None, "Errors over levels of refinement.", checks)
+        levels.outcome("errors", None, "Errors over levels of refinement.", checks)
     }
 
     fn details(&self) -> Vec<(String, String)> {
@@ -205,7 +201,7 @@ mod tests {
     /// The outcome for an error of second order, claimed to be of this order, changed by `change`.
     fn outcome<R: IntoErrors>(order: f64, change: impl Fn(usize, f64) -> R + Send + Sync) -> Outcome {
         let study = levels(COUNTS, |n| change(n, (n as f64).powi(-2))).counting("cells", Axis::Space);
-        judged(&study.described(Header::new("id", "c")).claiming("e", Claim::new(order, 0.05)))
+        judged(&study.claiming("e", Claim::new(order, 0.05)))
     }
 
     #[test]
@@ -240,7 +236,7 @@ mod tests {
         assert_eq!(right.quantities.len(), 1 + 2 * 5);
         assert_eq!(right.quantities[1].name, "error e, cells = 4");
         let drawn: Vec<&str> = right.figures.iter().map(|figure| figure.file.as_str()).collect();
-        assert_eq!(drawn, ["id-errors.svg"][..usize::from(cfg!(feature = "reports"))]);
+        assert_eq!(drawn, ["errors.svg"][..usize::from(cfg!(feature = "reports"))]);
     }
 
     #[test]

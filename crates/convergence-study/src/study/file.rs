@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::header::{DEFAULT_KIND, Header, NAME, Tier, is_name};
-use super::kind::{Kind, Study, erased};
+use super::kind::{Described, Kind, Study, erased};
 use super::levels::Claim;
 use crate::input::{self, Field, InputError, Section};
 use crate::judge::claims::order_from_text;
@@ -20,7 +20,8 @@ pub fn reader<K: FromFile + 'static>(
     root: &Section<'_>,
     folder: &Path,
 ) -> Result<Box<dyn Study>, InputError> {
-    Ok(erased(K::from_document(header, root, folder)?))
+    let kind = K::from_document(&header, root, folder)?;
+    Ok(erased(header, kind))
 }
 
 /// A kind of study: its name, its reader, and what it means in words.
@@ -107,11 +108,11 @@ pub trait FromFile: Kind + Sized {
     /// * `header`: the table `[study]`, already read.
     /// * `root`: the document.
     /// * `folder`: the folder of the file; names of other files are relative to it.
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+    fn from_document(header: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
 
     /// Reads a study from `text`; messages name `file`, and other files are searched for next to it.
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
-        input::parse_beside(text, file, |root, folder| Self::from_document(Header::from_document(root)?, root, folder))
+        Ok(Described::parse(text, file)?.kind)
     }
 
     /// Reads a study file.
@@ -119,6 +120,21 @@ pub trait FromFile: Kind + Sized {
     /// # Errors
     /// As [`FromFile::parse`], and if the file cannot be read.
     fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Ok(Described::read(file)?.kind)
+    }
+}
+
+impl<K: FromFile> Described<K> {
+    /// As [`FromFile::parse`], with the header.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, |root, folder| {
+            let header = Header::from_document(root)?;
+            Ok(Self { kind: K::from_document(&header, root, folder)?, header })
+        })
+    }
+
+    /// As [`FromFile::read`], with the header.
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
         Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
     }
 }

@@ -111,11 +111,10 @@ impl Grid {
     }
 
     #[cfg(feature = "reports")]
-    /// Each error over the grid, as a picture.
+    /// Each error over the grid, as a picture `surface-<name>.svg`.
     ///
-    /// * `id`: of the study; a picture is called `<id>-surface-<name>.svg`.
     /// * `what`: the meaning of an error's name, such as `norm`.
-    pub fn figures(&self, id: &str, what: &str) -> Vec<Figure> {
+    pub fn figures(&self, what: &str) -> Vec<Figure> {
         let widths: Vec<f64> = self.points.iter().step_by(self.times.max(1)).map(|[h, _]| *h).collect();
         let steps: Vec<f64> = self.points.iter().take(self.times).map(|[_, dt]| *dt).collect();
         let figure = |column: &GridColumn| {
@@ -132,7 +131,7 @@ impl Grid {
             let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '-' };
             let name: String = column.name.chars().map(plain).collect();
             let caption = format!("Error in the {what} `{}` over mesh width and time step.", column.name);
-            Figure::new(id, &format!("surface-{name}"), caption, svg)
+            Figure::new(&format!("surface-{name}"), caption, svg)
         };
         self.columns.iter().map(figure).collect()
     }

@@ -64,9 +64,6 @@ pub trait Kind: Send + Sync {
     /// The result of a case.
     type Found: Send;
 
-    /// Id, claim, tier and kind.
-    fn header(&self) -> &Header;
-
     /// The computations, in the order in which they are judged.
     fn cases(&self) -> Vec<Case<Self::Data>>;
 
@@ -188,8 +185,8 @@ pub trait Plan: Send + Sync {
 }
 
 /// A typed study in the form that the runner takes.
-pub fn erased<'k, K: Kind + 'k>(kind: K) -> Box<dyn Study + 'k> {
-    Box::new(Erased(kind))
+pub fn erased<'k, K: Kind + 'k>(header: Header, kind: K) -> Box<dyn Study + 'k> {
+    Box::new(Described { header, kind })
 }
 
 /// The cases of a typed study, with a place for the result of each.
@@ -198,27 +195,34 @@ pub(crate) fn plan<K: Kind>(kind: &K) -> Box<dyn Plan + '_> {
     Box::new(Typed { kind, ran: Mutex::new(ran) })
 }
 
-struct Erased<K>(K);
+/// A typed study with its header.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Described<K> {
+    /// Id, claim, tier and kind.
+    pub header: Header,
+    /// What is run and judged.
+    pub kind: K,
+}
 
-impl<K: Kind> Study for Erased<K> {
+impl<K: Kind> Study for Described<K> {
     fn header(&self) -> &Header {
-        self.0.header()
+        &self.header
     }
 
     fn plan(&self) -> Box<dyn Plan + '_> {
-        plan(&self.0)
+        plan(&self.kind)
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        self.0.details()
+        self.kind.details()
     }
 
     fn untested(&self) -> Vec<Untested> {
-        self.0.untested()
+        self.kind.untested()
     }
 
     fn compute_anew(&mut self) {
-        self.0.compute_anew();
+        self.kind.compute_anew();
     }
 }
 

@@ -174,7 +174,7 @@ impl Levels {
     /// The judged errors, each with the line of its rate if that is known, and triangles for the orders claimed.
     ///
     /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there are any.
-    pub fn figure(&self, file: String, title: Option<String>, caption: String, rates: &Rates) -> Figure {
+    pub fn figure(&self, what: &str, title: Option<String>, caption: String, rates: &Rates) -> Figure {
         let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
         let series = claimed.map(|(column, claim)| {
             let points = self.points(column);
@@ -200,7 +200,7 @@ impl Levels {
             labels => format!("{caption} No result: {}.", labels.join("; ")),
         };
         let svg = plots::convergence(&Convergence { title, series, notes, ..labels });
-        Figure { file, caption, svg }
+        Figure::new(what, caption, svg)
     }
 
     /// The same with only the coarsest levels.
@@ -216,14 +216,13 @@ impl Levels {
         }
     }
 
-    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `<id>-<what>.svg`.
-    pub fn outcome(&self, id: &str, what: &str, title: Option<&str>, caption: &str, checks: Vec<Check>) -> Outcome {
+    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
+    pub fn outcome(&self, what: &str, title: Option<&str>, caption: &str, checks: Vec<Check>) -> Outcome {
         let rates = self.judge();
         #[cfg(feature = "reports")]
-        let figure =
-            Some(self.figure(format!("{id}-{what}.svg"), title.map(str::to_owned), caption.to_owned(), &rates));
+        let figure = Some(self.figure(what, title.map(str::to_owned), caption.to_owned(), &rates));
         #[cfg(not(feature = "reports"))]
-        let (figure, _) = (None, (id, what, title, caption));
+        let (figure, _) = (None, (what, title, caption));
         Outcome {
             levels: self.errors(),
             figures: figure.into_iter().collect(),
@@ -387,7 +386,7 @@ mod tests {
         let caption = |factors, rates: bool| {
             let levels = scattered(factors);
             let rates = if rates { levels.judge() } else { vec![] };
-            levels.figure("f.svg".into(), None, "Errors.".into(), &rates).caption
+            levels.figure("f", None, "Errors.".into(), &rates).caption
         };
         assert_eq!(caption([1.0; 5], true), format!("Errors.{LINES}"));
         assert_eq!(caption([1.0; 5], false), "Errors.");

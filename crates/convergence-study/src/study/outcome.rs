@@ -113,7 +113,7 @@ impl Table {
 /// A picture.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Figure {
-    /// File name without folder, `<id>-<what>.svg`.
+    /// File name without folder: `<what>.svg`, and `<id>-<what>.svg` once the study's outcome is settled.
     pub file: String,
     /// What the figure shows, in a sentence: caption and alternative text.
     pub caption: String,
@@ -123,9 +123,9 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A picture of the study `id`, in the file `<id>-<what>.svg`.
-    pub fn new(id: &str, what: &str, caption: impl Into<String>, svg: String) -> Self {
-        Self { file: format!("{id}-{what}.svg"), caption: caption.into(), svg }
+    /// A picture of a study, in the file `<what>.svg`.
+    pub fn new(what: &str, caption: impl Into<String>, svg: String) -> Self {
+        Self { file: format!("{what}.svg"), caption: caption.into(), svg }
     }
 }
 
@@ -252,8 +252,9 @@ impl Outcome {
     }
 }
 
-/// The outcome with its verdict recomputed, and with a failing check if it does not meet the requirements.
+/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a failing check if it does not meet the requirements.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
+    outcome.figures.iter_mut().for_each(|figure| figure.file = format!("{id}-{}", figure.file));
     let defects = defects(id, &outcome);
     if !defects.is_empty() {
         outcome.checks.push(Check::that(false, "the outcome of the study is sound", defects.join("; ")));
@@ -342,6 +343,13 @@ mod tests {
     }
 
     #[test]
+    fn figures_are_named_after_the_study() {
+        let drawn = Outcome { figures: vec![Figure::new("errors", "", String::new())], ..passing() };
+        let settled = settle("id", drawn);
+        assert_eq!((settled.verdict, settled.figures[0].file.as_str()), (Verdict::Pass, "id-errors.svg"));
+    }
+
+    #[test]
     fn nothing_judged_is_inconclusive_even_where_a_pass_is_claimed() {
         let empty = Outcome { verdict: Verdict::Pass, ..Outcome::new("all well", vec![], vec![]) };
         let settled = settle("id", empty);
@@ -365,7 +373,7 @@ mod tests {
             Outcome { quantities: vec![quantity(1.0), quantity(2.0)], ..passing() },
             "the quantity `q` occurs twice",
         );
-        for file in ["../id-x.svg", "x.svg", "id-.svg", "id-a/b.svg", "id-x.png"] {
+        for file in ["../x.svg", ".svg", "a/b.svg", "x.png"] {
             let figure = Figure { file: file.into(), caption: String::new(), svg: String::new() };
             refused(Outcome { figures: vec![figure], ..passing() }, file);
         }

@@ -43,7 +43,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
     let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
     let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
-    Ok(erased(study.described(header).claiming("error", Claim::new(order, 0.05))))
+    Ok(erased(header, study.claiming("error", Claim::new(order, 0.05))))
 }
 
 type Test = (&'static str, fn());

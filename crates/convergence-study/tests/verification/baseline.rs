@@ -3,7 +3,7 @@ use std::fs;
 use convergence_study::run::Finished;
 use convergence_study::store::StoreError;
 use convergence_study::store::baseline::{Baseline, Refusal};
-use convergence_study::study::{Quantity, erased};
+use convergence_study::study::Quantity;
 
 use crate::fake::{Does, Fake, fake, finished, ids, study};
 
@@ -14,7 +14,7 @@ fn blessed(studies: Vec<Fake>) -> Baseline {
 }
 
 fn run(studies: Vec<Fake>) -> Vec<Finished> {
-    finished(studies.into_iter().map(erased).collect())
+    finished(studies.into_iter().map(Fake::erased).collect())
 }
 
 /// The changes in words.

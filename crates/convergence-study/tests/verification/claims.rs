@@ -7,7 +7,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::{blessing, sentence};
 use convergence_study::store::baseline::{Baseline, BlessedClaim, Change, Refusal};
 use convergence_study::store::junit::junit;
-use convergence_study::study::{Header, Study, Tier, erased};
+use convergence_study::study::{Header, Study, Tier};
 use convergence_study::verify::{Request, Scope, Verification, verify};
 
 use crate::fake::{Does, Fake, PROJECT, fake, finished, request};
@@ -22,7 +22,7 @@ fn header(id: &str, settings: &[(&str, &str)]) -> Header {
 }
 
 fn study(header: &Header) -> Box<dyn Study> {
-    erased(Fake { header: header.clone(), ..fake("", Does::Converge) })
+    Fake { header: header.clone(), ..fake("", Does::Converge) }.erased()
 }
 
 /// The claims with another value at a path; `None`: without that path.

@@ -53,7 +53,13 @@ pub(crate) fn fake(id: &str, does: Does) -> Fake {
 }
 
 pub(crate) fn study(id: &str, does: Does) -> Box<dyn Study> {
-    erased(fake(id, does))
+    fake(id, does).erased()
+}
+
+impl Fake {
+    pub(crate) fn erased(self) -> Box<dyn Study> {
+        erased(self.header.clone(), self)
+    }
 }
 
 impl Kind for Fake {
@@ -61,10 +67,6 @@ impl Kind for Fake {
     type Data = usize;
     /// The error.
     type Found = f64;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         let levels = if self.does == Does::TooShort { 2 } else { 5 };
@@ -106,11 +108,7 @@ impl Kind for Fake {
         let finest = *errors.last().unwrap();
         let quantity = Quantity { name: self.quantity.to_owned(), value: finest, tolerance: self.tolerance };
         let table = Table { title: "Two | three".into(), head: vec!["a|b".into()], rows: vec![vec!["c|d".into()]] };
-        let figure = Figure {
-            file: format!("{}-errors.svg", self.header.id),
-            caption: "errors | h".into(),
-            svg: "<svg/>".into(),
-        };
+        let figure = Figure::new("errors", "errors | h", "<svg/>".into());
         Outcome {
             levels: errors.iter().enumerate().map(level).collect(),
             quantities: vec![quantity],

@@ -5,14 +5,13 @@ use convergence_study::report::Findings;
 use convergence_study::store::baseline::Baseline;
 use convergence_study::store::json;
 use convergence_study::store::record::Record;
-use convergence_study::study::erased;
 use serde_json::Value;
 
 use crate::fake::{Does, Fake, PROJECT, fake, finished, study};
 
 fn record(does: Does, is_committed: bool) -> Value {
     let exact = Fake { scale: std::f64::consts::PI, ..fake("a", does) };
-    let finished = finished(vec![erased(exact)]);
+    let finished = finished(vec![exact.erased()]);
     let record = Record::new("quick", "verify", Verdict::Pass, Some(&[]), finished);
     let record = if is_committed { record.committed() } else { record };
     serde_json::from_str(&json(&record).unwrap()).unwrap()

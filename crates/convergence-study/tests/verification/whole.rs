@@ -6,7 +6,7 @@ use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::project::Project;
-use convergence_study::study::{Study, Tier, erased};
+use convergence_study::study::{Study, Tier};
 use convergence_study::verify::{Request, Scope, Verification, VerificationError, verify};
 
 use crate::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
@@ -37,7 +37,7 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
     assert_eq!((blessed.record.verdict, blessed.blessing), (Verdict::Pass, Some(Ok(()))));
     assert_eq!(run(vec![study("a", Does::Converge)], &plain).record.verdict, Verdict::Pass);
     let moved = Fake { scale: 1.5, ..fake("a", Does::Converge) };
-    let moved = run(vec![erased(moved)], &plain);
+    let moved = run(vec![moved.erased()], &plain);
     assert_eq!((moved.record.studies[0].outcome.verdict, moved.record.verdict), (Verdict::Pass, Verdict::Fail));
     assert!(fs::read_to_string(root.path().join("reports/README.md")).unwrap().contains("by +50 %"));
 }
@@ -127,7 +127,7 @@ fn a_selection_blesses_itself_alone() {
     let both = || vec![study("a", Does::Converge), study("b", Does::Converge)];
     run(both(), &Request { bless: true, ..quick.clone() });
     let scope = Scope::Selection(vec!["a".to_owned()]);
-    let moved: Vec<Box<dyn Study>> = vec![erased(Fake { scale: 2.0, ..fake("a", Does::Converge) })];
+    let moved: Vec<Box<dyn Study>> = vec![Fake { scale: 2.0, ..fake("a", Does::Converge) }.erased()];
     assert_eq!(run(moved, &Request { bless: true, scope, ..quick.clone() }).record.verdict, Verdict::Pass);
     let after = run(both(), &quick);
     assert_eq!(after.record.moves().iter().map(|change| change.study.as_str()).collect::<Vec<_>>(), ["a"]);

@@ -99,7 +99,6 @@ struct RunsOfDegree {
 /// A study of orders.
 #[derive(Clone)]
 pub struct AnyOrder {
-    header: Header,
     /// Coefficients from which the loads are derived.
     pub(super) theory: Coefficients,
     /// The solver's own coefficients; if they differ, the study must fail.
@@ -114,7 +113,7 @@ pub struct AnyOrder {
 }
 
 impl FromFile for AnyOrder {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
         let problem: &[&str] = if vibration.is_some() { &["vibration"] } else { &["beam", "obstacles", "exact"] };
         root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
@@ -136,7 +135,7 @@ impl FromFile for AnyOrder {
         let series = root.tables("series", "", |section| series(&run, over, section))?;
         let elements: Vec<usize> = series.iter().flat_map(|series| &series.runs).map(|run| run.elements).collect();
         let (solver, layout) = (control(root, theory)?, Layout::read(&run, &elements, None)?);
-        Ok(AnyOrder { header, theory, solver, exact, loaded: vibration.is_none(), layout, t_end, over, series })
+        Ok(AnyOrder { theory, solver, exact, loaded: vibration.is_none(), layout, t_end, over, series })
     }
 }
 
@@ -195,10 +194,6 @@ fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOf
 impl Kind for AnyOrder {
     type Data = Resolution;
     type Found = NamedErrors;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<Resolution>> {
         let case = |&data: &Resolution| {
@@ -282,7 +277,7 @@ impl AnyOrder {
             let title = format!("{letter} = {degree}");
             let caption = format!("Errors for {title}, with the orders of theory (triangles).");
             let what = format!("{letter}{degree}");
-            all.extend(self.levels(series, runs).outcome(&self.header.id, &what, Some(&title), &caption, vec![]));
+            all.extend(self.levels(series, runs).outcome(&what, Some(&title), &caption, vec![]));
         }
         Outcome { summary: summary(&all.rates), ..all }
     }
@@ -348,7 +343,7 @@ impl AnyOrder {
                 ["mesh", "degree p", "error"],
                 rows,
             )],
-            figures: vec![Figure::new(&self.header.id, "degrees", caption, drawing.draw())],
+            figures: vec![Figure::new("degrees", caption, drawing.draw())],
             quantities,
             ..Outcome::new(summary, vec![], checks)
         }

@@ -123,26 +123,21 @@ impl Expectation {
 
 /// A study of this kind.
 pub struct Calibration {
-    header: Header,
     measures: Vec<Measure>,
     expected: Vec<Expectation>,
 }
 
 impl FromFile for Calibration {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "measure", "expect"])?;
         let measures = root.tables("measure", "", Measure::read)?;
-        Ok(Self { header, measures, expected: root.tables("expect", "", Expectation::read)? })
+        Ok(Self { measures, expected: root.tables("expect", "", Expectation::read)? })
     }
 }
 
 impl Kind for Calibration {
     type Data = Measure;
     type Found = Vec<Sheet>;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<Measure>> {
         let case = |&data: &Measure| Case {
@@ -164,7 +159,7 @@ impl Kind for Calibration {
         let summary = format!("{} shares of {} sheets are within their limits", checks.len() - 1, sheets.len());
         Outcome {
             tables: sheets.iter().map(table).collect(),
-            figures: figures(&sheets, &self.header.id),
+            figures: figures(&sheets),
             quantities: sheets.iter().flat_map(guarded).collect(),
             ..Outcome::new(summary, vec![], checks)
         }
@@ -195,7 +190,7 @@ fn table(sheet: &Sheet) -> Table {
 type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 
 /// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order goes unnoticed.
-fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
+fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
         let curve = |(k, row): (usize, &Row)| {
@@ -212,7 +207,7 @@ fn figures(sheets: &[Sheet], id: &str) -> Vec<Figure> {
             notes: vec![note.to_owned()],
             ..Xy::default()
         };
-        Some(Figure::new(id, key, caption, figure.draw()))
+        Some(Figure::new(key, caption, figure.draw()))
     };
     let trade: Points = |_, row| {
         (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()

@@ -41,7 +41,6 @@ const COMPARED: usize = 64;
 /// A study of the steady states in which long runs end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndStates {
-    header: Header,
     scenes: Vec<Scene>,
     /// At least three numbers of elements, ascending.
     elements: Vec<usize>,
@@ -58,7 +57,7 @@ pub struct EndStates {
 }
 
 impl FromFile for EndStates {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "run", "any-order", "expect"])?;
         let run = root.table("run", &["scenes", "elements", "dt", "speed", "t_max"])?;
         let expect = root.table("expect", &["tolerance", "error"])?;
@@ -70,7 +69,6 @@ impl FromFile for EndStates {
             Ok((Discretisation::read(&section, t_end)?, t_end, section.positive("error")?))
         };
         Ok(Self {
-            header,
             scenes: listed_scenes(&run, folder)?,
             elements,
             dt,
@@ -88,10 +86,6 @@ impl Kind for EndStates {
     type Data = (usize, Option<usize>);
     /// Its end, and the nearest stable state.
     type Found = AtRest;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let case = |(scene, elements): (usize, Option<usize>)| {
@@ -140,7 +134,7 @@ impl Kind for EndStates {
         checks.extend(scenes.iter().map(Ends::check));
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
         let figure = bent.figure(
-            format!("{}-errors.svg", self.header.id),
+            "errors",
             None,
             "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.".to_owned(),
             &rates,

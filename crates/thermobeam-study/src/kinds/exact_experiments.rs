@@ -65,7 +65,6 @@ pub struct ShownStates {
 
 /// A study of experiments.
 pub struct ExactExperiments {
-    header: Header,
     scenes: Vec<Scene>,
     times: Vec<f64>,
     discretisations: [Discretisation; 2],
@@ -75,7 +74,7 @@ pub struct ExactExperiments {
 }
 
 impl FromFile for ExactExperiments {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "experiments", "discretisations"])?;
         let section = root.require("experiments", "a table with scenes, times and agreement")?.section()?;
         section.allow(&["scenes", "times", "agreement", "compare"])?;
@@ -95,7 +94,7 @@ impl FromFile for ExactExperiments {
         }
         let t_end = times.last().copied().unwrap_or_default();
         let discretisations = discretisations(root, "discretisations", None, t_end)?;
-        Ok(Self { header, scenes, times, discretisations, agreement, compare })
+        Ok(Self { scenes, times, discretisations, agreement, compare })
     }
 }
 
@@ -120,10 +119,6 @@ impl Kind for ExactExperiments {
     /// A scene, by its place in the list, and the number of the discretisation that it is run by; `None`: its own scheme, mesh and steps.
     type Data = (usize, Option<usize>);
     type Found = ShownStates;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let case = |scene: usize, by: Option<usize>| {
@@ -210,7 +205,7 @@ impl ExactExperiments {
                 looks: looks(scenes.iter().map(|scene| scene.name)),
                 ..plots::History::default()
             };
-            over_time(&self.header.id, what, caption, &history)
+            over_time(what, caption, &history)
         };
         let mut figures = vec![figure(
             "tip",

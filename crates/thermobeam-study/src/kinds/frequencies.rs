@@ -42,7 +42,6 @@ const MET: f64 = 1e-8;
 /// A study of frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frequencies {
-    header: Header,
     /// The lowest judged mode, from 1.
     first: usize,
     /// The highest.
@@ -54,7 +53,7 @@ pub struct Frequencies {
 }
 
 impl FromFile for Frequencies {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "frequencies"])?;
         let keys = ["count", "elements", "order", "tolerance", "first", "degree", "map"];
         let section = root.table("frequencies", &keys)?;
@@ -66,7 +65,6 @@ impl FromFile for Frequencies {
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
         let claim = read_claim(&section, "order")?;
         Ok(Self {
-            header,
             first: section.get("first").map_or(Ok(1), |field| field.count(1..=count))?,
             count,
             degree,
@@ -82,10 +80,6 @@ impl Kind for Frequencies {
     type Data = usize;
     /// The first discrete frequencies, ascending.
     type Found = Vec<f64>;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Bisection to the last bit takes some 60 counts per frequency.
@@ -114,7 +108,7 @@ impl Kind for Frequencies {
         let caption =
             format!("Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}.");
         let title = Some("Discrete frequencies, ω_h - ω");
-        let outcome = levels.outcome(&self.header.id, "errors", title, &caption, checks);
+        let outcome = levels.outcome("errors", title, &caption, checks);
         Outcome { tables: vec![self.table(&levels, &outcome.rates)], ..outcome }
     }
 }

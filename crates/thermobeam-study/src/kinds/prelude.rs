@@ -10,8 +10,8 @@ pub(crate) use convergence_study::run::time_limit::Patience;
 pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
-    Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran, Reading,
-    Refinement, Table, read_claim, reader, readings,
+    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
+    Reading, Refinement, Table, read_claim, reader, readings,
 };
 pub(crate) use convergence_study::text::number::{max_or_nan, min_or_nan, plain_text};
 pub(crate) use thermobeam::equilibrium::{Contact, Equilibrium};
@@ -41,9 +41,9 @@ pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Opti
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
 }
 
-/// Curves over time, in the file `<id>-<what>.svg`.
-pub(crate) fn over_time(id: &str, what: &str, caption: impl Into<String>, history: &plots::History) -> Figure {
-    Figure::new(id, what, caption, plots::history(history))
+/// Curves over time.
+pub(crate) fn over_time(what: &str, caption: impl Into<String>, history: &plots::History) -> Figure {
+    Figure::new(what, caption, plots::history(history))
 }
 
 /// Names of the numbers that are NaN or infinite, for [`completion`].

@@ -52,7 +52,6 @@ const T_END: f64 = 0.4;
 /// A study of errors of random scenes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RandomErrors {
-    header: Header,
     scenes: usize,
     refined: usize,
     targets: Vec<f64>,
@@ -75,12 +74,11 @@ pub struct Found {
 }
 
 impl FromFile for RandomErrors {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", ROW.name])?;
         let section = root.table(ROW.name, &["scenes", "refined", "targets", "seed"])?;
         let positive = |list: &[f64]| !list.is_empty() && list.iter().all(|target| *target > 0.0);
         Ok(Self {
-            header,
             scenes: section.count("scenes", 1..=10_000)?,
             refined: section.count("refined", 1..=10_000)?,
             targets: section.list("targets", "a list of numbers > 0", Field::number, positive)?,
@@ -162,7 +160,7 @@ impl RandomErrors {
         });
         let caption =
             "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
-        Figure::new(&self.header.id, "errors", caption, svg)
+        Figure::new("errors", caption, svg)
     }
 }
 
@@ -174,10 +172,6 @@ impl Kind for RandomErrors {
     /// Number of the scene.
     type Data = usize;
     type Found = Found;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         (0..self.scenes).map(|data| Case { label: format!("scene {data}"), cost: 3e7, data }).collect()

@@ -63,7 +63,6 @@ const COUNT_TOLERANCE: f64 = 0.02;
 /// A study of whole scenes.
 #[derive(Debug, Clone)]
 pub struct Scenes {
-    header: Header,
     scenes: Vec<Whole>,
 }
 
@@ -131,9 +130,9 @@ pub const NUMBERS: [&str; 9] =
 pub const COUNTS: [&str; 6] = ["steps", "iterations", "most iterations", "passes", "factorizations", "contact"];
 
 impl FromFile for Scenes {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "case"])?;
-        Ok(Self { header, scenes: named_cases(root, case)? })
+        Ok(Self { scenes: named_cases(root, case)? })
     }
 }
 
@@ -189,10 +188,6 @@ impl Kind for Scenes {
     /// Number of the scene.
     type Data = usize;
     type Found = Shown;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         let cost = |scene: &Scene| match scene.method {

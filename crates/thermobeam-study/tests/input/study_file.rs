@@ -1,5 +1,5 @@
 use convergence_study::input;
-use convergence_study::study::{Axis, FromFile as _, Header, Kind as _, Tier};
+use convergence_study::study::{Axis, Described, FromFile as _, Header, Kind as _, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver};
@@ -16,8 +16,13 @@ const REFINE: &str = "[refine]\naxis = \"space\"\nisolate = true\nelements = [4,
 const EXPECT: &str = "[[expect]]\nnorm = \"velocity\"\norder = 2\ntolerance = 0.05\n";
 
 #[track_caller]
+fn described(parts: &[&str]) -> Described<Convergence> {
+    Described::parse(&parts.concat(), "s.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
 fn spec(parts: &[&str]) -> Convergence {
-    Convergence::parse(&parts.concat(), "s.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
+    described(parts).kind
 }
 
 #[track_caller]
@@ -34,7 +39,7 @@ fn refine(lines: &str) -> String {
 
 #[test]
 fn the_contracts_example_is_a_study() {
-    let spec = spec(&[r#"
+    let Described { header, kind: spec } = described(&[r#"
         [study]
         id = "theorem-3.4-space"
         claim = "Theorem 3.4: first order in h"
@@ -70,8 +75,8 @@ fn the_contracts_example_is_a_study() {
         order = 2
         tolerance = 0.1
         "#]);
-    assert_eq!((spec.header.id.as_str(), spec.header.tier), ("theorem-3.4-space", Tier::Quick));
-    assert_eq!(spec.header.claim, "Theorem 3.4: first order in h");
+    assert_eq!((header.id.as_str(), header.tier), ("theorem-3.4-space", Tier::Quick));
+    assert_eq!(header.claim, "Theorem 3.4: first order in h");
     assert_eq!(spec.theory.beam, Beam { beta: 0.5, ..Beam::default() });
     assert_eq!(spec.theory.obstacles, Some(Obstacles { epsilon: 0.01, ..Obstacles::default() }));
     assert_eq!([spec.exact.u.len(), spec.exact.phi.len(), spec.exact.theta.len()], [1, 2, 1]);

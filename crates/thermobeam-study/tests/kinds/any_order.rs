@@ -91,12 +91,12 @@ fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off() {
 #[test]
 fn the_control_table_makes_a_study_fail() {
     let text = text("any-order-coefficients.toml");
-    assert_eq!(run_one(&parse(&text)).outcome.verdict, Verdict::Pass);
+    assert_eq!(run_one(&parse(&text)).verdict, Verdict::Pass);
     for control in
         ["zeta = 0.10001", "a = 0.50005", "rho = 2.0002", "beta = 0.50005", "theta_a = 20.002", "epsilon = 0.010001"]
     {
         let off = text.replace("[run]", &format!("[control]\n{control}\n\n[run]"));
-        assert_eq!(run_one(&parse(&off)).outcome.verdict, Verdict::Fail, "{control}");
+        assert_eq!(run_one(&parse(&off)).verdict, Verdict::Fail, "{control}");
     }
 }
 
@@ -139,7 +139,7 @@ fn free_vibrations_pass_and_a_wrong_viscosity_fails() {
     passes_but_not_without_each_case(&read("any-order-vibration.toml"));
     for coefficient in ["zeta = 0.10001", "a = 1e-3", "beta = 1e-6"] {
         let planted = format!("{}\n[control]\n{coefficient}\n", text("any-order-vibration.toml"));
-        assert_eq!(run_one(&parse(&planted)).outcome.verdict, Verdict::Fail, "{coefficient}");
+        assert_eq!(run_one(&parse(&planted)).verdict, Verdict::Fail, "{coefficient}");
     }
     for (from, to, message) in [
         ("modes = [1, 2, 5]", "modes = []", "vibration.modes"),

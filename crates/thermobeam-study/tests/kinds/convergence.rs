@@ -18,7 +18,7 @@ fn outcome(elements: &str, tolerance: &str) -> Outcome {
     let listed = text.lines().find(|line| line.starts_with("elements = ")).unwrap();
     assert!(text.contains("tolerance = 0.002"));
     let text = text.replace(listed, elements).replace("tolerance = 0.002", tolerance);
-    run_one(&Convergence::parse(&text, &file()).unwrap()).outcome
+    run_one(&Convergence::parse(&text, &file()).unwrap())
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
     let least = |order: &str| {
         let text = std::fs::read_to_string(file()).unwrap();
         let text = text.replace("order = 1.0\ntolerance = 0.002", &format!("order = {order}\ntolerance = 0.2"));
-        run_one(&Convergence::parse(&text, &file()).unwrap()).outcome.verdict
+        run_one(&Convergence::parse(&text, &file()).unwrap()).verdict
     };
     assert_eq!((least("\">= 0.5\""), least("\">= 1.5\"")), (Verdict::Pass, Verdict::Fail));
 }

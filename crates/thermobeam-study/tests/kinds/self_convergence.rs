@@ -2,7 +2,7 @@ use crate::typed::{changed, passes_but_not_without_each_case, report};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
-use convergence_study::study::{FromFile, Kind, run_cases_here};
+use convergence_study::study::{Described, FromFile, Kind, run_cases_here};
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::self_convergence::{SelfConvergence, Traced};
 
@@ -44,7 +44,7 @@ fn quick_files_pass_but_not_without_each_case() {
 fn every_file_can_be_read() {
     for name in ["reference-midpoint", "reference-1-space", "reference-1-time", "reference-2-space", "reference-3-time"]
     {
-        assert_eq!(parse(&format!("{name}.toml"), |text| text).header().id, name);
+        assert_eq!(Described::<SelfConvergence>::read(file(&format!("{name}.toml"))).expect(name).header.id, name);
     }
 }
 
@@ -135,14 +135,14 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
 #[test]
 fn a_reference_that_is_not_resolved_is_seen_by_the_other() {
     let coarse = parse("reference-space.toml", |text| text.replace("degree = 24", "degree = 12"));
-    let outcome = run_one(&coarse).outcome;
+    let outcome = run_one(&coarse);
     let check = outcome.checks.iter().find(|check| check.claim.contains("the same reference")).expect("the check");
     assert_eq!((check.verdict, outcome.verdict), (Verdict::Fail, Verdict::Fail), "{}", report(&outcome));
 }
 
 #[test]
 fn an_order_that_the_scheme_has_not_fails() {
-    let outcome = run_one(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0"))).outcome;
+    let outcome = run_one(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0")));
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Fail), "{}", report(&outcome));
 }
@@ -157,7 +157,7 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
 
 #[test]
 fn the_legend_says_of_which_differences_nothing_is_claimed() {
-    let outcome = run_one(&parse("reference-space.toml", |text| text)).outcome;
+    let outcome = run_one(&parse("reference-space.toml", |text| text));
     let svg = &outcome.figures[0].svg;
     assert!(svg.contains("tip-max, reference (not claimed), order 2, "), "{}", outcome.figures[0].file);
     assert!(svg.contains("tip, reference, order 2, "));

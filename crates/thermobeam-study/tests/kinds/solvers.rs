@@ -122,7 +122,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
 #[test]
 fn the_comparison_of_solvers_meets_an_obstacle_and_speaks_of_shade_only_then() {
     let caption = |study: &Solvers| {
-        let mut figures = run_one(study).outcome.figures;
+        let mut figures = run_one(study).figures;
         figures.retain(|figure| figure.file.ends_with("-iterations.svg"));
         let figure = figures.pop().expect("a figure of iterations");
         (figure.caption.contains("shaded"), figure.svg.contains("in contact"))
@@ -137,7 +137,7 @@ fn a_study_may_have_several_parts() {
     let parts = text("stability-coarse.toml").replace("points = 12", "points = 3").replace("[1e-6, 1e-3]", "[1e-3]")
         + "\n[contraction]\nelements = 20\ndt = [1e-3]\nepsilon = [1e-3]\nzeta = [0.1]\n";
     let study = Solvers::parse(&parts, "both.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
-    let outcome = run_one(&study).outcome;
+    let outcome = run_one(&study);
     assert_eq!((study.cases().len(), outcome.tables.len(), outcome.figures.len()), (5, 2, 5));
     assert!(outcome.summary.contains("of alpha; 9 points"), "{}", outcome.summary);
 }

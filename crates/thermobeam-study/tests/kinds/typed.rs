@@ -32,7 +32,7 @@ where
     let sound = run_cases_here(study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}: {}", outcome.summary, report(&outcome));
-    check_shape(&study.header().id, &outcome);
+    check_shape(&outcome);
     for index in 0..sound.len() {
         let mut failed = sound.clone();
         failed[index].found = Err(CaseFailure { reason: "planted".into() });
@@ -46,11 +46,11 @@ where
 
 /// Figures and tables are valid for the report, and numbers for the baseline.
 #[track_caller]
-pub(crate) fn check_shape(id: &str, outcome: &Outcome) {
+pub(crate) fn check_shape(outcome: &Outcome) {
     assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
     assert!(!outcome.quantities.is_empty());
     for figure in &outcome.figures {
-        assert!(figure.file.starts_with(&format!("{id}-")) && figure.file.ends_with(".svg"), "{}", figure.file);
+        assert!(figure.file.len() > ".svg".len() && figure.file.ends_with(".svg"), "{}", figure.file);
         assert!(figure.svg.starts_with("<svg") && !figure.caption.is_empty());
     }
     for table in &outcome.tables {

@@ -5,6 +5,7 @@ use crate::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::outcome::Outcome;
+use convergence_study::study::outcome::settle;
 use convergence_study::study::{CaseFailure, FromFile, Kind, Ran, run_cases_here};
 use thermobeam_study::kinds::work_precision::method::Measurement;
 use thermobeam_study::kinds::work_precision::{Runs, WorkPrecision};
@@ -32,7 +33,7 @@ fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
     let outcome = study.judge(&passes_but_not_without_each_case(&study));
     assert!(outcome.checks.iter().any(|check| check.claim.contains("100 times cheaper")));
     let again = quick();
-    assert_eq!(outcome, run_one(&again).outcome);
+    assert_eq!(settle("study", outcome), run_one(&again));
 }
 
 #[test]
@@ -139,7 +140,7 @@ fn dg_is_measured_as_the_others_are() {
 fn a_claim_that_is_too_bold_fails() {
     let text = crate::text("work-precision-manufactured.toml");
     let study = read(&text.replace("times = 100", "times = 100000")).unwrap();
-    let outcome = run_one(&study).outcome;
+    let outcome = run_one(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert_eq!(failed(&outcome).len(), 1);
 }

@@ -107,7 +107,7 @@ impl<'r> DiagramOf<'r> {
     }
 
     /// The whole diagram, and a close-up of the fork if there is one.
-    fn figures(&self, id: &str) -> Vec<Figure> {
+    fn figures(&self) -> Vec<Figure> {
         let Some(diagram) = self.diagram else { return vec![] };
         let theta_a = self.theta_a();
         let caption = format!(
@@ -115,12 +115,12 @@ impl<'r> DiagramOf<'r> {
              beams come to rest."
         );
         let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
-        let mut figures = vec![Figure::new(id, &format!("theta-a-{theta_a}"), caption, whole)];
+        let mut figures = vec![Figure::new(&format!("theta-a-{theta_a}"), caption, whole)];
         if super::buckles(self.scene) {
             let fork = diagram.event[0];
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
             let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
-            figures.push(Figure::new(id, &format!("theta-a-{theta_a}-fork"), caption, close));
+            figures.push(Figure::new(&format!("theta-a-{theta_a}-fork"), caption, close));
         }
         figures
     }
@@ -170,7 +170,7 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     let (diagrams, runs) = (study.scenes.len(), study.scenes.len() * study.rest.betas.len());
     Outcome {
         tables: vec![force_table(&forces), rest_table(study, &scenes)],
-        figures: scenes.iter().flat_map(|of| of.figures(&study.header.id)).collect(),
+        figures: scenes.iter().flat_map(|of| of.figures()).collect(),
         quantities: events.chain(guarded).chain(levels.quantities(&rates)).collect(),
         levels: levels.errors(),
         headline: headline.clone(),

@@ -36,7 +36,6 @@ const FORK_POINTS: usize = 80;
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BifurcationStudy {
-    header: Header,
     /// One diagram for each scene; their β is overridden.
     scenes: Vec<Scene>,
     /// β of the diagrams.
@@ -73,7 +72,7 @@ pub enum Found {
 }
 
 impl FromFile for BifurcationStudy {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "diagram", "buckling", "rest"])?;
         let diagram = root.table("diagram", &["scenes", "beta", "points"])?;
         let fits = |ends: &[f64]| ends.len() == 2 && increases(ends);
@@ -83,7 +82,6 @@ impl FromFile for BifurcationStudy {
         let buckling = root.table("buckling", &["elements", "tolerance"])?;
         let rest = root.table("rest", &[&["distance"], &ToRest::KEYS[..]].concat())?;
         Ok(Self {
-            header,
             scenes: listed_scenes(&diagram, folder)?,
             grid: (0..points).map(beta).collect(),
             meshes: meshes(&buckling)?,
@@ -97,10 +95,6 @@ impl FromFile for BifurcationStudy {
 impl Kind for BifurcationStudy {
     type Data = DiagramTask;
     type Found = Found;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
     fn cases(&self) -> Vec<Case<DiagramTask>> {

@@ -22,9 +22,8 @@ const TOLERANCE: f64 = 1e-3;
 
 /// A study with perturbed coefficients.
 pub struct AnyOrderControls {
-    header: Header,
     relative: f64,
-    studies: Vec<AnyOrder>,
+    studies: Vec<Described<AnyOrder>>,
     /// No fault at all, then each coefficient.
     faults: Vec<Fault>,
 }
@@ -39,23 +38,23 @@ pub struct Judged {
 }
 
 impl FromFile for AnyOrderControls {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.table("any-order", &["relative", "studies", "coefficients"])?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind any-order beside this one";
-        let read = |file: &Field<'_>| AnyOrder::read(file.file(folder)?);
+        let read = |file: &Field<'_>| Described::<AnyOrder>::read(file.file(folder)?);
         let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;
         let names: Vec<(&str, &'static str)> = Coefficients::names().map(|name| (name, name)).collect();
         let allowed = "a list of at least one coefficient";
         let listed = section.list("coefficients", allowed, |item| item.choice(&names), |list| !list.is_empty())?;
         for study in &studies {
-            if let Some(absent) = listed.iter().find(|key| study.theory.off(key, relative).is_none()) {
-                let found = format!("{absent}, which {} does not have or has zero", study.header().id);
+            if let Some(absent) = listed.iter().find(|key| study.kind.theory.off(key, relative).is_none()) {
+                let found = format!("{absent}, which {} does not have or has zero", study.header.id);
                 return Err(section.refuse("coefficients", found, "coefficients that every study has"));
             }
         }
         let faults = [Fault::None].into_iter().chain(listed.into_iter().map(Fault::Coefficient)).collect();
-        Ok(Self { header, relative, studies, faults })
+        Ok(Self { relative, studies, faults })
     }
 }
 
@@ -64,16 +63,12 @@ impl Kind for AnyOrderControls {
     type Data = (usize, Fault);
     type Found = Judged;
 
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
     fn cases(&self) -> Vec<Case<(usize, Fault)>> {
         let case = |study: usize, fault: Fault| {
             let name = if fault == Fault::None { "no fault" } else { fault.name() };
             Case {
-                label: format!("{}, {name}", self.studies[study].header().id),
-                cost: self.studies[study].cases().iter().map(|case| case.cost).sum(),
+                label: format!("{}, {name}", self.studies[study].header.id),
+                cost: self.studies[study].kind.cases().iter().map(|case| case.cost).sum(),
                 data: (study, fault),
             }
         };
@@ -82,7 +77,7 @@ impl Kind for AnyOrderControls {
     }
 
     fn run(&self, &(study, fault): &(usize, Fault)) -> Result<Judged, CaseFailure> {
-        let study = &self.studies[study];
+        let study = &self.studies[study].kind;
         let solver = match fault {
             Fault::Coefficient(key) => study.theory.off(key, self.relative),
             _ => Some(study.theory),
@@ -102,7 +97,7 @@ impl Kind for AnyOrderControls {
     fn judge(&self, ran: &[Ran<(usize, Fault), Judged>]) -> Outcome {
         // In a run with a fault, a number that is not finite is a detection.
         let completion = completion(ran, |_| vec![]);
-        let mut matrix = Matrix::new(self.studies.iter().map(Kind::header), true, completion);
+        let mut matrix = Matrix::new(&self.studies, true, completion);
         let (mut quantities, mut honest) = (vec![], 0.0);
         for &fault in &self.faults {
             let judged = |study: usize| found(ran, &(study, fault));
@@ -112,7 +107,7 @@ impl Kind for AnyOrderControls {
                 if fault == Fault::None {
                     honest = max_or_nan(honest, error);
                 } else if error.is_finite() {
-                    let name = format!("error with {} off, {}", fault.name(), study.header().id);
+                    let name = format!("error with {} off, {}", fault.name(), study.header.id);
                     quantities.push(Quantity::new(name, error, TOLERANCE));
                 }
             }

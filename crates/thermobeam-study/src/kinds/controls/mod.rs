@@ -101,13 +101,16 @@ fn relative(field: &Field<'_>) -> Result<f64, InputError> {
 }
 
 /// The studies that a section names, with the section's own levels if it has any.
-fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Convergence>, InputError> {
-    let file = |item: &Field<'_>| Convergence::read(item.file(folder)?);
+fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Described<Convergence>>, InputError> {
+    let file = |item: &Field<'_>| Described::<Convergence>::read(item.file(folder)?);
     let allowed = "a list of at least one study file beside this one";
     let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
     if section.get("elements").is_some() {
         let levels = section.list("elements", "a list of numbers of elements", tables::elements, |_| true)?;
-        studies.iter_mut().filter(|_| !levels.is_empty()).for_each(|spec| spec.refine.elements.clone_from(&levels));
+        studies
+            .iter_mut()
+            .filter(|_| !levels.is_empty())
+            .for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
     }
     Ok(studies)
 }
@@ -125,8 +128,8 @@ struct Matrix<'s> {
 }
 
 impl<'s> Matrix<'s> {
-    fn new(ids: impl Iterator<Item = &'s Header>, every: bool, completion: Check) -> Self {
-        let ids = ids.map(|header| header.id.as_str()).collect();
+    fn new<K>(studies: &'s [Described<K>], every: bool, completion: Check) -> Self {
+        let ids = studies.iter().map(|study| study.header.id.as_str()).collect();
         Self { ids, every, checks: vec![completion], rows: vec![], faults: 0, detected: 0 }
     }
 
@@ -157,19 +160,18 @@ impl<'s> Matrix<'s> {
 
 /// A study of planted faults.
 pub struct Controls {
-    header: Header,
     relative: f64,
-    studies: Vec<Convergence>,
+    studies: Vec<Described<Convergence>>,
 }
 
 /// Index of a study, with the elements and steps of one of its levels, on which every fault is planted.
 type LevelOf = (usize, (usize, usize));
 
 impl FromFile for Controls {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.table("controls", &["relative", "studies", "elements"])?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
-        Ok(Self { header, relative, studies: named_studies(&section, folder)? })
+        Ok(Self { relative, studies: named_studies(&section, folder)? })
     }
 }
 
@@ -178,10 +180,6 @@ impl Kind for Controls {
     /// One run for each fault that can be planted, with its errors; NaN if it broke down.
     type Found = Vec<(Fault, Norms)>;
 
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let faults = Fault::all().len() as f64;
         let case = |study: usize, (n, steps): (usize, usize)| Case {
@@ -189,12 +187,13 @@ impl Kind for Controls {
             cost: n as f64 * (steps as f64 * faults + 50.0),
             data: (study, (n, steps)),
         };
-        let levels = |study: usize| self.studies[study].refine.cases().into_iter().map(move |level| case(study, level));
+        let levels =
+            |study: usize| self.studies[study].kind.refine.cases().into_iter().map(move |level| case(study, level));
         (0..self.studies.len()).flat_map(levels).collect()
     }
 
     fn run(&self, &(study, (elements, steps)): &Self::Data) -> Result<Vec<(Fault, Norms)>, CaseFailure> {
-        let spec = &self.studies[study];
+        let spec = &self.studies[study].kind;
         let mut prepared = Prepared::new(spec, elements)?;
         let mut found = vec![];
         for fault in Fault::all() {
@@ -216,8 +215,7 @@ impl Kind for Controls {
             let finite = honest.is_some_and(|errors| errors.iter().all(|(_, error)| error.is_finite()));
             if finite { vec![] } else { vec!["an error without a fault".to_owned()] }
         };
-        let headers = self.studies.iter().map(|spec| &spec.header);
-        let mut matrix = Matrix::new(headers, false, completion(ran, not_finite));
+        let mut matrix = Matrix::new(&self.studies, false, completion(ran, not_finite));
         for fault in Fault::all() {
             let verdicts: Vec<_> = (0..self.studies.len()).map(|study| self.verdict(study, fault, ran)).collect();
             let cell = |verdict: &Option<Verdict>| verdict.map_or("n/a", Verdict::name).to_owned();
@@ -234,7 +232,7 @@ impl Kind for Controls {
 impl Controls {
     /// The verdict of one study under one fault, the worst over its norms; `None` if the fault cannot be planted.
     fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Option<Verdict> {
-        let spec = &self.studies[study];
+        let spec = &self.studies[study].kind;
         fault.plant(spec, self.relative)?;
         let level = |ran: &Ran<LevelOf, Vec<(Fault, Norms)>>| {
             let errors = ran.ok().and_then(|found| errors_with(found, fault));

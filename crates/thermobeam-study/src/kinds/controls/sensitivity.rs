@@ -19,20 +19,19 @@ const BISECTIONS: usize = 9;
 
 /// A study of the smallest detected errors.
 pub struct Sensitivity {
-    header: Header,
-    studies: Vec<Convergence>,
+    studies: Vec<Described<Convergence>>,
     range: [f64; 2],
     at_most: f64,
 }
 
 impl FromFile for Sensitivity {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.table("sensitivity", &["studies", "elements", "range", "at_most"])?;
         let ascending = "a list of two ascending numbers between 0 and 1";
         let range = section.list("range", ascending, relative, |ends| ends.len() == 2 && increases(ends))?;
         let studies = named_studies(&section, folder)?;
         let at_most = relative(&section.require("at_most", RELATIVE)?)?;
-        Ok(Self { header, studies, range: [range[0], range[1]], at_most })
+        Ok(Self { studies, range: [range[0], range[1]], at_most })
     }
 }
 
@@ -42,17 +41,13 @@ impl Kind for Sensitivity {
     /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
 
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
     fn cases(&self) -> Vec<Case<Self::Data>> {
-        let cost = |spec: &Convergence| -> f64 {
+        let cost = |spec: &Described<Convergence>| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
-            spec.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
+            spec.kind.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
         };
-        let of_study = |(study, spec): (usize, &Convergence)| {
-            let can_be_planted = |key: &&'static str| spec.theory.off(key, self.at_most).is_some();
+        let of_study = |(study, spec): (usize, &Described<Convergence>)| {
+            let can_be_planted = |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
             let label = |key: &str| format!("{key} in {}", spec.header.id);
             let case = |key| Case { label: label(key), cost: cost(spec), data: (study, key) };
             Coefficients::names().filter(can_be_planted).map(case).collect::<Vec<_>>()
@@ -61,7 +56,7 @@ impl Kind for Sensitivity {
     }
 
     fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
-        let study = &self.studies[study];
+        let study = &self.studies[study].kind;
         let mut detector = Detector::new(study)?;
         let mut detects = |relative| study.theory.off(key, relative).is_some_and(|off| detector.detects(off));
         let [least, most] = self.range;

@@ -60,8 +60,6 @@ const PREPARATION: f64 = 50.0;
 /// A convergence study, validated.
 #[derive(Debug, Clone)]
 pub struct Convergence {
-    /// Id, claim and tier.
-    pub header: Header,
     /// Coefficients from which the sources are derived.
     pub theory: Coefficients,
     /// The solver's own coefficients; if they differ, the study must fail.
@@ -75,7 +73,7 @@ pub struct Convergence {
 }
 
 impl FromFile for Convergence {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(header: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         // Studies of other kinds name files of this kind.
         if header.kind != ROW.name {
             let study = root.require("study", "a table")?.section()?;
@@ -95,7 +93,7 @@ impl FromFile for Convergence {
                 "orders alone, for a grid has one in h and in dt",
             ));
         }
-        Ok(Self { header, theory, solver, exact, refine, expect })
+        Ok(Self { theory, solver, exact, refine, expect })
     }
 }
 
@@ -104,10 +102,6 @@ impl Kind for Convergence {
     type Data = (usize, usize);
     /// The error in each norm, the maximum over the time levels.
     type Found = Norms;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
         self.refine.cases().into_iter().map(Self::case).collect()
@@ -135,7 +129,7 @@ impl Kind for Convergence {
             Axis::Both => "the mesh width 1/n, refined together with the time step",
         };
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
-        let outcome = levels.outcome(&self.header.id, "rates", None, &caption, vec![completion]);
+        let outcome = levels.outcome("rates", None, &caption, vec![completion]);
         match self.next(ran, &levels).zip(self.refine.budget) {
             Some((next, budget)) => until_decided::ended(outcome, next, &levels, budget, "node-steps"),
             None => outcome,
@@ -202,7 +196,7 @@ impl Convergence {
         outcome.extend(Outcome::new("", vec![], vec![completion]));
         Outcome {
             levels: levels.errors(),
-            figures: grid.figures(&self.header.id, "norm"),
+            figures: grid.figures("norm"),
             quantities: levels.quantities(&outcome.rates),
             ..outcome
         }

@@ -40,7 +40,6 @@ const ZERO: f64 = 1e-18;
 /// A study of random scenes.
 #[derive(Debug, Clone)]
 pub struct RandomScenes {
-    header: Header,
     batches: usize,
     steps: usize,
     seed: u64,
@@ -69,10 +68,9 @@ pub struct Batch {
 }
 
 impl FromFile for RandomScenes {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let section = root.table("random", &["batches", "steps", "seed"])?;
         Ok(Self {
-            header,
             batches: section.count("batches", 1..=100_000)?,
             steps: section.count("steps", 1..=limits::STEPS)?,
             seed: section.count("seed", 0..=u32::MAX as usize)? as u64,
@@ -84,10 +82,6 @@ impl Kind for RandomScenes {
     /// Number of the batch.
     type Data = usize;
     type Found = Batch;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
@@ -129,7 +123,7 @@ impl Kind for RandomScenes {
         Outcome {
             headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
             tables: vec![counts, self.exceptions(&total)],
-            figures: vec![residuals(&self.header.id, &total.scenes)],
+            figures: vec![residuals(&total.scenes)],
             quantities,
             ..Outcome::new(summary, vec![], checks)
         }
@@ -259,7 +253,7 @@ impl Batch {
 }
 
 /// The largest residual in each cell of (dt, shortest element).
-fn residuals(id: &str, scenes: &[[f64; 3]]) -> Figure {
+fn residuals(scenes: &[[f64; 3]]) -> Figure {
     // NaN in cells without a scene.
     let mut values = vec![vec![f64::NAN; CELLS]; CELLS];
     for &[dt, shortest, residual] in scenes {
@@ -282,7 +276,7 @@ fn residuals(id: &str, scenes: &[[f64; 3]]) -> Figure {
     };
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";
-    Figure::new(id, "residuals", caption, plots::surface(&map))
+    Figure::new("residuals", caption, plots::surface(&map))
 }
 
 /// The cell of a value along an axis.

@@ -45,7 +45,6 @@ const SCALED: usize = 8;
 /// A study of this kind.
 #[derive(Clone)]
 pub struct EnergyRuns {
-    header: Header,
     runs: Vec<EnergyRun>,
     /// Whether the figures show energy and residual over time; else they show the sum of the residuals over the steps.
     histories: bool,
@@ -113,10 +112,10 @@ pub struct EnergyAt {
 }
 
 impl FromFile for EnergyRuns {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let energy = root.section("energy")?;
         let runs = energy.as_ref().map_or_else(|| cases(root), |section| listed(section, folder))?;
-        Ok(Self { header, runs, histories: energy.is_some() })
+        Ok(Self { runs, histories: energy.is_some() })
     }
 }
 
@@ -197,10 +196,6 @@ impl Kind for EnergyRuns {
     /// Number of the run.
     type Data = usize;
     type Found = Found;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
@@ -375,7 +370,6 @@ impl EnergyRuns {
             bounds.dedup();
             bounds.into_iter().map(|value| plots::Guide { label: "allowed".to_owned(), value }).collect()
         };
-        let id = &self.header.id;
         if !self.histories {
             let drift = plots::History {
                 x_label: "steps".to_owned(),
@@ -385,7 +379,7 @@ impl EnergyRuns {
                 ..plots::History::default()
             };
             let caption = "Sum of the signed residuals of the energy balance up to each step.";
-            return vec![over_time(id, "drift", caption, &drift)];
+            return vec![over_time("drift", caption, &drift)];
         }
         let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
         let energy = plots::History {
@@ -403,8 +397,8 @@ impl EnergyRuns {
         };
         let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
         vec![
-            over_time(id, "energy", "The energy, in units of its initial size: it never rises.", &energy),
-            over_time(id, "balance", caption, &balance),
+            over_time("energy", "The energy, in units of its initial size: it never rises.", &energy),
+            over_time("balance", caption, &balance),
         ]
     }
 }

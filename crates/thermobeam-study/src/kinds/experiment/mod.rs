@@ -78,7 +78,6 @@ struct Experiment {
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiments {
-    header: Header,
     experiments: Vec<Experiment>,
     /// A longer run fails.
     t_max: f64,
@@ -100,7 +99,7 @@ pub enum Found {
 }
 
 impl FromFile for Experiments {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "experiments", "run", "steady"])?;
         let run = root.table("run", &["elements", "dt", "t_max", "window", "rate"])?;
         let (t_max, window, rate) = (run.positive("t_max")?, run.positive("window")?, run.positive("rate")?);
@@ -111,7 +110,7 @@ impl FromFile for Experiments {
             limits::steps_until(&field, t_max, scene.dt(), limits::STEPS)?;
         }
         let rest = ToRest::read(&root.table("steady", &ToRest::KEYS)?)?;
-        Ok(Self { header, experiments, t_max, window, rate, rest })
+        Ok(Self { experiments, t_max, window, rate, rest })
     }
 }
 
@@ -154,10 +153,6 @@ impl Kind for Experiments {
     /// Number of the case: the experiments, then the runs to rest.
     type Data = usize;
     type Found = Found;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     /// The seven experiments, then for each β a moving beam until it rests.
     fn cases(&self) -> Vec<Case<usize>> {

@@ -38,7 +38,6 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
     let first = OfGroup::of(study, ran, |group| group == SectionGroup::First).runs;
     let second = OfGroup::of(study, ran, |group| matches!(group, SectionGroup::Second(_))).runs;
     let third = OfGroup::of(study, ran, |group| group == SectionGroup::Third).runs;
-    let id = &study.header.id;
     // The middle one has no axial force at rest.
     let beam = first.get(first.len() / 2).map(|(experiment, run)| {
         let caption = format!("The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.", beta_label(experiment));
@@ -50,7 +49,7 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
             obstacles: experiment.scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
             seconds: SECONDS,
         });
-        Figure::new(id, "beam", caption, svg)
+        Figure::new("beam", caption, svg)
     });
     let above = |experiment: &Experiment, point: &Sample| point.energy - straight_energy(&experiment.scene);
     let decay = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
@@ -80,7 +79,7 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
             curves(&first, decay, true, above),
         ),
     ];
-    beam.into_iter().chain(drawn.map(|(what, caption, history)| over_time(id, what, caption, &history))).collect()
+    beam.into_iter().chain(drawn.map(|(what, caption, history)| over_time(what, caption, &history))).collect()
 }
 
 fn beta_label(experiment: &Experiment) -> String {

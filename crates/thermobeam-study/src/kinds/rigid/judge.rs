@@ -219,7 +219,6 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
 
 /// The first figure omits the distance to the rigid limit: on its scale it coincides with the largest penetration.
 fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
-    let id = &study.header.id;
     let of_fixed_point = |label: &str, converges: bool| {
         let runs = all.iter().filter(|of| of.fixed_point.is_some_and(|run| run.failed_at.is_none() == converges));
         let points = runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))).collect();
@@ -228,15 +227,13 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
     let series = vec![of_fixed_point("converges", true), of_fixed_point("fails", false)];
     vec![
         Figure::new(
-            id,
             "penetration",
             "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; order \
              2/3 where it is resolved.",
             penetrations(all),
         ),
-        over_time(id, "tip", "Displacement of the free end as the obstacles become rigid.", &tip(study, all, limit)),
+        over_time("tip", "Displacement of the free end as the obstacles become rigid.", &tip(study, all, limit)),
         Figure::new(
-            id,
             "contraction",
             "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.",
             contraction(&series),

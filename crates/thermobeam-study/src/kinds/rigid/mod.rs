@@ -42,7 +42,6 @@ pub const ROW: KindRow = KindRow {
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidStudy {
-    header: Header,
     /// Compliances, descending.
     epsilons: Vec<f64>,
     /// The compliance that represents a rigid obstacle.
@@ -102,7 +101,7 @@ pub struct ShownImpact {
 }
 
 impl FromFile for RigidStudy {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
         let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
         let judge = Judge::new(tolerance(&obstacles)?);
@@ -118,7 +117,6 @@ impl FromFile for RigidStudy {
                 && list.iter().all(|epsilon| *epsilon > 0.0)
         };
         Ok(Self {
-            header,
             epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
             limit: obstacles.positive("limit")?,
             judge,
@@ -164,10 +162,6 @@ impl Kind for RigidStudy {
     /// Compliance of the obstacles, and the computation.
     type Data = (f64, RunOf);
     type Found = ShownImpact;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     /// The rigid limit, then each compliance in four scenes.
     fn cases(&self) -> Vec<Case<Self::Data>> {

@@ -124,7 +124,7 @@ fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: 
         column.name = not_claimed(&column.name);
     }
     differences.figure(
-        format!("{}-errors.svg", study.header.id),
+        "errors",
         Some(format!("Differences to a run of any order: {}", study.scene.name)),
         "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
         &rates,
@@ -149,7 +149,7 @@ fn tip(study: &SelfConvergence, ran: &Results) -> Figure {
         series: (0..reference).map(curve).collect(),
         ..plots::History::default()
     };
-    over_time(&study.header.id, "tip", "Distance of u(1, t) to the reference on each level.", &history)
+    over_time("tip", "Distance of u(1, t) to the reference on each level.", &history)
 }
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.

@@ -62,7 +62,6 @@ pub const ROW: KindRow = KindRow {
 /// A study of rates without an exact solution.
 #[derive(Debug)]
 pub struct SelfConvergence {
-    header: Header,
     /// The scene by the scheme of the study.
     scene: Scene,
     axis: Axis,
@@ -82,7 +81,7 @@ pub struct SelfConvergence {
 }
 
 impl FromFile for SelfConvergence {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "scene", "refine", "reference", "expect"])?;
         let named = root.table("scene", &["file"])?;
         let file = named.require("file", "the path of a scene, from this file's folder")?;
@@ -103,7 +102,6 @@ impl FromFile for SelfConvergence {
         }
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
-            header,
             axis,
             levels,
             order_in_time: stepping.scheme.order * power,
@@ -166,10 +164,6 @@ impl Kind for SelfConvergence {
     /// Number of the run: the levels, then the two references.
     type Data = usize;
     type Found = Traced;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<usize>> {
         let level = |&(n, steps): &(usize, usize)| (Refine::label(n, steps), n as f64 * steps as f64);

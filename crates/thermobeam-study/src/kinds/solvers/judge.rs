@@ -23,7 +23,7 @@ type MapRows<'r> = [(f64, &'r [Point])];
 type Lines<'r> = [(f64, &'r Boundary)];
 
 impl Map {
-    pub(super) fn judge(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Outcome {
+    pub(super) fn judge(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Outcome {
         let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
         checks.extend([self.newton_completes(rows), newton_is_quick(rows)]);
         checks.extend(energy(rows));
@@ -45,7 +45,7 @@ impl Map {
                 "boundary within {worst:.2} % of alpha = 1, residual at most {residual:.1e} of the energy"
             ),
             tables: vec![self.boundaries(lines)],
-            figures: self.figures(id, rows, lines),
+            figures: self.figures(rows, lines),
             quantities: self.quantities(lines, converged as f64),
             ..Outcome::new(summary, vec![], checks)
         }
@@ -200,7 +200,7 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
 }
 
 impl Map {
-    fn figures(&self, id: &str, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
+    fn figures(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
         let over = self.over.name();
         // Missing values mean that the solver fails, and the map is hatched; values below `least` are shown as `least`.
         let draw = |file: &str,
@@ -225,7 +225,7 @@ impl Map {
                 marked_label: fails.to_owned(),
                 boundaries,
             };
-            Figure::new(id, file, caption, plots::surface(&map))
+            Figure::new(file, caption, plots::surface(&map))
         };
         let fixed_point = |file: &str, caption: String, z, value: &dyn Fn(&FixedPointStep) -> f64| {
             let value = |point: &Point| point.step.converged.then(|| value(&point.step));

@@ -56,7 +56,6 @@ pub const ROW: KindRow = KindRow {
 /// A study of the two solvers; it has at least one part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solvers {
-    header: Header,
     contraction: Option<parts::Grid>,
     comparison: Option<parts::Comparison>,
     map: Option<map::Map>,
@@ -104,7 +103,7 @@ impl Found {
 }
 
 impl FromFile for Solvers {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let parts = ["contraction", "comparison", "map"];
         root.allow(&[&["study"], &parts[..]].concat())?;
         if parts.iter().all(|part| root.get(part).is_none()) {
@@ -112,7 +111,6 @@ impl FromFile for Solvers {
             return Err(root.missing(parts[0], &allowed));
         }
         Ok(Self {
-            header,
             contraction: root.section(parts[0])?.map(|section| parts::Grid::read(&section)).transpose()?,
             comparison: root.section(parts[1])?.map(|section| parts::Comparison::read(&section, folder)).transpose()?,
             map: root.section(parts[2])?.map(|section| map::Map::read(&section)).transpose()?,
@@ -133,10 +131,6 @@ fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
 impl Kind for Solvers {
     type Data = SolverTask;
     type Found = Found;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<SolverTask>> {
         let contraction = self.contraction.iter().flat_map(parts::Grid::cases);
@@ -165,10 +159,9 @@ impl Kind for Solvers {
                 _ => {}
             }
         }
-        let id = &self.header.id;
-        let contraction = self.contraction.as_ref().map(|_| parts::judge_contraction(id, &factors));
-        let comparison = self.comparison.as_ref().map(|_| parts::judge_comparison(id, &agreements));
-        let map = self.map.as_ref().map(|map| map.judge(id, &rows, &lines));
+        let contraction = self.contraction.as_ref().map(|_| parts::judge_contraction(&factors));
+        let comparison = self.comparison.as_ref().map(|_| parts::judge_comparison(&agreements));
+        let map = self.map.as_ref().map(|map| map.judge(&rows, &lines));
         let parts: Vec<Outcome> = [contraction, comparison, map].into_iter().flatten().collect();
         let join = |text: fn(&Outcome) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
         let (summary, headline) = (join(|part| &part.summary), join(|part| &part.headline));

@@ -61,7 +61,7 @@ fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
 }
 
 /// * `found`: the results, each with its (dt, ε, ζ).
-pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &FixedPointStep)]) -> Outcome {
+pub(super) fn judge_contraction(found: &[([f64; 3], &FixedPointStep)]) -> Outcome {
     let (mut checks, mut rows, mut quantities) = (vec![], vec![], vec![]);
     let mut worst = 0.0;
     for &(at, &FixedPointStep { alpha, gamma, converged, iterations, contraction, .. }) in found {
@@ -87,13 +87,13 @@ pub(super) fn judge_contraction(id: &str, found: &[([f64; 3], &FixedPointStep)])
     Outcome {
         headline: summary.clone(),
         tables: vec![Table::new("Contraction factor in contact", head, rows)],
-        figures: vec![contraction_figure(id, found)],
+        figures: vec![contraction_figure(found)],
         quantities,
         ..Outcome::new(summary, vec![], checks)
     }
 }
 
-fn contraction_figure(id: &str, found: &[([f64; 3], &FixedPointStep)]) -> Figure {
+fn contraction_figure(found: &[([f64; 3], &FixedPointStep)]) -> Figure {
     let mut zetas: Vec<f64> = found.iter().map(|([_, _, zeta], _)| *zeta).collect();
     zetas.dedup();
     let series = zetas.iter().map(|zeta| {
@@ -104,7 +104,7 @@ fn contraction_figure(id: &str, found: &[([f64; 3], &FixedPointStep)]) -> Figure
     let svg = figures::contraction(&series.collect::<Vec<_>>());
     let caption =
         "Contraction factor of the fixed point in contact, measured over predicted; from 1 on it does not converge.";
-    Figure::new(id, "contraction", caption, svg)
+    Figure::new("contraction", caption, svg)
 }
 
 /// Tolerance of the Newton run that is compared with the fixed point.
@@ -187,7 +187,7 @@ impl Comparison {
 }
 
 /// * `found`: the results, each with its tolerance η*.
-pub(super) fn judge_comparison(id: &str, found: &[(f64, &Agreement)]) -> Outcome {
+pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
     let check = |(eta, found): &(f64, &Agreement)| {
         // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the rest.
         let evidence = format!("{:.2e}, {:.3} of the tolerance", found.distance, found.distance / eta);
@@ -209,12 +209,12 @@ pub(super) fn judge_comparison(id: &str, found: &[(f64, &Agreement)]) -> Outcome
     Outcome {
         headline: summary.clone(),
         tables: vec![Table::new(title, head, found.iter().map(row))],
-        figures: vec![iterations_figure(id, last)],
+        figures: vec![iterations_figure(last)],
         ..Outcome::new(summary, vec![], found.iter().map(check).collect())
     }
 }
 
-fn iterations_figure(id: &str, found: Option<&Agreement>) -> Figure {
+fn iterations_figure(found: Option<&Agreement>) -> Figure {
     let curve = |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
     let series = |label: &str, points| plots::Series { label: label.to_owned(), points };
     let series = vec![
@@ -226,5 +226,5 @@ fn iterations_figure(id: &str, found: Option<&Agreement>) -> Figure {
     let caption =
         format!("Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}.");
     let svg = plots::iterations(&plots::History { series, phases, ..plots::History::default() });
-    Figure::new(id, "iterations", caption, svg)
+    Figure::new("iterations", caption, svg)
 }

@@ -34,7 +34,6 @@ const CLOSED_FORM: f64 = 1e-12;
 /// A study of exact vibrations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibration {
-    header: Header,
     /// The beam with exact modes; it has no obstacles.
     theory: Coefficients,
     /// The solver's coefficients: another beam in a negative control.
@@ -60,14 +59,14 @@ pub struct Vibrated {
 }
 
 impl FromFile for Vibration {
-    fn from_document(header: Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
         let theory = linear_beam(root)?;
         let refine = refine(root)?;
         bounded(root, &refine)?;
         let (modes, heat) = (modes(root, &refine)?, heat(root, &refine)?);
         let solver = control(root, theory)?;
-        Ok(Self { header, theory, solver, modes, heat, refine, expect: expectations(root)? })
+        Ok(Self { theory, solver, modes, heat, refine, expect: expectations(root)? })
     }
 }
 
@@ -135,10 +134,6 @@ impl Kind for Vibration {
     type Data = (usize, usize);
     type Found = Vibrated;
 
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
         let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
         let case = |data: (usize, usize)| Case { label: Refine::label(data.0, data.1), cost: cost(data), data };
@@ -198,7 +193,7 @@ impl Kind for Vibration {
         let levels = norm_levels(&self.refine, &self.expect, step, errors);
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
         let title = Some("Damped vibration, no source term");
-        let mut outcome = levels.outcome(&self.header.id, "errors", title, caption, checks);
+        let mut outcome = levels.outcome("errors", title, caption, checks);
         if self.refine.axis == Axis::Both {
             outcome.figures.extend(self.tip_figure(ran));
         }
@@ -249,6 +244,6 @@ impl Vibration {
             ..plots::History::default()
         });
         let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        Some(Figure::new(&self.header.id, "tip", caption, svg))
+        Some(Figure::new("tip", caption, svg))
     }
 }

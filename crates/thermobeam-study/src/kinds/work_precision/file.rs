@@ -34,7 +34,7 @@ const KEYS: [&str; 12] = [
 ];
 
 impl FromFile for WorkPrecision {
-    fn from_document(header: Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", ROW.name, "reference", "advantage"])?;
         let section = root.table(ROW.name, &KEYS)?;
         let steps = levels(&section, "steps", limits::STEPS)?;
@@ -46,7 +46,6 @@ impl FromFile for WorkPrecision {
         let diagonal = diagonal(&section, &elements, &steps)?;
         let (family, answer) = problem(root, &section, folder, diagonal.is_some())?;
         Ok(Self {
-            header,
             family,
             answer,
             dg: dg(&section)?,

@@ -90,7 +90,7 @@ pub(super) fn judge(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) 
     let quantities = study.quantities().iter();
     outcome.tables = quantities.clone().map(|&quantity| winners(quantity, &rows)).collect();
     outcome.tables.extend([laws(&rows), runs(study, ran)].into_iter().filter(|table| !table.rows.is_empty()));
-    outcome.figures = quantities.map(|&quantity| figure(study, quantity, &rows)).collect();
+    outcome.figures = quantities.map(|&quantity| figure(quantity, &rows)).collect();
     outcome.quantities = guarded(&rows, &ratios);
     outcome
 }
@@ -271,7 +271,7 @@ fn runs(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Table {
     readings::table("Largest errors over time, and counted work", &["run"], &single.map(line).collect::<Vec<_>>())
 }
 
-fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
+fn figure(quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
     let series = of_quantity.map(|row| plots::Series {
         label: row.method.name.to_owned(),
@@ -287,7 +287,7 @@ fn figure(study: &WorkPrecision, quantity: ErrorMeasure, rows: &[MethodRow]) -> 
         "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",
         quantity.name()
     );
-    Figure::new(&study.header.id, quantity.name(), caption, svg)
+    Figure::new(quantity.name(), caption, svg)
 }
 
 /// Costs by the laws, and the ratios claimed for dG.

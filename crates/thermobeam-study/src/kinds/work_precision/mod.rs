@@ -72,7 +72,6 @@ pub struct Advantage {
 
 /// A study of this kind.
 pub struct WorkPrecision {
-    header: Header,
     family: Family,
     answer: Yardstick,
     elements: Vec<usize>,
@@ -213,10 +212,6 @@ impl Kind for WorkPrecision {
     type Data = Runs;
     /// One measurement for each number of steps; only the counted cost is judged, not the seconds.
     type Found = Vec<Measurement>;
-
-    fn header(&self) -> &Header {
-        &self.header
-    }
 
     fn cases(&self) -> Vec<Case<Runs>> {
         let case = |data: Runs| match data {

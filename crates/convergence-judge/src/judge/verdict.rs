@@ -13,11 +13,13 @@ mod outcome;
 mod reading;
 mod reason;
 mod trend;
+mod words;
 
-pub use outcome::{Aside, PowerLaw, RateVerdict, SetAside, Verdict};
+pub use outcome::{PowerLaw, RateVerdict};
 pub(crate) use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away, grows};
+pub use words::{Aside, SetAside, Verdict};
 
 /// Two rates and one difference of them: with fewer, nothing tells a rate from chance.
 pub const FEWEST_LEVELS: usize = 3;

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::outcome::{Aside, SetAside};
 use super::reason::Reason;
+use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
     Level, RateInterval, asymptotic_range, extrapolated_rate, outlier, pairwise_rates, rate_interval,

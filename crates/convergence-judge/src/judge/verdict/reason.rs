@@ -1,6 +1,6 @@
 //! The reasons for verdicts: one list, with the words that every command, report and file uses.
 
-use super::Verdict;
+use super::words::Verdict;
 
 /// The reason for a verdict; each reason has one verdict, and they are in the order pass, fail, inconclusive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, serde::Serialize, serde::Deserialize)]

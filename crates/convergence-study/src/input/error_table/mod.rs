@@ -20,6 +20,7 @@ mod digits;
 pub(crate) mod names;
 mod number;
 mod pairs;
+mod reader;
 mod roles;
 mod step;
 mod text;

@@ -2,8 +2,19 @@
 
 use super::names::Word;
 use super::number::{is_dash, number};
-use super::text::RawTable;
 use crate::text::number::counted;
+
+/// A table as written. Names and cells are slices of the text, which give their places.
+#[derive(Debug, Default)]
+pub(super) struct RawTable<'t> {
+    /// A name for each column, or an empty one.
+    pub(super) names: Vec<&'t str>,
+    pub(super) rows: Vec<Vec<&'t str>>,
+    /// Whether a comma in a cell is a decimal comma.
+    pub(super) decimal_comma: bool,
+    /// What is not a column of the table, with the reason.
+    pub(super) left_out: Vec<(String, String)>,
+}
 
 /// Levels of a log before a name.
 const LEVELS: [&str; 4] = ["INFO ", "DEBUG ", "WARNING ", "ERROR "];

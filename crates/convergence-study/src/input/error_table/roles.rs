@@ -3,29 +3,13 @@
 use std::collections::HashSet;
 
 use super::columns::{Cells, Trend};
-use super::names::{self, Word};
-use super::number::{halves, number};
+use super::names::Word;
+use super::reader::{NEIGHBOURS, TableReader, listed};
 use super::step::Step;
-use super::text::{self, RawTable};
 use super::{Choice, Column, RateTable};
-use crate::input::{Complaint, InputError, Source, shorten};
+use crate::input::{InputError, shorten};
 use crate::judge::verdict::Level;
-use crate::text::names::{did_you_mean, nearest};
-use crate::text::number::{counted, plain_text};
-
-/// Most names that a message lists.
-const LISTED: usize = 12;
-/// Rates are searched for among this many columns on either side.
-pub(super) const NEIGHBOURS: usize = 40;
-
-/// A table and the choices of the user.
-pub(super) struct TableReader<'t> {
-    text: &'t str,
-    file: &'t str,
-    pub(super) choice: &'t Choice,
-    table: RawTable<'t>,
-    pub(super) columns: Vec<Cells<'t>>,
-}
+use crate::text::number::plain_text;
 
 /// What an unchosen column holds; if it is not an error, why.
 enum Holds {
@@ -38,8 +22,7 @@ enum Holds {
 
 /// Reads the step and the chosen errors.
 pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
-    let mut reader = TableReader { text, file, choice, table: text::read(text), columns: vec![] };
-    reader.columns = reader.filled()?;
+    let mut reader = TableReader::new(text, file, choice)?;
     let step = reader.step()?;
     let steps = reader.sort(&step)?;
     let [errors, values] = reader.chosen(step.column)?;
@@ -77,70 +60,7 @@ fn reasons(others: &[(String, String)]) -> String {
     listed(others.iter().map(|(name, why)| format!("`{name}` ({why})")))
 }
 
-/// Names in a message, but not too many.
-pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
-    let names: Vec<String> = names.take(LISTED + 1).collect();
-    names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
-}
-
-impl<'t> TableReader<'t> {
-    /// The columns; refuses a text without a table, and names that do not fit its columns.
-    fn filled(&self) -> Result<Vec<Cells<'t>>, InputError> {
-        let RawTable { names, rows, .. } = &self.table;
-        let width = rows.iter().map(Vec::len).max().unwrap_or(0);
-        if width == 0 {
-            let line = self.text.lines().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
-            let found = line.map_or("an empty table".to_owned(), |line| format!("no row of numbers, but `{line}`"));
-            let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
-            return Err(self.refuse(expected, &found));
-        }
-        let shown = || names.iter().map(|name| names::shown(name)).collect();
-        let names: Vec<String> = self.choice.names.clone().unwrap_or_else(shown);
-        if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
-            let example = (1..=width).map(|k| format!("c{k}")).collect();
-            let command = self.choice.command(|choice| choice.names = Some(example));
-            let is_even = rows.iter().all(|row| row.len() == width);
-            let found = counted(row.len(), "cell") + if is_even { &command } else { "" };
-            let expected = format!("{}, one for each name", counted(names.len(), "cell"));
-            return Err(self.error(row.first().unwrap_or(&self.text), None, &expected, &found));
-        }
-        if let Some(k) = names.iter().position(|name| name.contains(char::is_control)) {
-            let found = format!("`{}`", shorten(&names[k]));
-            return Err(self.error(self.head(k), None, "a name without control characters", &found));
-        }
-        if width < 2 {
-            return Err(
-                self.refuse("a column of steps and at least one of errors", "one column: write the table as CSV")
-            );
-        }
-        Ok(self.columns_of(names))
-    }
-
-    fn columns_of(&self, names: Vec<String>) -> Vec<Cells<'t>> {
-        let RawTable { rows, decimal_comma, .. } = &self.table;
-        let numbered = |(k, name): (usize, String)| if name.is_empty() { format!("column {}", k + 1) } else { name };
-        let names: Vec<String> = names.into_iter().enumerate().map(numbered).collect();
-        let Choice { columns, claimed, values, .. } = self.choice;
-        let claimed = columns.iter().flatten().chain(claimed).chain(values);
-        let claimed = claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
-        let claimed: Vec<usize> = claimed.collect();
-        // With decimal commas, `1.024` may be 1024.
-        let is_comma = |cell: &&str| *decimal_comma && cell.contains(',') && number(cell, true).is_some();
-        let has_comma = rows.iter().flatten().any(is_comma);
-        let value = |text: &&str| number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')));
-        let column = |(k, name): (usize, &String)| {
-            let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
-            let numbers: Vec<_> = texts.iter().map(value).collect();
-            let (name, word) = (name.clone(), Word::of(name));
-            let may_count = matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
-            let (is_claimed, is_index) = (claimed.contains(&k), may_count && text::counts_rows(&texts));
-            let values = numbers.iter().map(|number| number.map_or(f64::NAN, |number| number.value)).collect();
-            let is_number = numbers.iter().map(Option::is_some).collect();
-            Cells { name, word, texts, values, is_number, halves: halves(&numbers), is_claimed, is_index }
-        };
-        names.iter().enumerate().map(column).collect()
-    }
-
+impl TableReader<'_> {
     /// The step of each row; sorts the rows by step, coarsest level first, as the judge requires.
     fn sort(&mut self, Step { column, dim, .. }: &Step) -> Result<Vec<f64>, InputError> {
         let what = if dim.is_some() { "a count" } else { "a step" };
@@ -274,69 +194,5 @@ impl<'t> TableReader<'t> {
         let command = self.choice.command(|choice| choice.names = Some(numbered.collect()));
         let found = format!("`{}` a second time{command}", shorten(&self.columns[column].name));
         self.error(self.head(column), None, "each name once", &found)
-    }
-
-    /// The column with that name, or with that number from 1.
-    pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
-        let names = || self.columns.iter().map(|column| column.name.as_str());
-        let numbered = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|column| *column < self.columns.len());
-        names::position(names(), wanted).or_else(numbered).ok_or_else(|| {
-            let suggestion = nearest(wanted, names().take(LISTED)).map(str::to_owned);
-            let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
-            self.refuse(&format!("a column for {option}: {}", listed(names().map(str::to_owned))), &found)
-        })
-    }
-
-    /// The number of a cell that must hold one.
-    fn must(&self, row: usize, column: usize) -> Result<f64, InputError> {
-        let Cells { name, texts, values, is_number, .. } = &self.columns[column];
-        is_number[row].then_some(values[row]).ok_or_else(|| {
-            let cell = texts[row];
-            let more = match () {
-                () if cell.len() > 1 && cell.chars().all(|c| c == '*') => {
-                    "; Fortran writes stars where the field is too narrow"
-                }
-                () if self.table.decimal_comma && cell.contains(',') => {
-                    "; its comma may be that of decimals or of thousands"
-                }
-                () if number(cell, true).is_some() => {
-                    "; its point may be that of decimals or of thousands, for others have decimal commas"
-                }
-                () => "",
-            };
-            self.error(cell, Some(name), &format!("a number{more}"), &format!("`{}`", shorten(cell)))
-        })
-    }
-
-    pub(super) fn names(&self, columns: &[usize]) -> Vec<String> {
-        columns.iter().map(|k| self.columns[*k].name.clone()).collect()
-    }
-
-    /// Names of columns in a line or message.
-    pub(super) fn quoted(&self, columns: &[usize]) -> String {
-        listed(columns.iter().map(|k| format!("`{}`", self.columns[*k].name)))
-    }
-
-    /// The name above a column, or the beginning of the text.
-    fn head(&self, column: usize) -> &str {
-        self.table.names.get(column).copied().unwrap_or(self.text)
-    }
-
-    /// A complaint about the row of names.
-    pub(super) fn refuse(&self, expected: &str, found: &str) -> InputError {
-        self.error(self.head(0), None, expected, found)
-    }
-
-    /// The byte offset of a piece within the text.
-    fn offset(&self, piece: &str) -> usize {
-        (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
-    }
-
-    /// A complaint about a piece of the text.
-    fn error(&self, piece: &str, field: Option<&str>, expected: &str, found: &str) -> InputError {
-        let reason = format!("expected {expected}, found {found}");
-        let source = Source { file: self.file, text: self.text };
-        let error = source.error(self.offset(piece), field.map(str::to_owned), Complaint::Invalid { reason });
-        InputError { place: error.place.filter(|_| !self.text.trim().is_empty()), ..error }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::columns::Cells;
 use super::names::{Word, reciprocal};
-use super::roles::{NEIGHBOURS, TableReader, listed};
+use super::reader::{NEIGHBOURS, TableReader, listed};
 use crate::input::InputError;
 use crate::text::number::plain_text;
 

@@ -2,19 +2,7 @@
 
 use super::names::Word;
 use super::number::{is_dash, number};
-use super::pairs;
-
-/// A table as written. Names and cells are slices of the text, which give their places.
-#[derive(Debug, Default)]
-pub(super) struct RawTable<'t> {
-    /// A name for each column, or an empty one.
-    pub(super) names: Vec<&'t str>,
-    pub(super) rows: Vec<Vec<&'t str>>,
-    /// Whether a comma in a cell is a decimal comma.
-    pub(super) decimal_comma: bool,
-    /// What is not a column of the table, with the reason.
-    pub(super) left_out: Vec<(String, String)>,
-}
+use super::pairs::{self, RawTable};
 
 /// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh ended lines with \r.
 const MARKS: [(&str, &str); 9] = [

@@ -1,0 +1,77 @@
+//! The three verdicts, and why a level is set aside.
+
+use std::fmt;
+
+/// Outcome of a check. Ordered from good to bad: the maximum of several outcomes is the outcome of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// The claim holds.
+    Pass,
+    /// The data cannot tell. Not a pass.
+    Inconclusive,
+    /// The claim does not hold.
+    Fail,
+}
+
+impl Verdict {
+    /// The worst of several. Without any it is inconclusive: checking nothing proves nothing.
+    pub fn worst(verdicts: impl IntoIterator<Item = Self>) -> Self {
+        verdicts.into_iter().max().unwrap_or(Self::Inconclusive)
+    }
+
+    /// Whether the claim holds.
+    pub fn is_pass(self) -> bool {
+        self == Self::Pass
+    }
+
+    /// `pass`, `fail` or `inconclusive`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Inconclusive => "inconclusive",
+            Self::Fail => "fail",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A level that is not used for the rate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub struct SetAside {
+    /// Index of the level, 0 the coarsest.
+    pub level: usize,
+    /// Why.
+    pub because: Aside,
+}
+
+/// Why a level was set aside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Aside {
+    /// Coarse: the rates there are still too far from the finest one.
+    PreAsymptotic,
+    /// Coarse: an outlier, or a level behind it.
+    Outlier,
+    /// Fine: neither this error nor that of any finer level is above the floor.
+    AtFloor,
+    /// It has no result.
+    NoResult,
+}
+
+impl Aside {
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::PreAsymptotic => "not yet asymptotic",
+            Self::Outlier => "at or before a level that does not fit its neighbours",
+            Self::AtFloor => "at or below the floor",
+            Self::NoResult => "no result",
+        }
+    }
+}

@@ -102,11 +102,8 @@ pub fn figure(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) ->
         let points = front(own.map(|run| (run.seconds, run.errors[quantity as usize])));
         plots::Series { label: method.name.to_owned(), points }
     });
-    plots::work_precision(&plots::History {
-        y: plots::Axis::log(format!("error, {}", quantity.name())),
-        series: series.collect(),
-        ..plots::History::default()
-    })
+    let error = format!("error, {}", quantity.name());
+    plots::work_precision("run time (s)", error, &series.collect::<Vec<_>>()).draw()
 }
 
 /// Viscosity, nodes, and a degree for which dG's error in space is negligible.

@@ -1,67 +1,40 @@
 //! Quantities over time, and errors over their cost.
 
-use super::look::Marks;
+use super::look::{Marks, look};
 use super::xy::{Curve, Xy};
-use super::{Axis, Guide, Phases, Scale, Series};
+use super::{Axis, Series};
 
-/// Quantities over time or another cost, with limits and phases.
+/// Quantities over time, `(t, value)`, times ascending.
 ///
 /// Series may have any length: long ones are drawn as their envelope, which loses no spike.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct History {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// The quantity of the horizontal axis; if empty, `"time t"` or, for costs, `"run time (s)"`.
-    pub x_label: String,
-    /// The vertical axis.
-    pub y: Axis,
-    /// `(t, value)`, times ascending.
-    pub series: Vec<Series>,
-    /// Which [`look`](super::look::look) each series has: the same in every figure. Empty: by place in this figure.
-    pub looks: Vec<usize>,
-    /// Limits and other values worth a line.
-    pub guides: Vec<Guide>,
-    /// Intervals to shade.
-    pub phases: Phases,
+pub fn history(y: Axis, series: &[Series]) -> Xy {
+    let curves = series.iter().enumerate().map(|(k, series)| Curve::line(k, series)).collect();
+    Xy { x: Axis::linear("time t"), y, curves, ..Xy::default() }
 }
 
-impl History {
-    /// The figure with its horizontal axis, each curve changed by `change`.
-    fn xy(&self, x: fn(String) -> Axis, unnamed: &str, change: impl Fn(Curve) -> Curve) -> Xy {
-        let curve = |(k, series)| change(Curve::line(self.looks.get(k).copied().unwrap_or(k), series));
-        Xy {
-            title: self.title.clone(),
-            x: x(if self.x_label.is_empty() { unnamed.to_owned() } else { self.x_label.clone() }),
-            y: self.y.clone(),
-            curves: self.series.iter().enumerate().map(curve).collect(),
-            guides: self.guides.clone(),
-            phases: self.phases.clone(),
-            ..Xy::default()
-        }
+/// Iterations per time step, `(t at the end of the step, iterations)`, as steps from zero.
+pub fn iterations(series: &[Series]) -> Xy {
+    let mut figure = history(Axis::linear("iterations per step"), series);
+    figure.curves.iter_mut().for_each(|curve| curve.points = steps(&curve.points));
+    // With a shorter axis, ticks would lie between whole numbers.
+    Xy { show_y: vec![0.0, 5.0], ..figure }
+}
+
+/// Errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is better.
+///
+/// * `cost`, `error`: the labels of the axes.
+pub fn work_precision(cost: &str, error: impl Into<String>, series: &[Series]) -> Xy {
+    let mut figure = history(Axis::log(error), series);
+    figure.curves.iter_mut().for_each(|curve| curve.marks = Marks::Filled);
+    Xy { x: Axis::log(cost), ..figure }
+}
+
+impl Xy {
+    /// The same with the [`look`] of each curve, which is then the same in every figure.
+    pub fn with_looks(mut self, looks: &[usize]) -> Self {
+        self.curves.iter_mut().zip(looks).for_each(|(curve, &k)| curve.look = look(k));
+        self
     }
-}
-
-/// Draws quantities over time.
-pub fn history(figure: &History) -> String {
-    figure.xy(Axis::linear, "time t", |curve| curve).draw()
-}
-
-/// Draws iterations per time step, `(t at the end of the step, iterations)`, as steps from zero. The vertical axis has its own label.
-pub fn iterations(figure: &History) -> String {
-    let held = |curve: Curve| Curve { points: steps(&curve.points), ..curve };
-    Xy {
-        y: Axis { label: "iterations per step".into(), scale: Scale::Linear },
-        // With a shorter axis, ticks would lie between whole numbers.
-        show_y: vec![0.0, 5.0],
-        ..figure.xy(Axis::linear, "time t", held)
-    }
-    .draw()
-}
-
-/// Draws errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is better.
-pub fn work_precision(figure: &History) -> String {
-    let xy = figure.xy(Axis::log, "run time (s)", |curve| Curve { marks: Marks::Filled, ..curve });
-    Xy { y: Axis { scale: Scale::Log, ..xy.y.clone() }, ..xy }.draw()
 }
 
 /// Every value held over its step, from the end of the previous one.

@@ -43,7 +43,7 @@ pub mod xy;
 pub use convergence::{Convergence, ErrorSeries, convergence};
 pub use forest::{Forest, ForestRate, ForestRow, forest};
 pub use heat::{SpaceTime, Surface, space_time, surface};
-pub use history::{History, history, iterations, work_precision};
+pub use history::{history, iterations, work_precision};
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use super::{Program, Run};
 use crate::judge::claims;
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
-use crate::plots::{self, History, Series};
+use crate::plots::{self, Series};
 use crate::study::grid::{Grid, GridColumn, Model};
 use crate::study::kind;
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
@@ -170,19 +170,17 @@ fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
     let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
     let claimed: Vec<_> = levels.columns.iter().filter(|column| column.claim.is_some()).collect();
-    let series = claimed.iter().map(|column| {
-        let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
-        let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
-        let points = points.collect();
-        Series { label: column.name.clone(), points }
-    });
-    let svg = plots::work_precision(&History {
-        x_label: "work, as the program counts it".to_owned(),
-        y: plots::Axis::log("error"),
-        series: series.collect(),
-        ..History::default()
-    });
-    Some(Figure::new("work", "Errors over the work that they cost: the lower and the further left, the better.", svg))
+    let series: Vec<Series> = claimed
+        .iter()
+        .map(|column| {
+            let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
+            let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
+            let points = points.collect();
+            Series { label: column.name.clone(), points }
+        })
+        .collect();
+    let drawn = plots::work_precision("work, as the program counts it", "error", &series).draw();
+    Some(Figure::new("work", "Errors over the work that they cost: the lower and the further left, the better.", drawn))
 }
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a sentence.

@@ -2,6 +2,7 @@
 
 use convergence_study::judge::verdict::PowerLaw;
 use convergence_study::judge::verdict::Verdict;
+use convergence_study::plots::xy::Xy;
 use convergence_study::plots::*;
 
 /// Every figure, drawn.
@@ -10,15 +11,15 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
         ("convergence-space", convergence(&space_errors())),
         ("convergence-time", convergence(&time_errors())),
         ("surface", surface(&error_surface())),
-        ("history-long", history(&long_history(100_000))),
-        ("history-energy", history(&energy_history())),
-        ("history-log", history(&balance_history())),
+        ("history-long", long_history(100_000).draw()),
+        ("history-energy", energy_history().draw()),
+        ("history-log", balance_history().draw()),
         ("space-time", space_time(&wave(400, 200))),
-        ("iterations", iterations(&iteration_counts())),
+        ("iterations", iteration_counts().draw()),
         ("parameter-map", surface(&stability_map())),
-        ("work-precision", work_precision(&costs())),
+        ("work-precision", work_precision("run time (s)", "error in u(T) (dimensionless)", &costs()).draw()),
         ("forest", forest(&all_rates())),
-        ("hostile", history(&hostile())),
+        ("hostile", hostile().draw()),
     ]
 }
 
@@ -117,54 +118,45 @@ fn stop_phases(t_end: f64) -> Phases {
     Phases { label: "at a stop".into(), intervals }
 }
 
-pub(crate) fn long_history(samples: u32) -> History {
+pub(crate) fn long_history(samples: u32) -> Xy {
     let t = |k: u32| 10.0 * f64::from(k) / f64::from(samples);
-    History {
-        y: Axis::linear("displacement u(t) (dimensionless)"),
-        series: vec![
-            series("euler-crank-nicolson", (0..samples).map(|k| (t(k), position(t(k)))).collect()),
-            series("midpoint", (0..samples).map(|k| (t(k), 0.7 * position(t(k) + 0.05))).collect()),
-        ],
+    let curves = [
+        series("euler-crank-nicolson", (0..samples).map(|k| (t(k), position(t(k)))).collect()),
+        series("midpoint", (0..samples).map(|k| (t(k), 0.7 * position(t(k) + 0.05))).collect()),
+    ];
+    Xy {
         guides: vec![
             Guide { label: "g₁ = −0.01".into(), value: -0.01 },
             Guide { label: "g₂ = 0.1".into(), value: 0.1 },
         ],
         phases: stop_phases(10.0),
-        ..Default::default()
+        ..history(Axis::linear("displacement u(t) (dimensionless)"), &curves)
     }
 }
 
-pub(crate) fn energy_history() -> History {
+pub(crate) fn energy_history() -> Xy {
     let t = |k: u32| 10.0 * f64::from(k) / 2000.0;
     let energy = |beta: f64, rate: f64| {
         (0..2000)
             .map(|k| (t(k), 0.25 * beta * beta + 4.0 * (-rate * t(k)).exp() * (1.0 + 0.1 * (5.0 * t(k)).cos())))
             .collect()
     };
-    History {
+    let curves =
+        [series("β = 0", energy(0.0, 0.5)), series("β = −2", energy(2.0, 0.9)), series("β = 2.1", energy(2.1, 1.4))];
+    Xy {
         title: Some("Energy falls to its level at rest".into()),
-        y: Axis::linear("energy E (dimensionless)"),
-        series: vec![
-            series("β = 0", energy(0.0, 0.5)),
-            series("β = −2", energy(2.0, 0.9)),
-            series("β = 2.1", energy(2.1, 1.4)),
-        ],
         guides: vec![Guide { label: "β²/(4ρ)".into(), value: 1.0 }, Guide { label: "2.1²/(4ρ)".into(), value: 1.1025 }],
-        ..Default::default()
+        ..history(Axis::linear("energy E (dimensionless)"), &curves)
     }
 }
 
-pub(crate) fn balance_history() -> History {
+pub(crate) fn balance_history() -> Xy {
     let noise = |k: u32| f64::from(k.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
     let residual = |scale: f64, seed: u32| {
         (0..30_000).map(|k| (f64::from(k) / 3000.0, if k == 7 { 0.0 } else { scale * noise(k + seed) })).collect()
     };
-    History {
-        y: Axis::log("residual of the energy balance"),
-        series: vec![series("newton", residual(5e-15, 1)), series("fixed-point", residual(3e-11, 2))],
-        phases: stop_phases(10.0),
-        ..Default::default()
-    }
+    let curves = [series("newton", residual(5e-15, 1)), series("fixed-point", residual(3e-11, 2))];
+    Xy { phases: stop_phases(10.0), ..history(Axis::log("residual of the energy balance"), &curves) }
 }
 
 pub(crate) fn wave(frames: u32, nodes: u32) -> SpaceTime {
@@ -182,7 +174,7 @@ pub(crate) fn wave(frames: u32, nodes: u32) -> SpaceTime {
     }
 }
 
-pub(crate) fn iteration_counts() -> History {
+pub(crate) fn iteration_counts() -> Xy {
     let phases = stop_phases(3.0);
     let is_stopped = |t: f64| phases.intervals.iter().any(|&(a, b)| a <= t && t <= b);
     let count = |base: f64, more: f64| {
@@ -190,11 +182,8 @@ pub(crate) fn iteration_counts() -> History {
             .map(|k| (f64::from(k) * 1e-3, base + if is_stopped(f64::from(k) * 1e-3) { more } else { 0.0 }))
             .collect()
     };
-    History {
-        series: vec![series("fixed point", count(5.0, 7.0)), series("newton", count(2.0, 1.0))],
-        phases: phases.clone(),
-        ..Default::default()
-    }
+    let curves = [series("fixed point", count(5.0, 7.0)), series("newton", count(2.0, 1.0))];
+    Xy { phases: phases.clone(), ..iterations(&curves) }
 }
 
 pub(crate) fn stability_map() -> Surface {
@@ -221,36 +210,32 @@ pub(crate) fn stability_map() -> Surface {
     }
 }
 
-pub(crate) fn costs() -> History {
+pub(crate) fn costs() -> Vec<Series> {
     let run = |label: &str, c: f64, p: f64| {
         series(label, (0..7).map(|k| (2e-3 * 2f64.powi(k), c * 0.5_f64.powf(p * f64::from(k)))).collect())
     };
-    History {
-        y: Axis::log("error in u(T) (dimensionless)"),
-        series: vec![
-            run("euler-crank-nicolson, newton", 3e-2, 1.0),
-            run("euler-crank-nicolson, fixed point", 8e-2, 1.0),
-            run("midpoint, newton", 1e-2, 2.0),
-        ],
-        ..History::default()
-    }
+    vec![
+        run("euler-crank-nicolson, newton", 3e-2, 1.0),
+        run("euler-crank-nicolson, fixed point", 8e-2, 1.0),
+        run("midpoint, newton", 1e-2, 2.0),
+    ]
 }
 
 /// Labels too long, markup, values that cannot be drawn, hardly any range.
-pub(crate) fn hostile() -> History {
-    History {
+pub(crate) fn hostile() -> Xy {
+    let y = Axis::log("a vertical label that goes on & on <for ever> and then for a little longer than that");
+    let curves = [
+        series(
+            "a series whose name does not fit into a legend of any reasonable width, whatever one may try to do",
+            vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 1.000_000_1), (f64::INFINITY, 1.0), (3.0, -1.0)],
+        ),
+        series("<b>&\u{0}", vec![(0.5, 1.000_000_05)]),
+    ];
+    Xy {
         title: Some(
             "A title so long that no page could ever hold it, not even one that was twice as wide as this one".into(),
         ),
-        y: Axis::log("a vertical label that goes on & on <for ever> and then for a little longer than that"),
-        series: vec![
-            series(
-                "a series whose name does not fit into a legend of any reasonable width, whatever one may try to do",
-                vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 1.000_000_1), (f64::INFINITY, 1.0), (3.0, -1.0)],
-            ),
-            series("<b>&\u{0}", vec![(0.5, 1.000_000_05)]),
-        ],
-        ..Default::default()
+        ..history(y, &curves)
     }
 }
 

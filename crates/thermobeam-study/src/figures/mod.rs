@@ -7,7 +7,7 @@ pub use animation::{Animation, animation};
 use convergence_study::plots::look::{Look, Marker, Marks, look};
 use convergence_study::plots::style;
 use convergence_study::plots::xy::{Curve, Xy};
-use convergence_study::plots::{self, Axis, Guide, History, Phases, Series, SpaceTime};
+use convergence_study::plots::{self, Axis, Guide, Phases, Series, SpaceTime};
 use convergence_study::text::lists::distinct;
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -48,11 +48,9 @@ impl Run {
             return vec![];
         };
         let title = |what: &str| Some(format!("{}: {what}", scene.name));
-        let over_time = |what: &str, y: &str, label: &str, value: fn(&Sample) -> f64| History {
-            title: title(what),
-            y: Axis::linear(format!("{y} (dimensionless)")),
-            series: vec![Series { label: label.into(), points: history.over_time(value) }],
-            ..History::default()
+        let over_time = |what: &str, y: &str, label: &str, value: fn(&Sample) -> f64| {
+            let series = [Series { label: label.into(), points: history.over_time(value) }];
+            Xy { title: title(what), ..plots::history(Axis::linear(format!("{y} (dimensionless)")), &series) }
         };
         let frames = &history.frames;
         let space_time = plots::space_time(&SpaceTime {
@@ -70,23 +68,23 @@ impl Run {
             obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
             seconds: 20.0,
         });
-        let displacement = plots::history(&History {
+        let displacement = Xy {
             guides: obstacle_lines(scene.obstacles),
             phases: Phases { label: "in contact".into(), intervals: self.contact_phases() },
             ..over_time("displacement of the free end", "displacement u(1, t)", "u(1, t)", |sample| sample.u_tip)
-        });
+        };
         let rotation = over_time("rotation of the free end", "rotation φ(1, t)", "φ(1, t)", |sample| sample.phi_tip);
         let at_rest = energy_at_rest(&scene.beam).map(|value| Guide { label: "β²/(4ρ)".into(), value });
-        let energy = plots::history(&History {
+        let energy = Xy {
             guides: at_rest.into_iter().collect(),
             ..over_time("energy", "energy E", "E", |sample| sample.energy)
-        });
+        };
         vec![
             ("space-time.svg", space_time),
             ("motion.svg", motion),
-            ("tip-displacement.svg", displacement),
-            ("tip-rotation.svg", plots::history(&rotation)),
-            ("energy.svg", energy),
+            ("tip-displacement.svg", displacement.draw()),
+            ("tip-rotation.svg", rotation.draw()),
+            ("energy.svg", energy.draw()),
         ]
     }
 }

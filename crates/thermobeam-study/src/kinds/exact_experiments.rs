@@ -198,14 +198,9 @@ impl ExactExperiments {
     fn figures(&self, scenes: &[OfScene<'_>]) -> Vec<Figure> {
         let figure = |what: &str, caption: &str, title: &str, y, points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
             let curve = |scene: &OfScene<'_>| plots::Series { label: scene.name.to_owned(), points: points(scene) };
-            let history = plots::History {
-                title: Some(title.to_owned()),
-                y,
-                series: scenes.iter().map(curve).collect(),
-                looks: looks(scenes.iter().map(|scene| scene.name)),
-                ..plots::History::default()
-            };
-            over_time(what, caption, &history)
+            let history = plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>());
+            let history = history.with_looks(&looks(scenes.iter().map(|scene| scene.name)));
+            Figure::new(what, caption, Xy { title: Some(title.to_owned()), ..history }.draw())
         };
         let mut figures = vec![figure(
             "tip",

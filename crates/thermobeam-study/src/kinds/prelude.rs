@@ -6,6 +6,7 @@ pub(crate) use convergence_study::input::{Field, InputError, Section};
 pub(crate) use convergence_study::judge::random::SplitMix;
 pub(crate) use convergence_study::judge::verdict::{Judge, Verdict};
 pub(crate) use convergence_study::plots;
+pub(crate) use convergence_study::plots::xy::Xy;
 pub(crate) use convergence_study::run::time_limit::Patience;
 pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
@@ -39,11 +40,6 @@ pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
 /// The result of the case with these data; `None` if it failed or was not run.
 pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Option<&'r F> {
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
-}
-
-/// Curves over time.
-pub(crate) fn over_time(what: &str, caption: impl Into<String>, history: &plots::History) -> Figure {
-    Figure::new(what, caption, plots::history(history))
 }
 
 /// Names of the numbers that are NaN or infinite, for [`completion`].

@@ -151,16 +151,13 @@ impl RandomErrors {
     fn figure(&self, found: &[(&Ran<usize, Found>, &Found)]) -> Figure {
         let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let svg = plots::work_precision(&plots::History {
-            title: Some("Errors of the runs chosen".to_owned()),
-            x_label: "work of a scene's searches (unknowns times solves)".to_owned(),
-            y: plots::Axis::log("largest error of u(1, t) / target error"),
-            series: vec![plots::Series { label: "random scenes".to_owned(), points }],
-            ..plots::History::default()
-        });
+        let work = "work of a scene's searches (unknowns times solves)";
+        let series = [plots::Series { label: "random scenes".to_owned(), points }];
+        let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
+        let drawn = Xy { title: Some("Errors of the runs chosen".to_owned()), ..drawn };
         let caption =
             "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
-        Figure::new("errors", caption, svg)
+        Figure::new("errors", caption, drawn.draw())
     }
 }
 

@@ -371,34 +371,25 @@ impl EnergyRuns {
             bounds.into_iter().map(|value| plots::Guide { label: "allowed".to_owned(), value }).collect()
         };
         if !self.histories {
-            let drift = plots::History {
-                x_label: "steps".to_owned(),
-                y: plots::Axis::log("|sum of residuals| / energy"),
-                series: not_zero(series(&|_, sample| (sample.step as f64, sample.drift.abs()))),
+            let drifts = not_zero(series(&|_, sample| (sample.step as f64, sample.drift.abs())));
+            let drift = Xy {
+                x: plots::Axis::linear("steps"),
                 guides: allowed(|run| run.drift),
-                ..plots::History::default()
+                ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
             };
             let caption = "Sum of the signed residuals of the energy balance up to each step.";
-            return vec![over_time("drift", caption, &drift)];
+            return vec![Figure::new("drift", caption, drift.draw())];
         }
         let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
-        let energy = plots::History {
-            y: plots::Axis::linear("energy E / initial energy"),
-            series: series(&|found, sample| (sample.t, sample.energy / found.initial_energy)),
-            looks: looks.clone(),
-            ..plots::History::default()
-        };
-        let balance = plots::History {
-            y: plots::Axis::log("largest residual up to t / initial energy"),
-            series: largest_so_far(not_zero(series(&|_, sample| (sample.t, sample.residual)))),
-            looks,
-            guides: allowed(|run| run.share),
-            ..plots::History::default()
-        };
+        let energies = series(&|found, sample| (sample.t, sample.energy / found.initial_energy));
+        let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies).with_looks(&looks);
+        let residuals = largest_so_far(not_zero(series(&|_, sample| (sample.t, sample.residual))));
+        let y = plots::Axis::log("largest residual up to t / initial energy");
+        let balance = Xy { guides: allowed(|run| run.share), ..plots::history(y, &residuals).with_looks(&looks) };
         let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
         vec![
-            over_time("energy", "The energy, in units of its initial size: it never rises.", &energy),
-            over_time("balance", caption, &balance),
+            Figure::new("energy", "The energy, in units of its initial size: it never rises.", energy.draw()),
+            Figure::new("balance", caption, balance.draw()),
         ]
     }
 }

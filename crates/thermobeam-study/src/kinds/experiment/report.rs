@@ -79,7 +79,7 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
             curves(&first, decay, true, above),
         ),
     ];
-    beam.into_iter().chain(drawn.map(|(what, caption, history)| over_time(what, caption, &history))).collect()
+    beam.into_iter().chain(drawn.map(|(what, caption, history)| Figure::new(what, caption, history.draw()))).collect()
 }
 
 fn beta_label(experiment: &Experiment) -> String {
@@ -99,7 +99,7 @@ fn curves(
     y: plots::Axis,
     until_steady: bool,
     value: impl Fn(&Experiment, &Sample) -> f64,
-) -> plots::History {
+) -> Xy {
     let curve = |(experiment, run): &(&Experiment, &Measured)| {
         let scene = &experiment.scene;
         let end = if until_steady { f64::INFINITY } else { scene.t_end + 0.5 * scene.dt() };
@@ -107,48 +107,35 @@ fn curves(
         let points = shown.map(|point| (point.t, value(experiment, point))).collect();
         plots::Series { label: beta_label(experiment), points }
     };
-    plots::History {
-        y,
-        series: runs.iter().map(curve).collect(),
-        looks: figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name)),
-        ..plots::History::default()
-    }
+    let looks = figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name));
+    plots::history(y, &runs.iter().map(curve).collect::<Vec<_>>()).with_looks(&looks)
 }
 
-fn energy(runs: &[(&Experiment, &Measured)], until_steady: bool) -> plots::History {
+fn energy(runs: &[(&Experiment, &Measured)], until_steady: bool) -> Xy {
     let limit = |(e, _): &(&Experiment, &Measured)| {
         let value = straight_energy(&e.scene);
         let label = format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
         plots::Guide { label, value }
     };
     let y = plots::Axis::linear("energy E (dimensionless)");
-    plots::History {
-        guides: runs.iter().map(limit).collect(),
-        ..curves(runs, y, until_steady, |_, point| point.energy)
-    }
+    Xy { guides: runs.iter().map(limit).collect(), ..curves(runs, y, until_steady, |_, point| point.energy) }
 }
 
-fn displacement(runs: &[(&Experiment, &Measured)]) -> plots::History {
+fn displacement(runs: &[(&Experiment, &Measured)]) -> Xy {
     let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
-    plots::History { guides: obstacles(runs), ..curves(runs, y, false, |_, point| point.u_tip) }
+    Xy { guides: obstacles(runs), ..curves(runs, y, false, |_, point| point.u_tip) }
 }
 
-fn rotation(runs: &[(&Experiment, &Measured)]) -> plots::History {
+fn rotation(runs: &[(&Experiment, &Measured)]) -> Xy {
     curves(runs, plots::Axis::linear("tip rotation φ(1, t) (dimensionless)"), false, |_, point| point.phi_tip)
 }
 
-fn tip(runs: &[(&Experiment, &Measured)]) -> plots::History {
+fn tip(runs: &[(&Experiment, &Measured)]) -> Xy {
     let curve = |label: &str, value: fn(&Sample) -> f64| {
         let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
         plots::Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
     };
-    plots::History {
-        y: plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
-        series: vec![
-            curve("displacement u(1, t)", |point| point.u_tip),
-            curve("rotation φ(1, t)", |point| point.phi_tip),
-        ],
-        guides: obstacles(runs),
-        ..plots::History::default()
-    }
+    let series = [curve("displacement u(1, t)", |point| point.u_tip), curve("rotation φ(1, t)", |point| point.phi_tip)];
+    let y = plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)");
+    Xy { guides: obstacles(runs), ..plots::history(y, &series) }
 }

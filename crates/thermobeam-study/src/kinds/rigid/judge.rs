@@ -232,7 +232,7 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
              2/3 where it is resolved.",
             penetrations(all),
         ),
-        over_time("tip", "Displacement of the free end as the obstacles become rigid.", &tip(study, all, limit)),
+        Figure::new("tip", "Displacement of the free end as the obstacles become rigid.", tip(study, all, limit)),
         Figure::new(
             "contraction",
             "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.",
@@ -263,15 +263,12 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
 }
 
 /// Only the first decades, so that the curves stay distinct.
-fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> plots::History {
+fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> String {
     let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
     let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);
     let series = |label: &str, of: &ShownImpact| plots::Series { label: label.to_owned(), points: of.tip.clone() };
     let curve = |of: &Compliance<'_>| Some(series(label(of.epsilon)?.1, of.bouncing?));
-    plots::History {
-        y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
-        series: all.iter().filter_map(curve).chain(limit.map(|limit| series("rigid", limit))).collect(),
-        guides: obstacle_lines(study.moving.obstacles),
-        ..plots::History::default()
-    }
+    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
+    let series: Vec<_> = all.iter().filter_map(curve).chain(limit.map(|limit| series("rigid", limit))).collect();
+    Xy { guides: obstacle_lines(study.moving.obstacles), ..plots::history(y, &series) }.draw()
 }

@@ -143,13 +143,11 @@ fn tip(study: &SelfConvergence, ran: &Results) -> Figure {
         let points = (1..=study.samples).map(|k| (study.t_end * k as f64 / study.samples as f64, distance(k)));
         plots::Series { label: name(level), points: points.collect() }
     };
-    let history = plots::History {
+    let drawn = Xy {
         title: Some(format!("Tip of {}: distance to the reference", study.scene.name)),
-        y: plots::Axis::log("|u(1, t) - reference|"),
-        series: (0..reference).map(curve).collect(),
-        ..plots::History::default()
+        ..plots::history(plots::Axis::log("|u(1, t) - reference|"), &(0..reference).map(curve).collect::<Vec<_>>())
     };
-    over_time("tip", "Distance of u(1, t) to the reference on each level.", &history)
+    Figure::new("tip", "Distance of u(1, t) to the reference on each level.", drawn.draw())
 }
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.

@@ -217,7 +217,7 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
 fn iterations_figure(found: Option<&Agreement>) -> Figure {
     let curve = |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
     let series = |label: &str, points| plots::Series { label: label.to_owned(), points };
-    let series = vec![
+    let series = [
         series("fixed point", curve(|found| &found.iterations)),
         series("Newton's method", curve(|found| &found.newton)),
     ];
@@ -225,6 +225,5 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
     let shaded = if phases.intervals.is_empty() { "" } else { "; shaded where the tip is in contact" };
     let caption =
         format!("Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}.");
-    let svg = plots::iterations(&plots::History { series, phases, ..plots::History::default() });
-    Figure::new("iterations", caption, svg)
+    Figure::new("iterations", caption, Xy { phases, ..plots::iterations(&series) }.draw())
 }

@@ -237,13 +237,12 @@ impl Vibration {
         let exact = finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))).collect();
         let curves =
             [("exact", exact), (&first.case.label, coarsest.tip.clone()), (&last.case.label, finest.tip.clone())];
-        let svg = plots::history(&plots::History {
+        let curves = curves.map(|(label, points)| plots::Series { label: label.to_owned(), points });
+        let drawn = Xy {
             title: Some("Tip of the vibrating beam".into()),
-            y: plots::Axis::linear("tip displacement u(1, t) (dimensionless)"),
-            series: curves.map(|(label, points)| plots::Series { label: label.to_owned(), points }).into(),
-            ..plots::History::default()
-        });
+            ..plots::history(plots::Axis::linear("tip displacement u(1, t) (dimensionless)"), &curves)
+        };
         let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        Some(Figure::new("tip", caption, svg))
+        Some(Figure::new("tip", caption, drawn.draw()))
     }
 }

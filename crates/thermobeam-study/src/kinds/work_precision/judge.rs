@@ -277,17 +277,13 @@ fn figure(quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
         label: row.method.name.to_owned(),
         points: front(row.points.iter().map(|point| (point.node_solves, point.error))),
     });
-    let svg = plots::work_precision(&plots::History {
-        x_label: "cost: elements × linear solves".to_owned(),
-        y: plots::Axis::log(format!("error, {}", quantity.name())),
-        series: series.collect(),
-        ..plots::History::default()
-    });
+    let (cost, error) = ("cost: elements × linear solves", format!("error, {}", quantity.name()));
+    let drawn = plots::work_precision(cost, error, &series.collect::<Vec<_>>());
     let caption = format!(
         "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",
         quantity.name()
     );
-    Figure::new(quantity.name(), caption, svg)
+    Figure::new(quantity.name(), caption, drawn.draw())
 }
 
 /// Costs by the laws, and the ratios claimed for dG.

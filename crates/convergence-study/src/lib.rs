@@ -40,8 +40,6 @@
 pub mod cli;
 #[cfg(feature = "reports")]
 pub mod compare;
-#[cfg(feature = "reports")]
-pub mod explain;
 #[cfg(feature = "files")]
 pub mod input;
 #[cfg(feature = "reports")]

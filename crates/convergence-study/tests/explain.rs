@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use convergence_study::explain::{contents, meant, study, term, terms};
+use convergence_study::cli::explain::{contents, meant, study, term, terms};
 use convergence_study::input::{InputError, Section};
 use convergence_study::project::{Project, Term};
 use convergence_study::study::{Axis, Claim, Header, KindRow, Study, erased, levels};

@@ -32,8 +32,8 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 12] =
-    ["input", "plots", "study", "run", "project", "store", "program", "compare", "report", "explain", "verify", "cli"];
+const ORDER: [&str; 11] =
+    ["input", "plots", "study", "run", "project", "store", "program", "compare", "report", "verify", "cli"];
 
 /// The modules of the crate below, which every module may use under this crate's name; `circles.rs` has their order.
 const BELOW: [&str; 2] = ["text", "judge"];

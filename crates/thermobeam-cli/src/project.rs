@@ -85,8 +85,8 @@ mod tests {
     use std::collections::BTreeSet;
     use std::path::Path;
 
+    use convergence_study::cli::explain;
     use convergence_study::cli::workspace;
-    use convergence_study::explain;
     use convergence_study::project::Project;
 
     use super::project;

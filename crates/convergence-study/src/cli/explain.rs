@@ -1,5 +1,6 @@
 //! `explain NAME`: what a study, a term, a reason for a verdict or a kind of study means.
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -8,10 +9,11 @@ use serde_json::json;
 use super::exit::{Ended, Outcome, Unusable};
 use super::flags::Flags;
 use super::workspace;
-use crate::explain;
-use crate::judge::verdict::Verdict;
+use crate::judge::verdict::{Reason, Verdict};
 use crate::project::Project;
-use crate::study::StudyFile;
+use crate::study::{KindRow, Study, StudyFile};
+use crate::text::lists::grouped;
+use crate::text::names::nearest;
 use crate::text::visible::{self, visible};
 
 /// Explain what a study claims, why it should hold, how it is judged, and what a failure would mean
@@ -39,7 +41,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     // Terms, reasons and files can be explained outside a workspace.
     let studies = || workspace::root().map_or_else(|_| PathBuf::from("studies"), |root| root.join("studies"));
     let folder = arguments.dir.clone().unwrap_or_else(studies);
-    let text = match explain::term(project, name) {
+    let text = match term(project, name) {
         Some(text) => text,
         None if name.ends_with(".toml") => of_study(project, &StudyFile::read(project.kinds, Path::new(name))?),
         None => {
@@ -47,7 +49,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             let named = files.iter().find(|file| file.study.header().id == name);
             named.map(|file| of_study(project, file)).ok_or_else(|| {
                 let ids = files.iter().map(|file| file.study.header().id.as_str());
-                let meant = explain::meant(project, ids, name);
+                let meant = meant(project, ids, name);
                 Unusable::because(&unknown(project, name, &folder, meant))
             })?
         }
@@ -65,11 +67,7 @@ fn show(arguments: &Arguments, text: &str) -> Outcome {
 
 /// The kind of a file that was read is one that the project knows.
 fn of_study(project: &Project, file: &StudyFile) -> String {
-    explain::study(project, file.study.as_ref()).unwrap_or_default()
-}
-
-fn contents(project: &Project) -> String {
-    format!("{}\nstudies, by id or file\n  see `{} list`\n", explain::contents(project), project.command)
+    study(project, file.study.as_ref()).unwrap_or_default()
 }
 
 fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) -> String {
@@ -78,4 +76,98 @@ fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) 
         |meant| format!("did you mean {meant}?"),
     );
     format!("found no study, term, reason or kind `{}` in {}; {hint}", visible(name), visible::path(folder))
+}
+
+/// The code of a case stopped at its limit of work.
+const WORK: &str = "work";
+
+const WORK_MEANS: &str = "The case has counted three times the node-steps of its blessing, and two per cent of its tier's: it was stopped, at \
+    the same step on every machine. An iteration needs more steps, a run does not come to rest, or steps have become smaller. If more \
+    work is meant: `verify --bless`, which limits nothing, takes the new counts for `studies/work.json`.";
+
+/// A term of the project, a reason or a kind, in words; `None` if the name is unknown.
+pub fn term(project: &Project, name: &str) -> Option<String> {
+    if let Some(term) = project.terms.iter().find(|term| term.name == name) {
+        let mut text = format!("{name}, {}\n", term.what);
+        section(&mut text, "what it means", &format!("{}.", term.text));
+        return Some(text);
+    }
+    if let Some(reason) = Reason::ALL.into_iter().find(|reason| reason.code() == name) {
+        let mut words = format!("{name}, a reason for {}\n", reason.verdict());
+        section(&mut words, "in short", &format!("{}.", reason.text()));
+        section(&mut words, "what it means", reason.advice());
+        section(&mut words, "mathematics, and what to try", reason.mathematics());
+        return Some(words);
+    }
+    if name == WORK {
+        let mut words = format!("{name}, a reason for which a case fails\n");
+        section(&mut words, "what it means", WORK_MEANS);
+        return Some(words);
+    }
+    let kind = project.kinds.iter().find(|kind| kind.name == name)?;
+    let mut text = format!("{name}, a kind of study\n");
+    describe(&mut text, kind, &[]);
+    Some(text)
+}
+
+/// The names that [`term`] knows.
+pub fn terms(project: &Project) -> Vec<&'static str> {
+    groups(project).into_iter().flat_map(|(_, names)| names).collect()
+}
+
+/// The names that [`term`] knows, group by group.
+pub fn contents(project: &Project) -> String {
+    let mut text = "what can be explained\n".to_owned();
+    for (title, names) in groups(project) {
+        section(&mut text, title, &names.join(", "));
+    }
+    section(&mut text, "studies, by id or file", &format!("see `{} list`", project.command));
+    text
+}
+
+fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
+    let mut groups = grouped(project.terms.iter().map(|term| (term.what, term.name)));
+    groups.push(("reasons for a verdict", Reason::ALL.map(Reason::code).to_vec()));
+    groups.push(("reasons for which a case fails", vec![WORK]));
+    groups.push(("kinds of study", project.kinds.iter().map(|kind| kind.name).collect()));
+    groups
+}
+
+/// A study in words; `None` if the project does not know its kind.
+pub fn study(project: &Project, study: &dyn Study) -> Option<String> {
+    let header = study.header();
+    let kind = project.kinds.iter().find(|kind| kind.name == header.kind)?;
+    let mut text = format!("{} ({}, tier {})\n", header.id, header.kind, header.tier.name());
+    section(&mut text, "what is claimed", &header.claim);
+    describe(&mut text, kind, &study.details());
+    Some(text)
+}
+
+/// The id or term closest to a misspelt one.
+pub fn meant<'i>(project: &Project, ids: impl IntoIterator<Item = &'i str>, name: &str) -> Option<String> {
+    nearest(name, ids.into_iter().chain(terms(project))).map(str::to_owned)
+}
+
+/// * `details`: paragraphs on one study, each with its title.
+fn describe(text: &mut String, kind: &KindRow, details: &[(String, String)]) {
+    section(text, "why it should hold", kind.why);
+    details.iter().for_each(|(title, paragraph)| section(text, title, paragraph));
+    section(text, "how it is judged", kind.judged);
+    section(text, "what a failure would mean", kind.failure);
+}
+
+/// A title, and a paragraph with lines of at most 100 characters.
+pub(crate) fn section(text: &mut String, title: &str, paragraph: &str) {
+    const WIDTH: usize = 100;
+    let _ = write!(text, "\n{title}\n ");
+    let mut column = 1;
+    for word in paragraph.split_whitespace() {
+        if column + 1 + word.chars().count() > WIDTH {
+            text.push_str("\n ");
+            column = 1;
+        }
+        let _ = write!(text, " {word}");
+        column += 1 + word.chars().count();
+    }
+    text.push('\n');
 }

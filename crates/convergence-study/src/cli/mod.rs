@@ -6,7 +6,7 @@
 
 mod compare;
 pub mod exit;
-mod explain;
+pub mod explain;
 pub mod flags;
 mod github;
 mod list;

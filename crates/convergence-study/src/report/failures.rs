@@ -36,6 +36,14 @@ pub struct NotPassed {
     pub verdict: Verdict,
     /// One line for each rate, check and case that did not pass; at least one.
     pub reasons: Vec<String>,
+    /// What each kind of reason means, and what to do.
+    pub advice: Vec<String>,
+}
+
+impl NotPassed {
+    fn lines(&self) -> impl Iterator<Item = &String> {
+        self.reasons.iter().chain(&self.advice)
+    }
 }
 
 /// The studies that did not pass: failed ones first, then inconclusive ones, and last those that did not pass because
@@ -66,7 +74,7 @@ fn names_another(Finished { header, outcome, .. }: &Finished, ids: &HashSet<&str
 fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPassed {
     let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
     let advice = Reason::ALL.into_iter().filter(|&reason| rates.clone().any(|(_, rate)| rate.kind == reason));
-    let advice: Vec<String> = advice.map(|reason| format!("{}: {}", reason.code(), reason.advice())).collect();
+    let advice = advice.map(|reason| format!("{}: {}", reason.code(), reason.advice())).collect();
     let rates = rates.map(|(name, rate)| format!("{name}: {} ({})", rate.line(), rate.kind.code()));
     // The reasons already say that cases are missing.
     let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
@@ -84,8 +92,7 @@ fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPass
         reasons.truncate(MOST_REASONS);
         reasons.push(format!("and {more} more"));
     }
-    reasons.extend(advice);
-    NotPassed { id: header.id.clone(), verdict: outcome.verdict, reasons }
+    NotPassed { id: header.id.clone(), verdict: outcome.verdict, reasons, advice }
 }
 
 /// The same, the clearest first, and how many of them are shown; the others are folded.
@@ -102,10 +109,11 @@ fn clearest_first(record: &Record) -> (Vec<NotPassed>, usize) {
 /// * `linked`: whether each id is a link to the section of its study.
 pub(super) fn markdown(record: &Record, linked: bool) -> String {
     let (studies, shown) = clearest_first(record);
-    let item = |NotPassed { id, verdict, reasons }: &NotPassed| {
-        let name = if linked { format!("[{}](#{})", cell(id), anchor(id)) } else { cell(id) };
-        let reasons: String = reasons.iter().map(|reason| format!("  - {}\n", text(reason))).collect();
-        format!("- {name}: **{verdict}**\n{reasons}")
+    let item = |study: &NotPassed| {
+        let id = cell(&study.id);
+        let name = if linked { format!("[{id}](#{})", anchor(&study.id)) } else { id };
+        let lines: String = study.lines().map(|line| format!("  - {}\n", text(line))).collect();
+        format!("- {name}: **{}**\n{lines}", study.verdict)
     };
     let (first, rest) = studies.split_at(shown.min(studies.len()));
     let [first, others] = [first, rest].map(|part| part.iter().map(item).collect::<String>());
@@ -121,10 +129,10 @@ pub(super) fn markdown(record: &Record, linked: bool) -> String {
 /// The same for the page, each id a link to the section of its study.
 pub(super) fn html(record: &Record) -> String {
     let (studies, shown) = clearest_first(record);
-    let item = |NotPassed { id, verdict, reasons }: &NotPassed| {
-        let reasons: String = reasons.iter().map(|reason| format!("<li>{}</li>\n", phrase(reason))).collect();
-        let id = escape(id);
-        format!("<li><a href=\"#{id}\">{id}</a> {}\n<ul>\n{reasons}</ul></li>\n", badge(*verdict))
+    let item = |study: &NotPassed| {
+        let lines: String = study.lines().map(|line| format!("<li>{}</li>\n", phrase(line))).collect();
+        let id = escape(&study.id);
+        format!("<li><a href=\"#{id}\">{id}</a> {}\n<ul>\n{lines}</ul></li>\n", badge(study.verdict))
     };
     let (first, rest) = studies.split_at(shown.min(studies.len()));
     let list = |part: &[NotPassed]| format!("<ul>\n{}</ul>\n", part.iter().map(item).collect::<String>());
@@ -140,9 +148,9 @@ pub(super) fn html(record: &Record) -> String {
 ///
 /// * `clearest`: the studies to show, with their first reasons; `None` for all studies with all their reasons.
 pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
-    let line = |NotPassed { id, verdict, reasons }: NotPassed| {
-        let reasons: String = reasons.iter().map(|reason| format!("  {}\n", visible(reason))).collect();
-        format!("{id}: {verdict}\n{reasons}\n")
+    let text = |study: NotPassed| {
+        let lines: String = study.lines().map(|line| format!("  {}\n", visible(line))).collect();
+        format!("{}: {}\n{lines}\n", study.id, study.verdict)
     };
     let mut studies = not_passed(finished);
     if let Some(ids) = clearest {
@@ -151,22 +159,19 @@ pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> S
         let advice: Vec<String> = studies.iter_mut().filter_map(shorten).collect();
         let first = |k: &usize| !advice[..*k].contains(&advice[*k]);
         let advice: String = (0..advice.len()).filter(first).take(SHOWN).map(|k| visible(&advice[k]) + "\n").collect();
-        return studies.into_iter().map(|study| line(study).trim_end().to_owned() + "\n").collect::<String>() + &advice;
+        return studies.into_iter().map(|study| text(study).trim_end().to_owned() + "\n").collect::<String>() + &advice;
     }
-    studies.into_iter().map(line).collect()
+    studies.into_iter().map(text).collect()
 }
 
 /// Keeps only the first reasons; returns the first advice.
-fn shorten(NotPassed { reasons, .. }: &mut NotPassed) -> Option<String> {
-    let is_advice = |line: &String| Reason::ALL.iter().any(|reason| line.starts_with(&format!("{}: ", reason.code())));
-    let advice = reasons.iter().find(|line| is_advice(line)).cloned();
-    reasons.retain(|line| !is_advice(line));
+fn shorten(NotPassed { reasons, advice, .. }: &mut NotPassed) -> Option<String> {
     let left = reasons.len().saturating_sub(SHOWN);
     reasons.truncate(SHOWN);
     if let Some(last) = reasons.last_mut().filter(|_| left > 0) {
         *last += &format!("; and {left} more");
     }
-    advice
+    std::mem::take(advice).into_iter().next()
 }
 
 /// The known facts about the cause, line by line under a title.

@@ -1,5 +1,5 @@
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
-use convergence_study::report::{Findings, LONGEST, not_passed, sentence, tables};
+use convergence_study::report::{Findings, LONGEST, NotPassed, not_passed, sentence, tables};
 use convergence_study::run::Finished;
 use convergence_study::store::baseline::{Baseline, Change, Movement};
 use convergence_study::store::junit::junit;
@@ -248,9 +248,12 @@ fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     let steps = (0..6).map(|level| 0.5_f64.powi(level + 3));
     finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
     finished.outcome.verdict = Verdict::Fail;
-    let reasons = not_passed(&[finished]).remove(0).reasons;
+    let NotPassed { reasons, advice, .. } = not_passed(&[finished]).remove(0);
     assert_eq!(reasons[0], "L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite (non-finite)");
-    assert!(reasons.len() == 2 && reasons[1].starts_with("non-finite: "), "{reasons:?}");
+    assert!(
+        reasons.len() == 1 && advice.len() == 1 && advice[0].starts_with("non-finite: "),
+        "{reasons:?}, {advice:?}"
+    );
 }
 
 /// Errors of several names, each with its order, on levels that may lack some of them.

@@ -6,8 +6,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::{JudgedColumn, Judgement};
+use crate::cli::explain::section;
 use crate::cli::{github, screen};
-use crate::explain::section;
 use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;

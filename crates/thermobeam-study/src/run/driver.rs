@@ -176,14 +176,15 @@ pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Lev
 /// The P1 functions of a level at the nodes of another mesh.
 pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
     let nodes = mesh.nodes();
-    map_fields(level, |y| {
-        let value = |&x: &f64| {
-            let i = nodes.partition_point(|&node| node <= x).clamp(1, nodes.len() - 1) - 1;
-            let s = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
-            (1.0 - s) * y[i] + s * y[i + 1]
-        };
-        other.nodes().iter().map(value).collect()
-    })
+    let mut left = 0;
+    let place = |&x: &f64| {
+        while left + 2 < nodes.len() && nodes[left + 1] <= x {
+            left += 1;
+        }
+        (left, (x - nodes[left]) / (nodes[left + 1] - nodes[left]))
+    };
+    let places: Vec<(usize, f64)> = other.nodes().iter().map(place).collect();
+    map_fields(level, |y| places.iter().map(|&(i, s)| (1.0 - s) * y[i] + s * y[i + 1]).collect())
 }
 
 impl Motion for Driver {

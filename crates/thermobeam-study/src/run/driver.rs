@@ -175,8 +175,7 @@ pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Lev
 
 /// The P1 functions of a level at the nodes of another mesh.
 pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
-    let nodes = mesh.nodes();
-    let mut left = 0;
+    let (nodes, mut left) = (mesh.nodes(), 0);
     let place = |&x: &f64| {
         while left + 2 < nodes.len() && nodes[left + 1] <= x {
             left += 1;

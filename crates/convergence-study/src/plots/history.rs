@@ -24,12 +24,21 @@ pub fn iterations(series: &[Series]) -> Xy {
 ///
 /// * `cost`, `error`: the labels of the axes.
 pub fn work_precision(cost: &str, error: impl Into<String>, series: &[Series]) -> Xy {
-    let mut figure = history(Axis::log(error), series);
-    figure.curves.iter_mut().for_each(|curve| curve.marks = Marks::Filled);
-    Xy { x: Axis::log(cost), ..figure }
+    Xy { x: Axis::log(cost), ..history(Axis::log(error), series).marked() }
 }
 
 impl Xy {
+    /// The same with a marker at each point.
+    pub fn marked(mut self) -> Self {
+        self.curves.iter_mut().for_each(|curve| curve.marks = Marks::Filled);
+        self
+    }
+
+    /// The same with a title above the plot.
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self { title: Some(title.into()), ..self }
+    }
+
     /// The same with the [`look`] of each curve, which is then the same in every figure.
     pub fn with_looks(mut self, looks: &[usize]) -> Self {
         self.curves.iter_mut().zip(looks).for_each(|(curve, &k)| curve.look = look(k));

@@ -85,6 +85,13 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Series {
+    /// Points in drawing order, with their name in the legend.
+    pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self { label: label.into(), points: points.into_iter().collect() }
+    }
+}
+
 /// A value worth a line across the plot: a limit, a value known exactly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Guide {

@@ -152,11 +152,8 @@ fn levels(study: &Program, ran: &[Run]) -> Levels {
     let axis = study.refine.axis();
     let over = |step: f64| if by_degree(study) { claims::step_of_degree(step.recip()) } else { step };
     let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.errors.as_slice())).collect();
-    Levels {
-        axis,
-        refinements: ran.iter().map(|ran| ran.case.data.refinement(over(step(ran, axis)))).collect(),
-        columns: ErrorColumn::of(&study.claims(false), &found),
-    }
+    let refinements = ran.iter().map(|ran| ran.case.data.refinement(over(step(ran, axis))));
+    Levels::new(axis, refinements, ErrorColumn::of(&study.claims(false), &found))
 }
 
 /// Every error of every level, with the work that the program counts.
@@ -175,8 +172,7 @@ fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
         .map(|column| {
             let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
             let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
-            let points = points.collect();
-            Series { label: column.name.clone(), points }
+            Series::new(column.name.clone(), points)
         })
         .collect();
     let drawn = plots::work_precision("work, as the program counts it", "error", &series).draw();
@@ -242,11 +238,7 @@ fn differences(
         claim: column.claim,
         look: column.look,
     };
-    let levels = Levels {
-        axis: study.refine.axis(),
-        refinements: refinements[1..].to_vec(),
-        columns: estimates.iter().map(column).collect(),
-    };
+    let levels = Levels::new(study.refine.axis(), refinements[1..].to_vec(), estimates.iter().map(column));
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
     // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates.iter().filter(|(_, rate)| rate.kind != Reason::NoResult).cloned().collect();

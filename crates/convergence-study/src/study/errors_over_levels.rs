@@ -127,11 +127,7 @@ impl<F> ErrorsOverLevels<F> {
         };
         let found: Vec<_> = ran.iter().map(errors).collect();
         let found: Vec<_> = found.iter().map(Option::as_deref).collect();
-        Levels {
-            axis: self.axis,
-            refinements: ran.iter().map(refinement).collect(),
-            columns: ErrorColumn::of(&self.claims, &found),
-        }
+        Levels::new(self.axis, ran.iter().map(refinement), ErrorColumn::of(&self.claims, &found))
     }
 }
 

@@ -17,6 +17,13 @@ pub struct Case<D> {
     pub data: D,
 }
 
+impl<D> Case<D> {
+    /// A computation with its label and the estimate of its work.
+    pub fn new(label: impl Into<String>, cost: f64, data: D) -> Self {
+        Self { label: label.into(), cost, data }
+    }
+}
+
 /// A case after its run: its data, and its result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran<D, F> {
@@ -38,6 +45,13 @@ impl<D, F> Ran<D, F> {
 pub struct CaseFailure {
     /// In words, with step, time and numbers.
     pub reason: String,
+}
+
+impl CaseFailure {
+    /// * `reason`: in words, with step, time and numbers.
+    pub fn new(reason: impl Into<String>) -> Self {
+        Self { reason: reason.into() }
+    }
 }
 
 impl<E: std::error::Error> From<E> for CaseFailure {

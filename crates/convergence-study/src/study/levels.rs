@@ -127,6 +127,15 @@ pub struct Levels {
 pub type Rates = [(String, RateVerdict)];
 
 impl Levels {
+    /// * `refinements`: steps decreasing.
+    pub fn new(
+        axis: Axis,
+        refinements: impl IntoIterator<Item = Refinement>,
+        columns: impl IntoIterator<Item = ErrorColumn>,
+    ) -> Self {
+        Self { axis, refinements: refinements.into_iter().collect(), columns: columns.into_iter().collect() }
+    }
+
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
         let level = |(i, level): (usize, &Refinement)| Some(Level { step: level.step, error: at(&column.errors, i)? });
         self.refinements.iter().enumerate().filter_map(level).collect()
@@ -209,11 +218,7 @@ impl Levels {
             errors: column.errors.iter().copied().take(levels).collect(),
             ..column.clone()
         };
-        Self {
-            axis: self.axis,
-            refinements: self.refinements.iter().take(levels).cloned().collect(),
-            columns: self.columns.iter().map(column).collect(),
-        }
+        Self::new(self.axis, self.refinements.iter().take(levels).cloned(), self.columns.iter().map(column))
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
@@ -358,11 +363,7 @@ mod tests {
         let errors =
             refinements.iter().zip(factors).map(|(level, factor)| Some(factor * level.step * level.step)).collect();
         let claim = Some(Claim::new(2.0, 0.1));
-        Levels {
-            axis: Axis::Space,
-            refinements,
-            columns: vec![ErrorColumn { name: "L2".into(), errors, claim, look: 0 }],
-        }
+        Levels::new(Axis::Space, refinements, [ErrorColumn { name: "L2".into(), errors, claim, look: 0 }])
     }
 
     /// The errors zigzag: their rate may be anything.

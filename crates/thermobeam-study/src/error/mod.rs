@@ -33,11 +33,7 @@ impl ErrorMeasure {
 
     /// The name in files, reports and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            ErrorMeasure::Theorem34 => "theorem-3.4",
-            ErrorMeasure::Superclose => "superclose",
-            ErrorMeasure::Tip => "tip",
-        }
+        ["theorem-3.4", "superclose", "tip"][self as usize]
     }
 }
 
@@ -59,21 +55,18 @@ impl<'a> Evaluator<'a> {
     /// [`CaseFailure`] if there is neither, or if the reference's mesh does not contain the nodes.
     pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Traced>) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
-        let fail = |reason: &str| CaseFailure { reason: reason.to_owned() };
         let answer = match (reference, family.exact()) {
-            (Some(reference), _) => {
-                if !reference.mesh.elements().is_multiple_of(mesh.elements()) {
-                    return Err(fail("the reference's number of elements is no multiple of this mesh's"));
-                }
-                Answer::Computed { reference, mesh: mesh.clone() }
+            (Some(reference), _) if !reference.mesh.elements().is_multiple_of(mesh.elements()) => {
+                return Err(CaseFailure::new("the reference's number of elements is no multiple of this mesh's"));
             }
+            (Some(reference), _) => Answer::Computed { reference, mesh: mesh.clone() },
             (None, Some(exact)) => {
                 let mut meter = ErrorMeter::new(exact, mesh, false);
                 meter.lift(mesh, family.beam.theta_a);
                 let tip = exact.u.iter().map(|product: &Product| product.x.eval(1.0)).collect();
                 Answer::Exact { exact, meter: Box::new((meter, Factors::default())), tip }
             }
-            (None, None) => return Err(fail("there is nothing to measure the error against")),
+            (None, None) => return Err(CaseFailure::new("there is nothing to measure the error against")),
         };
         Ok(Self { answer })
     }

@@ -25,18 +25,12 @@
 //! tolerance = 0.1       # of the rate; or factor = 4.0 for "degree"
 //! ```
 
-use convergence_study::plots::look::{Marks, look};
-use convergence_study::plots::xy::{Curve, Xy};
-use convergence_study::text::number::counted;
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
+use thermobeam::dg::Stepping;
 
 use super::prelude::*;
 use super::tables::{Layout, control, manufactured};
-use crate::error::free_vibration;
 use crate::exact::any_order::ErrorMeter;
-use crate::run::Motion;
 use crate::run::dg::DgMotion;
-use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -304,46 +298,35 @@ impl AnyOrder {
             };
             Refinement::new(ran.case.label.clone(), &numbers, step)
         };
-        Levels {
-            axis: if self.over == Over::Time { Axis::Time } else { Axis::Space },
-            refinements: ran.iter().map(refinement).collect(),
-            columns,
-        }
+        let axis = if self.over == Over::Time { Axis::Time } else { Axis::Space };
+        Levels::new(axis, ran.iter().map(refinement), columns)
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
     fn over_degrees(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
         let mut checks = vec![completion];
         let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
-        for (k, (series, runs)) in runs.iter().enumerate() {
+        for (series, runs) in runs {
             let error = |run: &OneRun| run.ok().map_or(f64::NAN, |errors| errors[0].1);
             let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
             checks.extend(exponential(&points, series.tolerance));
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));
-            quantities
-                .extend(measurable.map(|(p, error)| Quantity::new(format!("error fields, p = {p}"), *error, 1e-4)));
+            let guarded = |(p, error): &(f64, f64)| Quantity::new(format!("error fields, p = {p}"), *error, 1e-4);
+            quantities.extend(measurable.map(guarded));
             let name = counted(series.runs[0].elements, "element");
             rows.extend(points.iter().map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]));
-            let listed = plots::Series { label: name, points };
-            curves.push(Curve { look: look(k), marks: Marks::Filled, ..Curve::line(k, &listed) });
+            curves.push(plots::Series { label: name, points });
         }
-        let drawing = Xy {
-            title: Some("Error over the degree of the elements".into()),
-            x: plots::Axis::linear("degree p"),
-            y: plots::Axis::log("L2 error of all fields (dimensionless)"),
-            curves,
-            ..Xy::default()
-        };
+        let history = plots::history(plots::Axis::log("L2 error of all fields (dimensionless)"), &curves).marked();
+        let drawing = Xy { x: plots::Axis::linear("degree p"), ..history };
+        let svg = drawing.titled("Error over the degree of the elements").draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let summary = checks.iter().skip(1).map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+        let (title, head) = ("Error of all fields at the end over the degree", ["mesh", "degree p", "error"]);
         Outcome {
             headline: summary.clone(),
-            tables: vec![Table::new(
-                "Error of all fields at the end over the degree",
-                ["mesh", "degree p", "error"],
-                rows,
-            )],
-            figures: vec![Figure::new("degrees", caption, drawing.draw())],
+            tables: vec![Table::new(title, head, rows)],
+            figures: vec![Figure::new("degrees", caption, svg)],
             quantities,
             ..Outcome::new(summary, vec![], checks)
         }

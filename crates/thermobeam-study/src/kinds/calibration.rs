@@ -17,9 +17,6 @@ use convergence_study::judge::calibration::{
     CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, RULES, Row, Sheet, bars::of_the_bars, grids::of_grids, of_the_rule,
 };
 
-use convergence_study::plots::look::Marks;
-use convergence_study::plots::xy::{Curve, Xy};
-
 use super::prelude::*;
 use plots::Axis;
 
@@ -140,10 +137,10 @@ impl Kind for Calibration {
     type Found = Vec<Sheet>;
 
     fn cases(&self) -> Vec<Case<Measure>> {
-        let case = |&data: &Measure| Case {
-            label: format!("{}, {} tables of each law", data.of.name, data.tables),
-            cost: (data.of.cost * data.tables * ELEMENTS_OF_A_TABLE) as f64,
-            data,
+        let case = |&data: &Measure| {
+            let Measure { of, tables, .. } = data;
+            let cost = of.cost * tables * ELEMENTS_OF_A_TABLE;
+            Case::new(format!("{}, {tables} tables of each law", of.name), cost as f64, data)
         };
         self.measures.iter().map(case).collect()
     }
@@ -193,21 +190,10 @@ type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
-        let curve = |(k, row): (usize, &Row)| {
-            let series = plots::Series { label: row.name.clone(), points: points(sheet, row) };
-            Curve { marks: Marks::Filled, ..Curve::line(k, &series) }
-        };
-        let curves = sheet.rows.iter().enumerate().map(curve).collect();
-        let figure = Xy {
-            x,
-            y,
-            curves,
-            show_x: ends.to_vec(),
-            show_y: vec![100.0],
-            notes: vec![note.to_owned()],
-            ..Xy::default()
-        };
-        Some(Figure::new(key, caption, figure.draw()))
+        let curve = |row: &Row| plots::Series { label: row.name.clone(), points: points(sheet, row) };
+        let history = plots::history(y, &sheet.rows.iter().map(curve).collect::<Vec<_>>()).marked();
+        let (show_x, show_y, notes) = (ends.to_vec(), vec![100.0], vec![note.to_owned()]);
+        Some(Figure::new(key, caption, Xy { x, show_x, show_y, notes, ..history }.draw()))
     };
     let trade: Points = |_, row| {
         (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()

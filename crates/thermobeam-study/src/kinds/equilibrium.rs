@@ -4,9 +4,6 @@
 //! the nodes in u and in φ; with elements of high degree and dG(q) it nearly vanishes. A straight steady state has no such error: the
 //! beam is only checked to end straight, up to the remaining motion.
 
-use convergence_study::judge::richardson;
-use convergence_study::text::number::decimals;
-
 use super::prelude::*;
 pub use super::steady::{AtRest, Nearest};
 use super::steady::{cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance};
@@ -107,17 +104,17 @@ impl Kind for EndStates {
     fn run(&self, &(scene, elements): &Self::Data) -> Result<AtRest, CaseFailure> {
         let scene = &self.scenes[scene];
         let is_stable = |state: &Equilibrium| state.stable;
-        let absent = |reason: &str| CaseFailure { reason: reason.to_owned() };
+        let absent = |what: &'static str| move || CaseFailure::new(what);
         let end = if let Some(elements) = elements {
             let scene = scene.at(Mesh::uniform(elements)?, self.dt);
             let (t, level) = settle(&scene, self.speed, self.t_max)?;
             AtRest::of(&scene, &scene.mesh, t, &level, is_stable)
         } else {
-            let (how, t_end, _) = self.any_order.as_ref().ok_or_else(|| absent("the study has no run of any order"))?;
+            let (how, t_end, _) = self.any_order.as_ref().ok_or_else(absent("the study has no run of any order"))?;
             let Traced { mesh, levels, .. } = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
-            AtRest::of(scene, &mesh, *t_end, levels.last().ok_or_else(|| absent("the run has no end"))?, is_stable)
+            AtRest::of(scene, &mesh, *t_end, levels.last().ok_or_else(absent("the run has no end"))?, is_stable)
         }?;
-        end.nearest.map(|_| end).ok_or_else(|| absent("there is no stable steady state"))
+        end.nearest.map(|_| end).ok_or_else(absent("there is no stable steady state"))
     }
 
     fn judge(&self, ran: &[Ran<(usize, Option<usize>), AtRest>]) -> Outcome {
@@ -172,11 +169,7 @@ impl EndStates {
             })
         });
         let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
-        Levels {
-            axis: Axis::Space,
-            refinements: self.elements.iter().map(refinement).collect(),
-            columns: columns.collect(),
-        }
+        Levels::new(Axis::Space, self.elements.iter().map(refinement), columns)
     }
 }
 

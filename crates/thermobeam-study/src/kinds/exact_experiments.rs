@@ -23,10 +23,7 @@ use thermobeam::dg::ContactEvent;
 
 use super::prelude::*;
 use super::tables::{Discretisation, discretisations};
-use crate::figures::looks;
 use crate::run::object::phase_name;
-use crate::run::simulate::{Recording, Simulator};
-use crate::run::{Motion, Sample};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -197,10 +194,9 @@ impl ExactExperiments {
 
     fn figures(&self, scenes: &[OfScene<'_>]) -> Vec<Figure> {
         let figure = |what: &str, caption: &str, title: &str, y, points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
-            let curve = |scene: &OfScene<'_>| plots::Series { label: scene.name.to_owned(), points: points(scene) };
-            let history = plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>());
-            let history = history.with_looks(&looks(scenes.iter().map(|scene| scene.name)));
-            Figure::new(what, caption, Xy { title: Some(title.to_owned()), ..history }.draw())
+            let curve = |scene: &OfScene<'_>| plots::Series::new(scene.name, points(scene));
+            let history = plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>()).titled(title);
+            Figure::new(what, caption, history.with_looks(&looks(scenes.iter().map(|scene| scene.name))).draw())
         };
         let mut figures = vec![figure(
             "tip",

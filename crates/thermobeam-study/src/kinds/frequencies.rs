@@ -13,8 +13,6 @@
 //! tolerance = 0.1
 //! ```
 
-use convergence_study::judge::verdict::RateVerdict;
-use thermobeam::dg::MAX_DEGREE;
 use thermobeam::vibration::{discrete_frequencies_until, frequencies};
 
 use super::prelude::*;
@@ -126,11 +124,7 @@ impl Frequencies {
             claim: Some(self.claim),
             look: mode,
         };
-        Levels {
-            axis: Axis::Space,
-            refinements: ran.iter().map(refinement).collect(),
-            columns: (self.first - 1..self.count).map(column).collect(),
-        }
+        Levels::new(Axis::Space, ran.iter().map(refinement), (self.first - 1..self.count).map(column))
     }
 
     fn table(&self, levels: &Levels, rates: &[(String, RateVerdict)]) -> Table {

@@ -2,9 +2,10 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_study::input::{Field, InputError, Section};
+pub(crate) use convergence_study::input::{Field, InputError, POSITIVE, Section};
 pub(crate) use convergence_study::judge::random::SplitMix;
-pub(crate) use convergence_study::judge::verdict::{Judge, Verdict};
+pub(crate) use convergence_study::judge::richardson;
+pub(crate) use convergence_study::judge::verdict::{Judge, RateVerdict, Verdict};
 pub(crate) use convergence_study::plots;
 pub(crate) use convergence_study::plots::xy::Xy;
 pub(crate) use convergence_study::run::time_limit::Patience;
@@ -12,9 +13,10 @@ pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
     Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Reading, Refinement, Table, read_claim, reader, readings,
+    Reading, Refinement, Study, Table, Untested, read_claim, reader, readings,
 };
-pub(crate) use convergence_study::text::number::{max_or_nan, min_or_nan, plain_text};
+pub(crate) use convergence_study::text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text};
+pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::equilibrium::{Contact, Equilibrium};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
@@ -23,18 +25,34 @@ pub(crate) use thermobeam::parameters::{Beam, Obstacles};
 pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 pub(crate) use thermobeam::simulation::{Initial, Problem, Stepping};
 pub(crate) use thermobeam::solve::{Level, Settings, Solver};
+pub(crate) use thermobeam::vibration::Mode;
 
+pub(crate) use crate::error::{ErrorMeasure, free_vibration};
+pub(crate) use crate::exact::errors::ErrorMeter;
+pub(crate) use crate::exact::factors::Factors;
 pub(crate) use crate::exact::norm::{Norm, Norms};
 pub(crate) use crate::exact::solution::{Manufactured, Product};
-pub(crate) use crate::expression::Expression;
-pub(crate) use crate::run::RunError;
+pub(crate) use crate::expression::{Expression, Variable};
+pub(crate) use crate::figures::{self, looks};
 pub(crate) use crate::run::driver::{Driver, Step};
-pub(crate) use crate::run::simulate;
-pub(crate) use crate::scene::{Method, Scene, limits, resampled, tables};
+pub(crate) use crate::run::family::{Family, OnMesh};
+pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator, driver};
+pub(crate) use crate::run::{Motion, RunError, Sample};
+pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
 
 /// Whether each value is larger than its predecessor.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
     list.windows(2).all(|pair| pair[0] < pair[1])
+}
+
+/// The table of a file that may have only one of these.
+pub(crate) fn only_table<'t>(root: &Section<'_>, tables: [&'t str; 3], allowed: &str) -> Result<&'t str, InputError> {
+    root.allow(&[&["study"], &tables[..]].concat())?;
+    match tables.into_iter().filter(|table| root.get(table).is_some()).collect::<Vec<_>>()[..] {
+        [] => Err(root.missing(tables[0], allowed)),
+        [only] => Ok(only),
+        [_, second, ..] => Err(root.refuse(second, "a second table", allowed)),
+    }
 }
 
 /// The result of the case with these data; `None` if it failed or was not run.

@@ -152,17 +152,12 @@ impl RandomErrors {
         let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let work = "work of a scene's searches (unknowns times solves)";
-        let series = [plots::Series { label: "random scenes".to_owned(), points }];
+        let series = [plots::Series::new("random scenes", points)];
         let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
-        let drawn = Xy { title: Some("Errors of the runs chosen".to_owned()), ..drawn };
         let caption =
             "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
-        Figure::new("errors", caption, drawn.draw())
+        Figure::new("errors", caption, drawn.titled("Errors of the runs chosen").draw())
     }
-}
-
-fn failed(failure: impl ToString) -> CaseFailure {
-    CaseFailure { reason: failure.to_string() }
 }
 
 impl Kind for RandomErrors {
@@ -175,7 +170,7 @@ impl Kind for RandomErrors {
     }
 
     fn run(&self, &number: &usize) -> Result<Found, CaseFailure> {
-        let scene = self.scene(number).map_err(failed)?;
+        let scene = self.scene(number)?;
         let exact = Self::independent(&scene)?;
         let mut ignored = |_: f64| ();
         let work = &mut Work::new(MOST_WORK, &mut ignored);
@@ -185,7 +180,7 @@ impl Kind for RandomErrors {
                 return Ok(Found { refused: Some(refused.to_string()), work: work.spent().work, ..Found::default() });
             }
         };
-        let mut errors = |run: &Scene| differences(run, &exact, work).map_err(failed);
+        let mut errors = |run: &Scene| Ok(differences(run, &exact, work)?);
         let over = estimates.iter().zip(errors(&scene)?).map(|(estimate, error)| error / estimate);
         let over_estimate = over.fold(0.0, max_or_nan);
         let mut over_target = 0.0;

@@ -22,17 +22,13 @@
 //! t_end = 1.0
 //! ```
 
-use convergence_study::text::number::short_text;
-
 use super::energy::{End, named_cases};
 use super::prelude::*;
 use super::steady::exact_states;
 use super::tables::Discretisation;
+use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};
 use crate::predict::estimate::estimate;
-use crate::predict::{Unreachable, Work};
-use crate::run::Sample;
-use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::tally::Extremes;
 use crate::run::together::run_together;
 use crate::scene;
@@ -237,21 +233,20 @@ impl Kind for Scenes {
 impl Whole {
     /// Predictions and steady states, where the answer has them.
     fn others(&self) -> Result<Expected, CaseFailure> {
-        let (mut others, mut told, [error, chosen]) = (vec![], |_: f64| (), PREDICTED);
-        let failed = |error: Unreachable| CaseFailure { reason: error.to_string() };
-        let asked = |name: &str| self.answer.iter().any(|(of, _)| of == name);
-        if asked(error) {
-            let budget = estimate(&self.scene, &mut Work::new(MOST_WORK, &mut told)).map_err(failed)?;
+        let (mut others, mut ignored, [error, chosen]) = (vec![], |_: f64| (), PREDICTED);
+        let is_known = |name: &str| self.answer.iter().any(|(of, _)| of == name);
+        if is_known(error) {
+            let budget = estimate(&self.scene, &mut Work::new(MOST_WORK, &mut ignored))?;
             let of_tip = budget.quantities.iter().find(|estimate| estimate.name == "u(1) at the end");
             others.push((error.to_owned(), of_tip.map_or(f64::NAN, |estimate| estimate.total)));
         }
-        if asked(chosen) {
-            let work = &mut Work::new(MOST_WORK, &mut told);
-            let choice = choose(&self.scene, Accuracy::Tip, self.within, work).map_err(failed)?;
+        if is_known(chosen) {
+            let work = &mut Work::new(MOST_WORK, &mut ignored);
+            let choice = choose(&self.scene, Accuracy::Tip, self.within, work)?;
             let run = Simulator::new(&choice.scene)?.run(Recording::Summary, &mut |_, _| ());
             others.push((chosen.to_owned(), run.last.u_tip));
         }
-        if asked(STEADY) {
+        if is_known(STEADY) {
             // Infinitely many unstable directions are no number of an answer.
             let unstable = |state: &Equilibrium| state.unstable_directions.map_or(f64::INFINITY, |count| count as f64);
             let states = exact_states(&self.scene)?;

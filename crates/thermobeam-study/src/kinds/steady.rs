@@ -171,8 +171,7 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
             return Ok((t, new.clone()));
         }
         if !(t < t_max) {
-            let reason = format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name);
-            return Err(CaseFailure { reason });
+            return Err(CaseFailure::new(format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name)));
         }
     }
 }

@@ -1,6 +1,5 @@
 //! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
-use convergence_study::text::number::short_text;
 use thermobeam::energy::{Balance, Rounding};
 
 use super::prelude::*;

@@ -1,11 +1,7 @@
 //! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches; tables, figures
 //! and guarded numbers.
 
-use convergence_study::judge::richardson;
-use convergence_study::text::number::decimals;
-
 use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Found, SteadyBranch};
-use crate::figures;
 use crate::kinds::prelude::*;
 
 /// A beam with a tip closer to zero than this is straight.
@@ -138,8 +134,7 @@ impl<'r> DiagramOf<'r> {
             let lines = curves.filter(|points| points.len() > 1);
             branches.extend(lines.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
         }
-        let ends: Vec<(f64, f64)> = self.tips().collect();
-        let ends = plots::Series { label: "end of a run".into(), points: shown(&ends) };
+        let ends = plots::Series::new("end of a run", shown(&self.tips().collect::<Vec<_>>()));
         figures::bifurcation(&branches, figures::obstacle_lines(self.scene.obstacles), &ends)
     }
 }
@@ -154,14 +149,10 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     let mut checks = vec![completion(ran, numbers_not_finite), discrete_limit(&forces)];
     checks.extend(scenes.iter().flat_map(|of| of.checks(study)));
     let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
-    let column = ErrorColumn {
-        name: "buckling force of P1 elements".to_owned(),
-        errors: forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect(),
-        claim: Some(Claim::new(2.0, study.tolerance)),
-        look: 0,
-    };
-    let refinements = study.meshes.iter().map(refinement).collect();
-    let levels = Levels { axis: Axis::Space, refinements, columns: vec![column] };
+    let errors = forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect();
+    let (name, claim) = ("buckling force of P1 elements".to_owned(), Some(Claim::new(2.0, study.tolerance)));
+    let column = ErrorColumn { name, errors, claim, look: 0 };
+    let levels = Levels::new(Axis::Space, study.meshes.iter().map(refinement), [column]);
     let rates = levels.judge();
     let events = scenes.iter().map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
     let guarded = forces.iter().map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));

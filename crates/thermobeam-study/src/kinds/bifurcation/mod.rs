@@ -99,24 +99,18 @@ impl Kind for BifurcationStudy {
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
     fn cases(&self) -> Vec<Case<DiagramTask>> {
         // Each β takes some 50 microseconds: as much as one step of 3000 elements.
-        let diagram = |(k, scene): (usize, &Scene)| Case {
-            label: format!("branches, θ_A = {}", scene.beam.theta_a),
-            cost: 3e3 * self.grid.len() as f64,
-            data: DiagramTask::Diagram(k),
+        let cost = 3e3 * self.grid.len() as f64;
+        let theta_a = |scene: usize| self.scenes[scene].beam.theta_a;
+        let scenes = 0..self.scenes.len();
+        let diagram = |k| Case::new(format!("branches, θ_A = {}", theta_a(k)), cost, DiagramTask::Diagram(k));
+        let force = |&n: &usize| Case::new(format!("buckling force, n = {n}"), n as f64, DiagramTask::Buckling(n));
+        let rest = |scene: usize, (k, beta): (usize, &f64)| {
+            let label = format!("to rest, θ_A = {}, β = {beta}", theta_a(scene));
+            Case::new(label, self.rest.cost(), DiagramTask::Rest(scene, k))
         };
-        let force = |&n: &usize| Case {
-            label: format!("buckling force, n = {n}"),
-            cost: n as f64,
-            data: DiagramTask::Buckling(n),
-        };
-        let rest = |scene: usize, beta: usize| Case {
-            label: format!("to rest, θ_A = {}, β = {}", self.scenes[scene].beam.theta_a, self.rest.betas[beta]),
-            cost: self.rest.cost(),
-            data: DiagramTask::Rest(scene, beta),
-        };
-        let rests =
-            (0..self.scenes.len()).flat_map(|scene| (0..self.rest.betas.len()).map(move |beta| rest(scene, beta)));
-        self.scenes.iter().enumerate().map(diagram).chain(self.meshes.iter().map(force)).chain(rests).collect()
+        let rests = |scene: usize| self.rest.betas.iter().enumerate().map(move |beta| rest(scene, beta));
+        let forces = self.meshes.iter().map(force);
+        scenes.clone().map(diagram).chain(forces).chain(scenes.flat_map(rests)).collect()
     }
 
     fn run(&self, task: &DiagramTask) -> Result<Found, CaseFailure> {
@@ -206,9 +200,7 @@ fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<StatesAt>
         patience.check(done, || beta)?;
         let next = StatesAt::at(scene, beta)?;
         if let Some(last) = samples.last() {
-            let mut between = Vec::new();
-            refine(scene, last, &next, halvings, &mut between)?;
-            between.sort_by(|a: &StatesAt, b| a.beta.total_cmp(&b.beta));
+            let between = between(scene, last, &next, halvings)?;
             samples.extend(between);
         }
         samples.push(next);
@@ -216,22 +208,15 @@ fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<StatesAt>
     Ok(samples)
 }
 
-/// Adds the middle of an interval in which branches meet, and refines both halves.
-fn refine(
-    scene: &Scene,
-    low: &StatesAt,
-    high: &StatesAt,
-    depth: usize,
-    found: &mut Vec<StatesAt>,
-) -> Result<(), CaseFailure> {
+/// The middle of an interval in which branches meet, between the same of both halves.
+fn between(scene: &Scene, low: &StatesAt, high: &StatesAt, depth: usize) -> Result<Vec<StatesAt>, CaseFailure> {
     if depth == 0 || low.keys() == high.keys() {
-        return Ok(());
+        return Ok(vec![]);
     }
     let middle = StatesAt::at(scene, 0.5 * (low.beta + high.beta))?;
-    refine(scene, low, &middle, depth - 1, found)?;
-    refine(scene, &middle, high, depth - 1, found)?;
-    found.push(middle);
-    Ok(())
+    let below = between(scene, low, &middle, depth - 1)?;
+    let above = between(scene, &middle, high, depth - 1)?;
+    Ok(below.into_iter().chain([middle]).chain(above).collect())
 }
 
 /// All branches, continued from each β to the next.
@@ -286,18 +271,13 @@ fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result<[f64; 2], 
     };
     let before: Vec<bool> = samples.iter().map(is_before).collect();
     let changes: Vec<usize> = (1..before.len()).filter(|&k| before[k - 1] != before[k]).collect();
-    let &[k] = changes.as_slice() else { return Ok([f64::NAN; 2]) };
-    if !before[0] {
-        return Ok([f64::NAN; 2]);
-    }
-    let [mut low, mut high] = [samples[k - 1].beta, samples[k].beta];
+    let [mut low, mut high] = match changes[..] {
+        [k] if before[0] => [samples[k - 1].beta, samples[k].beta],
+        _ => return Ok([f64::NAN; 2]),
+    };
     while high - low > width {
         let middle = StatesAt::at(scene, 0.5 * (low + high))?;
-        if is_before(&middle) {
-            low = middle.beta;
-        } else {
-            high = middle.beta;
-        }
+        *(if is_before(&middle) { &mut low } else { &mut high }) = middle.beta;
     }
     Ok([low, high])
 }

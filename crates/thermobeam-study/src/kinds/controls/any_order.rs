@@ -15,7 +15,6 @@ use convergence_study::study::run_cases_here;
 use super::{Fault, Matrix, RELATIVE, relative};
 use crate::kinds::any_order::AnyOrder;
 use crate::kinds::prelude::*;
-use crate::scene::Coefficients;
 
 /// Relative change of an error that the baseline tolerates.
 const TOLERANCE: f64 = 1e-3;
@@ -66,11 +65,8 @@ impl Kind for AnyOrderControls {
     fn cases(&self) -> Vec<Case<(usize, Fault)>> {
         let case = |study: usize, fault: Fault| {
             let name = if fault == Fault::None { "no fault" } else { fault.name() };
-            Case {
-                label: format!("{}, {name}", self.studies[study].header.id),
-                cost: self.studies[study].kind.cases().iter().map(|case| case.cost).sum(),
-                data: (study, fault),
-            }
+            let cost = self.studies[study].kind.cases().iter().map(|case| case.cost).sum();
+            Case::new(format!("{}, {name}", self.studies[study].header.id), cost, (study, fault))
         };
         let of_study = |study: usize| self.faults.iter().map(move |&fault| case(study, fault));
         (0..self.studies.len()).flat_map(of_study).collect()
@@ -78,13 +74,9 @@ impl Kind for AnyOrderControls {
 
     fn run(&self, &(study, fault): &(usize, Fault)) -> Result<Judged, CaseFailure> {
         let study = &self.studies[study].kind;
-        let solver = match fault {
-            Fault::Coefficient(key) => study.theory.off(key, self.relative),
-            _ => Some(study.theory),
-        };
-        let absent = || CaseFailure { reason: "the coefficient is absent".to_owned() };
+        let absent = || CaseFailure::new("the coefficient is absent");
         let mut planted = study.clone();
-        planted.solver = solver.ok_or_else(absent)?;
+        (planted.solver, _) = fault.plant(study.theory, self.relative).ok_or_else(absent)?;
         let ran = run_cases_here(&planted);
         // A fault that breaks a run down is detected; only runs without a fault must finish.
         if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {

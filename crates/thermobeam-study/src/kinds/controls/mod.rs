@@ -22,12 +22,9 @@
 pub mod any_order;
 pub mod sensitivity;
 
-use convergence_study::study::Study;
-
 use super::convergence::design::verdicts;
 use super::convergence::{Convergence, Defect, Prepared};
 use super::prelude::*;
-use crate::scene::Coefficients;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -44,15 +41,11 @@ pub const ROW: KindRow = KindRow {
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    let tables = ["controls", "any-order", "sensitivity"];
-    root.allow(&[&["study"], &tables[..]].concat())?;
     let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
-    match tables.into_iter().filter(|table| root.get(table).is_some()).collect::<Vec<_>>()[..] {
-        [] => Err(root.missing("controls", allowed)),
-        ["controls"] => reader::<Controls>(header, root, folder),
-        ["any-order"] => reader::<any_order::AnyOrderControls>(header, root, folder),
-        [_] => reader::<sensitivity::Sensitivity>(header, root, folder),
-        [_, second, ..] => Err(root.refuse(second, "a second table", allowed)),
+    match only_table(root, ["controls", "any-order", "sensitivity"], allowed)? {
+        "controls" => reader::<Controls>(header, root, folder),
+        "any-order" => reader::<any_order::AnyOrderControls>(header, root, folder),
+        _ => reader::<sensitivity::Sensitivity>(header, root, folder),
     }
 }
 
@@ -69,7 +62,7 @@ pub enum Fault {
 
 impl Fault {
     fn all() -> Vec<Self> {
-        let defects = Defect::ALL.map(Fault::Defect);
+        let defects = Defect::ALL.map(|(defect, _)| Fault::Defect(defect));
         [Fault::None].into_iter().chain(Coefficients::names().map(Fault::Coefficient)).chain(defects).collect()
     }
 
@@ -77,18 +70,18 @@ impl Fault {
         match self {
             Fault::None => "none",
             Fault::Coefficient(key) => key,
-            Fault::Defect(defect) => defect.name(),
+            Fault::Defect(defect) => Defect::ALL[defect as usize].1,
         }
     }
 
     /// The solver's coefficients and the defect of the sources; `None` if the study lacks the coefficient or it is zero.
     ///
     /// * `relative`: relative error of a coefficient.
-    fn plant(self, study: &Convergence, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
+    fn plant(self, theory: Coefficients, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
         match self {
-            Fault::None => Some((study.theory, None)),
-            Fault::Defect(defect) => Some((study.theory, Some(defect))),
-            Fault::Coefficient(key) => Some((study.theory.off(key, relative)?, None)),
+            Fault::None => Some((theory, None)),
+            Fault::Defect(defect) => Some((theory, Some(defect))),
+            Fault::Coefficient(key) => Some((theory.off(key, relative)?, None)),
         }
     }
 }
@@ -107,10 +100,9 @@ fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Described<C
     let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
     if section.get("elements").is_some() {
         let levels = section.list("elements", "a list of numbers of elements", tables::elements, |_| true)?;
-        studies
-            .iter_mut()
-            .filter(|_| !levels.is_empty())
-            .for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
+        if !levels.is_empty() {
+            studies.iter_mut().for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
+        }
     }
     Ok(studies)
 }
@@ -182,13 +174,11 @@ impl Kind for Controls {
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let faults = Fault::all().len() as f64;
-        let case = |study: usize, (n, steps): (usize, usize)| Case {
-            label: format!("{}, n = {n}, {steps} steps", self.studies[study].header.id),
-            cost: n as f64 * (steps as f64 * faults + 50.0),
-            data: (study, (n, steps)),
+        let case = |study: usize, (n, steps): (usize, usize)| {
+            let label = format!("{}, n = {n}, {steps} steps", self.studies[study].header.id);
+            Case::new(label, n as f64 * (steps as f64 * faults + 50.0), (study, (n, steps)))
         };
-        let levels =
-            |study: usize| self.studies[study].kind.refine.cases().into_iter().map(move |level| case(study, level));
+        let levels = |study: usize| self.studies[study].kind.refine.cases().into_iter().map(move |n| case(study, n));
         (0..self.studies.len()).flat_map(levels).collect()
     }
 
@@ -197,7 +187,7 @@ impl Kind for Controls {
         let mut prepared = Prepared::new(spec, elements)?;
         let mut found = vec![];
         for fault in Fault::all() {
-            let Some((solver, defect)) = fault.plant(spec, self.relative) else { continue };
+            let Some((solver, defect)) = fault.plant(spec.theory, self.relative) else { continue };
             // A fault that breaks a run down is detected; only the run without a fault must finish.
             let errors = match prepared.run(steps, solver, defect) {
                 Err(failure) if fault == Fault::None => return Err(failure),
@@ -233,7 +223,7 @@ impl Controls {
     /// The verdict of one study under one fault, the worst over its norms; `None` if the fault cannot be planted.
     fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Option<Verdict> {
         let spec = &self.studies[study].kind;
-        fault.plant(spec, self.relative)?;
+        fault.plant(spec.theory, self.relative)?;
         let level = |ran: &Ran<LevelOf, Vec<(Fault, Norms)>>| {
             let errors = ran.ok().and_then(|found| errors_with(found, fault));
             (ran.case.data.1, errors.copied().unwrap_or(Norms::NAN))

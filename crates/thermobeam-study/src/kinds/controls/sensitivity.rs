@@ -12,7 +12,6 @@ use super::{RELATIVE, named_studies, relative};
 use crate::kinds::convergence::Convergence;
 use crate::kinds::convergence::design::Detector;
 use crate::kinds::prelude::*;
-use crate::scene::Coefficients;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
 const BISECTIONS: usize = 9;

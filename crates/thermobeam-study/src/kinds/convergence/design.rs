@@ -10,15 +10,11 @@
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
 use convergence_study::judge::verdict::{Level as Error, judge};
-use convergence_study::study::Untested;
 use thermobeam::scheme::ContactRule;
 
 use super::Convergence;
-use crate::exact::errors::ErrorMeter;
-use crate::exact::factors::Factors;
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::kinds::prelude::*;
-use crate::scene::Coefficients;
 
 /// A deliberate mistake in the sources, for negative controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,25 +32,14 @@ pub enum Defect {
 }
 
 impl Defect {
-    /// All defects.
-    pub const ALL: [Defect; 5] = [
-        Defect::SourceAtNewLevel,
-        Defect::StressDropped,
-        Defect::MomentDropped,
-        Defect::ForceAtNewLevel,
-        Defect::ContactAtMiddle,
+    /// All defects, with their effects in words.
+    pub const ALL: [(Defect, &str); 5] = [
+        (Defect::SourceAtNewLevel, "source at t_n instead of the middle"),
+        (Defect::StressDropped, "boundary load of the stress dropped"),
+        (Defect::MomentDropped, "boundary load of the moment dropped"),
+        (Defect::ForceAtNewLevel, "N(u^n) instead of the mean of N"),
+        (Defect::ContactAtMiddle, "contact at the middle instead of t_n"),
     ];
-
-    /// Its effect, in words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Defect::SourceAtNewLevel => "source at t_n instead of the middle",
-            Defect::StressDropped => "boundary load of the stress dropped",
-            Defect::MomentDropped => "boundary load of the moment dropped",
-            Defect::ForceAtNewLevel => "N(u^n) instead of the mean of N",
-            Defect::ContactAtMiddle => "contact at the middle instead of t_n",
-        }
-    }
 }
 
 /// Space vectors and error meter of one mesh, shared by several runs.

@@ -31,13 +31,11 @@
 
 pub(super) mod design;
 
-use convergence_study::study::Untested;
 use convergence_study::study::grid::{Grid, GridColumn, Model};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
 use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, not_finite, refine};
-use crate::scene::Coefficients;
 pub use design::{Defect, Prepared};
 
 /// The row of the table of kinds.

@@ -25,8 +25,6 @@ pub mod runs;
 
 use std::f64::consts::PI;
 
-use convergence_study::study::Study;
-
 use super::prelude::*;
 pub use super::watch::Worst;
 
@@ -45,15 +43,9 @@ pub const ROW: KindRow = KindRow {
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    let tables = ["energy", "case", "random"];
-    root.allow(&[&["study"], &tables[..]].concat())?;
-    let allowed = "one of the tables [energy], [[case]] and [random]";
-    let mut present = tables.into_iter().filter(|table| root.get(table).is_some());
-    match (present.next(), present.next()) {
-        (None, _) => Err(root.missing("energy", allowed)),
-        (Some(_), Some(second)) => Err(root.refuse(second, "a second table of scenes", allowed)),
-        (Some("random"), None) => reader::<random::RandomScenes>(header, root, folder),
-        (Some(_), None) => reader::<runs::EnergyRuns>(header, root, folder),
+    match only_table(root, ["energy", "case", "random"], "one of the tables [energy], [[case]] and [random]")? {
+        "random" => reader::<random::RandomScenes>(header, root, folder),
+        _ => reader::<runs::EnergyRuns>(header, root, folder),
     }
 }
 

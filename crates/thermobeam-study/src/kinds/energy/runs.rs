@@ -30,7 +30,6 @@ use std::sync::Arc;
 use thermobeam::energy::Energy;
 
 use super::{End, Worst, named_cases};
-use crate::figures::looks;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Layout;
 use crate::kinds::watch::{EnergyWatch, SOLVED, of_allowed};
@@ -105,7 +104,7 @@ pub struct EnergyAt {
     pub t: f64,
     /// The energy.
     pub energy: f64,
-    /// Largest residual of a step since the sample before, in units of the initial energy.
+    /// Largest residual of a step so far, in units of the initial energy.
     pub residual: f64,
     /// Sum of all residuals so far, in units of the energy.
     pub drift: f64,
@@ -236,18 +235,36 @@ impl EnergyRun {
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
     fn run(&self) -> Result<Found, CaseFailure> {
         let mut driver = Driver::new((self.problem)(), self.stepping)?;
-        let mut log = EnergyLog::new(&mut driver, self.steps);
-        for _ in 0..self.steps {
-            match driver.stepped() {
-                Ok(step) => log.add(&step),
+        let (simulation, level) = driver.present();
+        let mut watch = EnergyWatch::new(simulation.energy_scale(level));
+        let energy = simulation.energy(level);
+        let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = energy;
+        let initial_energy = kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs();
+        let start = EnergyAt { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
+        let mut found = Found { initial_energy, samples: vec![start], ..Found::default() };
+        let (every, mut residual) = (self.steps.div_ceil(SAMPLES), 0.0);
+        for step in 1..=self.steps {
+            let Step { report, old, new, simulation } = match driver.stepped() {
+                Ok(step) => step,
                 Err(error) => {
-                    log.found.end = End::of(Some(&error))?;
+                    found.end = End::of(Some(&error))?;
                     break;
                 }
+            };
+            found.steps = step;
+            found.contact_steps += usize::from(new.contact_force != 0.0);
+            found.most_iterations = report.iterations.max(found.most_iterations);
+            // The scale only grows, so that leaving a level out makes the bounds stricter.
+            let scale = if step % SCALED == 1 { simulation.energy_scale(new) } else { 0.0 };
+            let balance = simulation.balance(old, new);
+            watch.step(&balance, scale, || simulation.rounding(old, new));
+            residual = max_or_nan(residual, balance.residual.abs() / initial_energy);
+            if step % every == 0 || step == self.steps {
+                let (t, energy, drift) = (simulation.t(), simulation.energy(new).total(), watch.drift);
+                found.samples.push(EnergyAt { step, t, energy, residual, drift });
             }
         }
-        let EnergyWatch { worst, drift, .. } = log.watch;
-        Ok(Found { worst, drift, open_term: log.watch.open_term(), ..log.found })
+        Ok(Found { worst: watch.worst, drift: watch.drift, open_term: watch.open_term(), ..found })
     }
 
     /// Largest rise or residual of a run in units of its bound.
@@ -309,57 +326,12 @@ impl Found {
     }
 }
 
-/// What a run has shown so far.
-struct EnergyLog {
-    watch: EnergyWatch,
-    /// Steps of the whole run.
-    last: usize,
-    /// Steps from one sample to the next; the last step is one in any case.
-    every: usize,
-    /// Largest residual since the last sample, in units of the initial energy.
-    peak: f64,
-    found: Found,
-}
-
-impl EnergyLog {
-    fn new(driver: &mut Driver, last: usize) -> Self {
-        let (simulation, level) = driver.present();
-        let watch = EnergyWatch::new(simulation.energy_scale(level));
-        let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = simulation.energy(level);
-        let initial_energy = kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs();
-        let energy = simulation.energy(level).total();
-        let start = EnergyAt { step: 0, t: simulation.t(), energy, residual: 0.0, drift: 0.0 };
-        let found = Found { initial_energy, samples: vec![start], ..Found::default() };
-        Self { watch, last, every: last.div_ceil(SAMPLES), peak: 0.0, found }
-    }
-
-    fn add(&mut self, step: &Step<'_>) {
-        let Step { report, old, new, simulation } = *step;
-        let Found { steps, contact_steps, most_iterations, initial_energy, samples, .. } = &mut self.found;
-        *steps = simulation.step();
-        *contact_steps += usize::from(new.contact_force != 0.0);
-        *most_iterations = report.iterations.max(*most_iterations);
-        // The scale only grows, so that leaving a level out makes the bounds stricter.
-        let scale = if *steps % SCALED == 1 { simulation.energy_scale(new) } else { 0.0 };
-        let balance = simulation.balance(old, new);
-        self.watch.step(&balance, scale, || simulation.rounding(old, new));
-        self.peak = max_or_nan(self.peak, balance.residual.abs() / *initial_energy);
-        if *steps % self.every == 0 || *steps == self.last {
-            let energy = simulation.energy(new).total();
-            let (t, residual, drift) = (simulation.t(), self.peak, self.watch.drift);
-            samples.push(EnergyAt { step: *steps, t, energy, residual, drift });
-            self.peak = 0.0;
-        }
-    }
-}
-
 impl EnergyRuns {
     fn figures(&self, found: &[(&EnergyRun, &Found)]) -> Vec<Figure> {
         let drawn: Vec<&(&EnergyRun, &Found)> = found.iter().filter(|(run, _)| run.is_drawn).collect();
-        let series = |point: &dyn Fn(&Found, &EnergyAt) -> (f64, f64)| -> Vec<plots::Series> {
-            let curve = |(run, found): &&(&EnergyRun, &Found)| plots::Series {
-                label: run.scene().to_owned(),
-                points: found.samples.iter().map(|sample| point(found, sample)).collect(),
+        let series = |point: fn(&Found, &EnergyAt) -> (f64, f64)| -> Vec<plots::Series> {
+            let curve = |(run, found): &&(&EnergyRun, &Found)| {
+                plots::Series::new(run.scene(), found.samples.iter().map(|sample| point(found, sample)))
             };
             drawn.iter().map(curve).collect()
         };
@@ -371,7 +343,7 @@ impl EnergyRuns {
             bounds.into_iter().map(|value| plots::Guide { label: "allowed".to_owned(), value }).collect()
         };
         if !self.histories {
-            let drifts = not_zero(series(&|_, sample| (sample.step as f64, sample.drift.abs())));
+            let drifts = not_zero(series(|_, sample| (sample.step as f64, sample.drift.abs())));
             let drift = Xy {
                 x: plots::Axis::linear("steps"),
                 guides: allowed(|run| run.drift),
@@ -381,9 +353,10 @@ impl EnergyRuns {
             return vec![Figure::new("drift", caption, drift.draw())];
         }
         let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
-        let energies = series(&|found, sample| (sample.t, sample.energy / found.initial_energy));
+        let energies = series(|found, sample| (sample.t, sample.energy / found.initial_energy));
         let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies).with_looks(&looks);
-        let residuals = largest_so_far(not_zero(series(&|_, sample| (sample.t, sample.residual))));
+        // The largest so far: residuals scatter too much for several curves in one figure.
+        let residuals = not_zero(series(|_, sample| (sample.t, sample.residual)));
         let y = plots::Axis::log("largest residual up to t / initial energy");
         let balance = Xy { guides: allowed(|run| run.share), ..plots::history(y, &residuals).with_looks(&looks) };
         let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
@@ -392,18 +365,6 @@ impl EnergyRuns {
             Figure::new("balance", caption, balance.draw()),
         ]
     }
-}
-
-/// Each value replaced by the largest up to there: residuals scatter too much for several curves in one figure.
-fn largest_so_far(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
-    for series in &mut series {
-        let mut largest = 0.0;
-        for (_, value) in &mut series.points {
-            largest = max_or_nan(largest, *value);
-            *value = largest;
-        }
-    }
-    series
 }
 
 /// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.

@@ -30,10 +30,6 @@ mod report;
 
 use super::prelude::*;
 use super::steady::{ToRest, listed_scene};
-use crate::figures::energy_at_rest;
-use crate::run::Sample;
-use crate::run::simulate::driver;
-use convergence_study::input::POSITIVE;
 use thermobeam::simulation::Simulation;
 
 pub use super::steady::{AtRest, Nearest};
@@ -231,7 +227,7 @@ impl Experiments {
                 fall = 0.0;
             }
             if !(simulation.t() < self.t_max) {
-                return Err(CaseFailure { reason: format!("not steady by t = {}", self.t_max) });
+                return Err(CaseFailure::new(format!("not steady by t = {}", self.t_max)));
             }
         }
     }
@@ -311,5 +307,5 @@ impl<'a> MotionLog<'a> {
 
 /// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a constant.
 fn straight_energy(scene: &Scene) -> f64 {
-    energy_at_rest(&scene.beam).unwrap_or(f64::NAN)
+    figures::energy_at_rest(&scene.beam).unwrap_or(f64::NAN)
 }

@@ -2,9 +2,7 @@
 
 use super::judge::{self, OfGroup};
 use super::{Experiment, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy};
-use crate::figures;
 use crate::kinds::prelude::*;
-use crate::run::Sample;
 
 /// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can be followed.
 const SECONDS: f64 = 16.0;
@@ -104,8 +102,7 @@ fn curves(
         let scene = &experiment.scene;
         let end = if until_steady { f64::INFINITY } else { scene.t_end + 0.5 * scene.dt() };
         let shown = run.points.iter().filter(|point| point.t <= end);
-        let points = shown.map(|point| (point.t, value(experiment, point))).collect();
-        plots::Series { label: beta_label(experiment), points }
+        plots::Series::new(beta_label(experiment), shown.map(|point| (point.t, value(experiment, point))))
     };
     let looks = figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name));
     plots::history(y, &runs.iter().map(curve).collect::<Vec<_>>()).with_looks(&looks)
@@ -132,8 +129,8 @@ fn rotation(runs: &[(&Experiment, &Measured)]) -> Xy {
 
 fn tip(runs: &[(&Experiment, &Measured)]) -> Xy {
     let curve = |label: &str, value: fn(&Sample) -> f64| {
-        let points = runs.first().map_or(&[][..], |(_, run)| &run.points);
-        plots::Series { label: label.into(), points: points.iter().map(|point| (point.t, value(point))).collect() }
+        let points = runs.first().into_iter().flat_map(|(_, run)| &run.points);
+        plots::Series::new(label, points.map(|point| (point.t, value(point))))
     };
     let series = [curve("displacement u(1, t)", |point| point.u_tip), curve("rotation φ(1, t)", |point| point.phi_tip)];
     let y = plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)");

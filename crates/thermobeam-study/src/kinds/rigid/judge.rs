@@ -1,7 +1,6 @@
 //! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline guards.
 
 use convergence_study::judge::fit::Level;
-use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::text::number::rate_text;
 
 use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
@@ -221,8 +220,7 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
 fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
     let of_fixed_point = |label: &str, converges: bool| {
         let runs = all.iter().filter(|of| of.fixed_point.is_some_and(|run| run.failed_at.is_none() == converges));
-        let points = runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))).collect();
-        plots::Series { label: label.into(), points }
+        plots::Series::new(label, runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))))
     };
     let series = vec![of_fixed_point("converges", true), of_fixed_point("fails", false)];
     vec![
@@ -266,7 +264,7 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
 fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> String {
     let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
     let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);
-    let series = |label: &str, of: &ShownImpact| plots::Series { label: label.to_owned(), points: of.tip.clone() };
+    let series = |label: &str, of: &ShownImpact| plots::Series::new(label, of.tip.clone());
     let curve = |of: &Compliance<'_>| Some(series(label(of.epsilon)?.1, of.bouncing?));
     let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
     let series: Vec<_> = all.iter().filter_map(curve).chain(limit.map(|limit| series("rigid", limit))).collect();

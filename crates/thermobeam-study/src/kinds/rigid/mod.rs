@@ -27,7 +27,6 @@ use thermobeam::contraction::contact_contraction;
 
 use super::prelude::*;
 use super::steady::{listed_scene, settle, tolerance};
-use crate::run::simulate::{Recording, Simulator, driver};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

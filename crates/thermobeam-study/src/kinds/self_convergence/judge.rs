@@ -1,6 +1,5 @@
 //! The verdict: rates of both readings where an order is claimed, and contact where the study is one of contact.
 
-use convergence_study::judge::richardson;
 use convergence_study::study::LevelErrors;
 use convergence_study::study::levels::{Rates, rate_table};
 
@@ -140,13 +139,12 @@ fn tip(study: &SelfConvergence, ran: &Results) -> Figure {
     };
     let curve = |level: usize| {
         let distance = |k: usize| (tip_at(ran, level, k) - tip_at(ran, reference, k)).abs();
-        let points = (1..=study.samples).map(|k| (study.t_end * k as f64 / study.samples as f64, distance(k)));
-        plots::Series { label: name(level), points: points.collect() }
+        let point = |k: usize| (study.t_end * k as f64 / study.samples as f64, distance(k));
+        plots::Series::new(name(level), (1..=study.samples).map(point))
     };
-    let drawn = Xy {
-        title: Some(format!("Tip of {}: distance to the reference", study.scene.name)),
-        ..plots::history(plots::Axis::log("|u(1, t) - reference|"), &(0..reference).map(curve).collect::<Vec<_>>())
-    };
+    let curves: Vec<_> = (0..reference).map(curve).collect();
+    let title = format!("Tip of {}: distance to the reference", study.scene.name);
+    let drawn = plots::history(plots::Axis::log("|u(1, t) - reference|"), &curves).titled(title);
     Figure::new("tip", "Distance of u(1, t) to the reference on each level.", drawn.draw())
 }
 
@@ -187,11 +185,7 @@ fn differences(
         })
     };
     let refinement = |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step(k));
-    Levels {
-        axis: study.axis,
-        refinements: (0..count).map(refinement).collect(),
-        columns: Observable::all(study.axis).enumerate().filter_map(column).collect(),
-    }
+    Levels::new(study.axis, (0..count).map(refinement), Observable::all(study.axis).enumerate().filter_map(column))
 }
 
 /// The result of a run: the levels, then the references.

@@ -200,67 +200,64 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
 }
 
 impl Map {
+    /// A map of `value`; where there is none the solver fails, and the map is hatched.
+    ///
+    /// * `colours`: the axis of the values, the label of the hatched part, boundaries.
+    fn surface(&self, rows: &MapRows<'_>, colours: Surface, value: &dyn Fn(&Point) -> Option<f64>) -> String {
+        let cells: Vec<Vec<_>> = rows.iter().map(|(_, row)| row.iter().map(value).collect()).collect();
+        let number = |cell: &Option<f64>| cell.unwrap_or(f64::NAN);
+        plots::surface(&Surface {
+            x: Axis::log("time step dt"),
+            y: self.second_axis(),
+            x_values: self.time_steps(),
+            y_values: rows.iter().map(|(value, _)| *value).collect(),
+            values: cells.iter().map(|row| row.iter().map(number).collect()).collect(),
+            marked: cells.iter().map(|row| row.iter().map(Option::is_none).collect()).collect(),
+            ..colours
+        })
+    }
+
     fn figures(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
         let over = self.over.name();
-        // Missing values mean that the solver fails, and the map is hatched; values below `least` are shown as `least`.
-        let draw = |file: &str,
-                    caption: String,
-                    (z, least),
-                    fails: &str,
-                    value: &dyn Fn(&Point) -> Option<f64>,
-                    boundaries| {
-            let cell = |point: &Point| match value(point) {
-                // `max` would replace NaN by `least`.
-                Some(value) if !value.is_nan() => f64::max(value, least),
-                _ => f64::NAN,
-            };
-            let map = Surface {
-                x: Axis::log("time step dt"),
-                y: self.second_axis(),
-                z,
-                x_values: self.time_steps(),
-                y_values: rows.iter().map(|(value, _)| *value).collect(),
-                values: rows.iter().map(|(_, row)| row.iter().map(cell).collect()).collect(),
-                marked: rows.iter().map(|(_, row)| row.iter().map(|point| value(point).is_none()).collect()).collect(),
-                marked_label: fails.to_owned(),
-                boundaries,
-            };
-            Figure::new(file, caption, plots::surface(&map))
+        let draw = |file: &str, caption: String, colours, value: &dyn Fn(&Point) -> Option<f64>| {
+            Figure::new(file, caption, self.surface(rows, colours, value))
         };
-        let fixed_point = |file: &str, caption: String, z, value: &dyn Fn(&FixedPointStep) -> f64| {
-            let value = |point: &Point| point.step.converged.then(|| value(&point.step));
-            draw(file, caption, z, "the fixed point fails", &value, vec![predicted(rows), self.found(lines)])
+        let colours = |z, fails: &str, boundaries| Surface {
+            z,
+            marked_label: fails.to_owned(),
+            boundaries,
+            ..Surface::default()
         };
-        let newton = |file: &str, caption: String, z, value: &dyn Fn(&NewtonSteps) -> f64, boundaries| {
-            let value = |point: &Point| point.newton_completes.then(|| point.newton.as_ref().map_or(f64::NAN, value));
-            draw(file, caption, z, "operator not definite", &value, boundaries)
+        let fixed_point = |z| colours(z, "the fixed point fails", vec![predicted(rows), self.found(lines)]);
+        let newton = |z, boundaries| colours(z, "operator not definite", boundaries);
+        let step = |point: &Point| point.step.converged.then_some(point.step);
+        let steps = |point: &Point, of: fn(&NewtonSteps) -> f64| {
+            point.newton_completes.then(|| point.newton.as_ref().map_or(f64::NAN, of))
         };
         vec![
-            fixed_point(
+            draw(
                 "contraction",
                 format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
-                (Axis::log("contraction per iteration"), FASTEST),
-                &|step| step.contraction.unwrap_or(f64::NAN),
+                fixed_point(Axis::log("contraction per iteration")),
+                &|point| Some(max_or_nan(step(point)?.contraction.unwrap_or(f64::NAN), FASTEST)),
             ),
-            fixed_point(
+            draw(
                 "iterations",
                 format!("Iterations of the fixed point in a step over dt and {over}."),
-                (Axis::log("iterations of the fixed point"), 1.0),
-                &|step| step.iterations as f64,
+                fixed_point(Axis::log("iterations of the fixed point")),
+                &|point| Some(step(point)?.iterations.max(1) as f64),
             ),
-            newton(
+            draw(
                 "newton",
                 format!("Most iterations of Newton's method in a step over dt and {over}."),
-                (Axis::linear("most Newton iterations in a step"), 1.0),
-                &|steps| steps.iterations as f64,
-                self.definite(),
+                newton(Axis::linear("most Newton iterations in a step"), self.definite()),
+                &|point| steps(point, |steps| steps.iterations.max(1) as f64),
             ),
-            newton(
+            draw(
                 "balance",
                 format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
-                (Axis::log("largest residual / energy"), EXACT),
-                &|steps| steps.worst.residual,
-                vec![predicted(rows)],
+                newton(Axis::log("largest residual / energy"), vec![predicted(rows)]),
+                &|point| steps(point, |steps| max_or_nan(steps.worst.residual, EXACT)),
             ),
         ]
     }
@@ -276,11 +273,11 @@ impl Map {
 
     /// The boundaries found, line by line.
     fn found(&self, lines: &Lines<'_>) -> Series {
-        let mut points: Vec<(f64, f64)> =
-            lines.iter().filter_map(|(value, line)| Some((line.found?.dt, *value))).collect();
-        points.retain(|(_, value)| self.over.is_linear() || *value > 0.0);
-        points.sort_by(|a, b| a.1.total_cmp(&b.1));
-        Series { label: "found by bisection".to_owned(), points }
+        let points = lines.iter().filter_map(|(value, line)| Some((line.found?.dt, *value)));
+        let mut found =
+            Series::new("found by bisection", points.filter(|(_, value)| self.over.is_linear() || *value > 0.0));
+        found.points.sort_by(|a, b| a.1.total_cmp(&b.1));
+        found
     }
 
     /// For β above this line the operator is definite.
@@ -292,8 +289,8 @@ impl Map {
         let force = |&dt: &f64| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt));
         let [low, high] = self.range;
         let dts = spaced(self.dt, 400, false);
-        let points = dts.iter().map(force).filter(|(_, beta)| (low..high).contains(beta)).collect();
-        vec![Series { label: "definite above: β = -B (1 + 2ζ/dt)".to_owned(), points }]
+        let points = dts.iter().map(force).filter(|(_, beta)| (low..high).contains(beta));
+        vec![Series::new("definite above: β = -B (1 + 2ζ/dt)", points)]
     }
 }
 
@@ -306,5 +303,5 @@ fn predicted(rows: &MapRows<'_>) -> Series {
         let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();
         Some((below.dt * (above.dt / below.dt).powf(share), *value))
     };
-    Series { label: "predicted: α = 1".to_owned(), points: rows.iter().filter_map(crossing).collect() }
+    Series::new("predicted: α = 1", rows.iter().filter_map(crossing))
 }

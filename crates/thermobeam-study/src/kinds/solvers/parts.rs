@@ -3,7 +3,6 @@
 
 use super::{FixedPointStep, SolverTask, positive_numbers};
 use crate::error::reference::distance;
-use crate::figures;
 use crate::kinds::prelude::*;
 
 /// Iterations after which a slow iteration, with a factor near 1, is abandoned.
@@ -98,8 +97,8 @@ fn contraction_figure(found: &[([f64; 3], &FixedPointStep)]) -> Figure {
     zetas.dedup();
     let series = zetas.iter().map(|zeta| {
         let of_zeta = found.iter().filter(|([_, _, z], _)| z == zeta);
-        let points = of_zeta.map(|(_, step)| (step.alpha, step.contraction.unwrap_or(f64::NAN))).collect();
-        plots::Series { label: format!("ζ = {zeta}"), points }
+        let points = of_zeta.map(|(_, step)| (step.alpha, step.contraction.unwrap_or(f64::NAN)));
+        plots::Series::new(format!("ζ = {zeta}"), points)
     });
     let svg = figures::contraction(&series.collect::<Vec<_>>());
     let caption =

@@ -3,14 +3,11 @@
 
 mod refine;
 
-use convergence_study::input::POSITIVE;
 use convergence_study::project::Term;
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping as DgStepping};
+use thermobeam::dg::Stepping as DgStepping;
 
 use super::prelude::*;
 use crate::exact::function::Factor;
-use crate::expression::Variable;
-use crate::scene::Coefficients;
 
 pub(crate) use refine::refine;
 pub use refine::{Layout, Perturbation, Refine};
@@ -151,11 +148,7 @@ pub(crate) fn norm_levels<'r>(
         claim: expect.iter().find(|(of, _)| *of == norm).map(|(_, claim)| *claim),
         look: norm as usize,
     };
-    Levels {
-        axis: refine.axis,
-        refinements: ran.clone().map(refinement).collect(),
-        columns: Norm::ALL.into_iter().map(column).collect(),
-    }
+    Levels::new(refine.axis, ran.clone().map(refinement), Norm::ALL.into_iter().map(column))
 }
 
 /// Names of the norms in which the error is not finite.

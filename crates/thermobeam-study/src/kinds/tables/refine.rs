@@ -2,7 +2,6 @@
 
 use convergence_study::study::until_decided;
 
-use crate::expression::Variable;
 use crate::kinds::prelude::*;
 
 /// A random displacement of the interior nodes, the same on every machine.

@@ -5,14 +5,9 @@
 
 mod modes;
 
-use thermobeam::vibration::Mode;
-
 use super::prelude::*;
 use super::tables::{Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine};
-use crate::exact::errors::ErrorMeter;
-use crate::exact::factors::Factors;
 use crate::exact::sources::Nodal;
-use crate::scene::Coefficients;
 use modes::Modes;
 
 /// The row of the table of kinds.
@@ -135,8 +130,7 @@ impl Kind for Vibration {
     type Found = Vibrated;
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
-        let case = |data: (usize, usize)| Case { label: Refine::label(data.0, data.1), cost: cost(data), data };
+        let case = |(n, steps)| Case::new(Refine::label(n, steps), n as f64 * steps as f64, (n, steps));
         self.refine.cases().into_iter().map(case).collect()
     }
 
@@ -235,14 +229,11 @@ impl Vibration {
         let (first, last) = (ran.first()?, ran.last()?);
         let (coarsest, finest, modes) = (first.ok()?, last.ok()?, Modes::of_beam(self).ok()?);
         let exact = finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))).collect();
-        let curves =
-            [("exact", exact), (&first.case.label, coarsest.tip.clone()), (&last.case.label, finest.tip.clone())];
-        let curves = curves.map(|(label, points)| plots::Series { label: label.to_owned(), points });
-        let drawn = Xy {
-            title: Some("Tip of the vibrating beam".into()),
-            ..plots::history(plots::Axis::linear("tip displacement u(1, t) (dimensionless)"), &curves)
-        };
+        let of_level = |label: &str, found: &Vibrated| plots::Series::new(label, found.tip.clone());
+        let [coarsest, finest] = [of_level(&first.case.label, coarsest), of_level(&last.case.label, finest)];
+        let curves = [plots::Series { label: "exact".to_owned(), points: exact }, coarsest, finest];
+        let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
         let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        Some(Figure::new("tip", caption, drawn.draw()))
+        Some(Figure::new("tip", caption, plots::history(y, &curves).titled("Tip of the vibrating beam").draw()))
     }
 }

@@ -24,11 +24,9 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
-use thermobeam::vibration::Mode;
 
 use super::Vibration;
 use crate::error::free_vibration::{self, piecewise_linear};
-use crate::exact::factors::Factors;
 use crate::kinds::prelude::*;
 
 /// Modes, each with the exact motion of its equation in time.

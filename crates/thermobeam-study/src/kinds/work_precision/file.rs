@@ -2,16 +2,11 @@
 
 use std::sync::OnceLock;
 
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
-
 use super::method::{Degrees, METHODS, NamedMethod};
 use super::{Advantage, OBSERVED, ROW, WorkPrecision, Yardstick};
-use crate::error::ErrorMeasure;
-use crate::error::free_vibration;
 use crate::kinds::convergence::Convergence;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::discretisations;
-use crate::run::family::Family;
 
 /// A tolerance of the solver that does not affect the measured errors.
 const TOLERANCE: f64 = 1e-11;

@@ -3,7 +3,6 @@
 use super::law::{CostLaw, GridPoint, front};
 use super::method::{Measurement, NamedMethod};
 use super::{Advantage, Runs, WorkPrecision};
-use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
 
 /// Errors whose cost is shown.
@@ -273,12 +272,10 @@ fn runs(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Table {
 
 fn figure(quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
-    let series = of_quantity.map(|row| plots::Series {
-        label: row.method.name.to_owned(),
-        points: front(row.points.iter().map(|point| (point.node_solves, point.error))),
-    });
+    let costs = |row: &MethodRow| front(row.points.iter().map(|point| (point.node_solves, point.error)));
+    let series: Vec<_> = of_quantity.map(|row| plots::Series::new(row.method.name, costs(row))).collect();
     let (cost, error) = ("cost: elements × linear solves", format!("error, {}", quantity.name()));
-    let drawn = plots::work_precision(cost, error, &series.collect::<Vec<_>>());
+    let drawn = plots::work_precision(cost, error, &series);
     let caption = format!(
         "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",
         quantity.name()

@@ -9,7 +9,6 @@ use thermobeam::dg;
 use crate::error::Evaluator;
 use crate::error::reference::combine;
 use crate::kinds::prelude::*;
-use crate::run::Motion;
 use crate::run::family::{Family, OnMesh, Spent};
 
 /// A method of solution.

@@ -39,7 +39,6 @@ use crate::error::{ErrorMeasure, Evaluator};
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Discretisation;
 use crate::run::dg::nodal;
-use crate::run::family::{Family, OnMesh};
 use method::{Degrees, GRADED, METHODS, Measurement, NamedMethod, OneStep, REFERENCE, worst};
 
 /// The row of the table of kinds.
@@ -157,7 +156,7 @@ impl WorkPrecision {
         if apart <= agreement {
             return Ok(one);
         }
-        Err(CaseFailure { reason: format!("the two references are {apart:.1e} apart, allowed {agreement:e}") })
+        Err(CaseFailure::new(format!("the two references are {apart:.1e} apart, allowed {agreement:e}")))
     }
 
     fn exact_tip(&self) -> Result<Vec<f64>, CaseFailure> {

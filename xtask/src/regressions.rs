@@ -11,9 +11,10 @@ mod planted;
 
 use std::io;
 
-use convergence_study::cli::exit::{self, Ended, Outcome, Unusable};
+use convergence_study::cli::exit::{self, Outcome, Unusable};
 use convergence_study::cli::running::LongRun;
 use convergence_study::cli::{screen, workspace};
+use convergence_study::judge::verdict::Verdict;
 use convergence_study::report;
 use convergence_study::store::atomic;
 use convergence_study::study::outcome::Table;
@@ -54,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         let rows: Vec<_> =
             chosen.iter().map(|one| vec![one.name.clone(), one.file.clone(), one.study.clone()]).collect();
         screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
-        return Ok(Ended::Well);
+        return Ok(Verdict::Pass);
     }
     // All of them are checked before the first is compiled.
     let planted = chosen.iter().map(|regression| regression.planted(&root)).collect::<Result<Vec<_>, _>>()?;
@@ -93,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         atomic::write(&root.join(FINGERPRINTS), prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n")?;
         screen::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
     }
-    Ok(if named == count { Ended::Well } else { Ended::Badly })
+    Ok(if named == count { Verdict::Pass } else { Verdict::Fail })
 }
 
 /// Where later runs of `verify` find the effects of these mistakes.

@@ -18,7 +18,7 @@ use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record::Record;
 use crate::store::writing;
-use crate::store::{StoreError, json, write_json};
+use crate::store::{json, write_json};
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 use crate::text::visible;
@@ -106,12 +106,12 @@ impl Request {
     }
 
     /// Waits for other processes that write the baseline, and then blocks them. The lock is in the project, wherever the reports go.
-    fn lock_baseline(&self) -> Result<File, VerificationError> {
+    fn lock_baseline(&self) -> io::Result<File> {
         lock_reports(&self.root.join("reports"))
     }
 
     /// The same for the reports, preceded by the lock of the baseline for a blessing.
-    fn lock(&self) -> Result<[Option<File>; 2], VerificationError> {
+    fn lock(&self) -> io::Result<[Option<File>; 2]> {
         let baseline = self.bless.then(|| self.lock_baseline()).transpose()?;
         // A second lock on the same file would wait for the first.
         let is_held = baseline.is_some() && self.is_one_lock();
@@ -143,17 +143,9 @@ pub enum VerificationError {
     /// The studies cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The baseline cannot be used.
+    /// The baseline cannot be used, or the reports cannot be written.
     #[error(transparent)]
-    Baseline(#[from] StoreError),
-    /// The reports cannot be written.
-    #[error("{}: the reports cannot be written: {error}", visible::path(.folder))]
-    Reports {
-        /// Their folder.
-        folder: PathBuf,
-        /// Why.
-        error: io::Error,
-    },
+    Files(#[from] io::Error),
     /// A pattern of [`Request::only`] that matches no change.
     #[error("--only: found `{pattern}`, which matches no change; expected one of {changes}{}", .some.iter().map(|id| format!(", `{id}`")).collect::<String>())]
     NoChange {
@@ -181,7 +173,7 @@ pub fn verify(
     let mistakes =
         project.fingerprints.map(|file| Fingerprints::read(&request.root.join(file))).transpose()?.unwrap_or_default();
     let folder = &request.reports;
-    let fail = |error| VerificationError::Reports { folder: folder.clone(), error };
+    let fail = |error| unwritable(folder, &error);
     tidy(request)?;
     // A folder that is not writable is reported before the run.
     atomic::prepare_folder(folder).map_err(fail)?;
@@ -294,7 +286,7 @@ pub fn rebuild(
         let see_also = see_also(&record, folder);
         target.publish(&Findings { project, record: &record, see_also, provenance }.files()?)
     };
-    publish().map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
+    Ok(publish().map_err(|error| unwritable(folder, &error))?)
 }
 
 /// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`; otherwise the folder itself.
@@ -304,7 +296,7 @@ pub(crate) fn reports_around(folder: &Path) -> PathBuf {
 }
 
 /// Completes or removes what killed runs of any scope have left.
-fn tidy(request: &Request) -> Result<(), VerificationError> {
+fn tidy(request: &Request) -> io::Result<()> {
     let reports = &request.reports;
     let local = reports.join("local");
     if !local.is_dir() {
@@ -324,12 +316,16 @@ fn tidy(request: &Request) -> Result<(), VerificationError> {
         let scopes = [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])];
         scopes.iter().try_for_each(|scope| scope.report_folder(reports).tidy())
     };
-    tidy().map_err(|error| VerificationError::Reports { folder: reports.clone(), error })
+    tidy().map_err(|error| unwritable(reports, &error))
 }
 
 /// Waits for other processes that write to a folder of reports, and then blocks them.
-fn lock_reports(folder: &Path) -> Result<File, VerificationError> {
-    lock(&lock_file(folder)).map_err(|error| VerificationError::Reports { folder: folder.to_owned(), error })
+fn lock_reports(folder: &Path) -> io::Result<File> {
+    lock(&lock_file(folder)).map_err(|error| unwritable(folder, &error))
+}
+
+fn unwritable(reports: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: the reports cannot be written: {error}", visible::path(reports)))
 }
 
 fn lock_file(reports: &Path) -> PathBuf {

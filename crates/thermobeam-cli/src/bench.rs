@@ -12,7 +12,7 @@ use thermobeam_study::run::step_time;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::timing::{self, Rival};
 
-use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::exit::{Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
 use convergence_study::cli::running::LongRun;
 use convergence_study::cli::screen::{self, Format};
@@ -85,8 +85,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         None => "nothing is written without --out".to_owned(),
     };
     let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
-    arguments.flags.print(Verdict::Pass, &Tables { tables: &page.tables }, &words)?;
-    Ok(Ended::Well)
+    Ok(arguments.flags.print(Verdict::Pass, &Tables { tables: &page.tables }, &words)?)
 }
 
 /// The runs of a library, from the output of its program.

@@ -8,7 +8,7 @@ use serde::Serialize;
 use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria, lists_all};
 use thermobeam_study::scene::Scene;
 
-use convergence_study::cli::exit::{Ended, Outcome, Unusable};
+use convergence_study::cli::exit::{Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
 use convergence_study::cli::screen;
 use convergence_study::judge::verdict::Verdict;
@@ -30,15 +30,14 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Err(error @ EquilibriumError::Parameter(_)) => return Err(Unusable::file(&arguments.scene, &error)),
         Err(error) => {
             screen::complain(&format!("{}: {error}", arguments.scene.display()));
-            return Ok(Ended::Badly);
+            return Ok(Verdict::Fail);
         }
     };
     let flags = &arguments.flags;
     let stable = states.iter().filter(|state| state.stable).count();
     let sentence = format!("{}, {stable} of them stable", counted(states.len()));
     let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states));
-    flags.show("equilibria", Verdict::Pass, &Listed::new(&scene, &states), &words)?;
-    Ok(Ended::Well)
+    Ok(flags.show("equilibria", Verdict::Pass, &Listed::new(&scene, &states), &words)?)
 }
 
 #[derive(Debug, Serialize)]

@@ -32,6 +32,5 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let verdict = if merged.failed == 0 { Verdict::Pass } else { Verdict::Fail };
     let sentence = format!("{} cases, {} failed", merged.cases, merged.failed);
     let words = flags.words(verdict, &sentence, || format!("{sentence}\nwrote {}\n", merged.results.display()));
-    flags.print(verdict, &merged, &words)?;
-    Ok(verdict.into())
+    Ok(flags.print(verdict, &merged, &words)?)
 }

@@ -19,7 +19,7 @@ use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::Scene;
 
-use convergence_study::cli::exit::{self, Ended, Outcome, Unusable};
+use convergence_study::cli::exit::{self, Outcome, Unusable};
 use convergence_study::cli::flags::Flags;
 use convergence_study::cli::running::{self, seconds};
 use convergence_study::cli::screen;
@@ -68,7 +68,7 @@ impl Arguments {
         if let Some(complaint) = complaint {
             screen::complain(&format!("{}: {complaint}", self.scene.display()));
         }
-        Ok(verdict.into())
+        Ok(verdict)
     }
 }
 
@@ -94,7 +94,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
         Err(error) => {
             screen::complain(&format!("{}: {error}", arguments.scene.display()));
-            return Ok(Ended::Badly);
+            return Ok(Verdict::Fail);
         }
     };
     let scene = planned.as_ref().map_or(&read, Planned::scene);

@@ -9,7 +9,7 @@ use clap::Args;
 use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
-use convergence_study::cli::exit::{self, Ended, Outcome};
+use convergence_study::cli::exit::{self, Outcome};
 use convergence_study::cli::flags::Flags;
 use convergence_study::cli::running::{self, seconds};
 use convergence_study::judge::verdict::Verdict;
@@ -43,20 +43,19 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let share = arguments.partition;
     let is_mine = |index: &usize| share == Share::ALL || share.holds(sweep.case(*index).hash());
     let mine: Vec<usize> = (0..sweep.cases()).filter(is_mine).collect();
-    let failed = match &arguments.flags.out {
+    Ok(match &arguments.flags.out {
         Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
         None => to_stdout(arguments, &sweep, mine)?,
-    };
-    Ok(if failed == 0 { Ended::Well } else { Ended::Badly })
+    })
 }
 
-/// Lines to standard output, in the order of the cases; returns how many failed.
-fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<usize, io::Error> {
+/// Lines to standard output, in the order of the cases; fail if one failed.
+fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> io::Result<Verdict> {
     let bar = running::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
-    let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), 0));
+    let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), Verdict::Pass));
     let outcome = sweep::run(sweep, &mine, jobs(arguments), arguments.case_limit, |line: Line| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.1 += usize::from(!line.passed);
+        state.1 = if line.passed { state.1 } else { Verdict::Fail };
         bar.inc(1);
         state.0.add(line)
     });
@@ -68,13 +67,13 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> Result<u
     }
 }
 
-/// Lines to the folder's journal, then the results in order; returns how many failed.
+/// Lines to the folder's journal, then the results in order; fail if one failed.
 fn to_folder(
     arguments: &Arguments,
     sweep: &Sweep,
     mine: Vec<usize>,
     folder: &Path,
-) -> Result<usize, sweep::SweepError> {
+) -> Result<Verdict, sweep::SweepError> {
     let journal = Journal::open(folder, sweep, arguments.partition, arguments.resume)?;
     let cases = mine.len();
     let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
@@ -95,8 +94,7 @@ fn to_folder(
     let verdict = if failed == 0 { Verdict::Pass } else { Verdict::Fail };
     let sentence = format!("{}: {cases} cases, {failed} failed", sweep.name);
     let words = flags.words(verdict, &sentence, || summary(arguments, sweep, [cases, begun, failed], took, &results));
-    flags.print(verdict, &SweepObject { sweep: &sweep.name, cases, failed, results }, &words)?;
-    Ok(failed)
+    Ok(flags.print(verdict, &SweepObject { sweep: &sweep.name, cases, failed, results }, &words)?)
 }
 
 /// The keys of `sweep --out DIR --format json` in addition to the verdict.

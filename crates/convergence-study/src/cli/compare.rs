@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::exit::{Ended, Outcome, Unusable};
+use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::cli::screen;
 use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare, rule};
@@ -49,11 +49,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let [old, new] = [old, new].map(|path| visible::path(path));
         return Err(Unusable::because(&format!("{new}: found no study that {old} has, too; expected at least one")));
     }
-    let is_worse = comparison.change >= Shift::Worse;
-    let verdict = if is_worse { Verdict::Fail } else { Verdict::Pass };
+    let verdict = if comparison.change >= Shift::Worse { Verdict::Fail } else { Verdict::Pass };
     let words = flags.words(verdict, sentence(&comparison).trim_end(), || text(&comparison, *all));
-    flags.show("compare", verdict, &comparison, &words)?;
-    Ok(if is_worse { Ended::Badly } else { Ended::Well })
+    Ok(flags.show("compare", verdict, &comparison, &words)?)
 }
 
 fn text(comparison: &Comparison, all: bool) -> String {

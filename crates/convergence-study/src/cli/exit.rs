@@ -19,15 +19,6 @@ use crate::text::visible;
 pub const HELP: &str =
     "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
 
-/// How a command with usable input ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
-    /// Exit status 0.
-    Well,
-    /// Exit status 1; the failure has been reported.
-    Badly,
-}
-
 /// Input that cannot be read or makes no sense, or a place that cannot be written to: exit status 2.
 #[derive(Debug)]
 pub struct Unusable(String);
@@ -49,26 +40,19 @@ impl Unusable {
     }
 }
 
-impl From<Verdict> for Ended {
-    fn from(verdict: Verdict) -> Self {
-        if verdict.is_pass() { Self::Well } else { Self::Badly }
-    }
-}
-
 impl<E: Error> From<E> for Unusable {
     fn from(error: E) -> Self {
         Self(error.to_string())
     }
 }
 
-/// What a command returns.
-pub type Outcome = Result<Ended, Unusable>;
+/// What a command with usable input returns: exit status 0 for a pass, otherwise 1; the failure has then been reported.
+pub type Outcome = Result<Verdict, Unusable>;
 
 /// Reports unusable input, and turns the outcome into the exit status.
 pub fn status(outcome: Outcome) -> u8 {
     match outcome {
-        Ok(Ended::Well) => 0,
-        Ok(Ended::Badly) => 1,
+        Ok(verdict) => u8::from(!verdict.is_pass()),
         Err(Unusable(message)) => {
             screen::complain(&message);
             2

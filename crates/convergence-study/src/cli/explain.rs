@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 
-use super::exit::{Ended, Outcome, Unusable};
+use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use super::workspace;
 use crate::judge::verdict::{Reason, Verdict};
@@ -61,8 +61,7 @@ fn show(arguments: &Arguments, text: &str) -> Outcome {
     let Arguments { name, flags, .. } = arguments;
     // The first line is the name and what it names.
     let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || text.to_owned());
-    flags.show("explain", Verdict::Pass, &json!({"name": name, "text": text}), &words)?;
-    Ok(Ended::Well)
+    Ok(flags.show("explain", Verdict::Pass, &json!({"name": name, "text": text}), &words)?)
 }
 
 /// The kind of a file that was read is one that the project knows.

@@ -65,15 +65,17 @@ impl Flags {
     /// Prints what a command found, as words or as a JSON object.
     ///
     /// * `verdict`: [`Verdict::Pass`] if the command judges nothing and ended well.
-    pub fn print(&self, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
+    /// * Returns the verdict.
+    pub fn print(&self, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<Verdict> {
         match self.format {
-            Format::Json => screen::print(&object(verdict, found)?),
-            Format::Text => screen::print(words),
+            Format::Json => screen::print(&object(verdict, found)?)?,
+            Format::Text => screen::print(words)?,
         }
+        Ok(verdict)
     }
 
     /// The same; also writes the object as `COMMAND.json` to the folder given.
-    pub fn show(&self, command: &str, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<()> {
+    pub fn show(&self, command: &str, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<Verdict> {
         if let Some(folder) = &self.out {
             atomic::prepare_folder(folder)?;
             atomic::write(&folder.join(command).with_extension("json"), object(verdict, found)?)?;

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::exit::{Ended, Outcome};
+use super::exit::Outcome;
 use super::flags::Flags;
 use super::screen;
 use super::workspace;
@@ -86,7 +86,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     });
     // The worst of the last verdicts.
     arguments.flags.show("list", verdict, &json!({"studies": studies}), &words)?;
-    Ok(Ended::Well)
+    Ok(Verdict::Pass)
 }
 
 fn row(study: &Listed) -> Vec<String> {

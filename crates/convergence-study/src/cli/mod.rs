@@ -27,6 +27,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use clap_complete::{Shell, generate};
 
+use crate::judge::verdict::Verdict;
 use crate::program::guard;
 use crate::project::Project;
 
@@ -91,7 +92,7 @@ fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outc
     let mut script = vec![];
     generate(shell, &mut whole.bin_name(&name), &name, &mut script);
     screen::print(&String::from_utf8_lossy(&script))?;
-    Ok(exit::Ended::Well)
+    Ok(Verdict::Pass)
 }
 
 /// Guards the process group that this process leads; the harness starts it next to every program that it runs.
@@ -105,7 +106,7 @@ fn serve(mark: &str) -> exit::Outcome {
         ));
     }
     guard::serve(mark);
-    Ok(exit::Ended::Well)
+    Ok(Verdict::Pass)
 }
 
 /// The command line of the program `P`, under the name that its users type, its commands in groups.

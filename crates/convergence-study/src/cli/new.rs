@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use serde_json::json;
 
-use super::exit::{Ended, Outcome, Unusable};
+use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::judge::verdict::Verdict;
 use crate::project::{Project, Template};
@@ -71,8 +71,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     });
     let text = format!("{written}\n{}", next.collect::<String>());
     let words = flags.words(Verdict::Pass, &written, || text);
-    flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?;
-    Ok(Ended::Well)
+    Ok(flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?)
 }
 
 /// The folder that the command runs in as seen from the files, and theirs as seen from there, both with a trailing

@@ -53,8 +53,8 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
         .iter()
         .for_each(|file| screen::tell(&format!("note: no picture {}/{file}", visible::path(&beside.join(FIGURES)))));
     let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
-    flags.print(verdict, &json!({"report": folder, "missing": missing}), &flags.words(verdict, &sentence, whole))?;
-    Ok(verdict.into())
+    let words = flags.words(verdict, &sentence, whole);
+    Ok(flags.print(verdict, &json!({"report": folder, "missing": missing}), &words)?)
 }
 
 /// Reads the pictures of all figures; a figure without one is left out and named.

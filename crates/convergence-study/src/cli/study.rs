@@ -74,7 +74,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             screen::print(&format!("\n{}", screen::report_in(folder)))?;
         }
     }
-    Ok(verdict.into())
+    Ok(verdict)
 }
 
 /// What a study fails to test; the search takes no longer than a case may.

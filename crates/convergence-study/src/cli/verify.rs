@@ -95,7 +95,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         Format::Json => json(record)?,
     })?;
     github::announce(&Findings { project, record, see_also: None, provenance: None }, flags.format);
-    Ok(record.verdict.into())
+    Ok(record.verdict)
 }
 
 /// The studies that did not pass, or with a number that moved, in the newest record.

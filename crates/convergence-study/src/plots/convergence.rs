@@ -6,7 +6,7 @@ use super::canvas::Anchor;
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
 use super::xy::{Curve, Outline, Xy};
-use super::{Axis, Guide, Scale, style};
+use super::{Axis, Scale, style};
 use crate::judge::verdict::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 
@@ -42,27 +42,6 @@ pub struct ErrorSeries {
     pub look: Option<usize>,
 }
 
-/// A convergence plot, both axes logarithmic.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Convergence {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// What is refined.
-    pub x_label: String,
-    /// What is measured.
-    pub y_label: String,
-    /// One series per norm.
-    pub series: Vec<ErrorSeries>,
-    /// Orders to draw slope triangles for, in addition to those of the series.
-    pub slopes: Vec<f64>,
-    /// A level of note, such as the round-off floor.
-    pub floor: Option<Guide>,
-    /// Everything right of this step is shaded, with this text above it.
-    pub beyond: Option<(f64, String)>,
-    /// Lines under the legend, such as the cases without a result.
-    pub notes: Vec<String>,
-}
-
 impl ErrorSeries {
     /// The line, if its rate is known.
     pub(crate) fn line(&self) -> Option<PowerLaw> {
@@ -79,35 +58,29 @@ impl ErrorSeries {
     }
 }
 
-impl Convergence {
-    /// Labels for errors over the mesh width.
-    pub fn in_space() -> Self {
-        Self { x_label: "mesh width h".into(), y_label: "error".into(), ..Self::default() }
+impl Xy {
+    /// An empty figure for errors over a step, log-log.
+    pub fn of_errors(step: impl Into<String>) -> Self {
+        Self { x: Axis::log(step), y: Axis::log("error"), ..Self::default() }
     }
 }
 
-/// Draws errors over `h` or `dt`, log-log.
-pub fn convergence(figure: &Convergence) -> String {
-    let mut xy = Xy {
-        title: figure.title.clone(),
-        x: Axis::log(&*figure.x_label),
-        y: Axis::log(&*figure.y_label),
-        guides: figure.floor.clone().into_iter().collect(),
-        beyond: figure.beyond.clone(),
-        notes: figure.notes.clone(),
-        ..Xy::default()
-    };
-    for (k, series) in figure.series.iter().enumerate() {
+/// Draws errors over `h` or `dt`.
+///
+/// * `xy`: the figure without them, such as [`Xy::of_errors`], both axes logarithmic.
+/// * `slopes`: orders to draw slope triangles for, in addition to those of the series.
+pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String {
+    for (k, series) in series.iter().enumerate() {
         xy.curves.extend(curves(series, look(series.look.unwrap_or(k))));
     }
-    if figure.series.iter().any(has_unused_points) {
+    if series.iter().any(has_unused_points) {
         xy.notes.push("open markers: points that the rate does not use".to_owned());
     }
-    let mut orders: Vec<f64> = figure.series.iter().filter_map(|series| series.order).collect();
+    let mut orders: Vec<f64> = series.iter().filter_map(|series| series.order).collect();
     orders.sort_by(f64::total_cmp);
     orders.dedup();
-    orders.extend(&figure.slopes);
-    let (outlines, bottom) = triangles(&orders, &trends(&figure.series), &xy.x_ruler(), &xy.y_ruler());
+    orders.extend(slopes);
+    let (outlines, bottom) = triangles(&orders, &trends(series), &xy.x_ruler(), &xy.y_ruler());
     if !outlines.is_empty() {
         xy.show_y.push(bottom);
     }

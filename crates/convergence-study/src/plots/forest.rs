@@ -44,28 +44,21 @@ pub struct ForestRow {
     pub note: String,
 }
 
-/// A forest plot.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Forest {
-    /// Above the plot.
-    pub title: String,
-    /// From top to bottom: the property that a group of studies claims, such as `space`, and the studies.
-    pub groups: Vec<(String, Vec<ForestRow>)>,
-}
-
 /// Draws every rate as a point with its interval, in units of its tolerance, studies under the headings of their groups.
-pub fn forest(figure: &Forest) -> String {
-    let rows = figure.groups.iter().flat_map(|(_, rows)| rows);
+///
+/// * `groups`: from top to bottom, the property that a group of studies claims, such as `space`, and the studies.
+pub fn forest(title: &str, groups: &[(&str, Vec<ForestRow>)]) -> String {
+    let rows = groups.iter().flat_map(|(_, rows)| rows);
     let labels = rows.clone().map(|row| text_width(&row.label, NOTE_SIZE)).fold(80.0, f64::max).min(LABELS);
-    let height: f64 = rows.map(row_height).sum::<f64>() + HEADING * figure.groups.len() as f64;
+    let height: f64 = rows.map(row_height).sum::<f64>() + HEADING * groups.len() as f64;
     let plot = Rect { left: labels + 28.0, top: TOP, right: style::WIDTH - 24.0, bottom: TOP + height };
     let mut canvas = Canvas::new(style::WIDTH, plot.bottom + BOTTOM);
     canvas.draw(Layer::default(), |pen| {
-        pen.text(&figure.title, (0.5 * style::WIDTH, 24.0), TITLE_SIZE, Anchor::Center, INK);
+        pen.text(title, (0.5 * style::WIDTH, 24.0), TITLE_SIZE, Anchor::Center, INK);
         legend(pen);
         scale(pen, &plot);
         let mut top = plot.top;
-        for (label, rows) in &figure.groups {
+        for (label, rows) in groups {
             pen.text(label, (12.0, top + 0.45 * HEADING), TICK_SIZE, Anchor::Left, INK);
             pen.line(&[(12.0, top + HEADING - 5.0), (plot.right, top + HEADING - 5.0)], GRID, style::THIN);
             top += HEADING;
@@ -78,7 +71,7 @@ pub fn forest(figure: &Forest) -> String {
             }
         }
     });
-    canvas.finish(&figure.title, "")
+    canvas.finish(title, "")
 }
 
 fn row_height(row: &ForestRow) -> f64 {
@@ -233,8 +226,7 @@ mod tests {
             row("lost-order", &[(-20.0, 0.1, Verdict::Fail)]),
             ForestRow { label: "none".into(), rates: vec![none; 3], note: String::new() },
         ];
-        let figure = Forest { title: "All rates".into(), groups: vec![("space".into(), rows)] };
-        let svg = forest(&figure);
+        let svg = forest("All rates", &[("space", rows)]);
         for text in ["sound", "lost-order", "none", "no rate", "space", "All rates"] {
             assert!(svg.contains(text), "{text}");
         }
@@ -258,8 +250,7 @@ mod tests {
         low.rates.push(missing);
         low.note = "1.000, claimed 2".into();
         let high = ForestRow { note: "3.000, claimed 2".into(), ..row("high", &[(20.0, 0.1, Verdict::Fail)]) };
-        let figure = Forest { title: String::new(), groups: vec![("g".into(), vec![low, high])] };
-        let svg = forest(&figure);
+        let svg = forest("", &[("g", vec![low, high])]);
         // In tenths of px: the arrow at the right rim begins at 8650.
         let (beside, before) = (x_of(&svg, "1.000, claimed 2; 1 without a rate"), x_of(&svg, "3.000, claimed 2"));
         let middle = x_of(&svg, "order claimed");
@@ -270,8 +261,7 @@ mod tests {
     fn an_interval_that_the_frame_cuts_has_a_small_arrow() {
         let count = |half: f64| {
             let rows = vec![row("a", &[(0.5, half, Verdict::Inconclusive)])];
-            let groups = vec![("g".into(), rows)];
-            forest(&Forest { title: String::new(), groups }).matches("<polygon").count()
+            forest("", &[("g", rows)]).matches("<polygon").count()
         };
         // One belongs to the legend.
         assert_eq!([count(1.0), count(2.0), count(5.0)], [1, 2, 3]);
@@ -281,8 +271,7 @@ mod tests {
     fn studies_are_parted_by_a_line() {
         let lines = |count: usize| {
             let rows = vec![row("a", &[(0.0, 0.1, Verdict::Pass)]); count];
-            let figure = Forest { title: String::new(), groups: vec![("g".into(), rows)] };
-            forest(&figure).matches("<polyline").count()
+            forest("", &[("g", rows)]).matches("<polyline").count()
         };
         // The interval, and a line between this study and the one before.
         assert_eq!(lines(4) - lines(3), 2);
@@ -290,11 +279,8 @@ mod tests {
 
     #[test]
     fn a_long_label_is_cut_and_nan_draws_nothing() {
-        let figure = |rate: f64, label: String| Forest {
-            title: String::new(),
-            groups: vec![("g".into(), vec![row(&label, &[(rate, f64::NAN, Verdict::Fail)])])],
-        };
-        let svg = forest(&figure(f64::NAN, "x".repeat(200)));
+        let rows = vec![row(&"x".repeat(200), &[(f64::NAN, f64::NAN, Verdict::Fail)])];
+        let svg = forest("", &[("g", rows)]);
         assert!(svg.contains('…') && svg.contains("no rate") && !svg.contains("NaN"));
     }
 }

@@ -20,11 +20,11 @@
 //! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
 //!
 //! ```
-//! use convergence_study::plots::{ErrorSeries, Convergence, convergence};
+//! use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};
 //!
 //! let points = [8.0, 16.0, 32.0].map(|n: f64| (1.0 / n, 0.3 / n)).to_vec();
-//! let series = vec![ErrorSeries { label: "velocity".into(), points, order: Some(1.0), ..Default::default() }];
-//! let svg = convergence(&Convergence { series, ..Convergence::in_space() });
+//! let series = ErrorSeries { label: "velocity".into(), points, order: Some(1.0), ..Default::default() };
+//! let svg = convergence(Xy::of_errors("mesh width h"), &[series], &[]);
 //! assert!(svg.starts_with("<svg"));
 //! ```
 
@@ -40,8 +40,8 @@ pub mod sheet;
 pub mod style;
 pub mod xy;
 
-pub use convergence::{Convergence, ErrorSeries, convergence};
-pub use forest::{Forest, ForestRate, ForestRow, forest};
+pub use convergence::{ErrorSeries, convergence};
+pub use forest::{ForestRate, ForestRow, forest};
 pub use heat::{SpaceTime, Surface, space_time, surface};
 pub use history::{history, iterations, work_precision};
 

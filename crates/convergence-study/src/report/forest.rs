@@ -2,7 +2,7 @@
 
 use super::words::range;
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::plots::{Forest, ForestRate, ForestRow, forest};
+use crate::plots::{ForestRate, ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::Figure;
@@ -16,11 +16,9 @@ pub(super) const FILE: &str = "rates.svg";
 
 /// Every judged rate relative to its claim, studies in groups; `None` if no rate was judged.
 pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {
-    let group = |(label, studies): (&str, Vec<&Finished>)| {
-        let rows: Vec<ForestRow> = studies.into_iter().filter_map(row).collect();
-        (!rows.is_empty()).then(|| (label.to_owned(), rows))
-    };
-    let groups: Vec<_> = grouped(project, finished).into_iter().filter_map(group).collect();
+    let rows = |(label, studies): (_, Vec<&Finished>)| (label, studies.into_iter().filter_map(row).collect());
+    let mut groups: Vec<(&str, Vec<ForestRow>)> = grouped(project, finished).into_iter().map(rows).collect();
+    groups.retain(|(_, rows)| !rows.is_empty());
     let rates: usize = groups.iter().flat_map(|(_, rows)| rows).map(|row| row.rates.len()).sum();
     if rates == 0 {
         return None;
@@ -30,7 +28,7 @@ pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure>
         "All {rates} judged rates with their intervals: 0 is the order claimed, the shaded band its tolerance. A rate passes \
          where its whole interval lies in the band."
     );
-    Some(Figure { file: FILE.to_owned(), caption, svg: forest(&Forest { title, groups }) })
+    Some(Figure { file: FILE.to_owned(), caption, svg: forest(&title, &groups) })
 }
 
 /// Studies by the property they claim, in the project's order of groups; those of unknown groups last.

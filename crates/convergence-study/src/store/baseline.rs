@@ -25,6 +25,7 @@
 mod change;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -32,7 +33,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::{StoreError, read_if_there, write_json};
+use crate::store::{read_if_there, write_json};
 use crate::study::Header;
 use crate::text::{json, visible};
 
@@ -119,14 +120,14 @@ impl Baseline {
     /// Reads the file. A missing file is an empty baseline: every number is then new.
     ///
     /// # Errors
-    /// [`StoreError`] if the file exists but is not a baseline.
-    pub fn read(path: &Path) -> Result<Self, StoreError> {
+    /// A file that exists but is not a baseline.
+    pub fn read(path: &Path) -> io::Result<Self> {
         let expected = ["restore it, or remove it and run `verify --bless`", EXPECTED];
         Ok(read_if_there(path, Some(SCHEMA), expected)?.unwrap_or_default())
     }
 
     /// Writes the file, as a whole or not at all.
-    pub fn write(&self, path: &Path) -> Result<(), StoreError> {
+    pub fn write(&self, path: &Path) -> io::Result<()> {
         write_json(path, self)
     }
 
@@ -296,7 +297,7 @@ pub struct Works(BTreeMap<String, BTreeMap<String, BTreeMap<String, u64>>>);
 
 impl Works {
     /// Reads the file; without a file nothing is limited.
-    pub fn read(path: &Path) -> Result<Self, StoreError> {
+    pub fn read(path: &Path) -> io::Result<Self> {
         let expected = "restore it, or remove it and run `verify --bless`";
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }

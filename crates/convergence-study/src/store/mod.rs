@@ -14,67 +14,39 @@ pub mod writing;
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use crate::judge::random::SplitMix;
 use crate::text::visible;
-
-/// A file of the harness that cannot be read or written.
-#[derive(Debug, Error)]
-pub enum StoreError {
-    /// The file cannot be read or written.
-    #[error("{}: {error}", visible::path(.path))]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong.
-        error: io::Error,
-    },
-    /// The file has another format.
-    #[error("{}: {}; {expected}", visible::path(.path), visible::visible(&.error.to_string()))]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong, with line and column.
-        error: serde_json::Error,
-        /// What is expected, or what to do.
-        expected: &'static str,
-    },
-    /// A version with another format wrote the file.
-    #[error("{}: schema: found {found}; expected {expected}", visible::path(.path))]
-    Schema {
-        /// The file.
-        path: PathBuf,
-        /// The version found.
-        found: u32,
-        /// The version that is read.
-        expected: &'static str,
-    },
-}
 
 /// The content of a file. Another schema has other keys, so its number is read first.
 ///
 /// * `schema`: its version, if it has one.
 /// * `expected`: advice for a file with another format or schema.
+///
+/// # Errors
+/// One line with the file, what was found with line and column, and the advice.
 pub(crate) fn parsed<T: DeserializeOwned>(
     text: &str,
     path: &Path,
     schema: Option<u32>,
-    expected: [&'static str; 2],
-) -> Result<T, StoreError> {
+    expected: [&str; 2],
+) -> io::Result<T> {
     #[derive(Deserialize)]
     struct Version {
         schema: u32,
     }
-    let malformed = |error| StoreError::Malformed { path: path.to_owned(), error, expected: expected[0] };
+    let refused = |found: &str, expected: &str| {
+        io::Error::new(io::ErrorKind::InvalidData, format!("{}: {found}; {expected}", visible::path(path)))
+    };
+    let malformed = |error: serde_json::Error| refused(&visible::visible(&error.to_string()), expected[0]);
     if let Some(schema) = schema {
         let Version { schema: found } = serde_json::from_str(text).map_err(malformed)?;
         if found != schema {
-            return Err(StoreError::Schema { path: path.to_owned(), found, expected: expected[1] });
+            return Err(refused(&format!("schema: found {found}"), &format!("expected {}", expected[1])));
         }
     }
     serde_json::from_str(text).map_err(malformed)
@@ -84,10 +56,9 @@ pub(crate) fn parsed<T: DeserializeOwned>(
 pub(crate) fn read_if_there<T: DeserializeOwned>(
     path: &Path,
     schema: Option<u32>,
-    expected: [&'static str; 2],
-) -> Result<Option<T>, StoreError> {
-    let text = if_there(read_to_string(path));
-    let text = text.map_err(|error| StoreError::File { path: path.to_owned(), error })?;
+    expected: [&str; 2],
+) -> io::Result<Option<T>> {
+    let text = if_there(read_to_string(path)).map_err(|error| atomic::naming(path, &error))?;
     text.map(|text| parsed(&text, path, schema, expected)).transpose()
 }
 
@@ -97,9 +68,8 @@ pub fn json(object: &impl Serialize) -> io::Result<String> {
 }
 
 /// Writes an object to a file, atomically.
-pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> Result<(), StoreError> {
-    let written = json(object).and_then(|text| atomic::write(path, text));
-    written.map_err(|error| StoreError::File { path: path.to_owned(), error })
+pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> io::Result<()> {
+    atomic::write(path, json(object)?)
 }
 
 /// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by splitmix64.

@@ -1,17 +1,17 @@
 //! Where a record comes from: machine, tools, revision and times. Everything that varies between two runs is here.
 
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
+use std::{fs, io};
 
 use chrono::DateTime;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
+use crate::store::read_if_there;
 use crate::store::record::SCHEMA;
-use crate::store::{StoreError, read_if_there};
 
 /// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -89,7 +89,7 @@ impl Provenance {
     }
 
     /// Reads the origin of a run; `None` if there is no file.
-    pub fn read(path: &Path) -> Result<Option<Self>, StoreError> {
+    pub fn read(path: &Path) -> io::Result<Option<Self>> {
         read_if_there(path, None, ["remove it: `verify` writes it anew"; 2])
     }
 

@@ -7,6 +7,7 @@
 //! A number that is not finite is `null`; `not_finite` says where it is and what it was, `failed_cases` says why. Read
 //! back, `null` is NaN. The pictures are separate files next to the record, in [`FIGURES`].
 
+use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +16,7 @@ use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::baseline::Change;
 use crate::store::diagnosis::Diagnosis;
-use crate::store::{self, StoreError, parsed};
+use crate::store::{self, atomic, parsed};
 use crate::text::number::{committed, committed_rate};
 
 /// Version of the schema; it increases when a field changes its name or meaning, not when one is added.
@@ -55,13 +56,12 @@ pub struct Record {
 
 impl Record {
     /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
-    pub fn read(path: &Path) -> Result<Self, StoreError> {
-        let text = store::read_to_string(path);
-        Self::parse(&text.map_err(|error| StoreError::File { path: path.to_owned(), error })?, path)
+    pub fn read(path: &Path) -> io::Result<Self> {
+        Self::parse(&store::read_to_string(path).map_err(|error| atomic::naming(path, &error))?, path)
     }
 
     /// The same from its text.
-    pub fn parse(text: &str, path: &Path) -> Result<Self, StoreError> {
+    pub fn parse(text: &str, path: &Path) -> io::Result<Self> {
         parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])
     }
 

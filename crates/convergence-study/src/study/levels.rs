@@ -10,7 +10,7 @@ pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
 #[cfg(feature = "reports")]
-use crate::plots::{self, Convergence, ErrorSeries};
+use crate::plots::{self, ErrorSeries, xy::Xy};
 use crate::text::lists::distinct;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
 
@@ -198,7 +198,6 @@ impl Levels {
                 look: Some(column.look),
             }
         });
-        let labels = Convergence { x_label: self.axis.label().into(), ..Convergence::in_space() };
         let series: Vec<ErrorSeries> = series.collect();
         let has_line = series.iter().any(|series| series.line().is_some());
         let caption = if has_line { caption + LINES } else { caption };
@@ -208,8 +207,8 @@ impl Levels {
             [] => caption,
             labels => format!("{caption} No result: {}.", labels.join("; ")),
         };
-        let svg = plots::convergence(&Convergence { title, series, notes, ..labels });
-        Figure::new(what, caption, svg)
+        let xy = Xy { title, notes, ..Xy::of_errors(self.axis.label()) };
+        Figure::new(what, caption, plots::convergence(xy, &series, &[]))
     }
 
     /// The same with only the coarsest levels.

@@ -8,8 +8,8 @@ use convergence_study::plots::*;
 /// Every figure, drawn.
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     vec![
-        ("convergence-space", convergence(&space_errors())),
-        ("convergence-time", convergence(&time_errors())),
+        ("convergence-space", over_h(&space_errors())),
+        ("convergence-time", convergence(over_dt(), &time_errors(), &[])),
         ("surface", surface(&error_surface())),
         ("history-long", long_history(100_000).draw()),
         ("history-energy", energy_history().draw()),
@@ -18,7 +18,7 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
         ("iterations", iteration_counts().draw()),
         ("parameter-map", surface(&stability_map())),
         ("work-precision", work_precision("run time (s)", "error in u(T) (dimensionless)", &costs()).draw()),
-        ("forest", forest(&all_rates())),
+        ("forest", forest("All rates", &all_rates())),
         ("hostile", hostile().draw()),
     ]
 }
@@ -38,7 +38,11 @@ fn errors(label: &str, constant: f64, order: f64, steps: &[f64]) -> ErrorSeries 
     }
 }
 
-pub(crate) fn space_errors() -> Convergence {
+pub(crate) fn over_h(series: &[ErrorSeries]) -> String {
+    convergence(Xy::of_errors("mesh width h"), series, &[])
+}
+
+pub(crate) fn space_errors() -> Vec<ErrorSeries> {
     let h: Vec<f64> = (3..=12).map(|k| 0.5_f64.powi(k)).collect();
     let mut norms = vec![
         errors("velocity", 0.75, 2.0, &h),
@@ -53,21 +57,19 @@ pub(crate) fn space_errors() -> Convergence {
     norms[0].used = Some(3..10);
     // A norm that hides another one.
     norms.push(ErrorSeries { label: "energy norm, lumped".into(), ..norms[5].clone() });
-    Convergence { series: norms, ..Convergence::in_space() }
+    norms
 }
 
-pub(crate) fn time_errors() -> Convergence {
+pub(crate) fn time_errors() -> Vec<ErrorSeries> {
     let dt: Vec<f64> = (4..=10).map(|k| 0.5_f64.powi(k)).collect();
     let mut euler = errors("euler-crank-nicolson", 1.2, 1.0, &dt);
     euler.fit = None;
-    let midpoint = errors("midpoint", 0.8, 2.0, &dt);
-    Convergence {
-        title: Some("Time isolated: error over dt".into()),
-        series: vec![euler, midpoint],
-        floor: Some(Guide { label: "round-off".into(), value: 1e-8 }),
-        x_label: "time step dt".into(),
-        ..Convergence::in_space()
-    }
+    vec![euler, errors("midpoint", 0.8, 2.0, &dt)]
+}
+
+pub(crate) fn over_dt() -> Xy {
+    let title = Some("Time isolated: error over dt".into());
+    Xy { title, guides: vec![Guide { label: "round-off".into(), value: 1e-8 }], ..Xy::of_errors("time step dt") }
 }
 
 pub(crate) fn error_surface() -> Surface {
@@ -240,7 +242,7 @@ pub(crate) fn hostile() -> Xy {
 }
 
 /// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
-pub(crate) fn all_rates() -> Forest {
+pub(crate) fn all_rates() -> [(&'static str, Vec<ForestRow>); 2] {
     let rate = |rate: f64, half: f64, verdict| ForestRate {
         rate: Some(rate),
         interval: Some([rate - half, rate + half]),
@@ -257,5 +259,5 @@ pub(crate) fn all_rates() -> Forest {
     ];
     let time =
         vec![row("scattered", vec![rate(0.4, 1.1, Verdict::Inconclusive), rate(0.2, 3.0, Verdict::Inconclusive)])];
-    Forest { title: "All rates".into(), groups: vec![("space".into(), space), ("time".into(), time)] }
+    [("space", space), ("time", time)]
 }

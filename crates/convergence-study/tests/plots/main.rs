@@ -6,6 +6,7 @@ mod laws;
 use convergence_study::judge::verdict::PowerLaw;
 use convergence_study::plots::xy::Xy;
 use convergence_study::plots::*;
+use gallery::over_h;
 use laws::{UNITS, bounds, elements, number, parse};
 use roxmltree::Node;
 
@@ -100,7 +101,7 @@ fn points_that_cannot_be_drawn_are_counted() {
 #[test]
 fn figures_without_data_do_not_panic() {
     let empty = [
-        convergence(&Convergence::default()),
+        convergence(Xy::of_errors(""), &[], &[]),
         surface(&Surface::default()),
         history(Axis::default(), &[]).draw(),
         space_time(&SpaceTime::default()),
@@ -126,7 +127,7 @@ fn figures_of_extreme_data_do_not_panic() {
             }
             let fit = Some(PowerLaw { rate: x, constant: y });
             let norm = ErrorSeries { points: points.clone(), order: Some(x), fit, ..Default::default() };
-            parse(&convergence(&Convergence { series: vec![norm], slopes: vec![x, 1.0], ..Default::default() }));
+            parse(&convergence(Xy::of_errors(""), &[norm], &[x, 1.0]));
             let (x_values, y_values, values) = (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
             let cells = Surface { x_values, y_values, values, z: Axis::log("z"), ..Default::default() };
             parse(&surface(&cells));
@@ -207,7 +208,7 @@ fn labels_are_all_there() {
     for label in ["g₁ = −0.01", "g₂ = 0.1", "at a stop", "euler-crank-nicolson", "midpoint", "time t"] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
-    let words = texts(&convergence(&gallery::space_errors()));
+    let words = texts(&over_h(&gallery::space_errors()));
     for label in ["energy norm, order 1, rate 1.002", "mesh width h", "10⁻³", "1", "2"] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
@@ -237,7 +238,7 @@ fn a_missing_cell_is_noted_unless_it_is_marked() {
 
 #[test]
 fn markers_lie_where_the_values_in_the_picture_say() {
-    let svg = convergence(&gallery::space_errors());
+    let svg = over_h(&gallery::space_errors());
     let doc = parse(&svg);
     let root = doc.root_element();
     let words = |name: &str| root.attribute(name).unwrap().split(' ').map(str::to_owned).collect::<Vec<_>>();
@@ -265,16 +266,15 @@ fn markers_lie_where_the_values_in_the_picture_say() {
 }
 
 /// A straight line of errors; the rate uses all levels except the two coarsest.
-fn partly_used() -> Convergence {
+fn partly_used() -> ErrorSeries {
     let points: Vec<_> = (2..8).rev().map(|k| 0.5_f64.powi(9 - k)).map(|h| (h, h * h)).collect();
     let fit = Some(PowerLaw { rate: 2.0, constant: 1.0 });
-    let series = ErrorSeries { label: "L2".into(), points, fit, used: Some(2..6), ..ErrorSeries::default() };
-    Convergence { series: vec![series], ..Convergence::in_space() }
+    ErrorSeries { label: "L2".into(), points, fit, used: Some(2..6), ..ErrorSeries::default() }
 }
 
 #[test]
 fn a_fitted_line_ends_with_the_levels_that_it_uses() {
-    let svg = convergence(&partly_used());
+    let svg = over_h(&[partly_used()]);
     let doc = parse(&svg);
     let line = elements(&doc, "g").find(|n| n.has_attribute("data-series")).expect("the line comes first");
     let line = line.descendants().find(|n| n.has_tag_name("polyline")).expect("a line");
@@ -293,21 +293,17 @@ fn a_fitted_line_ends_with_the_levels_that_it_uses() {
 #[test]
 fn levels_without_a_say_have_open_markers_and_a_note() {
     let note = "open markers: points that the rate does not use";
-    let svg = convergence(&partly_used());
+    let svg = over_h(&[partly_used()]);
     let white = elements(&parse(&svg), "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF")).count();
     assert_eq!(white, 2);
     assert!(texts(&svg).iter().any(|text| text == note));
-    let mut all = partly_used();
-    all.series[0].used = None;
-    assert!(!texts(&convergence(&all)).iter().any(|text| text == note));
+    let all = ErrorSeries { used: None, ..partly_used() };
+    assert!(!texts(&over_h(&[all])).iter().any(|text| text == note));
 }
 
 /// The legend's text, and whether a line is drawn, for a rate with this interval.
 fn rate_known_as(interval: Option<[f64; 2]>) -> (String, bool) {
-    let mut figure = partly_used();
-    figure.series[0].order = Some(2.0);
-    figure.series[0].interval = interval;
-    let svg = convergence(&figure);
+    let svg = over_h(&[ErrorSeries { order: Some(2.0), interval, ..partly_used() }]);
     let doc = parse(&svg);
     let label = elements(&doc, "g").find_map(|n| n.attribute("data-entry")).expect("an entry").to_owned();
     let lines = elements(&doc, "g").filter(|n| n.has_attribute("data-series"));
@@ -351,22 +347,20 @@ fn lines_that_coincide_are_noted_whatever_the_points_that_draw_them() {
 
 #[test]
 fn a_note_names_the_curves_that_coincide() {
-    let words = texts(&convergence(&gallery::space_errors()));
+    let words = texts(&over_h(&gallery::space_errors()));
     assert!(words.iter().any(|text| text == "energy norm and energy norm, lumped coincide"), "{words:?}");
     // Half a decade apart they do not.
-    assert!(!texts(&convergence(&gallery::time_errors())).iter().any(|text| text.contains("coincide")));
+    assert!(!texts(&over_h(&gallery::time_errors())).iter().any(|text| text.contains("coincide")));
 }
 
 #[test]
 fn a_series_keeps_its_look_in_every_figure() {
-    let mut norm = gallery::time_errors().series.remove(0);
+    let mut norm = gallery::time_errors().remove(0);
     norm.look = Some(3);
-    let alone = convergence(&Convergence { series: vec![norm.clone()], ..Convergence::in_space() });
-    let mut figure = gallery::time_errors();
-    figure.series.push(norm);
-    let last = convergence(&figure);
+    let alone = over_h(&[norm.clone()]);
+    let last = over_h(&[gallery::time_errors(), vec![norm]].concat());
     let is_purple = |svg: &str| points_of(svg, "#AA4499") > 0;
-    assert!(is_purple(&alone) && is_purple(&last) && !is_purple(&convergence(&gallery::time_errors())));
+    assert!(is_purple(&alone) && is_purple(&last) && !is_purple(&over_h(&gallery::time_errors())));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::plots::{Convergence, ErrorSeries, convergence};
+use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};
 use convergence_study::project::{Front, Project};
 use convergence_study::report::{Findings, SeeAlso};
 use convergence_study::run::Finished;
@@ -27,8 +27,7 @@ pub(crate) fn two() -> Vec<Finished> {
             points: (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k))).collect(),
             ..ErrorSeries::default()
         };
-        let svg =
-            convergence(&Convergence { series: vec![series("a<b", 1), series("c", 2)], ..Convergence::in_space() });
+        let svg = convergence(Xy::of_errors("mesh width h"), &[series("a<b", 1), series("c", 2)], &[]);
         let file = format!("{}-errors.svg", finished.header.id);
         finished.outcome.figures = vec![Figure { file, caption: "Two curves".to_owned(), svg }];
     }

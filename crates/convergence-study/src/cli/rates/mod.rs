@@ -145,8 +145,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(folder) = &flags.out {
         shown::write(&findings, folder)?;
     }
-    flags.show("rates", verdict, &shown::object(&findings), &shown::text(&findings, flags.quiet))?;
-    Ok(verdict.into())
+    Ok(flags.show("rates", verdict, &shown::object(&findings), &shown::text(&findings, flags.quiet))?)
 }
 
 /// The columns to judge: errors, then values.

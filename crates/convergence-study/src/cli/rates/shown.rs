@@ -13,7 +13,8 @@ use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Aside, Reason, SetAside, Verdict};
-use crate::plots::{Convergence, ErrorSeries, Guide, convergence};
+use crate::plots::xy::Xy;
+use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit};
 use crate::text::number::{error_text, order_text, pair_text, plain_text, short_text};
 use crate::text::visible::{self, visible};
@@ -240,8 +241,8 @@ fn figure(findings: &Judgement<'_>) -> String {
     let at_floor =
         |judged: &&JudgedColumn<'_>| judged.rate.set_aside.iter().any(|aside| aside.because == Aside::AtFloor);
     let floor = drawn.iter().any(at_floor).then(|| Guide { label: "floor".to_owned(), value: findings.judge.floor() });
-    let (x_label, y_label) = (findings.table.step.clone(), "error".to_owned());
-    convergence(&Convergence { x_label, y_label, series, floor, ..Convergence::default() })
+    let guides = floor.into_iter().collect();
+    convergence(Xy { guides, ..Xy::of_errors(&findings.table.step) }, &series, &[])
 }
 
 /// The printed result, as a page.

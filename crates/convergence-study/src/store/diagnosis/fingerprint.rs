@@ -1,13 +1,14 @@
 //! The effect of a mistake on a run: which items fail, which fields move, and in which direction. Similar runs agree in these.
 
 use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::baseline::{Change, Movement};
-use crate::store::{StoreError, read_if_there};
+use crate::store::read_if_there;
 use crate::study::header::field;
 
 /// Logarithm of the ratio that weighs as much as a failure.
@@ -84,7 +85,7 @@ pub struct Resembling {
 
 impl Fingerprints {
     /// Reads the file; without a file no mistakes are known.
-    pub fn read(path: &Path) -> Result<Self, StoreError> {
+    pub fn read(path: &Path) -> io::Result<Self> {
         let expected = "remove it: `dev regressions --write` makes it anew";
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }

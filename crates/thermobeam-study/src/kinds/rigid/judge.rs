@@ -246,18 +246,18 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
         ..plots::ErrorSeries::default()
     };
     let resolved = all.first().map(|of| of.alpha() * of.epsilon);
-    plots::convergence(&plots::Convergence {
-        x_label: "compliance of the obstacles ε".into(),
-        y_label: "penetration (dimensionless)".into(),
-        series: vec![
-            over_epsilon(LARGEST, |of| penetration(of.bouncing)),
-            over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
-            over_epsilon("at rest", |of| penetration(of.rest)),
-        ],
+    let series = [
+        over_epsilon(LARGEST, |of| penetration(of.bouncing)),
+        over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
+        over_epsilon("at rest", |of| penetration(of.rest)),
+    ];
+    let xy = Xy {
+        x: plots::Axis::log("compliance of the obstacles ε"),
+        y: plots::Axis::log("penetration (dimensionless)"),
         beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
-        slopes: vec![1.0, 2.0 / 3.0],
-        ..plots::Convergence::default()
-    })
+        ..Xy::default()
+    };
+    plots::convergence(xy, &series, &[1.0, 2.0 / 3.0])
 }
 
 /// Only the first decades, so that the curves stay distinct.

@@ -1,7 +1,7 @@
 //! A project's description of itself for the harness.
 
 use crate::study::header::{self, Setting};
-use crate::study::{Header, Kinds};
+use crate::study::{Header, KindRow};
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +13,7 @@ pub struct Project {
     /// A one-sentence description, for `--help`.
     pub about: &'static str,
     /// The kinds of study that it has.
-    pub kinds: &'static Kinds,
+    pub kinds: &'static [KindRow],
     /// The groups that studies may name, in the order of reports: the property claimed, such as `space`.
     pub groups: &'static [&'static str],
     /// Its own words that `explain` knows in addition to kinds and reasons, such as norms.

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{Findings, SeeAlso};
+use crate::report::{FULL, Findings};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::atomic;
 use crate::store::baseline::{Baseline, Change, Refusal, Works};
@@ -105,14 +105,10 @@ impl Request {
         self.root.join("studies").join("baseline.json")
     }
 
-    /// Waits for other processes that write the baseline, and then blocks them. The lock is in the project, wherever the reports go.
-    fn lock_baseline(&self) -> io::Result<File> {
-        lock_reports(&self.root.join("reports"))
-    }
-
-    /// The same for the reports, preceded by the lock of the baseline for a blessing.
+    /// Waits for other processes that write the reports, and then blocks them; for a blessing first for those that write the baseline,
+    /// whose lock is in the project, wherever the reports go.
     fn lock(&self) -> io::Result<[Option<File>; 2]> {
-        let baseline = self.bless.then(|| self.lock_baseline()).transpose()?;
+        let baseline = self.bless.then(|| lock_reports(&self.root.join("reports"))).transpose()?;
         // A second lock on the same file would wait for the first.
         let is_held = baseline.is_some() && self.is_one_lock();
         Ok([baseline, if is_held { None } else { Some(lock_reports(&self.reports)?) }])
@@ -173,10 +169,9 @@ pub fn verify(
     let mistakes =
         project.fingerprints.map(|file| Fingerprints::read(&request.root.join(file))).transpose()?.unwrap_or_default();
     let folder = &request.reports;
-    let fail = |error| unwritable(folder, &error);
     tidy(request)?;
     // A folder that is not writable is reported before the run.
-    atomic::prepare_folder(folder).map_err(fail)?;
+    atomic::prepare_folder(folder).map_err(unwritable(folder))?;
     let works_file = request.root.join("studies/work.json");
     let mut works = Works::read(&works_file)?;
     // Blessed runs may take longer than before.
@@ -199,9 +194,10 @@ pub fn verify(
     let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &record.studies);
     let committed = record.clone().committed();
     let see_also = see_also(&committed, folder);
-    let files =
-        Findings { project, record: &committed, see_also, provenance: Some(&provenance) }.files().map_err(fail)?;
-    let provenance = json(&provenance).map_err(fail)?;
+    let files = Findings { project, record: &committed, see_also, provenance: Some(&provenance) }
+        .files()
+        .map_err(unwritable(folder))?;
+    let provenance = json(&provenance).map_err(unwritable(folder))?;
     if let Some(Ok(())) = &blessing {
         baseline.write(&baseline_file)?;
         works.take(&record.studies);
@@ -210,8 +206,8 @@ pub fn verify(
         }
     }
     let target = request.scope.report_folder(folder);
-    target.publish(&files).map_err(fail)?;
-    atomic::write(&folder.join("local").join("provenance.json"), provenance).map_err(fail)?;
+    target.publish(&files).map_err(unwritable(folder))?;
+    atomic::write(&folder.join("local").join("provenance.json"), provenance).map_err(unwritable(folder))?;
     Ok(Verification { record, blessing, reports: target.folder })
 }
 
@@ -286,7 +282,7 @@ pub fn rebuild(
         let see_also = see_also(&record, folder);
         target.publish(&Findings { project, record: &record, see_also, provenance }.files()?)
     };
-    Ok(publish().map_err(|error| unwritable(folder, &error))?)
+    Ok(publish().map_err(unwritable(folder))?)
 }
 
 /// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`; otherwise the folder itself.
@@ -316,16 +312,19 @@ fn tidy(request: &Request) -> io::Result<()> {
         let scopes = [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])];
         scopes.iter().try_for_each(|scope| scope.report_folder(reports).tidy())
     };
-    tidy().map_err(|error| unwritable(reports, &error))
+    tidy().map_err(unwritable(reports))
 }
 
 /// Waits for other processes that write to a folder of reports, and then blocks them.
 fn lock_reports(folder: &Path) -> io::Result<File> {
-    lock(&lock_file(folder)).map_err(|error| unwritable(folder, &error))
+    lock(&lock_file(folder)).map_err(unwritable(folder))
 }
 
-fn unwritable(reports: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: the reports cannot be written: {error}", visible::path(reports)))
+/// For `map_err`: the same error, preceded by the folder of the reports.
+fn unwritable(reports: &Path) -> impl Fn(io::Error) -> io::Error {
+    move |error| {
+        io::Error::new(error.kind(), format!("{}: the reports cannot be written: {error}", visible::path(reports)))
+    }
 }
 
 fn lock_file(reports: &Path) -> PathBuf {
@@ -339,13 +338,11 @@ fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
 }
 
 /// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh checkout has only its Markdown.
-fn see_also(record: &Record, folder: &Path) -> Option<SeeAlso<'static>> {
-    let (readme, page) = ("full/README.md", "full/index.html");
-    let has = |file: &str| folder.join(file).is_file();
-    let page = if has(page) { page } else { readme };
-    (record.scope == Tier::Quick.name() && has(readme)).then_some(SeeAlso {
-        title: "the report on the full tier",
-        readme,
-        page,
-    })
+fn see_also(record: &Record, folder: &Path) -> Option<&'static str> {
+    let has = |file: &&str| folder.join(file).is_file();
+    if record.scope == Tier::Quick.name() && has(&FULL) {
+        ["full/index.html", FULL].into_iter().find(has)
+    } else {
+        None
+    }
 }

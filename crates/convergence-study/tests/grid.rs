@@ -2,7 +2,7 @@
 
 use convergence_study::judge::grid::{Adding, GridErrors};
 use convergence_study::judge::verdict::{Reason, Verdict};
-use convergence_study::study::grid::{Grid, GridColumn, Model};
+use convergence_study::study::grid::{Grid, GridColumn};
 use convergence_study::study::{Claim, Outcome};
 
 fn halved(first: f64, levels: usize) -> Vec<f64> {
@@ -15,7 +15,7 @@ fn judged(h: &[f64], dt: &[f64], claims: [f64; 2], tolerance: f64, error: impl F
     let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
     let space = Claim::new(claims[0], tolerance);
     let columns = vec![GridColumn { name: "L2".to_owned(), space, time: claims[1], errors }];
-    Grid { points, times: dt.len(), columns, model: Model::Either }.judge()
+    Grid { points, times: dt.len(), columns, squares_add: false }.judge()
 }
 
 fn verdicts(verdict: &Outcome) -> [Verdict; 3] {
@@ -181,7 +181,7 @@ fn steps_that_differ_within_a_row_are_no_grid() {
     points[7][1] *= 1.01;
     let space = Claim::new(1.0, 0.1);
     let columns = vec![GridColumn { name: "L2".to_owned(), space, time: 1.0, errors }];
-    let verdict = Grid { points, times: 5, columns, model: Model::Either }.judge();
+    let verdict = Grid { points, times: 5, columns, squares_add: false }.judge();
     assert!(verdict.rates.is_empty() && verdict.checks[0].verdict == Verdict::Inconclusive, "{verdict:?}");
     assert_eq!(verdict.checks[0].evidence, "expected h = 0.125, dt = 0.025, found h = 0.125, dt = 0.02525");
 }
@@ -194,7 +194,7 @@ fn squares_that_theory_claims_must_fit_better_than_the_sum() {
         let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
         let space = Claim::new(1.0, 0.1);
         let columns = vec![GridColumn { name: "L2".to_owned(), space, time: 1.0, errors }];
-        Grid { points: points.clone(), times: 5, columns, model: Model::Squares }.judge()
+        Grid { points: points.clone(), times: 5, columns, squares_add: true }.judge()
     };
     assert_eq!(verdicts(&model(f64::hypot)), [Verdict::Pass; 3]);
     assert_eq!(model(|h, dt| h + dt).checks[0].verdict, Verdict::Fail);

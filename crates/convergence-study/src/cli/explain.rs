@@ -87,26 +87,20 @@ const WORK_MEANS: &str = "The case has counted three times the node-steps of its
 /// A term of the project, a reason or a kind, in words; `None` if the name is unknown.
 pub fn term(project: &Project, name: &str) -> Option<String> {
     if let Some(term) = project.terms.iter().find(|term| term.name == name) {
-        let mut text = format!("{name}, {}\n", term.what);
-        section(&mut text, "what it means", &format!("{}.", term.text));
-        return Some(text);
+        return Some(page(&format!("{name}, {}", term.what), &[("what it means", &format!("{}.", term.text))]));
     }
     if let Some(reason) = Reason::ALL.into_iter().find(|reason| reason.code() == name) {
-        let mut words = format!("{name}, a reason for {}\n", reason.verdict());
-        section(&mut words, "in short", &format!("{}.", reason.text()));
-        section(&mut words, "what it means", reason.advice());
-        section(&mut words, "mathematics, and what to try", reason.mathematics());
-        return Some(words);
+        let in_short = format!("{}.", reason.text());
+        let (advice, mathematics) = (reason.advice(), reason.mathematics());
+        let parts =
+            [("in short", &*in_short), ("what it means", advice), ("mathematics, and what to try", mathematics)];
+        return Some(page(&format!("{name}, a reason for {}", reason.verdict()), &parts));
     }
     if name == WORK {
-        let mut words = format!("{name}, a reason for which a case fails\n");
-        section(&mut words, "what it means", WORK_MEANS);
-        return Some(words);
+        return Some(page(&format!("{name}, a reason for which a case fails"), &[("what it means", WORK_MEANS)]));
     }
     let kind = project.kinds.iter().find(|kind| kind.name == name)?;
-    let mut text = format!("{name}, a kind of study\n");
-    describe(&mut text, kind, &[]);
-    Some(text)
+    Some(page(&format!("{name}, a kind of study"), &of_kind(kind, &[])))
 }
 
 /// The names that [`term`] knows.
@@ -116,12 +110,11 @@ pub fn terms(project: &Project) -> Vec<&'static str> {
 
 /// The names that [`term`] knows, group by group.
 pub fn contents(project: &Project) -> String {
-    let mut text = "what can be explained\n".to_owned();
-    for (title, names) in groups(project) {
-        section(&mut text, title, &names.join(", "));
-    }
-    section(&mut text, "studies, by id or file", &format!("see `{} list`", project.command));
-    text
+    let groups: Vec<_> = groups(project).into_iter().map(|(title, names)| (title, names.join(", "))).collect();
+    let list = format!("see `{} list`", project.command);
+    let mut parts: Vec<(&str, &str)> = groups.iter().map(|(title, names)| (*title, names.as_str())).collect();
+    parts.push(("studies, by id or file", &list));
+    page("what can be explained", &parts)
 }
 
 fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
@@ -136,10 +129,9 @@ fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
 pub fn study(project: &Project, study: &dyn Study) -> Option<String> {
     let header = study.header();
     let kind = project.kinds.iter().find(|kind| kind.name == header.kind)?;
-    let mut text = format!("{} ({}, tier {})\n", header.id, header.kind, header.tier.name());
-    section(&mut text, "what is claimed", &header.claim);
-    describe(&mut text, kind, &study.details());
-    Some(text)
+    let details = study.details();
+    let parts = [vec![("what is claimed", header.claim.as_str())], of_kind(kind, &details)].concat();
+    Some(page(&format!("{} ({}, tier {})", header.id, header.kind, header.tier.name()), &parts))
 }
 
 /// The id or term closest to a misspelt one.
@@ -148,11 +140,17 @@ pub fn meant<'i>(project: &Project, ids: impl IntoIterator<Item = &'i str>, name
 }
 
 /// * `details`: paragraphs on one study, each with its title.
-fn describe(text: &mut String, kind: &KindRow, details: &[(String, String)]) {
-    section(text, "why it should hold", kind.why);
-    details.iter().for_each(|(title, paragraph)| section(text, title, paragraph));
-    section(text, "how it is judged", kind.judged);
-    section(text, "what a failure would mean", kind.failure);
+fn of_kind<'t>(kind: &KindRow, details: &'t [(String, String)]) -> Vec<(&'t str, &'t str)> {
+    let details = details.iter().map(|(title, paragraph)| (title.as_str(), paragraph.as_str()));
+    let judged = [("how it is judged", kind.judged), ("what a failure would mean", kind.failure)];
+    [("why it should hold", kind.why)].into_iter().chain(details).chain(judged).collect()
+}
+
+/// A head, and sections, each with its title.
+fn page(head: &str, parts: &[(&str, &str)]) -> String {
+    let mut text = format!("{head}\n");
+    parts.iter().for_each(|(title, paragraph)| section(&mut text, title, paragraph));
+    text
 }
 
 /// A title, and a paragraph with lines of at most 100 characters.

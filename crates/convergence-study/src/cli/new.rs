@@ -9,7 +9,7 @@ use serde_json::json;
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::judge::verdict::Verdict;
-use crate::project::{Project, Template};
+use crate::project::Project;
 use crate::store::atomic;
 use crate::study::header::{NAME, is_name};
 use crate::text::visible;
@@ -45,7 +45,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let Arguments { what, name, flags } = arguments;
     let template = project.templates.iter().find(|template| template.name == what);
     let template = template.ok_or_else(|| Unusable::because(&format!("found `{what}`; expected a template")))?;
-    let files = in_folder(template, flags.out.as_deref(), name);
+    let folder = flags.out.as_deref().unwrap_or(Path::new(""));
+    let path = |(ending, text): &(&str, _)| (folder.join(format!("{name}{ending}")), *text);
+    let files: Vec<(PathBuf, &str)> = template.files.iter().map(path).collect();
     if let Some((taken, _)) = files.iter().find(|(path, _)| fs::symlink_metadata(path).is_ok()) {
         return Err(Unusable::because(&format!(
             "{}: expected a new file, found one of that name; take another name, or remove the file first",
@@ -55,12 +57,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(folder) = &flags.out {
         atomic::prepare_folder(folder)?;
     }
-    let (directory, below) = places(flags.out.as_deref());
+    let (directory, below) = places(folder);
     for (path, text) in &files {
         let text = text.replace("NAME", name).replace("PROGRAM", project.command);
         atomic::write(path, text.replace("DIRECTORY", &directory).replace("BELOW", &below))?;
     }
-    let ignored = flags.out.as_deref().unwrap_or(Path::new("")).join(".gitignore");
+    let ignored = folder.join(".gitignore");
     if !template.ignored.is_empty() && fs::symlink_metadata(&ignored).is_err() {
         atomic::write(&ignored, template.ignored)?;
     }
@@ -76,9 +78,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 
 /// The folder that the command runs in as seen from the files, and theirs as seen from there, both with a trailing
 /// slash. For a folder that is not below it, the folder that contains both.
-fn places(folder: Option<&Path>) -> (String, String) {
-    let parts: Vec<Component<'_>> =
-        folder.into_iter().flat_map(Path::components).filter(|part| *part != Component::CurDir).collect();
+fn places(folder: &Path) -> (String, String) {
+    let parts: Vec<Component<'_>> = folder.components().filter(|part| *part != Component::CurDir).collect();
     let is_below =
         |part: &Component<'_>| matches!(part, Component::Normal(name) if !name.as_encoded_bytes().contains(&b'"'));
     if parts.is_empty() || !parts.iter().all(is_below) {
@@ -86,10 +87,4 @@ fn places(folder: Option<&Path>) -> (String, String) {
     }
     let below = parts.iter().map(|part| format!("{}/", part.as_os_str().display())).collect();
     (vec![".."; parts.len()].join("/"), below)
-}
-
-/// The files of a template in a folder, or in the current one, and their texts.
-fn in_folder<'t>(template: &'t Template, folder: Option<&Path>, name: &str) -> Vec<(PathBuf, &'t str)> {
-    let path = |ending: &str| folder.unwrap_or(Path::new("")).join(format!("{name}{ending}"));
-    template.files.iter().map(|(ending, text)| (path(ending), *text)).collect()
 }

@@ -92,7 +92,7 @@ const TIMES: &str = "reports/local/provenance.json";
 /// All existing records, the newest last.
 pub(super) fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
     let mut records: Vec<(SystemTime, Record)> = vec![];
-    for path in RECORDS.map(|path| root.join(path)).iter().filter(|path| is_there(path)) {
+    for path in RECORDS.map(|path| root.join(path)).iter().filter(|path| path.symlink_metadata().is_ok()) {
         let written = fs::metadata(path).and_then(|data| data.modified());
         records.push((written.map_err(|error| Unusable::file(path, &error))?, Record::read(path)?));
     }
@@ -118,11 +118,6 @@ pub(super) fn last_verdicts(root: &Path) -> Result<HashMap<String, Verdict>, Unu
 pub(super) fn last_seconds(root: &Path) -> Result<HashMap<String, f64>, Unusable> {
     let times = Provenance::read(&root.join(TIMES))?.into_iter().flat_map(|provenance| provenance.studies);
     Ok(times.map(|study| (study.id, study.busy_seconds)).collect())
-}
-
-/// Whether anything exists at that path, readable or not.
-fn is_there(path: &Path) -> bool {
-    path.symlink_metadata().is_ok()
 }
 
 /// Reads a tier from the command line.

@@ -24,7 +24,7 @@ use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon, Rectangle, Text};
 pub use plotters::style::text_anchor::HPos as Anchor;
 use plotters::style::text_anchor::{Pos, VPos};
-use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor, ShapeStyle};
+use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor};
 use std::fmt::Write;
 
 /// A position in px, `y` downwards.
@@ -108,6 +108,10 @@ const PLOTTERS_FONT_FACTOR: f64 = 1.24;
 /// From px to the page's grid. Far-away values are cut: plotters computes with `i32`.
 pub fn grid(v: f64) -> i32 {
     (v * RESOLUTION).round().clamp(-1e6, 1e6) as i32
+}
+
+fn on_grid(points: &[Point]) -> Vec<(i32, i32)> {
+    points.iter().map(|&(x, y)| (grid(x), grid(y))).collect()
 }
 
 /// The common properties of everything in one layer: clip rectangle, dash pattern, halo.
@@ -265,23 +269,18 @@ impl Pen<'_> {
     pub fn line(&self, points: &[Point], colour: RGBColor, width: f64) {
         // Plotters moves points off the page to its edge, which would bend the line.
         for piece in keep_inside(points, &self.page) {
-            self.path(&piece, colour, width);
+            let mut path = on_grid(&piece);
+            path.dedup();
+            if let [only] = path[..] {
+                path.push(only);
+            }
+            self.put(&PathElement::new(path, colour.stroke_width(grid(width).max(1) as u32)));
         }
-    }
-
-    fn path(&self, points: &[Point], colour: RGBColor, width: f64) {
-        let mut path: Vec<(i32, i32)> = points.iter().map(|&(x, y)| (grid(x), grid(y))).collect();
-        path.dedup();
-        if let [only] = path[..] {
-            path.push(only);
-        }
-        self.put(&PathElement::new(path, stroke(colour, width)));
     }
 
     /// A filled polygon; the last corner is joined to the first.
     pub fn polygon(&self, points: &[Point], colour: RGBColor) {
-        let path: Vec<(i32, i32)> = points.iter().map(|&(x, y)| (grid(x), grid(y))).collect();
-        self.put(&Polygon::new(path, colour.filled()));
+        self.put(&Polygon::new(on_grid(points), colour.filled()));
     }
 
     /// A filled rectangle.
@@ -340,10 +339,6 @@ impl Pen<'_> {
             .pos(Pos::new(anchor, VPos::Center));
         self.put(&Text::new(printable(text), (grid(at.0), grid(at.1)), font));
     }
-}
-
-fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
-    colour.stroke_width(grid(width).max(1) as u32)
 }
 
 /// A series with more points than this is read off its line, to the tenth of a pixel: its values would cost too many

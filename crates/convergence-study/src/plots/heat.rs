@@ -11,7 +11,6 @@ use super::sheet::{Entry, Layout, Page, Swatch};
 use super::style::{self, NOTE_SIZE, WHITE, text_width};
 use super::xy::left_out;
 use super::{Axis, Scale, Series};
-use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -48,15 +47,13 @@ pub fn surface(figure: &Surface) -> String {
     let values = sorted(&figure.values, &rows, &columns, f64::NAN);
     let marked = sorted(&figure.marked, &rows, &columns, false);
     let plan = Layout {
-        title: None,
         x: span(figure.x.scale, &edges(&x, ALONE)),
         y: span(figure.y.scale, &edges(&y, ALONE)),
         x_label: figure.x.label.clone(),
         y_label: figure.y.label.clone(),
-        right: 0.0,
-        above: None,
         legend: entries(figure),
         notes: notes(figure.z.scale, &values, &marked),
+        ..Layout::default()
     };
     let colours = ColourScale::sequential(&figure.z.label, figure.z.scale, values.iter().flatten().copied());
     let cells = HeatMap { x: edges(&x, ALONE), y: edges(&y, ALONE), values, colours };
@@ -99,9 +96,10 @@ impl HeatMap {
     fn paint(&self, canvas: &mut Canvas, place: &dyn Fn(usize, usize) -> Rect) {
         let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
         for (k, row) in self.values.iter().enumerate() {
-            let colours: Vec<_> = row.iter().map(|&value| self.colours.colour(value)).collect();
-            for (from, to, colour) in runs(&colours) {
-                let (first, last) = (place(k, from), place(k, to - 1));
+            // Cells without a value are grey.
+            let colour = |&value: &f64| self.colours.colour(value).unwrap_or(style::NO_VALUE);
+            for (from, to, colour) in runs(&row.iter().map(colour).collect::<Vec<_>>()) {
+                let (first, last) = (place(k, from), place(k, to));
                 let [left, top, right, bottom] = [first.left, first.top, last.right, first.bottom].map(f64::round);
                 let (width, height) = (right - left, bottom - top);
                 let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
@@ -117,12 +115,12 @@ impl HeatMap {
     }
 }
 
-/// `(first, one past last, colour)` of equal neighbours; cells without a colour are grey.
-fn runs(row: &[Option<RGBColor>]) -> Vec<(usize, usize, RGBColor)> {
+/// Equal neighbours: the columns of the first and the last, and what they are.
+fn runs<T: Copy + PartialEq>(row: &[T]) -> Vec<(usize, usize, T)> {
     let mut end = 0;
-    let place = |run: &[Option<RGBColor>]| {
+    let place = |run: &[T]| {
         end += run.len();
-        (end - run.len(), end, run[0].unwrap_or(style::NO_VALUE))
+        (end - run.len(), end - 1, run[0])
     };
     row.chunk_by(|a, b| a == b).map(place).collect()
 }
@@ -216,12 +214,8 @@ fn boundary_look(k: usize) -> Look {
 fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usize) -> Rect) {
     sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
         for (k, row) in marked.iter().enumerate() {
-            let mut j = 0;
-            for run in row.chunk_by(|a, b| a == b) {
-                if run[0] {
-                    pen.hatch(Rect { right: place(k, j + run.len() - 1).right, ..place(k, j) });
-                }
-                j += run.len();
+            for (from, to, _) in runs(row).into_iter().filter(|(.., marked)| *marked) {
+                pen.hatch(Rect { right: place(k, to).right, ..place(k, from) });
             }
         }
     });
@@ -288,10 +282,8 @@ pub fn space_time(figure: &SpaceTime) -> String {
         y: x,
         x_label: "time t".into(),
         y_label: "position x".into(),
-        right: 0.0,
-        above: None,
-        legend: Vec::new(),
         notes: left_out(non_finite, 0),
+        ..Layout::default()
     };
     cells.draw(plan, |_, _| {})
 }
@@ -357,9 +349,7 @@ mod tests {
 
     #[test]
     fn equal_neighbours_are_one_run() {
-        let (a, b) = (Some(style::INK), Some(style::GRID));
-        let found: Vec<_> = runs(&[a, a, b, a]).into_iter().map(|r| (r.0, r.1)).collect();
-        assert_eq!(found, [(0, 2), (2, 3), (3, 4)]);
+        assert_eq!(runs(&['a', 'a', 'b', 'a']), [(0, 1, 'a'), (2, 2, 'b'), (3, 3, 'a')]);
     }
 
     #[test]

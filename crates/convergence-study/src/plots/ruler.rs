@@ -17,7 +17,7 @@ pub fn on_scale(scale: Scale, value: f64) -> Option<f64> {
 }
 
 /// An axis with a range and a place on the page.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ruler {
     /// Linear or logarithmic.
     pub scale: Scale,

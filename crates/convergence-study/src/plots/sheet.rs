@@ -21,7 +21,7 @@ const SWATCH_GAP: f64 = 9.0;
 const COLUMN_GAP: f64 = 26.0;
 
 /// The content of a page.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     pub(super) title: Option<String>,
     pub(super) x: Ruler,

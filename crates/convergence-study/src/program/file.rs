@@ -1,40 +1,13 @@
-//! Study files of programs.
+//! Study files of programs. `begin/study.toml` is one, `PROGRAMS.md` has all keys.
 //!
-//! ```toml
-//! [study]
-//! id = "poisson-p1"
-//! claim = "P1 elements for the Poisson equation: second order in L2, first in H1"
-//! kind = "program"
-//! tier = "quick"
-//!
-//! [program]
-//! command = ["python3", "poisson.py", "--cells", "{n}"]   # {n} {h} {steps} {dt} {level}; without any, the case is on standard input
-//! directory = "."                # next to this file
-//! timeout = 60                   # seconds for a case
-//! files = ["poisson.py"]         # files that a result depends on, relative to the directory
-//! cache = true                   # a case is not repeated while command and files are unchanged
-//!
-//! [refine]
-//! n = [8, 16, 32, 64]            # or h; steps or dt; two lists are refined together, or `grid = true`; or n = "auto": levels
-//!                                # until there is a decision, for at most `budget` seconds (60)
-//!
-//! [[expect]]
-//! error = "L2"
-//! order = 2.0                    # of a grid: in h
-//! order_dt = 1.0                 # of a grid alone: in dt, else the same
-//! tolerance = 0.05
-//!
-//! [[expect]]
-//! error = "H1"
-//! order = ">= 1"                 # at least; or `factor = 5` (or ">= 5"), by which the error falls per degree, n being the degree;
-//! constant = [0.9, 1.1]          # or `exact = 1e-12` alone: no error is larger. The constant of error = C h^order, with an order
-//! tolerance = 0.05
-//!
-//! [[expect]]
-//! value = "flux"                 # a value without exact solution, judged by its differences
-//! order = 2.0
-//! tolerance = 0.1
-//! ```
+//! | key | of a table `[[expect]]` |
+//! | --- | --- |
+//! | `error`, `value` | one of them: the name of an error, or of a value without exact solution, judged by its differences |
+//! | `order` | a number, or `">= 1"`; of a grid: in h, and `order_dt` in dt, which is otherwise the same |
+//! | `constant` | with `order`: the ends of the C of error = C h^order |
+//! | `factor` | in place of `order`: by which the error falls per degree, n being the degree; a number, or `">= 5"` |
+//! | `exact` | alone: no error is larger |
+//! | `tolerance` | of the order |
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

@@ -15,6 +15,8 @@ use std::process::{Child, Command};
 use std::sync::OnceLock;
 
 #[cfg(unix)]
+use nix::sys::signal::Signal;
+#[cfg(unix)]
 use unix as system;
 
 /// The name of the command that a guard is started by.
@@ -100,14 +102,14 @@ impl Group {
 
     /// Asks the processes of the group to end.
     pub(super) fn ask_to_end(&self, _: &mut Child) {
-        self.leader.iter().for_each(|leader| system::terminate(*leader));
+        self.leader.iter().for_each(|leader| system::signal(*leader, Signal::SIGTERM));
     }
 
     /// Ends the rest of the group, and any process that has left it. The guard, a member of the group, ends last: if
     /// this process is killed meanwhile, the guard carries on.
     pub(super) fn end(&self, _: &mut Child) {
         system::kill_marked(&self.mark);
-        self.leader.iter().for_each(|leader| system::kill(*leader));
+        self.leader.iter().for_each(|leader| system::signal(*leader, Signal::SIGKILL));
     }
 }
 
@@ -209,12 +211,8 @@ mod unix {
         let _ = killpg(getpgrp(), Signal::SIGKILL);
     }
 
-    pub(super) fn terminate(leader: u32) {
-        let _ = killpg(Pid::from_raw(leader as i32), Signal::SIGTERM);
-    }
-
-    pub(super) fn kill(leader: u32) {
-        let _ = killpg(Pid::from_raw(leader as i32), Signal::SIGKILL);
+    pub(super) fn signal(leader: u32, signal: Signal) {
+        let _ = killpg(Pid::from_raw(leader as i32), signal);
     }
 
     /// Kills every process that has the mark in its environment.

@@ -6,7 +6,7 @@ use crate::judge::claims;
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::plots::{self, Series};
-use crate::study::grid::{Grid, GridColumn, Model};
+use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::until_decided::{self, Next};
@@ -38,7 +38,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         points: ran.iter().map(|ran| [step(ran, Axis::Space), step(ran, Axis::Time)]).collect(),
         times: study.refine.times(),
         columns: study.expect.iter().map(column).collect(),
-        model: Model::Either,
+        squares_add: false,
     };
     let mut outcome = grid.judge();
     outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));

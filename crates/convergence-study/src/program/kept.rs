@@ -89,7 +89,7 @@ impl Store {
     /// The current key of a case. It includes every file that a word of the command names, whether or not `files` lists it.
     pub(super) fn key(&self, invocation: &Invocation) -> io::Result<Key> {
         let hashed = |path: &PathBuf| {
-            let bytes = store::read(path).map_err(|error| atomic::naming(path, &error))?;
+            let bytes = store::read(path).map_err(atomic::naming(path))?;
             let name = path.strip_prefix(&invocation.directory).unwrap_or(path);
             Ok((name.display().to_string(), format!("{:016x}", content_hash(&bytes))))
         };

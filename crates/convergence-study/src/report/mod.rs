@@ -39,22 +39,14 @@ pub struct Findings<'f> {
     pub project: &'f Project,
     /// What was found.
     pub record: &'f Record,
-    /// Another report to point to.
-    pub see_also: Option<SeeAlso<'f>>,
+    /// The page of the report on the full tier to point to, relative to this one's folder; its Markdown if it has no page.
+    pub see_also: Option<&'f str>,
     /// Where the run comes from: only for the page.
     pub provenance: Option<&'f Provenance>,
 }
 
-/// Another report, with paths from the folder of this one.
-#[derive(Debug, Clone, Copy)]
-pub struct SeeAlso<'f> {
-    /// What it is.
-    pub title: &'f str,
-    /// Its Markdown, which is committed.
-    pub readme: &'f str,
-    /// The target of the page's link: the other page, or its Markdown if it has no page.
-    pub page: &'f str,
-}
+/// The report on the full tier in Markdown, which is committed, as seen from the folder of that on the quick one.
+pub const FULL: &str = "full/README.md";
 
 /// Bytes of the longest comment: GitHub takes 65536 characters.
 pub const LONGEST: usize = 65_000;
@@ -100,8 +92,8 @@ impl Findings<'_> {
         let one = if self.record.changes.is_some() { "; a name after it repeats one study" } else { "" };
         page += &format!("Written by `{}`, which repeats it{one}. ", self.record.command);
         page += "Orders are theory, rates are observed.";
-        if let Some(SeeAlso { title, readme, .. }) = self.see_also {
-            page += &format!(" See also [{}]({readme}).", text(title));
+        if self.see_also.is_some() {
+            page += &format!(" See also [the report on the full tier]({FULL}).");
         }
         page += &format!(
             "\n\n{}{}{}",

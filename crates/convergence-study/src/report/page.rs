@@ -4,8 +4,7 @@
 
 use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
-use super::{Findings, SeeAlso};
-use super::{failures, forest, section};
+use super::{Findings, failures, forest, section};
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 
@@ -67,8 +66,8 @@ fn origin(findings: &Findings<'_>) -> String {
         "<p>Written by <code>{}</code>, which repeats it. Orders are theory, rates are observed.",
         escape(&findings.record.command)
     );
-    if let Some(SeeAlso { title, page, .. }) = findings.see_also {
-        origin += &format!(" See also <a href=\"{}\">{}</a>.", escape(page), phrase(title));
+    if let Some(page) = findings.see_also {
+        origin += &format!(" See also <a href=\"{}\">the report on the full tier</a>.", escape(page));
     }
     origin += "</p>\n";
     if let Some(provenance) = findings.provenance {

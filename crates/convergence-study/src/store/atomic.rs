@@ -24,10 +24,9 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
 /// # Errors
 /// The error of the operating system or of `fill`, preceded by `path`; nothing is left behind.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
-    let naming = |error: io::Error| naming(path, &error);
     let _writing = writing::begin();
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(naming)?;
+        fs::create_dir_all(folder).map_err(naming(path))?;
     }
     let beside = name_beside(path)?;
     let written = fill_through(&beside, fill).and_then(|()| fs::rename(&beside, path));
@@ -35,7 +34,7 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Re
         // The first error is reported; a failure to remove the file would only follow from it.
         let _ = fs::remove_file(&beside);
     }
-    written.map_err(naming)
+    written.map_err(naming(path))
 }
 
 /// The file with which [`prepare_folder`] tests a folder; it is removed again.
@@ -46,9 +45,7 @@ pub(crate) const PROBE: &str = "probe";
 /// # Errors
 /// The error of the operating system, preceded by `folder`.
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
-    let naming = |error: io::Error| naming(folder, &error);
-    fs::create_dir_all(folder).map_err(naming)?;
-    probe(&folder.join(PROBE)).map_err(naming)
+    fs::create_dir_all(folder).and_then(|()| probe(&folder.join(PROBE))).map_err(naming(folder))
 }
 
 /// Proves that a file of this name can be made. It makes one next to it: another process may be writing the file itself.
@@ -72,12 +69,12 @@ pub fn remove_leftovers(path: &Path) -> io::Result<()> {
             .and_then(|number| number.split_once('-'))
             .is_some_and(|(process, count)| digits(process) && digits(count))
     };
-    let entries = if_there(fs::read_dir(folder)).map_err(|error| naming(folder, &error))?;
+    let entries = if_there(fs::read_dir(folder)).map_err(naming(folder))?;
     for entry in entries.into_iter().flatten() {
-        let entry = entry.map_err(|error| naming(folder, &error))?;
+        let entry = entry.map_err(naming(folder))?;
         if entry.file_name().to_str().is_some_and(is_leftover) {
             // Another run may have removed its own probe since the folder was read.
-            if_there(fs::remove_file(entry.path())).map_err(|error| naming(&entry.path(), &error))?;
+            if_there(fs::remove_file(entry.path())).map_err(naming(&entry.path()))?;
         }
     }
     Ok(())
@@ -94,9 +91,9 @@ fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
 
-/// The same error, preceded by the name of the file.
-pub fn naming(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
+/// For `map_err`: the same error, preceded by the name of the file.
+pub fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
+    move |error| io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
 }
 
 /// A name in the same folder that no other thread or process uses.

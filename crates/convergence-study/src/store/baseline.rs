@@ -34,7 +34,7 @@ use thiserror::Error;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::{read_if_there, write_json};
-use crate::study::Header;
+use crate::study::{Header, Quantity};
 use crate::text::{json, visible};
 
 use change::Claims;
@@ -73,42 +73,11 @@ pub struct Guarded {
     pub reason: Option<String>,
 }
 
-/// Why a run was not accepted as baseline.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Refusal {
-    /// A study does not pass.
-    #[error("not blessed: the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass")]
-    NotPassing {
-        /// The first such study.
-        study: String,
-        /// Its verdict.
-        verdict: Verdict,
-    },
-    /// A guarded number is not finite, or its tolerance is invalid: no later run could reproduce it.
-    #[error("not blessed: `{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet")]
-    NotComparable {
-        /// The study.
-        study: String,
-        /// The quantity.
-        name: String,
-        /// Its value.
-        value: f64,
-        /// Its tolerance.
-        tolerance: f64,
-    },
-    /// A claim of a study that was not run: it changes only with a run that passes.
-    #[error("not accepted: `{study}` was not run; name it, or its tier")]
-    NotRun {
-        /// The study.
-        study: String,
-    },
-    /// Claims changed without a reason.
-    #[error("not blessed: a changed claim needs a reason; repeat it with --bless --reason TEXT\n  {}", .claims.join("\n  "))]
-    NoReason {
-        /// The changes in words.
-        claims: Vec<String>,
-    },
-}
+/// Why a run was not accepted as baseline, in words: a study does not pass, or was not run; a number cannot be met by any
+/// run, because it is not finite or its tolerance is invalid; a claim has changed, and no reason is given.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct Refusal(String);
 
 impl Default for Baseline {
     fn default() -> Self {
@@ -190,7 +159,8 @@ impl Baseline {
         let unreasoned = changes.iter().filter(|change| reason.is_none() && change.movement.needs_a_reason());
         let claims: Vec<String> = unreasoned.map(|change| visible::visible(&change.to_string())).collect();
         if !claims.is_empty() {
-            return Err(Refusal::NoReason { claims });
+            let remedy = "a changed claim needs a reason; repeat it with --bless --reason TEXT";
+            return Err(Refusal(format!("not blessed: {remedy}\n  {}", claims.join("\n  "))));
         }
         changes.iter().try_for_each(|change| {
             let is_new = matches!(change.movement, Movement::New { .. });
@@ -223,7 +193,10 @@ impl Baseline {
                 let withdrawn = (change::ID.to_owned(), BlessedClaim { value: None, reason });
                 claims.insert(study.clone(), [withdrawn].into());
             }
-            (_, None) => return Err(Refusal::NotRun { study: study.clone() }),
+            // It changes only with a run that passes.
+            (_, None) => {
+                return Err(Refusal(format!("not accepted: `{study}` was not run; name it, or its tier")));
+            }
             (Movement::NewFile { guarded, .. }, Some(ran)) => {
                 let claim = |value: &String| BlessedClaim {
                     value: Some(value.clone()),
@@ -267,21 +240,17 @@ fn find<'f>(finished: &'f [Finished], id: &str) -> Option<&'f Finished> {
 }
 
 fn acceptable(Finished { header, outcome, .. }: &Finished) -> Result<(), Refusal> {
-    let study = header.id.clone();
-    if outcome.verdict != Verdict::Pass {
-        return Err(Refusal::NotPassing { study, verdict: outcome.verdict });
+    let (study, verdict) = (&header.id, outcome.verdict);
+    if verdict != Verdict::Pass {
+        let refused = format!("the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass");
+        return Err(Refusal(format!("not blessed: {refused}")));
     }
-    let meets_nothing =
-        outcome.quantities.iter().find(|quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance));
-    match meets_nothing {
-        None => Ok(()),
-        Some(quantity) => Err(Refusal::NotComparable {
-            study,
-            name: quantity.name.clone(),
-            value: quantity.value,
-            tolerance: quantity.tolerance,
-        }),
-    }
+    let cannot_be_met = |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
+    outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance }| {
+        let refused =
+            format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
+        Err(Refusal(format!("not blessed: {refused}")))
+    })
 }
 
 /// How many times the blessed work of a case is allowed.

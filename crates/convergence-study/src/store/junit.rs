@@ -22,11 +22,10 @@ pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     report.to_string()
 }
 
-/// A judged item, as a test case: its name, its verdict, and the reason unless it is a pass.
-pub type Judged = (String, Verdict, String);
-
 /// A document with one suite.
-pub fn junit_of(name: &str, suite: &str, judged: &[Judged]) -> Result<String, SerializeError> {
+///
+/// * `judged`: the name of each test case, its verdict, and the reason unless it is a pass.
+pub fn junit_of(name: &str, suite: &str, judged: &[(String, Verdict, String)]) -> Result<String, SerializeError> {
     let mut cases = TestSuite::new(suite);
     cases.add_test_cases(judged.iter().map(|(name, verdict, reason)| case(suite, name, *verdict, reason)));
     let mut report = Report::new(name);

@@ -58,7 +58,7 @@ pub(crate) fn read_if_there<T: DeserializeOwned>(
     schema: Option<u32>,
     expected: [&str; 2],
 ) -> io::Result<Option<T>> {
-    let text = if_there(read_to_string(path)).map_err(|error| atomic::naming(path, &error))?;
+    let text = if_there(read_to_string(path)).map_err(atomic::naming(path))?;
     text.map(|text| parsed(&text, path, schema, expected)).transpose()
 }
 

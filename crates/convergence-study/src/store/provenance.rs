@@ -78,7 +78,7 @@ impl Provenance {
             git_modified: output_of(Command::new("git").args(["status", "--porcelain"]).current_dir(root))
                 .map(|changes| !changes.is_empty()),
             toolchain: output_of(Command::new(rustc).arg("--version").current_dir(root)),
-            cpu: cpu_model(),
+            cpu: entry("/proc/cpuinfo", "model name"),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             threads_available: thread::available_parallelism().ok().map(usize::from),
             jobs,
@@ -128,9 +128,8 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
 ///
 /// Known only on Linux.
 fn peak_memory() -> Option<u64> {
-    let text = fs::read_to_string("/proc/self/status").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
+    let kilobytes = entry("/proc/self/status", "VmHWM")?;
+    kilobytes.strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
 }
 
 /// Trimmed standard output of a command that succeeds.
@@ -139,11 +138,11 @@ fn output_of(command: &mut Command) -> Option<String> {
     String::from_utf8(output.stdout).ok().map(|text| text.trim().to_owned())
 }
 
-/// Known only on Linux.
-fn cpu_model() -> Option<String> {
-    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = text.lines().find(|line| line.starts_with("model name"))?;
-    line.split_once(':').map(|(_, model)| model.trim().to_owned())
+/// The first value of that name in a file of Linux's `/proc`.
+fn entry(file: &str, name: &str) -> Option<String> {
+    let text = fs::read_to_string(file).ok()?;
+    let line = text.lines().find(|line| line.starts_with(name))?;
+    line.split_once(':').map(|(_, value)| value.trim().to_owned())
 }
 
 #[cfg(all(test, target_os = "linux"))]

@@ -57,7 +57,7 @@ pub struct Record {
 impl Record {
     /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
     pub fn read(path: &Path) -> io::Result<Self> {
-        Self::parse(&store::read_to_string(path).map_err(|error| atomic::naming(path, &error))?, path)
+        Self::parse(&store::read_to_string(path).map_err(atomic::naming(path))?, path)
     }
 
     /// The same from its text.

@@ -1,6 +1,6 @@
 //! Finishes pending writes before the process exits on request.
 //!
-//! Code that writes files holds a [`Writing`] until they are complete; code that ends the process calls [`close`]
+//! Code that writes files holds the guard of [`begin`] until they are complete; code that ends the process calls [`close`]
 //! first. A crash needs neither: files get their names only when they are complete.
 
 use std::mem;
@@ -8,17 +8,14 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// A pending write, until this is dropped.
-pub type Writing = RwLockReadGuard<'static, ()>;
-
 /// Read by pending writes. It is never waited for with `write`: a thread may begin a write within another one.
 static PENDING: RwLock<()> = RwLock::new(());
 
 /// Between two looks at the pending writes.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Registers a write. After [`close`] it blocks until the process ends.
-pub fn begin() -> Writing {
+/// Registers a write, which is pending until the guard is dropped. After [`close`] it blocks until the process ends.
+pub fn begin() -> RwLockReadGuard<'static, ()> {
     PENDING.read().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -39,9 +39,6 @@ pub struct KindRow {
     pub failure: &'static str,
 }
 
-/// All kinds of study of a project; the first is the default for a file without `kind`.
-pub type Kinds = [KindRow];
-
 /// A study file, read once.
 pub struct StudyFile {
     /// The file.
@@ -52,7 +49,7 @@ pub struct StudyFile {
 
 impl StudyFile {
     /// Reads a study file of any of these kinds.
-    pub fn read(kinds: &Kinds, path: &Path) -> Result<Self, InputError> {
+    pub fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
         let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
             let header = Header::from_document(root)?;
             let row = row(kinds, root, &header)?;
@@ -65,7 +62,7 @@ impl StudyFile {
     ///
     /// # Errors
     /// As [`StudyFile::read`], and if two studies have the same id.
-    pub fn read_all(kinds: &Kinds, paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
+    pub fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
         let mut files: Vec<Self> = Vec::with_capacity(paths.len());
         for path in paths {
             let file = Self::read(kinds, path)?;
@@ -80,7 +77,7 @@ impl StudyFile {
     }
 }
 
-fn row<'k>(kinds: &'k Kinds, root: &Section<'_>, header: &Header) -> Result<&'k KindRow, InputError> {
+fn row<'k>(kinds: &'k [KindRow], root: &Section<'_>, header: &Header) -> Result<&'k KindRow, InputError> {
     if let Some(row) = kinds.iter().find(|row| row.name == header.kind) {
         return Ok(row);
     }

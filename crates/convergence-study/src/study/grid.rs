@@ -28,15 +28,6 @@ pub struct GridColumn {
     pub errors: Vec<f64>,
 }
 
-/// How the contributions of space and time combine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Model {
-    /// Theory says that their squares add: they are orthogonal.
-    Squares,
-    /// Unknown: the one of the two that describes the errors better.
-    Either,
-}
-
 /// Errors on all pairs of mesh widths and time steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
@@ -46,8 +37,9 @@ pub struct Grid {
     pub times: usize,
     /// The errors.
     pub columns: Vec<GridColumn>,
-    /// How they combine.
-    pub model: Model,
+    /// Whether theory says that the squares of the contributions of space and time add, which are then orthogonal; otherwise it is
+    /// not known, and they or their squares are taken to add, whichever describes the errors better.
+    pub squares_add: bool,
 }
 
 impl Grid {
@@ -64,7 +56,7 @@ impl Grid {
         for column in &self.columns {
             let errors = GridErrors { h: &h, dt: &dt, errors: &column.errors };
             let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
-            let squares = self.model == Model::Squares || misfits[1] <= misfits[0];
+            let squares = self.squares_add || misfits[1] <= misfits[0];
             let adding = if squares { Adding::Squares } else { Adding::Plain };
             let Claim { order, tolerance, .. } = column.space;
             let missing = self.without_result(column);
@@ -139,17 +131,12 @@ impl Grid {
     fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
         let evidence =
             format!("misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none");
-        match self.model {
-            Model::Squares => {
-                let claim = format!("{name}: the squares of space and time error add");
-                Check::that(squares < plain && squares <= MISFIT, claim, evidence)
-            }
-            // Nobody claimed it: if it does not hold, the orders are unknown.
-            Model::Either => Check {
-                claim: format!("{name}: the errors of space and time add, or their squares"),
-                verdict: if plain.min(squares) <= MISFIT { Verdict::Pass } else { Verdict::Inconclusive },
-                evidence,
-            },
+        if self.squares_add {
+            let claim = format!("{name}: the squares of space and time error add");
+            return Check::that(squares < plain && squares <= MISFIT, claim, evidence);
         }
+        // Nobody claimed it: if it does not hold, the orders are unknown.
+        let verdict = if plain.min(squares) <= MISFIT { Verdict::Pass } else { Verdict::Inconclusive };
+        Check { claim: format!("{name}: the errors of space and time add, or their squares"), verdict, evidence }
     }
 }

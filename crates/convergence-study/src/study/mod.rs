@@ -17,7 +17,7 @@ pub mod until_decided;
 
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, Kinds, Reader, StudyFile, read_claim, reader};
+pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};
 pub use header::{Header, Tier};
 pub use kind::{Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here};
 pub use levels::{Axis, Claim, Refinement};

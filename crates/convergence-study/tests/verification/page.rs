@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};
 use convergence_study::project::{Front, Project};
-use convergence_study::report::{Findings, SeeAlso};
+use convergence_study::report::Findings;
 use convergence_study::run::Finished;
 use convergence_study::store::record::Record;
 use convergence_study::study::outcome::Figure;
@@ -12,8 +12,7 @@ use roxmltree::{Document, Node};
 use crate::fake::{Does, PROJECT, finished, study};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
-    let title = "the report on the full tier";
-    let see_also = Some(SeeAlso { title, readme: "full/README.md", page: "full/index.html" });
+    let see_also = Some("full/index.html");
     let record = Record::new("quick", "cargo xtask verify", Verdict::Fail, Some(&[]), finished.to_vec());
     Findings { project: &PROJECT, record: &record, see_also, provenance: None }.page()
 }

@@ -75,7 +75,7 @@ impl Manifest {
                 }
             }
             Err(error) if [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind()) => Ok(None),
-            Err(error) => Err(atomic::naming(&path, &error).into()),
+            Err(error) => Err(atomic::naming(&path)(error).into()),
         }
     }
 
@@ -136,7 +136,7 @@ impl Journal {
         let _writing = writing::begin();
         let [path, results] = [JOURNAL, RESULTS].map(|name| folder.join(name));
         let file = OpenOptions::new().create(true).append(true).open(&path);
-        let file = file.map_err(|error| atomic::naming(&path, &error))?;
+        let file = file.map_err(atomic::naming(&path))?;
         // A file system without locks cannot keep a second process out.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(SweepError::Busy(folder.to_owned()));
@@ -145,7 +145,7 @@ impl Journal {
             atomic::remove_leftovers(&folder.join(name))?;
         }
         if found.is_none() {
-            let bytes = file.metadata().map_err(|error| atomic::naming(&path, &error))?.len();
+            let bytes = file.metadata().map_err(atomic::naming(&path))?.len();
             if bytes > 0 {
                 let reason = format!("expected {MANIFEST} beside it, which names the sweep; found none");
                 return Err(SweepError::damaged(&path, reason));
@@ -172,7 +172,7 @@ impl Journal {
         };
         let (places, end) = lines::places(std::slice::from_ref(source), self.done.len(), is_of_the_share)?;
         // A process killed after writing the results leaves a journal; the results contain all of it.
-        self.file.set_len(if is_complete { 0 } else { end }).map_err(|error| atomic::naming(&self.path, &error))?;
+        self.file.set_len(if is_complete { 0 } else { end }).map_err(atomic::naming(&self.path))?;
         places.iter().for_each(|place| self.count(place.case, place.passed));
         Ok(())
     }
@@ -199,7 +199,7 @@ impl Journal {
     pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
         let _writing = writing::begin();
-        self.file.write_all(whole.as_bytes()).map_err(|error| atomic::naming(&self.path, &error))?;
+        self.file.write_all(whole.as_bytes()).map_err(atomic::naming(&self.path))?;
         self.count(line.case, line.passed);
         Ok(())
     }
@@ -213,7 +213,7 @@ impl Journal {
         let files: Vec<PathBuf> = both.into_iter().filter(|file| file.exists()).collect();
         let (places, _) = lines::places(&files, self.done.len(), |_, _| Ok(()))?;
         lines::copy(&places, &files, &self.results)?;
-        std::fs::remove_file(&self.path).map_err(|error| atomic::naming(&self.path, &error))?;
+        std::fs::remove_file(&self.path).map_err(atomic::naming(&self.path))?;
         Ok(self.results)
     }
 }

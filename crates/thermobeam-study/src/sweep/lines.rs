@@ -164,11 +164,11 @@ fn read(
     check: impl Fn(&Place, &[u8]) -> Result<(), String>,
     places: &mut Vec<Place>,
 ) -> Result<u64, SweepError> {
-    let mut reader = BufReader::new(File::open(path).map_err(|error| atomic::naming(path, &error))?);
+    let mut reader = BufReader::new(File::open(path).map_err(atomic::naming(path))?);
     let (mut offset, mut line) = (0, vec![]);
     for number in 1.. {
         line.clear();
-        let bytes = reader.read_until(b'\n', &mut line).map_err(|error| atomic::naming(path, &error))? as u64;
+        let bytes = reader.read_until(b'\n', &mut line).map_err(atomic::naming(path))? as u64;
         if line.last() != Some(&b'\n') {
             break;
         }
@@ -188,7 +188,7 @@ fn read(
 
 /// Writes the lines at `places` in that order.
 pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Result<()> {
-    let open = |path: &PathBuf| File::open(path).map(BufReader::new).map_err(|error| atomic::naming(path, &error));
+    let open = |path: &PathBuf| File::open(path).map(BufReader::new).map_err(atomic::naming(path));
     let mut readers = files.iter().map(open).collect::<io::Result<Vec<_>>>()?;
     atomic::write_with(out, |output: &mut BufWriter<File>| {
         for place in places {

@@ -125,10 +125,7 @@ impl Movement {
 
     /// Whether a blessing needs a reason: a claim was changed, withdrawn with its study, or is missing although numbers are guarded.
     pub fn needs_a_reason(&self) -> bool {
-        match self {
-            Self::NewFile { guarded, .. } => *guarded > 0,
-            _ => matches!(self, Self::Claim { .. } | Self::VanishedFile { .. }),
-        }
+        matches!(self, Self::Claim { .. } | Self::VanishedFile { .. } | Self::NewFile { guarded: 1.., .. })
     }
 
     /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite if old and
@@ -139,10 +136,8 @@ impl Movement {
                 let times = (to - from).abs() / (tolerance * from.abs());
                 if times.is_nan() { f64::INFINITY } else { times }
             }
-            Self::Tolerance { .. } | Self::Vanished { .. } => f64::INFINITY,
-            Self::Claim { .. } | Self::VanishedFile { .. } => f64::INFINITY,
-            Self::NewFile { guarded: 1.., .. } => f64::INFINITY,
-            Self::New { .. } | Self::NewFile { .. } => 0.0,
+            Self::New { .. } | Self::NewFile { guarded: 0, .. } => 0.0,
+            _ => f64::INFINITY,
         }
     }
 }

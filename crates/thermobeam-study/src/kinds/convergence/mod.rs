@@ -31,7 +31,7 @@
 
 pub(super) mod design;
 
-use convergence_study::study::grid::{Grid, GridColumn, Model};
+use convergence_study::study::grid::{Grid, GridColumn};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
@@ -188,7 +188,7 @@ impl Convergence {
             points: ran.iter().map(|run| [1.0 / run.case.data.0 as f64, self.refine.dt(run.case.data.1)]).collect(),
             times: self.refine.steps.len(),
             columns: self.expect.iter().map(column).collect(),
-            model: Model::Squares,
+            squares_add: true,
         };
         let mut outcome = grid.judge();
         outcome.extend(Outcome::new("", vec![], vec![completion]));

@@ -10,29 +10,15 @@ use crate::sources::{BoundaryLoads, Sources};
 /// Additional quadrature points per element for errors, beyond the degree p.
 const EXTRA_POINTS: usize = 8;
 
-/// The loads of a manufactured solution.
-pub struct ManufacturedLoad {
-    exact: Manufactured,
-    obstacles: Option<Obstacles>,
-    sources: Sources,
-    factors: Factors,
-}
-
-impl ManufacturedLoad {
-    /// The loads that make `exact` the solution with these coefficients.
-    pub fn new(exact: &Manufactured, beam: &Beam, obstacles: Option<Obstacles>, space: &Space) -> Self {
-        let sources = Sources::any_order(exact, beam, space);
-        Self { exact: exact.clone(), obstacles, sources, factors: Factors::default() }
-    }
-}
-
-impl Load for ManufacturedLoad {
-    fn at(&mut self, t: f64, load: &mut [[f64; 3]]) {
-        self.factors.at(&self.exact, t);
-        let u = &self.factors.u.value;
-        let force = self.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(u)));
-        self.sources.fill(&self.factors, self.sources.axial_force(u), force, BoundaryLoads::Both, load);
-    }
+/// The loads that make `exact` the solution with these coefficients.
+pub fn load(exact: &Manufactured, beam: &Beam, obstacles: Option<Obstacles>, space: &Space) -> Box<Load> {
+    let (sources, exact, mut factors) = (Sources::any_order(exact, beam, space), exact.clone(), Factors::default());
+    Box::new(move |t, load| {
+        factors.at(&exact, t);
+        let u = &factors.u.value;
+        let force = obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
+        sources.fill(&factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
+    })
 }
 
 /// The exact solution at t = 0, as initial data.

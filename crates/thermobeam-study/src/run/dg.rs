@@ -11,7 +11,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Level;
 
 use super::{Motion, Report, RunError, Sample, Solves};
-use crate::exact::any_order::{self, ManufacturedLoad};
+use crate::exact::any_order;
 use crate::exact::solution::Manufactured;
 use crate::scene::{Coefficients, Scene};
 
@@ -65,7 +65,7 @@ impl DgMotion {
         let simulation = match loads {
             None => dg::Simulation::new(problem, by),
             Some(theory) => dg::Simulation::with_load(problem, by, |space| {
-                Box::new(ManufacturedLoad::new(exact, &theory.beam, theory.obstacles, space))
+                any_order::load(exact, &theory.beam, theory.obstacles, space)
             }),
         }?;
         Ok(Self::of(simulation, &beam, obstacles, by))

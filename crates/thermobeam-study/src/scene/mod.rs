@@ -202,7 +202,7 @@ impl Scene {
 
     /// The scene as a problem for dG.
     pub fn dg_problem(&self) -> dg::Problem {
-        let function = |function: &Option<Expression>| -> dg::Function {
+        let function = |function: &Option<Expression>| -> Box<dyn Fn(f64) -> f64> {
             match function.clone() {
                 Some(function) => Box::new(move |x| function.eval(x)),
                 None => Box::new(|_| 0.0),

@@ -59,6 +59,13 @@ pub(super) fn subtract_product<const S: usize>(c: &mut Matrix<S>, a: &Matrix<S>,
     }
 }
 
+/// `A += B`.
+pub(super) fn add<const S: usize>(a: &mut Matrix<S>, b: &Matrix<S>) {
+    for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+        add_multiple(a, b, 1.0);
+    }
+}
+
 /// `y += factor x`.
 #[inline(always)]
 fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {

@@ -4,11 +4,12 @@
 //! cost is proportional to the number of elements times the degree.
 
 use super::block::{
-    Block, Matrix, clear_column, clear_row, invert, isolate, matrix_product, minus_product, product, subtract_product,
-    zero,
+    Block, Matrix, add, clear_column, clear_row, invert, isolate, matrix_product, minus_product, product,
+    subtract_product, zero,
 };
 use super::operator::Operator;
 use super::space::{Coupling, Space, degrees};
+use crate::error::StepFailure;
 
 /// Lengths equal up to rounding errors share an elimination; the residual, which decides, uses each element's own.
 const SAME_LENGTH: f64 = 1e-13;
@@ -52,13 +53,6 @@ struct Node<const S: usize> {
     right: Matrix<S>,
 }
 
-/// A pivot that is not positive: at this node, or in the element to the left of this node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LostPivot {
-    pub(super) node: usize,
-    pub(super) pivot: f64,
-}
-
 /// The factorised matrix of a step, for the free end both without and with contact.
 #[derive(Debug, Clone)]
 pub(super) struct Factor<const S: usize> {
@@ -73,7 +67,7 @@ impl<const S: usize> Factor<S> {
     /// Allocates the factorisations of a space.
     pub(super) fn new(space: &Space) -> Self {
         let (mut insides, mut kinds): (Vec<Inside<S>>, _) = (vec![], vec![]);
-        for &length in space.lengths() {
+        for &length in &space.lengths {
             let same = |inside: &Inside<S>| (inside.length - length).abs() <= SAME_LENGTH * length;
             let kind = insides.iter().position(same).unwrap_or_else(|| {
                 insides.push(Inside::new(space.degree(), length));
@@ -97,14 +91,14 @@ impl<const S: usize> Factor<S> {
 
     /// Factorises without allocating.
     ///
+    /// * `n_value`: the axial force of the matrix, for the error only.
+    ///
     /// # Errors
-    /// [`LostPivot`] if the matrix is not positive definite.
-    pub(super) fn factorize(&mut self, space: &Space, operator: &Operator<S>) -> Result<(), LostPivot> {
+    /// [`StepFailure::Indefinite`] at the first pivot that is not positive: at the node, or in the element on its left.
+    pub(super) fn factorize(&mut self, space: &Space, operator: &Operator<S>, n_value: f64) -> Result<(), StepFailure> {
         for (index, inside) in self.insides.iter_mut().enumerate() {
-            let lost = |pivot| {
-                let element = self.kinds.iter().position(|kind| *kind == index).unwrap_or(0);
-                LostPivot { node: element + 1, pivot }
-            };
+            let node = 1 + self.kinds.iter().position(|kind| *kind == index).unwrap_or(0);
+            let lost = |pivot| StepFailure::Indefinite { node, pivot, n_value };
             inside.factorize(space, operator).map_err(lost)?;
         }
         let tip = space.tip();
@@ -128,7 +122,7 @@ impl<const S: usize> Factor<S> {
             if node > 1 {
                 subtract_product(&mut pivot, &left, &self.nodes[node - 1].right);
             }
-            let lost = |pivot| LostPivot { node, pivot };
+            let lost = |pivot| StepFailure::Indefinite { node, pivot, n_value };
             if node == tip {
                 self.tip = [pivot, pivot];
                 operator.add_contact(&mut self.tip[1]);
@@ -257,7 +251,7 @@ fn matrix_between<const S: usize>(
     column: usize,
 ) -> Matrix<S> {
     let here = |coupling: &&Coupling| coupling.row == row && coupling.column == column;
-    space.couplings().iter().find(here).map_or(zero(), |coupling| operator.between(coupling, length))
+    space.couplings.iter().find(here).map_or(zero(), |coupling| operator.between(coupling, length))
 }
 
 /// The diagonal matrix of an inner block, with unit rows for coefficients beyond the degree.
@@ -270,16 +264,4 @@ fn pivot_of<const S: usize>(space: &Space, between: &impl Fn(usize, usize) -> Ma
         }
     }
     pivot
-}
-
-fn add<const S: usize>(sum: &mut Matrix<S>, matrix: &Matrix<S>) {
-    for (sum, entry) in sum
-        .as_flattened_mut()
-        .as_flattened_mut()
-        .as_flattened_mut()
-        .iter_mut()
-        .zip(matrix.as_flattened().as_flattened().as_flattened())
-    {
-        *sum += entry;
-    }
 }

@@ -7,8 +7,8 @@ impl Space {
     /// Sums `entry(coupling, length, row block, column block)` over all couplings of all elements.
     fn sum(&self, entry: impl Fn(&Coupling, f64, usize, usize) -> f64) -> f64 {
         let mut sum = 0.0;
-        for (element, &length) in self.lengths().iter().enumerate() {
-            for c in self.couplings() {
+        for (element, &length) in self.lengths.iter().enumerate() {
+            for c in &self.couplings {
                 sum += entry(c, length, self.block(element, c.row), self.block(element, c.column));
             }
         }
@@ -54,8 +54,8 @@ impl Space {
     /// The diagonal of M.
     pub(super) fn diagonal_mass(&self) -> Vec<[f64; 3]> {
         let mut diagonal = vec![[0.0; 3]; self.blocks()];
-        for (element, &length) in self.lengths().iter().enumerate() {
-            for c in self.couplings().iter().filter(|c| c.row == c.column) {
+        for (element, &length) in self.lengths.iter().enumerate() {
+            for c in self.couplings.iter().filter(|c| c.row == c.column) {
                 let place = &mut diagonal[self.block(element, c.row)];
                 place[0] += 0.5 * length * c.mass_u;
                 place[1] += 0.5 * length * c.mass_phi;
@@ -68,7 +68,7 @@ impl Space {
     /// `∫ χ` for the basis functions of φ.
     pub(super) fn integrals_of_rotations(&self) -> Vec<f64> {
         let mut integrals = vec![0.0; self.blocks()];
-        for (element, &length) in self.lengths().iter().enumerate() {
+        for (element, &length) in self.lengths.iter().enumerate() {
             for local in 0..2 + self.inner() {
                 if let [_, Some(m)] = degrees(local, self.degree()) {
                     integrals[self.place(Field::Phi, element, m).0] += 0.5 * length * element::integral(m);
@@ -134,7 +134,7 @@ mod tests {
             assert!(found.iter().all(|found| (found - expected).abs() <= f64::EPSILON * expected), "{found:?}");
         }
         let sums: Vec<f64> = assembly::mass(&mesh).multiply(&[1.0; 8]);
-        for (found, expected) in space.rotation_integrals().iter().zip(sums) {
+        for (found, expected) in space.rotation_integrals.iter().zip(sums) {
             assert!((found - expected).abs() <= f64::EPSILON, "{found} {expected}");
         }
     }

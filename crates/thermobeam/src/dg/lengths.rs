@@ -9,7 +9,8 @@ pub(super) struct Lengths {
     rungs: Vec<f64>,
     /// The rung of `restart_dt`.
     first: usize,
-    next: usize,
+    /// The rung of the next step.
+    pub(super) next: usize,
 }
 
 /// Maximum number of halvings of `restart_dt`: down to a factor 6e-8.
@@ -55,16 +56,6 @@ impl Lengths {
         let possible = shorter.is_some() && now >= 1e-3 * self.rungs[self.first];
         self.next = shorter.filter(|_| possible).unwrap_or(self.next);
         possible
-    }
-
-    /// The current rung.
-    pub(super) fn rung(&self) -> usize {
-        self.next
-    }
-
-    /// Returns to an earlier rung.
-    pub(super) fn set_rung(&mut self, rung: usize) {
-        self.next = rung;
     }
 
     /// After a whole step.

@@ -21,7 +21,7 @@
 //!
 //! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
 //! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
-//! `energy`: the balance. `problem`, `simulation`, `observe`: the interface for users.
+//! `problem`, `simulation`, `observe`: the interface for users, with the balance of the energy.
 //!
 //! ```
 //! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -48,12 +48,10 @@
 mod block;
 mod contact_event;
 pub(crate) mod element;
-mod energy;
 mod factor;
 mod forms;
 mod legendre;
 mod lengths;
-mod load;
 mod observe;
 mod operator;
 mod problem;
@@ -65,10 +63,10 @@ mod time;
 
 pub use contact_event::{ContactEvent, Phase};
 pub use element::MAX_DEGREE;
-pub use load::Load;
-pub use problem::{Function, Initial, Problem, Stepping};
+pub use problem::{Initial, Problem, Stepping};
 pub use simulation::{Simulation, StepReport};
 pub use space::{Field, Space};
+pub use time::Load;
 
 /// The highest degree in time.
 pub const MAX_TIME_DEGREE: usize = time::MAX_STAGES - 1;
@@ -92,12 +90,14 @@ impl Level {
 
     /// Value and slope of a field at x.
     pub fn value_and_slope(&self, space: &Space, field: Field, x: f64) -> (f64, f64) {
-        space.evaluate(field, x, |block, place| self.coefficient(field, block, place))
+        space.evaluate(field, &space.locate(x), |block, place| self.coefficient(field, block, place))
     }
 
     /// Values and slopes of all fields at x, in the order of [`Field::ALL`].
     pub fn values_and_slopes(&self, space: &Space, x: f64) -> [(f64, f64); Field::ALL.len()] {
-        space.evaluate_all(x, |field, block, place| self.coefficient(field, block, place))
+        let point = space.locate(x);
+        let evaluate = |field| space.evaluate(field, &point, |block, place| self.coefficient(field, block, place));
+        Field::ALL.map(evaluate)
     }
 
     fn coefficient(&self, field: Field, block: usize, place: usize) -> f64 {

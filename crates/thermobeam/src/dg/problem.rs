@@ -11,21 +11,18 @@ use crate::parameters::{Beam, Obstacles};
 /// Allowed rounding errors of an initial value in a boundary condition, in units of the field's largest coefficient.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
-/// A function of x.
-pub type Function = Box<dyn Fn(f64) -> f64>;
-
 /// The initial data (1.2) as functions of x.
 pub struct Initial {
     /// u_0, zero at x = 0.
-    pub u: Function,
+    pub u: Box<dyn Fn(f64) -> f64>,
     /// u_1, zero at x = 0.
-    pub u_t: Function,
+    pub u_t: Box<dyn Fn(f64) -> f64>,
     /// φ_0, zero at x = 0.
-    pub phi: Function,
+    pub phi: Box<dyn Fn(f64) -> f64>,
     /// φ_1, zero at x = 0.
-    pub phi_t: Function,
+    pub phi_t: Box<dyn Fn(f64) -> f64>,
     /// The physical temperature θ_0: θ_A at x = 0 and zero at x = 1.
-    pub theta: Function,
+    pub theta: Box<dyn Fn(f64) -> f64>,
 }
 
 impl Initial {
@@ -86,31 +83,25 @@ pub(super) fn check(
         obstacles.validate()?;
     }
     let Stepping { degree: q, dt, restart_dt, growth, tolerance, max_iterations } = *stepping;
-    let refuse = |name, found, allowed: String| Err(SetupError::Setting { name, found, allowed });
     let positive = |value: f64| value > 0.0 && value.is_finite();
-    if !(1..=MAX_DEGREE).contains(&degree) {
-        return refuse("degree of the elements", degree as f64, format!("an integer from 1 to {MAX_DEGREE}"));
-    }
-    if q > MAX_TIME_DEGREE {
-        return refuse("degree in time", q as f64, format!("an integer from 0 to {MAX_TIME_DEGREE}"));
-    }
-    if !positive(dt) {
-        return refuse("dt", dt, "a finite number > 0".into());
-    }
-    if !(positive(restart_dt) && restart_dt <= dt) {
-        return refuse("restart_dt", restart_dt, format!("a number > 0 and at most dt = {dt}"));
-    }
-    if !(growth >= 1.0 && growth.is_finite()) {
-        return refuse("growth", growth, "a finite number >= 1".into());
-    }
-    if growth > 1.0 && (dt / restart_dt).ln() / growth.ln() > MAX_RUNGS as f64 {
-        return refuse("growth", growth, format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"));
-    }
-    if !positive(tolerance) {
-        return refuse("tolerance", tolerance, "a finite number > 0".into());
-    }
-    if max_iterations == 0 {
-        return refuse("max_iterations", 0.0, "an integer >= 1".into());
+    let few_rungs = growth <= 1.0 || (dt / restart_dt).ln() / growth.ln() <= MAX_RUNGS as f64;
+    let degrees = format!("an integer from 1 to {MAX_DEGREE}");
+    let is_degree = (1..=MAX_DEGREE).contains(&degree);
+    let first = format!("a number > 0 and at most dt = {dt}");
+    let rungs = format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps");
+    for (name, found, is_allowed, allowed) in [
+        ("degree of the elements", degree as f64, is_degree, degrees),
+        ("degree in time", q as f64, q <= MAX_TIME_DEGREE, format!("an integer from 0 to {MAX_TIME_DEGREE}")),
+        ("dt", dt, positive(dt), "a finite number > 0".into()),
+        ("restart_dt", restart_dt, positive(restart_dt) && restart_dt <= dt, first),
+        ("growth", growth, growth >= 1.0 && growth.is_finite(), "a finite number >= 1".into()),
+        ("growth", growth, few_rungs, rungs),
+        ("tolerance", tolerance, positive(tolerance), "a finite number > 0".into()),
+        ("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1".into()),
+    ] {
+        if !is_allowed {
+            return Err(SetupError::Setting { name, found, allowed });
+        }
     }
     Ok(())
 }

@@ -1,18 +1,10 @@
 //! The equations of a step, tested with every basis function and every L_i(t): their residuals.
 
 use super::block::{Block, add_columns};
-use super::load::Forcing;
 use super::space::Space;
-use super::time::{MAX_STAGES, TimeForms};
+use super::time::{Forcing, MAX_STAGES, Path, TimeForms};
 use super::{Level, contact_event::Phase};
 use crate::parameters::{Beam, Obstacles};
-
-/// A polynomial of degree q + 1 in time: coefficients 0..=q, and the last one.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Path<const S: usize> {
-    pub(super) low: [f64; S],
-    pub(super) top: f64,
-}
 
 /// u and φ in a block during the step, and the combinations of them in the equations.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +24,7 @@ pub(super) struct Terms<const S: usize> {
 }
 
 impl<const S: usize> Terms<S> {
-    const ZERO: Self = Self {
+    pub(super) const ZERO: Self = Self {
         places: [Path { low: [0.0; S], top: 0.0 }; 2],
         inertia: [[0.0; S]; 3],
         strain: [[0.0; S]; 2],
@@ -52,9 +44,8 @@ pub(super) struct AxialForce<const S: usize> {
 }
 
 /// The data of a step's equations.
-pub(super) struct Equations<'a, const S: usize> {
+pub(super) struct Equations<'a> {
     pub(super) space: &'a Space,
-    pub(super) forms: &'a TimeForms<S>,
     pub(super) beam: &'a Beam,
     pub(super) obstacles: Option<&'a Obstacles>,
     /// The level at the start of the step.
@@ -63,32 +54,29 @@ pub(super) struct Equations<'a, const S: usize> {
     pub(super) h: f64,
     /// The phase of the free end throughout the step.
     pub(super) phase: Phase,
-    /// Loads, integrated over the step.
-    pub(super) forcing: Option<&'a Forcing<S>>,
 }
 
-impl<const S: usize> Equations<'_, S> {
+impl Equations<'_> {
     /// `u(t) = u_0 + ∫ v`, `φ(t) = φ_0 + ∫ w` for the velocities in `x`.
-    pub(super) fn displace(&self, x: &[Block<S>], terms: &mut [Terms<S>]) {
+    pub(super) fn displace<const S: usize>(&self, x: &[Block<S>], terms: &mut [Terms<S>]) {
         for ((terms, x), places) in terms.iter_mut().zip(x).zip(&self.level.places) {
             for field in 0..2 {
-                let (low, top) = TimeForms::integrate(places[field], self.h, &x[field]);
-                terms.places[field] = Path { low, top };
+                terms.places[field] = TimeForms::integrate(places[field], self.h, &x[field]);
             }
         }
     }
 
     /// `∫ N(u) L_i L_j` with `N(u) = β + ρ‖u_x‖²`, by 2q + 2 Gauss points.
-    pub(super) fn axial_force(&self, terms: &[Terms<S>]) -> AxialForce<S> {
+    pub(super) fn axial_force<const S: usize>(&self, forms: &TimeForms<S>, terms: &[Terms<S>]) -> AxialForce<S> {
         let mut force = AxialForce { low: [[0.0; S]; S], top: [0.0; S] };
         if self.beam.rho == 0.0 {
             for i in 0..S {
-                force.low[i][i] = self.beam.beta * self.forms.product[i];
+                force.low[i][i] = self.beam.beta * forms.product[i];
             }
             return force;
         }
         let slopes = Gram::of(self.space, terms);
-        for point in &self.forms.gauss {
+        for point in &forms.gauss {
             let legendre = &point.legendre;
             let weight = point.weight * self.beam.axial_force(slopes.at(legendre));
             for i in 0..S {
@@ -109,22 +97,26 @@ impl<const S: usize> Equations<'_, S> {
     /// ∫ [(θ~_t, η) + (θ~_x, η_x) + a (w_x, η) - F_θ] + (θ~(0+) - θ~_0, η(0))
     /// ```
     ///
+    /// * `forcing`: the loads, integrated over the step.
+    ///
     /// Returns the mean contact force over the step, as the first equation at the free end requires it. Unlike g(u(1)) it contains
     /// no rounding errors of u(1) divided by ε.
-    pub(super) fn residual(
+    pub(super) fn residual<const S: usize>(
         &self,
+        forms: &TimeForms<S>,
+        forcing: Option<&Forcing<S>>,
         x: &[Block<S>],
         terms: &mut [Terms<S>],
         axial: &AxialForce<S>,
         residual: &mut [Block<S>],
     ) -> f64 {
         for ((terms, x), start) in terms.iter_mut().zip(x).zip(&self.level.rates) {
-            self.combine(x, start, axial, terms);
+            self.combine(forms, x, start, axial, terms);
         }
         residual.fill([[0.0; S]; 3]);
-        for (element, &length) in self.space.lengths().iter().enumerate() {
+        for (element, &length) in self.space.lengths.iter().enumerate() {
             let (m, k) = (0.5 * length, 2.0 / length);
-            for c in self.space.couplings() {
+            for c in &self.space.couplings {
                 let terms = &terms[self.space.block(element, c.column)];
                 let row = &mut residual[self.space.block(element, c.row)];
                 let [inertia_v, inertia_w, inertia_theta] = &terms.inertia;
@@ -142,31 +134,37 @@ impl<const S: usize> Equations<'_, S> {
             }
         }
         let tip = self.space.tip();
-        let load = self.forcing.map_or(0.0, |forcing| forcing.moments[0][tip][0]);
+        let load = forcing.map_or(0.0, |forcing| forcing.moments[0][tip][0]);
         let force = (load - residual[tip][0][0]) / self.h;
-        self.add_forces(terms, residual);
+        self.add_forces(forms, forcing, terms, residual);
         residual[0] = [[0.0; S]; 3];
         residual[tip][2] = [0.0; S];
         force
     }
 
     /// Contact, the heated end, and the loads.
-    fn add_forces(&self, terms: &[Terms<S>], residual: &mut [Block<S>]) {
+    fn add_forces<const S: usize>(
+        &self,
+        forms: &TimeForms<S>,
+        forcing: Option<&Forcing<S>>,
+        terms: &[Terms<S>],
+        residual: &mut [Block<S>],
+    ) {
         let tip = self.space.tip();
         if let Some((obstacle, obstacles)) = self.phase.obstacle(self.obstacles).zip(self.obstacles) {
             let u = &terms[tip].places[0].low;
             for i in 0..S {
                 let depth = if i == 0 { u[0] - obstacle } else { u[i] };
-                residual[tip][0][i] += self.h * self.forms.product[i] * depth / obstacles.epsilon;
+                residual[tip][0][i] += self.h * forms.product[i] * depth / obstacles.epsilon;
             }
         }
         let hot = self.beam.a * self.beam.theta_a * self.h;
         if hot != 0.0 {
-            for (residual, integral) in residual.iter_mut().zip(self.space.rotation_integrals()) {
+            for (residual, integral) in residual.iter_mut().zip(&self.space.rotation_integrals) {
                 residual[1][0] -= hot * integral;
             }
         }
-        if let Some(forcing) = self.forcing {
+        if let Some(forcing) = forcing {
             for (stage, moments) in forcing.moments.iter().enumerate() {
                 for (residual, moment) in residual.iter_mut().zip(moments) {
                     for field in 0..3 {
@@ -178,8 +176,14 @@ impl<const S: usize> Equations<'_, S> {
     }
 
     /// The integrals in time of one block.
-    fn combine(&self, x: &Block<S>, start: &[f64; 3], axial: &AxialForce<S>, terms: &mut Terms<S>) {
-        let forms = self.forms;
+    fn combine<const S: usize>(
+        &self,
+        forms: &TimeForms<S>,
+        x: &Block<S>,
+        start: &[f64; 3],
+        axial: &AxialForce<S>,
+        terms: &mut Terms<S>,
+    ) {
         for field in 0..3 {
             let mut sum = forms.start.map(|sign| -sign * start[field]);
             add_columns(&mut sum, &forms.derivative_columns, &x[field]);
@@ -213,7 +217,7 @@ impl<const S: usize> Gram<S> {
         let mut gram = Self { entries: [[0.0; MAX_STAGES + 1]; MAX_STAGES + 1] };
         let tip = space.tip();
         let (nodes, inside) = terms.split_at(tip + 1);
-        for (element, &length) in space.lengths().iter().enumerate() {
+        for (element, &length) in space.lengths.iter().enumerate() {
             let [left, right] = [&nodes[element].places[0], &nodes[element + 1].places[0]];
             let low = std::array::from_fn(|i| right.low[i] - left.low[i]);
             gram.add(1.0 / length, &Path { low, top: right.top - left.top });
@@ -247,9 +251,4 @@ impl<const S: usize> Gram<S> {
         }
         sum
     }
-}
-
-/// Terms for this number of blocks.
-pub(super) fn terms<const S: usize>(blocks: usize) -> Vec<Terms<S>> {
-    vec![Terms::ZERO; blocks]
 }

@@ -2,10 +2,11 @@
 
 use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
 use super::lengths::Lengths;
-use super::load::Load;
 use super::problem::{Problem, Stepping, check, initial_level};
+use super::residual::Equations;
 use super::space::Space;
-use super::stages::{Stages, Task, stepper};
+use super::stages::{Stages, stepper};
+use super::time::Load;
 use super::{Level, Work};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::parameters::{Beam, Obstacles};
@@ -50,7 +51,7 @@ pub struct Simulation {
     pub(super) stepping: Stepping,
     pub(super) lengths: Lengths,
     pub(super) stages: Box<dyn Stages>,
-    pub(super) load: Option<Box<dyn Load>>,
+    pub(super) load: Option<Box<Load>>,
     pub(super) level: Level,
     /// The level before the last step.
     pub(super) old: Level,
@@ -85,7 +86,7 @@ impl Simulation {
     pub fn with_load(
         problem: Problem,
         stepping: Stepping,
-        load: impl FnOnce(&Space) -> Box<dyn Load>,
+        load: impl FnOnce(&Space) -> Box<Load>,
     ) -> Result<Self, SetupError> {
         Self::build(problem, stepping, |space| Some(load(space)))
     }
@@ -93,7 +94,7 @@ impl Simulation {
     fn build(
         problem: Problem,
         stepping: Stepping,
-        load: impl FnOnce(&Space) -> Option<Box<dyn Load>>,
+        load: impl FnOnce(&Space) -> Option<Box<Load>>,
     ) -> Result<Self, SetupError> {
         let Problem { beam, obstacles, mesh, degree, initial } = problem;
         check(&beam, obstacles.as_ref(), degree, &stepping)?;
@@ -143,7 +144,7 @@ impl Simulation {
     /// [`StepError`] with step, time and numbers; the simulation then remains at its old level.
     pub fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
         let (phase, events, crowd) = (self.phase, self.events.len(), self.crowd);
-        let rung = self.lengths.rung();
+        let rung = self.lengths.next;
         let mut first = None;
         loop {
             let outcome = self.try_step(limit);
@@ -155,7 +156,7 @@ impl Simulation {
             // Shorter steps may succeed after a failure; otherwise the first failure is the most informative.
             let error = first.get_or_insert(error);
             if !self.lengths.shorten() {
-                self.lengths.set_rung(rung);
+                self.lengths.next = rung;
                 return Err(error.clone());
             }
             self.shortened += 1;
@@ -284,17 +285,10 @@ impl Simulation {
 
     /// Finds the polynomials of a step of length h in the current phase.
     fn attempt(&mut self, h: f64) -> Result<usize, StepError> {
-        let task = Task {
-            space: &self.space,
-            beam: &self.beam,
-            obstacles: self.obstacles.as_ref(),
-            level: &self.level,
-            h,
-            phase: self.phase,
-            tolerance: self.stepping.tolerance,
-            max_iterations: self.stepping.max_iterations,
-        };
-        self.stages.solve(&task, self.load.as_deref_mut()).map_err(|failure| self.failed(h, failure))
+        let Self { space, beam, level, phase, .. } = self;
+        let equations = Equations { space, beam, obstacles: self.obstacles.as_ref(), level, h, phase: *phase };
+        let outcome = self.stages.solve(&equations, &self.stepping, self.load.as_deref_mut());
+        outcome.map_err(|failure| self.failed(h, failure))
     }
 
     /// Rounding errors of the free end's position in the step just found.

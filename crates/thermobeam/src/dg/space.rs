@@ -71,9 +71,12 @@ pub(super) fn degrees(block: usize, degree: usize) -> [Option<usize>; 2] {
 pub struct Space {
     mesh: Mesh,
     degree: usize,
-    lengths: Vec<f64>,
-    couplings: Vec<Coupling>,
-    rotation_integrals: Vec<f64>,
+    /// Lengths of the elements.
+    pub(super) lengths: Vec<f64>,
+    /// Couplings within an element.
+    pub(super) couplings: Vec<Coupling>,
+    /// `∫ χ` of each block's basis function of φ.
+    pub(super) rotation_integrals: Vec<f64>,
 }
 
 impl Space {
@@ -105,21 +108,6 @@ impl Space {
     /// Blocks of three coefficients, including coefficients that are always zero.
     pub fn blocks(&self) -> usize {
         self.lengths.len() + 1 + self.lengths.len() * self.inner()
-    }
-
-    /// Lengths of the elements.
-    pub(super) fn lengths(&self) -> &[f64] {
-        &self.lengths
-    }
-
-    /// Couplings within an element.
-    pub(super) fn couplings(&self) -> &[Coupling] {
-        &self.couplings
-    }
-
-    /// `∫ χ` of each block's basis function of φ.
-    pub(super) fn rotation_integrals(&self) -> &[f64] {
-        &self.rotation_integrals
     }
 
     /// The block of the free end.
@@ -207,45 +195,29 @@ impl Space {
         }
     }
 
-    /// The element that holds x, and its ξ. Points beyond the ends belong to the outermost elements.
-    fn locate(&self, x: f64) -> (usize, f64) {
+    /// The element that holds x, and its basis there. Points beyond the ends belong to the outermost elements.
+    pub(super) fn locate(&self, x: f64) -> (usize, Basis) {
         let nodes = self.mesh.nodes();
         let element = nodes.partition_point(|node| *node <= x).clamp(1, self.lengths.len()) - 1;
-        (element, (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element])
+        let xi = (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element];
+        (element, Basis::at(xi, self.degree))
     }
 
-    /// Value and slope at x of the field with the coefficients `coefficient(block, place)`.
-    pub(super) fn evaluate(&self, field: Field, x: f64, coefficient: impl Fn(usize, usize) -> f64) -> (f64, f64) {
-        let (element, xi) = self.locate(x);
-        self.combine(field, element, &Basis::at(xi, self.degree), coefficient)
-    }
-
-    /// The same for all fields at once, by one evaluation of the basis.
-    pub(super) fn evaluate_all(
-        &self,
-        x: f64,
-        coefficient: impl Fn(Field, usize, usize) -> f64,
-    ) -> [(f64, f64); Field::ALL.len()] {
-        let (element, xi) = self.locate(x);
-        let basis = Basis::at(xi, self.degree);
-        Field::ALL.map(|field| self.combine(field, element, &basis, |block, place| coefficient(field, block, place)))
-    }
-
-    fn combine(
+    /// Value and slope of the field with the coefficients `coefficient(block, place)` at a point found by [`Self::locate`].
+    pub(super) fn evaluate(
         &self,
         field: Field,
-        element: usize,
-        basis: &Basis,
+        (element, basis): &(usize, Basis),
         coefficient: impl Fn(usize, usize) -> f64,
     ) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
         for m in 0..=self.degree {
-            let (block, place) = self.place(field, element, m);
+            let (block, place) = self.place(field, *element, m);
             let coefficient = coefficient(block, place);
             value += coefficient * basis.values[m];
             slope += coefficient * basis.slopes[m];
         }
-        (value, slope * 2.0 / self.lengths[element])
+        (value, slope * 2.0 / self.lengths[*element])
     }
 }
 
@@ -299,7 +271,7 @@ mod tests {
     #[test]
     fn blocks_meet_their_neighbours_in_the_chain_and_the_first_ones_the_hats() {
         for degree in 1..=12 {
-            for coupling in Space::new(Mesh::uniform(1).unwrap(), degree).couplings() {
+            for coupling in Space::new(Mesh::uniform(1).unwrap(), degree).couplings {
                 let (row, column) = (coupling.row.min(coupling.column), coupling.row.max(coupling.column));
                 let hats = row < 2 && column < 4;
                 assert!(hats || column - row == 2 || column == row, "{coupling:?}");
@@ -318,7 +290,8 @@ mod tests {
             space.project(field, polynomial, |_, block, place, value| coefficients[block][place] = value);
             for i in 0..=50 {
                 let x = f64::from(i) / 50.0;
-                let (value, derivative) = space.evaluate(field, x, |block, place| coefficients[block][place]);
+                let (value, derivative) =
+                    space.evaluate(field, &space.locate(x), |block, place| coefficients[block][place]);
                 assert!((value - polynomial(x)).abs() < 4e-15, "{x}: {value}");
                 assert!((derivative - slope(x)).abs() < 4e-13, "{x}: {derivative}");
             }

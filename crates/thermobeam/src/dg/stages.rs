@@ -2,16 +2,15 @@
 
 use super::block::{Block, add_columns};
 use super::contact_event::{Phase, Polynomial};
-use super::energy::Losses;
-use super::factor::{Factor, LostPivot};
-use super::load::{Forcing, Load};
+use super::factor::Factor;
 use super::operator::Operator;
-use super::residual::{Equations, Path, Terms, terms};
+use super::residual::{Equations, Terms};
 use super::space::{Field, Space};
-use super::time::{MAX_STAGES, TimeForms};
-use super::{Level, Work};
+use super::time::{Forcing, Load, MAX_STAGES, Path, TimeForms};
+use super::{Level, Stepping, Work};
+use crate::energy::Balance;
 use crate::error::StepFailure;
-use crate::parameters::{Beam, Obstacles};
+use crate::parameters::Beam;
 
 /// Relative difference up to which lengths share a factorisation; the iteration then contracts by about this factor.
 const SAME_LENGTH: f64 = 5e-3;
@@ -28,29 +27,6 @@ const FACTOR_BYTES: usize = 64 << 20;
 /// Factorisations for steps that are cut.
 const SPARE: usize = 3;
 
-/// One step to solve.
-pub(super) struct Task<'a> {
-    pub(super) space: &'a Space,
-    pub(super) beam: &'a Beam,
-    pub(super) obstacles: Option<&'a Obstacles>,
-    /// The level at its start.
-    pub(super) level: &'a Level,
-    /// Its length.
-    pub(super) h: f64,
-    /// The phase of the free end.
-    pub(super) phase: Phase,
-    /// Bound on the last increment.
-    pub(super) tolerance: f64,
-    pub(super) max_iterations: usize,
-}
-
-impl<'a> Task<'a> {
-    fn equations<const S: usize>(&self, forms: &'a TimeForms<S>, forcing: Option<&'a Forcing<S>>) -> Equations<'a, S> {
-        let Self { space, beam, obstacles, level, h, phase, .. } = *self;
-        Equations { space, forms, beam, obstacles, level, h, phase, forcing }
-    }
-}
-
 /// The step for any degree q in time, without q as a parameter of the type.
 pub(super) trait Stages: Send {
     /// Starts the iteration from velocities and a temperature that are constant in time.
@@ -60,7 +36,7 @@ pub(super) trait Stages: Send {
     /// Restricts the last solution to the first part, from 0 to `ratio`, of its step.
     fn restrict(&mut self, ratio: f64);
     /// Finds the polynomials of a step, from the guess; returns the number of iterations.
-    fn solve(&mut self, task: &Task<'_>, load: Option<&mut (dyn Load + 'static)>) -> Result<usize, StepFailure>;
+    fn solve(&mut self, task: &Equations<'_>, by: &Stepping, load: Option<&mut Load>) -> Result<usize, StepFailure>;
     /// u(1, t).
     fn tip(&self, space: &Space) -> Polynomial;
     /// The mean contact force over the step from the balance of momentum, and the corresponding axial force.
@@ -71,8 +47,8 @@ pub(super) trait Stages: Send {
     fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level);
     /// One coefficient of the space, as a polynomial over the last step.
     fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial;
-    /// The losses of the last step, except those of contact.
-    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Losses;
+    /// The losses of the last step, except those of contact; the other terms are zero.
+    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Balance;
     /// Counts.
     fn work(&self) -> Work;
 }
@@ -112,7 +88,7 @@ impl<const S: usize> DgStepper<S> {
     /// With room for one factorisation per length, and [`SPARE`] more; `loaded` if there will be loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
-        let motion = || Polynomials { x: vec![[[0.0; S]; 3]; blocks], terms: terms(blocks) };
+        let motion = || Polynomials { x: vec![[[0.0; S]; 3]; blocks], terms: vec![Terms::ZERO; blocks] };
         let factor = Factor::new(space);
         let affordable = (FACTOR_BYTES / factor.bytes()).max(2);
         let slot = || Slot { h: 0.0, n_value: 0.0, used: 0, factor: factor.clone() };
@@ -131,7 +107,7 @@ impl<const S: usize> DgStepper<S> {
     }
 
     /// The factorisation for a length: an existing one if suitable, or a new one instead of the least recently used.
-    fn slot(&mut self, task: &Task<'_>, n_value: f64) -> Result<usize, StepFailure> {
+    fn slot(&mut self, task: &Equations<'_>, n_value: f64) -> Result<usize, StepFailure> {
         self.clock += 1;
         let near = |slot: &Slot<S>| (slot.h / task.h - 1.0).abs();
         let best = (0..self.slots.len()).min_by(|&i, &j| near(&self.slots[i]).total_cmp(&near(&self.slots[j])));
@@ -148,26 +124,22 @@ impl<const S: usize> DgStepper<S> {
     }
 
     /// Writes the residual of the equations into `residual`; returns the mean axial force.
-    fn defect(&mut self, task: &Task<'_>) -> f64 {
-        let equations = task.equations(&self.forms, self.forcing.as_ref());
-        equations.displace(&self.trial.x, &mut self.trial.terms);
-        let axial = equations.axial_force(&self.trial.terms);
-        let force = equations.residual(&self.trial.x, &mut self.trial.terms, &axial, &mut self.residual);
+    fn defect(&mut self, task: &Equations<'_>) -> f64 {
+        let Polynomials { x, terms } = &mut self.trial;
+        task.displace(x, terms);
+        let axial = task.axial_force(&self.forms, terms);
+        let force = task.residual(&self.forms, self.forcing.as_ref(), x, terms, &axial, &mut self.residual);
         self.forces = [force, axial.low[0][0]];
         self.forces[1]
     }
 
-    fn factorize(&mut self, index: usize, task: &Task<'_>, n_value: f64) -> Result<(), StepFailure> {
+    fn factorize(&mut self, index: usize, task: &Equations<'_>, n_value: f64) -> Result<(), StepFailure> {
         let slot = &mut self.slots[index];
         let compliance = task.obstacles.map_or(f64::INFINITY, |obstacles| obstacles.epsilon);
         let operator = Operator::new(&self.forms, task.beam, task.h, n_value, compliance);
         self.work.factorizations += 1;
         (slot.h, slot.n_value) = (f64::NAN, n_value);
-        slot.factor.factorize(task.space, &operator).map_err(|LostPivot { node, pivot }| StepFailure::Indefinite {
-            node,
-            pivot,
-            n_value,
-        })?;
+        slot.factor.factorize(task.space, &operator, n_value)?;
         slot.h = task.h;
         Ok(())
     }
@@ -242,14 +214,14 @@ impl<const S: usize> Stages for DgStepper<S> {
         }
     }
 
-    fn solve(&mut self, task: &Task<'_>, load: Option<&mut (dyn Load + 'static)>) -> Result<usize, StepFailure> {
+    fn solve(&mut self, task: &Equations<'_>, by: &Stepping, load: Option<&mut Load>) -> Result<usize, StepFailure> {
         if let Some((forcing, load)) = self.forcing.as_mut().zip(load) {
             forcing.integrate(load, task.level.t, task.h);
         }
         let mut index = None;
         let (mut previous, mut contraction) = (f64::INFINITY, f64::NAN);
         let mut replaced = false;
-        for iteration in 1..=task.max_iterations {
+        for iteration in 1..=by.max_iterations {
             let n_value = self.defect(task);
             if !n_value.is_finite() {
                 return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
@@ -273,12 +245,11 @@ impl<const S: usize> Stages for DgStepper<S> {
             contraction = increment / previous;
             // Once their ratio is known, the sum of the remaining increments is at most this.
             let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
-            let known = iteration > 1 && rest <= task.tolerance;
+            let known = iteration > 1 && rest <= by.tolerance;
             // Round-off: further iterations change only the last digits.
             let stagnant = increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
-            if increment <= task.tolerance || known || stagnant {
-                let equations = task.equations(&self.forms, self.forcing.as_ref());
-                equations.displace(&self.trial.x, &mut self.trial.terms);
+            if increment <= by.tolerance || known || stagnant {
+                task.displace(&self.trial.x, &mut self.trial.terms);
                 return Ok(iteration);
             }
             if contraction > SLOW && iteration > 1 && !replaced {
@@ -293,7 +264,7 @@ impl<const S: usize> Stages for DgStepper<S> {
             }
             previous = increment;
         }
-        Err(StepFailure::IterationLimit { iterations: task.max_iterations, increment: previous, contraction })
+        Err(StepFailure::IterationLimit { iterations: by.max_iterations, increment: previous, contraction })
     }
 
     fn tip(&self, space: &Space) -> Polynomial {
@@ -333,9 +304,9 @@ impl<const S: usize> Stages for DgStepper<S> {
         }
     }
 
-    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Losses {
+    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Balance {
         let x = &self.accepted.x;
-        let mut losses = Losses::default();
+        let mut losses = Balance::default();
         for i in 0..S {
             let duration = h * self.forms.product[i];
             losses.viscous +=
@@ -346,7 +317,7 @@ impl<const S: usize> Stages for DgStepper<S> {
             let at_start = |y: &[f64; S]| y.iter().zip(&self.forms.start).map(|(y, sign)| y * sign).sum::<f64>();
             std::array::from_fn(|field| at_start(&x[block][field]) - start.rates[block][field])
         };
-        losses.jumps = 0.5 * space.mass(jump, jump);
+        losses.inertial = 0.5 * space.mass(jump, jump);
         if let Some(forcing) = &self.forcing {
             for (stage, moments) in forcing.moments.iter().enumerate() {
                 for (moment, x) in moments.iter().zip(x) {

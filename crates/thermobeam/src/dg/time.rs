@@ -1,4 +1,4 @@
-//! Polynomials in time on a step: the Legendre basis of [0, 1], s = (t - t_0)/h, and the integrals of the scheme.
+//! Polynomials in time on a step: the Legendre basis of [0, 1], s = (t - t_0)/h, and the integrals of scheme and loads.
 
 use super::legendre;
 
@@ -25,6 +25,13 @@ pub(super) struct GaussPoint {
     pub(super) s: f64,
     pub(super) weight: f64,
     pub(super) legendre: [f64; MAX_STAGES + 1],
+}
+
+/// A polynomial of degree q + 1 in time: coefficients 0..=q, and the last one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Path<const S: usize> {
+    pub(super) low: [f64; S],
+    pub(super) top: f64,
 }
 
 /// q + 1 for the largest q.
@@ -59,8 +66,8 @@ impl<const S: usize> TimeForms<S> {
         Self { derivative, derivative_columns, product, integral, start, gauss }
     }
 
-    /// `y_0 + h ∫_0^s Σ_j v_j L_j`, of degree q + 1: coefficients 0..=q, and the last one.
-    pub(super) fn integrate(y0: f64, h: f64, v: &[f64; S]) -> ([f64; S], f64) {
+    /// `y_0 + h ∫_0^s Σ_j v_j L_j`.
+    pub(super) fn integrate(y0: f64, h: f64, v: &[f64; S]) -> Path<S> {
         let mut y = [0.0; S];
         y[0] = 0.5_f64.mul_add(h * v[0], y0);
         for i in 1..S {
@@ -69,7 +76,45 @@ impl<const S: usize> TimeForms<S> {
         for i in 0..S - 1 {
             y[i] -= h * v[i + 1] / (4 * i + 6) as f64;
         }
-        (y, h * v[S - 1] * top::<S>())
+        Path { low: y, top: h * v[S - 1] * top::<S>() }
+    }
+}
+
+/// Loads F_u, F_φ, F_θ on the right-hand sides of the three equations, tested with the basis functions.
+///
+/// Adds the load at a time, `(F_u, χ), (F_φ, ψ), (F_θ, η)`, to a vector with an entry for each block, as
+/// [`Space::add_load`](super::Space::add_load) does for functions of x.
+pub type Load = dyn FnMut(f64, &mut [[f64; 3]]) + Send;
+
+/// The loads of a step, integrated: `moments[i]` is the integral with L_i.
+pub(super) struct Forcing<const S: usize> {
+    pub(super) moments: Vec<Vec<[f64; 3]>>,
+    load: Vec<[f64; 3]>,
+    points: Vec<GaussPoint>,
+}
+
+impl<const S: usize> Forcing<S> {
+    /// For this number of blocks; by q + 9 Gauss points.
+    pub(super) fn new(blocks: usize) -> Self {
+        let zeros = vec![[0.0; 3]; blocks];
+        Self { moments: vec![zeros.clone(); S], load: zeros, points: gauss_points(S + 8) }
+    }
+
+    /// Integrates a load over the step of length h from t.
+    pub(super) fn integrate(&mut self, load: &mut Load, t: f64, h: f64) {
+        self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
+        for point in &self.points {
+            self.load.fill([0.0; 3]);
+            load(t + h * point.s, &mut self.load);
+            for (moments, legendre) in self.moments.iter_mut().zip(&point.legendre) {
+                let weight = h * point.weight * legendre;
+                for (moment, load) in moments.iter_mut().zip(&self.load) {
+                    for field in 0..3 {
+                        moment[field] = weight.mul_add(load[field], moment[field]);
+                    }
+                }
+            }
+        }
     }
 }
 
@@ -105,8 +150,8 @@ mod tests {
                     |f: &dyn Fn(f64) -> f64| forms.gauss.iter().map(|p| p.weight * f(p.s) * basis(i, p.s)).sum::<f64>();
                 let mut unit = [0.0; S];
                 unit[j] = 1.0;
-                let (low, last) = TimeForms::<S>::integrate(0.25, 3.0, &unit);
-                let y = |s: f64| legendre::sum(&[&low[..], &[last]].concat(), s);
+                let Path { low, top } = TimeForms::<S>::integrate(0.25, 3.0, &unit);
+                let y = |s: f64| legendre::sum(&[&low[..], &[top]].concat(), s);
                 let exact = of(&|s| y(s) - 0.25) / 3.0;
                 assert!((forms.integral[i][j] - exact).abs() < 1e-15, "S {i} {j}: {exact}");
                 let step = 1e-6;

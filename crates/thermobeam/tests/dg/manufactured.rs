@@ -51,40 +51,36 @@ fn axial_force(t: f64) -> f64 {
     BEAM.axial_force(0.09 * K * K * (0.5 + (2.0 * K).sin() / (4.0 * K)) * u_t(t)[0].powi(2))
 }
 
-struct Sources {
-    space: Space,
-    points: Vec<(f64, f64)>,
-}
-
-impl Load for Sources {
-    fn at(&mut self, t: f64, load: &mut [[f64; 3]]) {
+fn sources(space: &Space) -> Box<Load> {
+    let (space, points) = (space.clone(), Space::gauss(space.degree() + 8));
+    Box::new(move |t, load| {
         let Beam { zeta, a, .. } = BEAM;
         let (n, ut, pt, tt) = (axial_force(t), u_t(t), phi_t(t), theta_t(t));
         // y + ζ y_t, the time factor of all elastic terms.
         let (uz, pz) = (ut[0] + zeta * ut[1], pt[0] + zeta * pt[1]);
-        self.space.add_load(
+        space.add_load(
             Field::U,
-            &self.points,
+            &points,
             |x| u_x(x)[0] * ut[2] - u_x(x)[2] * (uz + n * ut[0]) + phi_x(x)[1] * pz,
             load,
         );
-        self.space.add_load(
+        space.add_load(
             Field::Phi,
-            &self.points,
+            &points,
             |x| phi_x(x)[0] * (pt[2] + pz) - phi_x(x)[2] * pz - u_x(x)[1] * uz + a * theta_x(x)[1] * tt[0],
             load,
         );
-        self.space.add_load(
+        space.add_load(
             Field::Theta,
-            &self.points,
+            &points,
             |x| theta_x(x)[0] * tt[1] - theta_x(x)[2] * tt[0] + a * phi_x(x)[1] * pt[1],
             load,
         );
-        let tip = self.space.mesh().elements();
+        let tip = space.mesh().elements();
         let stress = u_x(1.0)[1] * (uz + n * ut[0]) - phi_x(1.0)[0] * pz;
         load[tip][0] += stress + OBSTACLES.force(u_x(1.0)[0] * ut[0]);
         load[tip][1] += phi_x(1.0)[1] * pz;
-    }
+    })
 }
 
 fn run(elements: usize, degree: usize, stepping: Stepping) -> Simulation {
@@ -97,8 +93,6 @@ fn run(elements: usize, degree: usize, stepping: Stepping) -> Simulation {
     };
     let mesh = Mesh::mapped(elements, |s| 0.8 * s + 0.2 * s * s).unwrap();
     let problem = Problem { beam: BEAM, obstacles: Some(OBSTACLES), mesh, degree, initial };
-    let sources =
-        |space: &Space| Box::new(Sources { space: space.clone(), points: Space::gauss(degree + 8) }) as Box<dyn Load>;
     let mut simulation = Simulation::with_load(problem, stepping, sources).unwrap();
     simulation.advance(END).unwrap();
     simulation

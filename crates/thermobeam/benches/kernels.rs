@@ -4,7 +4,6 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use thermobeam::energy::scale;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
@@ -111,10 +110,7 @@ fn energy(bencher: Bencher<'_, '_>, elements: usize) {
 #[divan::bench(args = SIZES)]
 fn energy_scale(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, _, level) = moved(elements);
-    let Problem { beam, obstacles, .. } = simulation.problem();
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| scale(beam, obstacles.as_ref(), simulation.lengths(), black_box(&level)));
+    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.energy_scale(black_box(&level)));
 }
 
 #[divan::bench(args = SIZES)]

@@ -19,12 +19,11 @@ use std::ops::AddAssign;
 mod rounding;
 pub(crate) mod sums;
 
-pub use rounding::{Rounding, scale};
+pub use rounding::Rounding;
 
 use crate::norms::{l2_squared, shear_squared, slope_squared};
-use crate::parameters::{Beam, Obstacles};
-use crate::scheme::Scheme;
-use crate::solve::Level;
+use crate::parameters::Obstacles;
+use crate::solve::{Case, Level};
 use sums::Sums;
 
 /// The terms of the discrete energy E^n, (3.9).
@@ -47,19 +46,6 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// The energy of `level`; `lengths` are the n element lengths.
-    pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> Self {
-        Self {
-            kinetic: 0.5 * (l2_squared(lengths, &level.v) + l2_squared(lengths, &level.w)),
-            shear: 0.5 * shear_squared(lengths, &level.u, &level.phi),
-            bending: 0.5 * slope_squared(lengths, &level.phi),
-            thermal: 0.5 * l2_squared(lengths, &level.theta),
-            kirchhoff: beam.kirchhoff_energy(slope_squared(lengths, &level.u)),
-            contact: obstacles.map_or(0.0, |obstacles| obstacles.potential(tip(level))),
-            lifting: -beam.a * beam.theta_a * mean(lengths, &level.phi),
-        }
-    }
-
     /// E^n, the sum of the terms.
     pub fn total(&self) -> f64 {
         self.kinetic + self.shear + self.bending + self.thermal + self.kirchhoff + self.contact + self.lifting
@@ -69,17 +55,6 @@ impl Energy {
 /// ∫ y of a P1 function.
 fn mean(lengths: &[f64], y: &[f64]) -> f64 {
     lengths.iter().zip(y.windows(2)).map(|(h, y)| 0.5 * h * (y[0] + y[1])).sum()
-}
-
-/// The tip over a step, for the contact terms of the balance.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Tip {
-    /// u0(1).
-    pub(crate) old: f64,
-    /// u(1).
-    pub(crate) new: f64,
-    /// The contact force of the step.
-    pub(crate) force: f64,
 }
 
 /// The balance of one step, of a one-step scheme or of [`dg`](crate::dg); `residual` is the sum of the other terms, and round-off
@@ -127,36 +102,15 @@ impl Balance {
         residual: f64::NAN,
     };
 
-    /// The balance of the step from `old` to `new`.
-    ///
-    /// * `scheme`, `dt`: the scheme and the time step.
-    /// * `lengths`: the n element lengths.
-    pub fn of(
-        beam: &Beam,
-        obstacles: Option<&Obstacles>,
-        scheme: &Scheme,
-        dt: f64,
-        lengths: &[f64],
-        old: &Level,
-        new: &Level,
-    ) -> Self {
-        let sums = Sums::over::<true>(lengths, 1.0 / scheme.inertia, old, new);
-        let tip = Tip { old: tip(old), new: tip(new), force: new.contact_force };
-        Self::from_sums(beam, obstacles, scheme, dt, &sums, tip)
-    }
-
     /// The balance from the sums over the elements.
-    pub(crate) fn from_sums(
-        beam: &Beam,
-        obstacles: Option<&Obstacles>,
-        scheme: &Scheme,
-        dt: f64,
-        sums: &Sums<f64>,
-        tip: Tip,
-    ) -> Self {
-        let stored = contact_change(obstacles, tip.old, tip.new);
-        let change = change(beam, sums, stored);
-        let gap = obstacles.map_or(0.0, |_| tip.force * (tip.new - tip.old) - stored);
+    ///
+    /// * `tip`: u0(1) and u(1).
+    /// * `force`: the contact force of the step.
+    pub(crate) fn from_sums(case: &Case, sums: &Sums<f64>, [u0, u]: [f64; 2], force: f64) -> Self {
+        let Case { beam, obstacles, scheme, dt, .. } = case;
+        let stored = contact_change(obstacles.as_ref(), u0, u);
+        let change = change(case, sums, stored);
+        let gap = obstacles.map_or(0.0, |_| force * (u - u0) - stored);
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
         // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule
@@ -165,16 +119,39 @@ impl Balance {
         let residual = change + viscous + thermal + inertial + gap;
         Self { change, viscous, thermal, inertial, contact: gap, load: 0.0, residual }
     }
+}
 
-    /// Only [`Balance::change`], at half the cost.
-    pub fn change_of(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], old: &Level, new: &Level) -> f64 {
+impl Case {
+    /// The energy (3.9) of a level.
+    pub fn energy(&self, level: &Level) -> Energy {
+        let Self { beam, obstacles, lengths, .. } = self;
+        Energy {
+            kinetic: 0.5 * (l2_squared(lengths, &level.v) + l2_squared(lengths, &level.w)),
+            shear: 0.5 * shear_squared(lengths, &level.u, &level.phi),
+            bending: 0.5 * slope_squared(lengths, &level.phi),
+            thermal: 0.5 * l2_squared(lengths, &level.theta),
+            kirchhoff: beam.kirchhoff_energy(slope_squared(lengths, &level.u)),
+            contact: obstacles.map_or(0.0, |obstacles| obstacles.potential(tip(level))),
+            lifting: -beam.a * beam.theta_a * mean(lengths, &level.phi),
+        }
+    }
+
+    /// The balance of the step from `old` to `new`, without loads.
+    pub fn balance(&self, old: &Level, new: &Level) -> Balance {
+        let sums = Sums::over::<true>(&self.lengths, 1.0 / self.scheme.inertia, old, new);
+        Balance::from_sums(self, &sums, [tip(old), tip(new)], new.contact_force)
+    }
+
+    /// The change of the energy from one level to another: only [`Balance::change`], at half the cost.
+    pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
+        let stored = contact_change(self.obstacles.as_ref(), tip(old), tip(new));
         // The weight only enters the dissipation, which is not computed here.
-        change(beam, &Sums::over::<false>(lengths, 0.5, old, new), contact_change(obstacles, tip(old), tip(new)))
+        change(self, &Sums::over::<false>(&self.lengths, 0.5, old, new), stored)
     }
 }
 
 /// E^n - E^{n-1}; `stored` is the change of the contact energy.
-fn change(beam: &Beam, sums: &Sums<f64>, stored: f64) -> f64 {
+fn change(Case { beam, .. }: &Case, sums: &Sums<f64>, stored: f64) -> f64 {
     sums.quadratic + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0]) + stored
         - beam.a * beam.theta_a * sums.rotation_change
 }

@@ -4,14 +4,14 @@
 //! results of a case are bitwise those of a single run. A case that fails keeps its last level and does not affect the
 //! others.
 
-use crate::energy::{self, Balance, Energy, Rounding};
+use crate::energy::Balance;
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
 use crate::scheme::Scheme;
 use crate::simulation::{Problem, Stepping, is_heated, prepare};
 use crate::solve::newton::newton;
-use crate::solve::stepper::{Batch, Case};
-use crate::solve::{Level, Settings, StepReport, Work};
+use crate::solve::stepper::Batch;
+use crate::solve::{Case, Level, Settings, StepReport, Work};
 
 /// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the registers of AVX2.
 const WIDTH: usize = 4;
@@ -22,9 +22,7 @@ const WIDTH: usize = 4;
 /// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group costs as much as a full
 /// one.
 pub struct Ensemble {
-    problems: Vec<Problem>,
-    lengths: Vec<Vec<f64>>,
-    dt: Vec<f64>,
+    cases: Vec<Case>,
     groups: Vec<Group>,
     step: usize,
     /// The step in which a case failed, if any.
@@ -62,20 +60,19 @@ impl Ensemble {
             if level.u.len() != nodes {
                 return Err(SetupError::Length { field: "nodes", found: level.u.len(), expected: nodes });
             }
-            let lengths = problem.mesh.lengths().collect();
-            starts.push((Case { beam: problem.beam, obstacles: problem.obstacles, dt, lengths }, level));
+            starts.push((problem.case(scheme, dt), level));
         }
-        let lengths = starts.iter().map(|(case, _)| case.lengths.clone()).collect();
         let heated: Vec<bool> = starts.iter().map(|(case, level)| is_heated(&case.beam, level)).collect();
-        let group = |(starts, heated): (&[_], &[bool])| Group::new(starts, heated.contains(&true), scheme, settings);
+        let group = |(starts, heated): (&[_], &[bool])| Group::new(starts, heated.contains(&true), settings);
         let groups = starts.chunks(WIDTH).zip(heated.chunks(WIDTH)).map(group).collect();
-        let failed = vec![None; problems.len()];
-        Ok(Self { problems, lengths, dt: dt.to_vec(), groups, step: 0, failed, heated })
+        let failed = vec![None; starts.len()];
+        let cases = starts.into_iter().map(|(case, _)| case).collect();
+        Ok(Self { cases, groups, step: 0, failed, heated })
     }
 
-    /// Number of cases.
-    pub fn cases(&self) -> usize {
-        self.problems.len()
+    /// The cases, which compute energies, and scales for them.
+    pub fn cases(&self) -> &[Case] {
+        &self.cases
     }
 
     /// Number of steps done.
@@ -103,19 +100,14 @@ impl Ensemble {
     pub fn report(&self, k: usize) -> Result<StepReport, StepError> {
         self.groups[k / WIDTH].outcomes[k % WIDTH].clone().map_err(|failure| {
             let step = self.failed[k].unwrap_or(self.step);
-            StepError { step, t: (step - 1) as f64 * self.dt[k], dt: self.dt[k], failure }
+            let dt = self.cases[k].dt;
+            StepError { step, t: (step - 1) as f64 * dt, dt, failure }
         })
     }
 
     /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
     pub fn observe(&self, k: usize, level: &mut Level) {
         self.groups[k / WIDTH].stepper.read(k % WIDTH, level);
-    }
-
-    /// The energy (3.9) of a level of case k.
-    pub fn energy(&self, k: usize, level: &Level) -> Energy {
-        let problem = &self.problems[k];
-        Energy::of(&problem.beam, problem.obstacles.as_ref(), &self.lengths[k], level)
     }
 
     /// The energy [`Balance`] of the last step of every case; NaN for failed cases and before the first step.
@@ -125,7 +117,7 @@ impl Ensemble {
     /// * `balances`: overwritten and resized.
     pub fn balances(&self, balances: &mut Vec<Balance>) {
         balances.clear();
-        balances.resize(self.cases(), Balance::NAN);
+        balances.resize(self.cases.len(), Balance::NAN);
         let groups = self.groups.iter().zip(balances.chunks_mut(WIDTH));
         groups.for_each(|(group, balances)| group.stepper.balances(balances));
     }
@@ -140,21 +132,10 @@ impl Ensemble {
         self.groups[k / WIDTH].stepper.contact_force(k % WIDTH)
     }
 
-    /// The scale of the energy of a level of case k, from absolute values.
-    pub fn energy_scale(&self, k: usize, level: &Level) -> f64 {
-        let problem = &self.problems[k];
-        energy::scale(&problem.beam, problem.obstacles.as_ref(), &self.lengths[k], level)
-    }
-
-    /// Bounds on the rounding errors in the balance of a step of case k.
-    pub fn rounding(&self, k: usize, old: &Level, new: &Level) -> Rounding {
-        let problem = &self.problems[k];
-        Rounding::of(&problem.beam, problem.obstacles.as_ref(), self.dt[k], &self.lengths[k], old, new)
-    }
-
     /// Counts of the work done so far for all cases; a pass of a group counts once.
     pub fn work(&self) -> Work {
-        self.groups.iter().map(|group| group.stepper.work()).fold(Work::default(), Work::plus)
+        let sum = |count: fn(Work) -> usize| self.groups.iter().map(|group| count(group.stepper.work())).sum();
+        Work { passes: sum(|work| work.passes), factorizations: sum(|work| work.factorizations), ..Work::default() }
     }
 
     /// Counts of the work for case k so far, the same as in a single run.
@@ -170,11 +151,11 @@ impl Ensemble {
 
 impl Group {
     /// A group for up to [`WIDTH`] cases; unused lanes repeat the last case.
-    fn new(starts: &[(Case, Level)], heated: bool, scheme: Scheme, settings: Settings) -> Self {
+    fn new(starts: &[(Case, Level)], heated: bool, settings: Settings) -> Self {
         let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
         let cases: Vec<Case> = lanes().map(|(case, _)| case.clone()).collect();
         let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
-        let stepper = newton(cases, scheme, settings, &levels, heated);
+        let stepper = newton(cases, settings, &levels, heated);
         let outcomes = vec![Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN }); WIDTH];
         Self { stepper, outcomes }
     }

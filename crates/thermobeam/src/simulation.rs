@@ -1,14 +1,14 @@
 //! Problems, and simulations that do one time step at a time; the caller loops over the steps.
 
-use crate::energy::{self, Balance, Energy, Rounding};
+use crate::energy::{Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles};
 use crate::scheme::Scheme;
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
-use crate::solve::stepper::{Case, Stepper};
-use crate::solve::{Level, Settings, Solver, StepReport, Work};
+use crate::solve::stepper::Stepper;
+use crate::solve::{Case, Level, Settings, Solver, StepReport, Work};
 
 /// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is
 /// 1e-16, 20 cos(5πx/2) there is 6e-15.
@@ -53,6 +53,12 @@ pub struct Problem {
     pub initial: Initial,
 }
 
+impl Problem {
+    pub(crate) fn case(&self, scheme: Scheme, dt: f64) -> Case {
+        Case { beam: self.beam, obstacles: self.obstacles, scheme, dt, lengths: self.mesh.lengths().collect() }
+    }
+}
+
 /// Time scheme, solver and time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
@@ -75,8 +81,8 @@ pub const BYTES_PER_ELEMENT: usize = 392;
 /// It takes [`BYTES_PER_ELEMENT`] with Newton's method, 256 without temperature, and 248 with the fixed point.
 pub struct Simulation {
     problem: Problem,
-    lengths: Vec<f64>,
-    stepping: Stepping,
+    case: Case,
+    loaded: bool,
     heated: bool,
     stepper: Box<dyn Stepper<f64>>,
     step: usize,
@@ -92,12 +98,11 @@ impl Simulation {
     /// boundary condition of (1.3); a dt, a tolerance or an iteration limit that is not positive.
     pub fn new(mut problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let level = prepare(&mut problem, &stepping)?;
-        let lengths: Vec<f64> = problem.mesh.lengths().collect();
-        let case = Case { beam: problem.beam, obstacles: problem.obstacles, dt: stepping.dt, lengths: lengths.clone() };
+        let case = problem.case(stepping.scheme, stepping.dt);
         let heated =
             stepping.loaded || stepping.settings.solver == Solver::FixedPoint || is_heated(&problem.beam, &level);
-        let stepper = choose(case, &stepping, &level, heated)?;
-        Ok(Self { problem, lengths, stepping, heated, stepper, step: 0, loads: 0, observations: 0 })
+        let stepper = choose(case.clone(), stepping.settings, &level, heated)?;
+        Ok(Self { problem, case, loaded: stepping.loaded, heated, stepper, step: 0, loads: 0, observations: 0 })
     }
 
     /// Number n of the current time level.
@@ -107,19 +112,19 @@ impl Simulation {
 
     /// The time t_n = n δt.
     pub fn t(&self) -> f64 {
-        self.step as f64 * self.stepping.dt
+        self.step as f64 * self.case.dt
     }
 
     /// The time step δt.
     pub fn dt(&self) -> f64 {
-        self.stepping.dt
+        self.case.dt
     }
 
     /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes, to be set before [`Self::advance`].
     ///
     /// `None` unless [`Stepping::loaded`]. Entries at nodes with a prescribed value are not used.
     pub fn load_mut(&mut self) -> Option<&mut [[f64; 3]]> {
-        if !self.stepping.loaded {
+        if !self.loaded {
             return None;
         }
         self.loads += 1;
@@ -134,7 +139,7 @@ impl Simulation {
         let mut outcome = [Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN })];
         self.stepper.advance(&mut outcome);
         let [outcome] = outcome;
-        let (step, dt) = (self.step + 1, self.stepping.dt);
+        let (step, dt) = (self.step + 1, self.case.dt);
         let report = outcome.map_err(|failure| StepError { step, t: self.t(), dt, failure })?;
         self.step = step;
         Ok(report)
@@ -148,36 +153,34 @@ impl Simulation {
 
     /// A copy of the current level.
     pub fn level(&mut self) -> Level {
-        let mut level = Level::new(self.lengths.len() + 1);
+        let mut level = Level::new(self.case.lengths.len() + 1);
         self.observe(&mut level);
         level
     }
 
     /// The energy (3.9) of a level of this simulation.
     pub fn energy(&self, level: &Level) -> Energy {
-        Energy::of(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)
+        self.case.energy(level)
     }
 
     /// The energy balance of the step between two consecutive levels of this simulation, without loads.
     pub fn balance(&self, old: &Level, new: &Level) -> Balance {
-        let obstacles = self.problem.obstacles.as_ref();
-        Balance::of(&self.problem.beam, obstacles, &self.stepping.scheme, self.stepping.dt, &self.lengths, old, new)
+        self.case.balance(old, new)
     }
 
     /// The change of the energy from one level to another: only [`Balance::change`], at half the cost.
     pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
-        Balance::change_of(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, old, new)
+        self.case.energy_change(old, new)
     }
 
     /// The scale of a level's energy, from absolute values, to which a residual of the balance is compared.
     pub fn energy_scale(&self, level: &Level) -> f64 {
-        energy::scale(&self.problem.beam, self.problem.obstacles.as_ref(), &self.lengths, level)
+        self.case.energy_scale(level)
     }
 
     /// Bounds on the rounding errors in the balance between two consecutive levels.
     pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
-        let Problem { beam, obstacles, .. } = &self.problem;
-        Rounding::of(beam, obstacles.as_ref(), self.stepping.dt, &self.lengths, old, new)
+        self.case.rounding(old, new)
     }
 
     /// The problem. Its initial data satisfy the boundary conditions exactly.
@@ -187,7 +190,7 @@ impl Simulation {
 
     /// Length of each element.
     pub fn lengths(&self) -> &[f64] {
-        &self.lengths
+        &self.case.lengths
     }
 
     /// Counts of the work done so far.
@@ -213,12 +216,12 @@ pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
 }
 
 /// The solver of the steps.
-fn choose(case: Case, stepping: &Stepping, level: &Level, heated: bool) -> Result<Box<dyn Stepper<f64>>, SetupError> {
-    let Stepping { scheme, settings, dt, .. } = *stepping;
+fn choose(case: Case, settings: Settings, level: &Level, heated: bool) -> Result<Box<dyn Stepper<f64>>, SetupError> {
+    let dt = case.dt;
     Ok(match settings.solver {
-        Solver::Newton => newton(vec![case], scheme, settings, &[level], heated),
+        Solver::Newton => newton(vec![case], settings, &[level], heated),
         Solver::FixedPoint => {
-            let solver = FixedPoint::new(case, scheme, settings, level);
+            let solver = FixedPoint::new(case, settings, level);
             Box::new(solver.map_err(|_| SetupError::TimeStep { found: dt })?)
         }
     })

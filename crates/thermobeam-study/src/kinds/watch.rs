@@ -150,7 +150,7 @@ pub(super) fn watched(
     let start = |k: usize| {
         let mut level = new.clone();
         driver.ensemble().observe(k, &mut level);
-        (EnergyWatch::new(driver.ensemble().energy_scale(k, &level)), level)
+        (EnergyWatch::new(driver.ensemble().cases()[k].energy_scale(&level)), level)
     };
     let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
     for _ in 0..steps {
@@ -159,7 +159,8 @@ pub(super) fn watched(
             let Ok(report) = ensemble.report(k) else { continue };
             ensemble.observe(k, &mut new);
             see(k, report.iterations, &new);
-            watch.step(balance, ensemble.energy_scale(k, &new), || ensemble.rounding(k, old, &new));
+            let case = &ensemble.cases()[k];
+            watch.step(balance, case.energy_scale(&new), || case.rounding(old, &new));
             std::mem::swap(old, &mut new);
         }
     }

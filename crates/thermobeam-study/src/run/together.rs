@@ -106,7 +106,7 @@ impl<'s> LaneRun<'s> {
 
 fn sample(k: usize, scene: &Scene, ensemble: &Ensemble, level: &mut Level, step: usize) -> Sample {
     ensemble.observe(k, level);
-    let (t, energy) = (step as f64 * scene.dt(), ensemble.energy(k, level).total());
+    let (t, energy) = (step as f64 * scene.dt(), ensemble.cases()[k].energy(level).total());
     Sample::of(level, t, &scene.mesh, scene.beam.theta_a, energy)
 }
 
@@ -165,7 +165,7 @@ impl EnsembleDriver {
     /// # Errors
     /// As [`EnsembleDriver::advance`].
     pub(crate) fn stepped(&mut self) -> Result<Option<(&Ensemble, &[Balance])>, TimeUp> {
-        if self.ensemble.step() > 0 && (0..self.ensemble.cases()).all(|k| self.ensemble.report(k).is_err()) {
+        if self.ensemble.step() > 0 && (0..self.ensemble.cases().len()).all(|k| self.ensemble.report(k).is_err()) {
             return Ok(None);
         }
         self.advance()?;

@@ -26,8 +26,8 @@
 
 use crate::energy::Energy;
 use crate::norms::slope_squared;
-use crate::parameters::{Beam, Obstacles};
-use crate::solve::Level;
+use crate::parameters::Obstacles;
+use crate::solve::{Case, Level};
 
 /// The constant c of the module documentation: some ten terms per equation, each of a few operations, and the same
 /// number in the balance; the elimination multiplies by inverted blocks, which doubles the count.
@@ -49,10 +49,13 @@ impl Rounding {
     pub fn total(&self) -> f64 {
         self.residual + self.contact
     }
+}
 
-    /// The bounds for the step from `old` to `new` of length `dt`, without loads and solved to a tolerance at
+impl Case {
+    /// Bounds on the rounding errors in the balance of the step from `old` to `new`, without loads and solved to a tolerance at
     /// round-off.
-    pub fn of(beam: &Beam, obstacles: Option<&Obstacles>, dt: f64, lengths: &[f64], old: &Level, new: &Level) -> Self {
+    pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
+        let Self { beam, obstacles, dt, ref lengths, .. } = *self;
         let stretch = slope_squared(lengths, &old.u).max(slope_squared(lengths, &new.u));
         let stiffness = 1.0 + beam.beta.abs() + beam.rho * stretch;
         let mut sum = 0.0;
@@ -69,8 +72,19 @@ impl Rounding {
             sum += h * (speed * speed + theta * theta);
         }
         let unit = 0.5 * f64::EPSILON;
-        let contact = obstacles.map_or(0.0, |obstacles| contact(obstacles, dt, unit, old, new));
-        Self { residual: TERMS * unit * sum, contact }
+        let contact = obstacles.map_or(0.0, |obstacles| contact(&obstacles, dt, unit, old, new));
+        Rounding { residual: TERMS * unit * sum, contact }
+    }
+
+    /// The scale of a level's energy, to which a residual of the balance is compared: the sum of the absolute values of its terms,
+    /// the Kirchhoff term without its constant.
+    ///
+    /// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
+    pub fn energy_scale(&self, level: &Level) -> f64 {
+        let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = self.energy(level);
+        let stretch = slope_squared(&self.lengths, &level.u);
+        let kirchhoff = 0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
+        kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
     }
 }
 
@@ -84,27 +98,23 @@ fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) 
     2.0 * (force * delta + delta * delta / obstacles.epsilon)
 }
 
-/// The scale of a level's energy: the sum of the absolute values of its terms, the Kirchhoff term without its constant.
-///
-/// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
-pub fn scale(beam: &Beam, obstacles: Option<&Obstacles>, lengths: &[f64], level: &Level) -> f64 {
-    let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = Energy::of(beam, obstacles, lengths, level);
-    let stretch = slope_squared(lengths, &level.u);
-    let kirchhoff = 0.5 * beam.beta.abs() * stretch + 0.25 * beam.rho * stretch * stretch;
-    kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::Beam;
+    use crate::scheme::EULER_CRANK_NICOLSON;
+
+    fn case(beam: Beam, obstacles: Option<Obstacles>, dt: f64, lengths: &[f64]) -> Case {
+        Case { beam, obstacles, scheme: EULER_CRANK_NICOLSON, dt, lengths: lengths.to_vec() }
+    }
 
     #[test]
     fn the_energy_scale_is_the_sum_of_absolute_terms() {
-        let lengths = [0.25, 0.75];
         let line = vec![0.0, 0.25, 1.0];
         let beam = Beam { beta: -3.0, rho: 2.0, a: 0.5, theta_a: 4.0, ..Beam::default() };
         let obstacles = Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 };
-        let of = |level: &Level| scale(&beam, Some(&obstacles), &lengths, level);
+        let case = case(beam, Some(obstacles), 1.0, &[0.25, 0.75]);
+        let of = |level: &Level| case.energy_scale(level);
         // u = x: ½ ‖u_x‖² and, of the Kirchhoff term, |β|/2 + ρ/4; the obstacle is entered by 1/2.
         let moved = Level { u: line.clone(), ..Level::new(3) };
         assert!((of(&moved) - (0.5 + 1.5 + 0.5 + 0.25)).abs() < 1e-15);
@@ -122,7 +132,7 @@ mod tests {
         let still = Level::new(2);
         let terms = |level: &Level| {
             let [there, back] = [(&still, level), (level, &still)];
-            let of = |(old, new)| Rounding::of(&beam, None, dt, &[h], old, new).residual / (32.0 * f64::EPSILON);
+            let of = |(old, new)| case(beam, None, dt, &[h]).rounding(old, new).residual / (32.0 * f64::EPSILON);
             assert_eq!(of(there), of(back));
             of(there)
         };
@@ -142,26 +152,26 @@ mod tests {
 
         // The displacement of a node matters at either end of an element: 1 here, for values of 3.
         let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level { phi: vec![0.0, a, b], ..Level::new(3) });
-        let both = Rounding::of(&beam, None, dt, &[h, h], &old, &new).residual / (32.0 * f64::EPSILON);
+        let both = case(beam, None, dt, &[h, h]).rounding(&old, &new).residual / (32.0 * f64::EPSILON);
         near(both, 2.0 * 4.0 * 3.0 / h);
 
-        let obstacles = Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 };
+        let between = case(beam, Some(Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 }), dt, &[h]);
         let touching = Level { v: end(5.0), ..moved };
         let delta = 8.0 * f64::EPSILON * (2.0 + dt * 5.0);
         let expected = 2.0 * (3.0 * delta + delta * delta / 0.5);
         for (old, new) in [(&still, &touching), (&touching, &still)] {
-            let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], old, new);
+            let rounding = between.rounding(old, new);
             assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
             assert_eq!(rounding.total(), rounding.residual + rounding.contact);
         }
         // A tip exactly at the obstacle has no force, but its rounding error has an energy that the obstacle stores.
         let level = Level { u: end(0.5), ..still.clone() };
         let delta_at = 8.0 * f64::EPSILON * 0.5;
-        let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &level, &level);
+        let rounding = between.rounding(&level, &level);
         assert!((rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14, "{rounding:?}");
         // The force of the step matters if it is larger than those of the law: 7 against 3.
         let pressed = Level { contact_force: -7.0, ..touching };
-        let rounding = Rounding::of(&beam, Some(&obstacles), dt, &[h], &still, &pressed);
+        let rounding = between.rounding(&still, &pressed);
         assert!((rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14);
     }
 }

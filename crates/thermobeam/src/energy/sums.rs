@@ -82,42 +82,27 @@ impl<T: Lane> Sums<T> {
     }
 
     fn zero() -> Self {
-        let zero = T::splat(0.0);
-        Self {
-            quadratic: zero,
-            slope_squared: [zero; 2],
-            rotation_change: zero,
-            viscous: zero,
-            heat_flow: zero,
-            jump: zero,
-        }
+        Self::map(|_| T::splat(0.0))
     }
 
     fn added_up([one, two, three, four]: &[Self; WIDTH]) -> Self {
-        one.plus(two).plus(three).plus(four)
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        let [old, new] = self.slope_squared;
-        Self {
-            quadratic: self.quadratic + other.quadratic,
-            slope_squared: [old + other.slope_squared[0], new + other.slope_squared[1]],
-            rotation_change: self.rotation_change + other.rotation_change,
-            viscous: self.viscous + other.viscous,
-            heat_flow: self.heat_flow + other.heat_flow,
-            jump: self.jump + other.jump,
-        }
+        Self::map(|of| of(one) + of(two) + of(three) + of(four))
     }
 
     /// The sums of case k.
     pub(crate) fn of_lane(&self, k: usize) -> Sums<f64> {
+        Self::map(|of| of(self).lane(k))
+    }
+
+    /// Each sum from the function that reads it.
+    fn map<U>(each: impl Fn(fn(&Self) -> T) -> U) -> Sums<U> {
         Sums {
-            quadratic: self.quadratic.lane(k),
-            slope_squared: self.slope_squared.map(|value| value.lane(k)),
-            rotation_change: self.rotation_change.lane(k),
-            viscous: self.viscous.lane(k),
-            heat_flow: self.heat_flow.lane(k),
-            jump: self.jump.lane(k),
+            quadratic: each(|sums| sums.quadratic),
+            slope_squared: [each(|sums| sums.slope_squared[0]), each(|sums| sums.slope_squared[1])],
+            rotation_change: each(|sums| sums.rotation_change),
+            viscous: each(|sums| sums.viscous),
+            heat_flow: each(|sums| sums.heat_flow),
+            jump: each(|sums| sums.jump),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Quantities of the last step of each case of a batch, computed from the stepper's own arrays without copying a level.
 
+use crate::energy::Balance;
 use crate::energy::sums::{Element, Fields, Sums};
-use crate::energy::{Balance, Tip};
 use crate::lanes::Lane;
 use crate::solve::Work;
 use crate::solve::control::Progress;
@@ -11,16 +11,13 @@ use crate::solve::stepper::Batch;
 impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
     fn balances(&self, balances: &mut [Balance]) {
         let sums = self.sums();
-        let scheme = self.scheme;
         let tip = self.old.len() - 1;
         for (k, balance) in
             balances.iter_mut().enumerate().filter(|(k, _)| self.controls[*k].state == Progress::Accepted)
         {
-            let (case, control) = (&self.cases[k], &self.controls[k]);
             // After the step `old` holds its new level and `new` the previous one.
-            let tip = Tip { old: self.new[tip][0].lane(k), new: self.old[tip][0].lane(k), force: control.force };
-            let obstacles = case.obstacles.as_ref();
-            *balance = Balance::from_sums(&case.beam, obstacles, &scheme, case.dt, &sums.of_lane(k), tip);
+            let tip = [&self.new, &self.old].map(|level| level[tip][0].lane(k));
+            *balance = Balance::from_sums(&self.cases[k], &sums.of_lane(k), tip, self.controls[k].force);
         }
     }
 
@@ -49,7 +46,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         // Slices of equal length, so the compiler removes the bounds checks in the loop.
         let (elements, old, new) = (&self.elements[..count], &self.new[..count], &self.old[..count]);
         let (before, velocity) = (&before[..count], &velocity[..count]);
-        Sums::over_cases(count - 1, 1.0 / self.scheme.inertia, |i| Element {
+        Sums::over_cases(count - 1, 1.0 / self.cases[0].scheme.inertia, |i| Element {
             length: T::from_fn(|k| self.cases[k].lengths[i]),
             inverse: elements[i + 1].inverse,
             old: [fields(&old[i], &before[i]), fields(&old[i + 1], &before[i + 1])],

@@ -80,16 +80,15 @@ mod tests {
     use super::*;
     use crate::parameters::Beam;
     use crate::scheme::EULER_CRANK_NICOLSON;
-    use crate::solve::stepper::Case;
-    use crate::solve::{Level, Settings};
+    use crate::solve::{Case, Level, Settings};
 
     const DT: f64 = 0.5;
 
     /// One element, β and ρ as given, ζ = 1.
     fn stepper(beta: f64, rho: f64) -> Newton<f64, 2> {
         let beam = Beam { beta, rho, zeta: 1.0, ..Beam::default() };
-        let case = Case { beam, obstacles: None, dt: DT, lengths: vec![1.0] };
-        Newton::new(vec![case], EULER_CRANK_NICOLSON, Settings::default(), &[&Level::new(2)])
+        let case = Case { beam, obstacles: None, scheme: EULER_CRANK_NICOLSON, dt: DT, lengths: vec![1.0] };
+        Newton::new(vec![case], Settings::default(), &[&Level::new(2)])
     }
 
     /// Sets the state after a pass with m and a factorisation for m̄: ‖u_x‖ is 1/2, and 1 at the old level.

@@ -1,9 +1,34 @@
-//! The state of one case in the Newton iteration: scalars of the current step, and those kept from step to step.
+//! The coefficients of a step, and the state of one case in the Newton iteration: scalars of the current step, and those
+//! kept from step to step.
 
 use crate::contact::Tip;
 use crate::norms::slope_squared;
-use crate::solve::stepper::Case;
-use crate::solve::{Level, Work};
+use crate::solve::{Case, Level, Work};
+
+/// The coefficients of a step that do not depend on the node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scalars<T> {
+    pub(super) dt: T,
+    pub(super) half_dt: T,
+    pub(super) zeta: T,
+    /// s = ζ + dt/2, the factor of W in `φ½ + ζ W = φ0 + s W`.
+    pub(super) stiff: T,
+    /// κ, the factor of `M (V - v0)`.
+    pub(super) inertia: T,
+    pub(super) two_over_dt: T,
+    pub(super) half_a: T,
+    /// `a θ_A`. The lifting contributes `a θ_A (1 - x, N_i') = a θ_A (1, N_i)`: a constant under the mass matrix.
+    pub(super) lift: T,
+}
+
+/// An element.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Element<T> {
+    /// 1/h.
+    pub(super) inverse: T,
+    /// h/6, the unit of the consistent mass matrix.
+    pub(super) sixth: T,
+}
 
 /// The state of one case.
 #[derive(Debug, Clone, Copy)]

@@ -13,12 +13,10 @@
 
 use crate::contraction::{Loop, contraction};
 use crate::error::StepFailure;
-use crate::norms::TheoremSquares;
-use crate::norms::slope_squared;
-use crate::scheme::{ContactRule, Scheme};
-use crate::solve::stepper::Case;
+use crate::norms::{TheoremSquares, slope_squared};
+use crate::scheme::ContactRule;
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, StepReport, Work};
+use crate::solve::{Case, Level, Settings, StepReport, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for example between both
@@ -28,7 +26,6 @@ const STALLED: f64 = 1.0 - 1e-6;
 /// The fixed-point iteration for one case.
 pub(crate) struct FixedPoint {
     case: Case,
-    scheme: Scheme,
     settings: Settings,
     old: Level,
     /// V, W, Θ of the current and of the previous iterate.
@@ -60,16 +57,15 @@ impl FixedPoint {
     /// # Errors
     /// [`StepFailure::Indefinite`] if a matrix is not positive definite in floating-point arithmetic: dt is too small or too
     /// large.
-    pub(crate) fn new(case: Case, scheme: Scheme, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
+    pub(crate) fn new(case: Case, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
         let n = case.lengths.len();
-        let (kappa, s) = (scheme.inertia / case.dt, case.beam.zeta + 0.5 * case.dt);
+        let (kappa, s) = (case.scheme.inertia / case.dt, case.beam.zeta + 0.5 * case.dt);
         let mut factor_phi = TridiagonalFactor::new(n);
         factor_phi.factorize(&case.lengths, kappa + s, s, 0.0)?;
         let mut factor_theta = TridiagonalFactor::new(n - 1);
         factor_theta.factorize(&case.lengths, 2.0 / case.dt, 1.0, 0.0)?;
         let iterate = Iterate { v: level.v.clone(), w: level.w.clone(), theta: level.theta.clone() };
         Ok(Self {
-            scheme,
             settings,
             old: level.clone(),
             now: iterate.clone(),
@@ -116,10 +112,10 @@ impl FixedPoint {
 
     /// The loop with the largest factor at the initial level of the step, in contact if the last iterate is.
     fn largest_loop(&self) -> Loop {
-        let Case { beam, dt, lengths, obstacles } = &self.case;
+        let Case { beam, dt, lengths, obstacles, scheme } = &self.case;
         let tip = self.u_before[lengths.len()];
         let touched = obstacles.as_ref().filter(|obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0);
-        contraction(beam, touched, lengths, &self.scheme, *dt, &self.old.u).1
+        contraction(beam, touched, lengths, scheme, *dt, &self.old.u).1
     }
 
     /// Sets the initial iterate to the previous level, (4.1).
@@ -158,8 +154,8 @@ impl FixedPoint {
 
     /// Second equation of (4.2), for W.
     fn solve_phi(&mut self) {
-        let Case { beam, dt, lengths, .. } = &self.case;
-        let kappa = self.scheme.inertia / dt;
+        let Case { beam, scheme, dt, lengths, .. } = &self.case;
+        let kappa = scheme.inertia / dt;
         let w = &mut self.now.w;
         w.fill(0.0);
         for (i, &h) in lengths.iter().enumerate() {
@@ -180,8 +176,8 @@ impl FixedPoint {
 
     /// First equation of (4.2), for V, with N(u) and g(u) of the previous iterate.
     fn solve_u(&mut self) -> Result<(), StepFailure> {
-        let Case { beam, dt, lengths, obstacles } = &self.case;
-        let (n, kappa, s) = (lengths.len(), self.scheme.inertia / dt, beam.zeta + 0.5 * dt);
+        let Case { beam, dt, lengths, obstacles, scheme } = &self.case;
+        let (n, kappa, s) = (lengths.len(), scheme.inertia / dt, beam.zeta + 0.5 * dt);
         let force = |u: &[f64]| beam.axial_force(slope_squared(lengths, u));
         let m = 0.5 * (force(&self.u_before) + force(&self.old.u));
         self.work.factorizations += 1;
@@ -198,7 +194,7 @@ impl FixedPoint {
         }
         add_load(v, &self.load, 0);
         if let Some(obstacles) = obstacles {
-            self.force = match self.scheme.contact {
+            self.force = match scheme.contact {
                 ContactRule::Implicit => obstacles.force(self.u_before[n]),
                 ContactRule::DiscreteGradient => obstacles.discrete_gradient(self.u_before[n], self.old.u[n]),
             };
@@ -211,7 +207,7 @@ impl FixedPoint {
 
     /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14); u and φ by (4.3).
     fn increment(&mut self) -> f64 {
-        let (dt, inertia) = (self.case.dt, self.scheme.inertia);
+        let (dt, inertia) = (self.case.dt, self.case.scheme.inertia);
         let [v, u, w, phi, theta] = &mut self.difference;
         for i in 0..self.old.u.len() {
             let dw = self.now.w[i] - self.before.w[i];
@@ -242,7 +238,7 @@ impl FixedPoint {
     fn commit(&mut self) {
         let dt = self.case.dt;
         // The new velocity is V itself, or 2 V - v0 for the midpoint rule.
-        let weight = self.scheme.inertia;
+        let weight = self.case.scheme.inertia;
         for i in 0..self.old.u.len() {
             self.old.u[i] += dt * self.now.v[i];
             self.old.phi[i] += dt * self.now.w[i];

@@ -7,7 +7,10 @@ pub(crate) mod fixed_point;
 pub(crate) mod newton;
 mod root;
 pub(crate) mod stepper;
-pub(crate) mod sweeps;
+mod sweeps;
+
+use crate::parameters::{Beam, Obstacles};
+use crate::scheme::Scheme;
 
 /// The method that solves the nonlinear system of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -85,16 +88,19 @@ pub struct Work {
     pub observations: usize,
 }
 
-impl Work {
-    /// The sum of two counts.
-    pub(crate) fn plus(self, other: Self) -> Self {
-        Self {
-            passes: self.passes + other.passes,
-            factorizations: self.factorizations + other.factorizations,
-            loads: self.loads + other.loads,
-            observations: self.observations + other.observations,
-        }
-    }
+/// A beam in elements with its obstacles, stepped by a scheme.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Coefficients of (1.1).
+    pub beam: Beam,
+    /// The obstacles of (1.3), if any.
+    pub obstacles: Option<Obstacles>,
+    /// The time scheme.
+    pub scheme: Scheme,
+    /// Time step δt.
+    pub dt: f64,
+    /// Length of each element.
+    pub lengths: Vec<f64>,
 }
 
 /// The discrete solution at one time level: n + 1 nodal values of each field.
@@ -142,13 +148,6 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn work_is_added_count_by_count() {
-        let one = Work { passes: 1, factorizations: 2, loads: 3, observations: 4 };
-        let other = Work { passes: 50, factorizations: 60, loads: 70, observations: 80 };
-        assert_eq!(one.plus(other), Work { passes: 51, factorizations: 62, loads: 73, observations: 84 });
-    }
 
     #[test]
     fn solver_names_are_those_of_the_scene_files() {

@@ -20,11 +20,9 @@
 use crate::block_tridiagonal::Factor;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
-use crate::scheme::Scheme;
-use crate::solve::control::{Control, Progress};
-use crate::solve::stepper::{Batch, Case, Stepper};
-use crate::solve::sweeps::{Backward, Element, Forward, Scalars, Sums};
-use crate::solve::{Level, Settings, Start, StepReport, Work};
+use crate::solve::control::{Control, Element, Progress, Scalars};
+use crate::solve::stepper::{Batch, Stepper};
+use crate::solve::{Case, Level, Settings, Start, StepReport, Work};
 
 /// Passes with the kept factorisation before the safeguarded iteration takes over.
 const KEPT_PASSES: usize = 6;
@@ -35,28 +33,26 @@ const CONTRACTION: f64 = 0.25;
 
 /// Newton's method for one case per lane, with or without the temperature.
 ///
-/// * `cases`, `levels`: one per lane; all levels have the same number of nodes.
+/// * `cases`, `levels`: one per lane, with the same scheme; all levels have the same number of nodes.
 /// * `heated`: whether the temperature is an unknown. Without it the temperature must be zero.
 pub(crate) fn newton<T: Lane + 'static>(
     cases: Vec<Case>,
-    scheme: Scheme,
     settings: Settings,
     levels: &[&Level],
     heated: bool,
 ) -> Box<dyn Batch<T>> {
     if heated {
-        Box::new(Newton::<T, 3>::new(cases, scheme, settings, levels))
+        Box::new(Newton::<T, 3>::new(cases, settings, levels))
     } else {
-        Box::new(Newton::<T, 2>::new(cases, scheme, settings, levels))
+        Box::new(Newton::<T, 2>::new(cases, settings, levels))
     }
 }
 
 /// Newton's method for one case (`T = f64`) or several in lanes; B = 2 without, B = 3 with the temperature.
 pub(crate) struct Newton<T, const B: usize> {
     pub(super) cases: Vec<Case>,
-    pub(super) scheme: Scheme,
     pub(super) settings: Settings,
-    scalars: Scalars<T>,
+    pub(super) scalars: Scalars<T>,
     pub(super) elements: Vec<Element<T>>,
     pub(super) factor: Factor<T, B>,
     /// (u, φ, θ~) at the old level.
@@ -72,7 +68,7 @@ pub(crate) struct Newton<T, const B: usize> {
     /// The right-hand side after the forward sweep.
     pub(super) middle: Vec<[T; B]>,
     /// The loads, or empty.
-    load: Vec<[T; 3]>,
+    pub(super) load: Vec<[T; 3]>,
     pub(super) controls: Vec<Control>,
     /// The last level of the cases that have failed.
     pub(super) failed_levels: Vec<Option<Level>>,
@@ -81,14 +77,14 @@ pub(crate) struct Newton<T, const B: usize> {
 }
 
 /// The coefficients of the cases in lanes.
-fn scalars<T: Lane>(cases: &[Case], scheme: &Scheme) -> Scalars<T> {
+fn scalars<T: Lane>(cases: &[Case]) -> Scalars<T> {
     let each = |value: &dyn Fn(&Case) -> f64| T::from_fn(|k| value(&cases[k]));
     Scalars {
         dt: each(&|c| c.dt),
         half_dt: each(&|c| 0.5 * c.dt),
         zeta: each(&|c| c.beam.zeta),
         stiff: each(&|c| c.beam.zeta + 0.5 * c.dt),
-        inertia: each(&|c| scheme.inertia / c.dt),
+        inertia: each(&|c| c.scheme.inertia / c.dt),
         two_over_dt: each(&|c| 2.0 / c.dt),
         half_a: each(&|c| 0.5 * c.beam.a),
         lift: each(&|c| c.beam.a * c.beam.theta_a),
@@ -98,9 +94,9 @@ fn scalars<T: Lane>(cases: &[Case], scheme: &Scheme) -> Scalars<T> {
 impl<T: Lane, const B: usize> Newton<T, B> {
     /// The stepper at the given levels.
     ///
-    /// * `cases`, `levels`: one per lane; all levels have the same number of nodes.
-    pub(crate) fn new(cases: Vec<Case>, scheme: Scheme, settings: Settings, levels: &[&Level]) -> Self {
-        let n = cases[0].lengths.len();
+    /// Arguments as for [`newton`].
+    pub(crate) fn new(cases: Vec<Case>, settings: Settings, levels: &[&Level]) -> Self {
+        let (n, scheme) = (cases[0].lengths.len(), cases[0].scheme);
         let element = |i: usize| Element {
             inverse: T::from_fn(|k| 1.0 / cases[k].lengths[i]),
             sixth: T::from_fn(|k| cases[k].lengths[i] / 6.0),
@@ -133,8 +129,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             weight: T::splat(scheme.inertia),
             controls,
             failed_levels: vec![None; cases.len()],
-            scalars: scalars(&cases, &scheme),
-            scheme,
+            scalars: scalars(&cases),
             settings,
             cases,
             passes: 0,
@@ -162,7 +157,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     }
 
     /// Weights of the last three levels in the initial iterate.
-    fn weights(&self) -> [f64; 3] {
+    pub(super) fn weights(&self) -> [f64; 3] {
         match self.settings.start {
             Start::Previous => [1.0, 0.0, 0.0],
             Start::Extrapolated => [3.0, -3.0, 1.0],
@@ -176,7 +171,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
     /// Factorises A(m) for case k.
     pub(super) fn factorize(&mut self, k: usize, m: f64) -> Result<(), StepFailure> {
-        let scalars = self.scalars.of_lane(k);
+        let scalars = scalars::<f64>(&self.cases[k..=k]);
         let count = self.elements.len();
         let elements = &self.elements;
         let of_lane = |e: Element<T>| Element { inverse: e.inverse.lane(k), sixth: e.sixth.lane(k) };
@@ -196,47 +191,19 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let active = T::from_fn(|k| f64::from(self.controls[k].state == state));
         let m = T::from_fn(|k| self.controls[k].m);
         self.passes += 1;
-        self.forward(m, first);
-        let tip = self.solve_tip(active);
-        let [iterate, ..] = &mut self.iterates;
-        let sums = Backward {
-            scalars: &self.scalars,
-            elements: &self.elements,
-            nodes: &self.factor.nodes,
-            middle: &self.middle,
-            active,
-            tip,
-            old: &self.old,
-            iterate,
-            new: &mut self.new,
-        }
-        .run();
-        self.record(state, sums);
-    }
-
-    /// Runs the forward sweep for the mean forces m; `first` extrapolates the initial iterate.
-    fn forward(&mut self, m: T, first: bool) {
-        let weights = self.weights().map(T::splat);
-        let [iterate, one, two, three] = &mut self.iterates;
-        let old_velocity = if self.velocity[0].is_empty() { &*one } else { &self.velocity[0] };
-        let sweep = Forward {
-            scalars: &self.scalars,
-            m,
-            elements: &self.elements,
-            nodes: &self.factor.nodes,
-            old: &self.old,
-            old_velocity,
-            history: [one, two, three],
-            weights,
-            load: &self.load,
-            iterate,
-            middle: &mut self.middle,
-        };
         match (first, !self.load.is_empty()) {
-            (true, false) => sweep.run::<true, false>(),
-            (true, true) => sweep.run::<true, true>(),
-            (false, false) => sweep.run::<false, false>(),
-            (false, true) => sweep.run::<false, true>(),
+            (true, false) => self.forward::<true, false>(m),
+            (true, true) => self.forward::<true, true>(m),
+            (false, false) => self.forward::<false, false>(m),
+            (false, true) => self.forward::<false, true>(m),
+        }
+        let tip = self.solve_tip(active);
+        let [slope_squared, increment_squared] = self.backward(active, tip);
+        for (k, control) in self.controls.iter_mut().enumerate().filter(|(_, control)| control.state == state) {
+            control.iterations += 1;
+            control.work.passes += 1;
+            control.new_slope_squared = slope_squared.lane(k);
+            control.increment_slope = increment_squared.lane(k).sqrt();
         }
     }
 
@@ -252,25 +219,13 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             }
             let (dt, u0) = (self.cases[k].dt, self.old[last][0].lane(k));
             let free = u0 + dt * (self.iterates[0][last][0].lane(k) + delta[0].lane(k));
-            let tip = obstacles.solve_tip(self.scheme.contact, free, dt * inverse[0][0].lane(k), u0);
+            let tip = obstacles.solve_tip(self.cases[k].scheme.contact, free, dt * inverse[0][0].lane(k), u0);
             self.controls[k].tip = tip;
             for (component, row) in delta.iter_mut().zip(inverse) {
                 component.set_lane(k, component.lane(k) - tip.force * row[0].lane(k));
             }
         }
         delta
-    }
-
-    /// Stores the norms of the pass for the cases that took part.
-    fn record(&mut self, state: Progress, sums: Sums<T>) {
-        for (k, control) in self.controls.iter_mut().enumerate() {
-            if control.state == state {
-                control.iterations += 1;
-                control.work.passes += 1;
-                control.new_slope_squared = sums.slope_squared.lane(k);
-                control.increment_slope = sums.increment_slope_squared.lane(k).sqrt();
-            }
-        }
     }
 
     /// Accepts a case, sets m for another pass, or leaves the case to the safeguarded iteration.

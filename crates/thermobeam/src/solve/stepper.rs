@@ -3,18 +3,7 @@
 use crate::energy::Balance;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
-use crate::parameters::{Beam, Obstacles};
 use crate::solve::{Level, StepReport, Work};
-
-/// One case of a batch: the data that may differ from lane to lane.
-#[derive(Debug, Clone)]
-pub(crate) struct Case {
-    pub(crate) beam: Beam,
-    pub(crate) obstacles: Option<Obstacles>,
-    pub(crate) dt: f64,
-    /// Length of each element.
-    pub(crate) lengths: Vec<f64>,
-}
 
 /// A solver of the steps of one case (`T = f64`) or of several cases in lanes.
 pub(crate) trait Stepper<T: Lane>: Send + Sync {

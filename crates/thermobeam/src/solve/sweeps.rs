@@ -18,54 +18,15 @@
 //!
 //! A pass runs over the nodes twice and allocates nothing.
 
-use crate::block_tridiagonal::{Block, Node, minus_times, minus_transpose_times, times};
+use crate::block_tridiagonal::{Block, minus_times, minus_transpose_times, times};
 use crate::lanes::Lane;
-
-/// The coefficients of a step that do not depend on the node.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Scalars<T> {
-    pub(crate) dt: T,
-    pub(crate) half_dt: T,
-    pub(crate) zeta: T,
-    /// s = ζ + dt/2, the factor of W in `φ½ + ζ W = φ0 + s W`.
-    pub(crate) stiff: T,
-    /// κ, the factor of `M (V - v0)`.
-    pub(crate) inertia: T,
-    pub(crate) two_over_dt: T,
-    pub(crate) half_a: T,
-    /// `a θ_A`. The lifting contributes `a θ_A (1 - x, N_i') = a θ_A (1, N_i)`: a constant under the mass matrix.
-    pub(crate) lift: T,
-}
-
-/// An element.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Element<T> {
-    /// 1/h.
-    pub(crate) inverse: T,
-    /// h/6, the unit of the consistent mass matrix.
-    pub(crate) sixth: T,
-}
-
-impl<T: Lane> Scalars<T> {
-    /// The coefficients of case k.
-    pub(crate) fn of_lane(&self, k: usize) -> Scalars<f64> {
-        Scalars {
-            dt: self.dt.lane(k),
-            half_dt: self.half_dt.lane(k),
-            zeta: self.zeta.lane(k),
-            stiff: self.stiff.lane(k),
-            inertia: self.inertia.lane(k),
-            two_over_dt: self.two_over_dt.lane(k),
-            half_a: self.half_a.lane(k),
-            lift: self.lift.lane(k),
-        }
-    }
-}
+use crate::solve::control::{Element, Scalars};
+use crate::solve::newton::Newton;
 
 impl Scalars<f64> {
     /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements to the left and to the right of it (`None` at the
     /// tip).
-    pub(crate) fn blocks<const B: usize>(
+    pub(super) fn blocks<const B: usize>(
         &self,
         m: f64,
         left: Element<f64>,
@@ -100,29 +61,6 @@ impl Scalars<f64> {
     }
 }
 
-/// Arguments of the forward sweep. Every slice has n + 1 entries; entry 0, of the clamped node, is zero.
-pub(crate) struct Forward<'a, T, const B: usize> {
-    pub(crate) scalars: &'a Scalars<T>,
-    /// The mean axial force m.
-    pub(crate) m: T,
-    pub(crate) elements: &'a [Element<T>],
-    pub(crate) nodes: &'a [Node<T, B>],
-    /// (u0, φ0, θ~0).
-    pub(crate) old: &'a [[T; B]],
-    /// (v0, w0, -).
-    pub(crate) old_velocity: &'a [[T; B]],
-    /// X of the previous three steps, the latest first.
-    pub(crate) history: [&'a [[T; B]]; 3],
-    /// Weights of the history in the first iterate.
-    pub(crate) weights: [T; 3],
-    /// The loads (F_u, F_φ, F_θ), or empty.
-    pub(crate) load: &'a [[T; 3]],
-    /// X; written by the first pass, read by later ones.
-    pub(crate) iterate: &'a mut [[T; B]],
-    /// S⁻¹ y, the right-hand side after the elimination.
-    pub(crate) middle: &'a mut [[T; B]],
-}
-
 /// Nodal quantities from which the residual of an element is computed.
 #[derive(Clone, Copy)]
 struct Nodal<T, const B: usize> {
@@ -138,22 +76,25 @@ struct Nodal<T, const B: usize> {
     mass: [T; B],
 }
 
-impl<T: Lane, const B: usize> Forward<'_, T, B> {
-    /// Runs the sweep.
+impl<T: Lane, const B: usize> Newton<T, B> {
+    /// The forward sweep for the mean axial forces m: sets `middle` to S⁻¹ y, the right-hand side after the elimination.
     ///
     /// * `FIRST`: whether the iterate is extrapolated from the history.
     /// * `LOADED`: whether there are loads.
     #[inline(always)]
-    pub(crate) fn run<const FIRST: bool, const LOADED: bool>(self) {
+    pub(super) fn forward<const FIRST: bool, const LOADED: bool>(&mut self, m: T) {
         let zero = T::splat(0.0);
+        let weights = self.weights().map(T::splat);
         let count = self.elements.len();
         // Slices of equal length, so the compiler removes the bounds checks in the loop.
-        let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
-        let (old, old_velocity) = (&self.old[..count], &self.old_velocity[..count]);
-        let history = self.history.map(|level| &level[..count]);
+        let (elements, nodes) = (&self.elements[..count], &self.factor.nodes[..count]);
+        let [iterate, history @ ..] = &mut self.iterates;
+        let history = history.each_ref().map(|level| &level[..count]);
+        let old = &self.old[..count];
+        let old_velocity = if self.velocity[0].is_empty() { history[0] } else { &self.velocity[0][..count] };
         let load = if LOADED { &self.load[..count] } else { &[] };
-        let (iterate, middle) = (&mut self.iterate[..count], &mut self.middle[..count]);
-        let (scalars, m, weights) = (self.scalars, self.m, self.weights);
+        let (iterate, middle) = (&mut iterate[..count], &mut self.middle[..count]);
+        let scalars = &self.scalars;
 
         let mut left = Nodal { x: [zero; B], axial: zero, displacement: zero, rotation: zero, mass: [zero; B] };
         left.mass[1] = -scalars.lift;
@@ -256,64 +197,41 @@ fn element<T: Lane, const B: usize>(
     (to_left, to_right)
 }
 
-/// Arguments of the backward sweep. Every slice has n + 1 entries.
-pub(crate) struct Backward<'a, T, const B: usize> {
-    pub(crate) scalars: &'a Scalars<T>,
-    pub(crate) elements: &'a [Element<T>],
-    pub(crate) nodes: &'a [Node<T, B>],
-    pub(crate) middle: &'a [[T; B]],
-    /// 1 for the cases that take part in the pass, 0 for those whose iterate stays.
-    pub(crate) active: T,
-    /// δ at the tip, including contact.
-    pub(crate) tip: [T; B],
-    pub(crate) old: &'a [[T; B]],
-    /// X; the correction is added.
-    pub(crate) iterate: &'a mut [[T; B]],
-    /// (u, φ, θ~) at the new level.
-    pub(crate) new: &'a mut [[T; B]],
-}
-
-/// Two squared norms that the backward sweep computes.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Sums<T> {
-    /// ‖u_x‖² of the new iterate.
-    pub(crate) slope_squared: T,
-    /// ‖δV_x‖² of the correction.
-    pub(crate) increment_slope_squared: T,
-}
-
-impl<T: Lane, const B: usize> Backward<'_, T, B> {
-    /// Runs the sweep.
+impl<T: Lane, const B: usize> Newton<T, B> {
+    /// The backward sweep: adds the correction to the iterate, and updates the new level.
+    ///
+    /// * `active`: 1 for the cases that take part in the pass, 0 for those whose iterate stays.
+    /// * `tip`: δ at the tip, including contact.
+    /// * Returns ‖u_x‖² of the new iterate, and ‖δV_x‖² of the correction.
     #[inline(always)]
-    pub(crate) fn run(self) -> Sums<T> {
+    pub(super) fn backward(&mut self, active: T, tip: [T; B]) -> [T; 2] {
         let count = self.elements.len();
-        let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
+        let (elements, nodes) = (&self.elements[..count], &self.factor.nodes[..count]);
         let (middle, old) = (&self.middle[..count], &self.old[..count]);
-        let (iterate, new) = (&mut self.iterate[..count], &mut self.new[..count]);
+        let (iterate, new) = (&mut self.iterates[0][..count], &mut self.new[..count]);
         let zero = T::splat(0.0);
-        let mut sums = Sums { slope_squared: zero, increment_slope_squared: zero };
-        let mut delta = self.tip;
+        let (mut slope_squared, mut increment_squared) = (zero, zero);
+        let mut delta = tip;
         for i in (1..count).rev() {
             let mut x = iterate[i];
             for k in 0..B {
-                x[k] = self.active.mul_add(delta[k], x[k]);
+                x[k] = active.mul_add(delta[k], x[k]);
             }
             iterate[i] = x;
-            let updated = update(self.scalars, x, old[i]);
+            let updated = update(&self.scalars, x, old[i]);
             new[i] = updated;
             if i + 1 < count {
                 let slope = new[i + 1][0] - updated[0];
-                sums.slope_squared = (slope * elements[i + 1].inverse).mul_add(slope, sums.slope_squared);
+                slope_squared = (slope * elements[i + 1].inverse).mul_add(slope, slope_squared);
             }
             let next =
                 if i > 1 { minus_transpose_times(middle[i - 1], &nodes[i].multiplier, delta) } else { [zero; B] };
             let change = delta[0] - next[0];
-            sums.increment_slope_squared = (change * elements[i].inverse).mul_add(change, sums.increment_slope_squared);
+            increment_squared = (change * elements[i].inverse).mul_add(change, increment_squared);
             delta = next;
         }
         let first = new[1][0];
-        sums.slope_squared = (first * elements[1].inverse).mul_add(first, sums.slope_squared);
-        sums
+        [(first * elements[1].inverse).mul_add(first, slope_squared), increment_squared]
     }
 }
 

@@ -1,11 +1,10 @@
 //! The energy balance closes to round-off, step by step.
 
 use crate::scenes::{EXPERIMENTS, paper, schemes_and_meshes, simulate, stepping};
-use thermobeam::energy::scale;
 use thermobeam::norms::max_or_nan;
 use thermobeam::scheme::MIDPOINT;
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Level, Settings, Start};
+use thermobeam::solve::{Case, Level, Settings, Start};
 
 /// The largest residual relative to the initial energy, over 1000 steps of every experiment, both schemes, both meshes.
 fn largest_residual(tolerance: f64, dt: f64) -> f64 {
@@ -66,9 +65,9 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
                 let (before, after) = (simulation.energy(&old).total(), simulation.energy(&new).total());
                 let change = simulation.balance(&old, &new).change;
                 assert_eq!(simulation.energy_change(&old, &new), change);
-                let Problem { beam, obstacles, .. } = simulation.problem();
-                let size = scale(beam, obstacles.as_ref(), simulation.lengths(), &new);
-                assert_eq!(simulation.energy_scale(&new), size);
+                let Problem { beam, obstacles, .. } = *simulation.problem();
+                let case = Case { beam, obstacles, scheme, dt: 1e-3, lengths: simulation.lengths().to_vec() };
+                assert_eq!(simulation.energy_scale(&new), case.energy_scale(&new));
                 let difference = change - (after - before);
                 assert!(difference.abs() <= 1e-12 * before.abs().max(1.0), "{difference:e}");
             }

@@ -239,54 +239,39 @@ pub(crate) fn assert_order(
 /// value: the limit; interval: its two ends; error: that of the finest value, with its sign; gci: half the width of the grid convergence index
 /// about the finest value; all in the unit of the values, and None if there is no such number. order: the observed order; verdict: on the
 /// claimed order; reason: why there is no limit, or how the order was found.
-#[pyclass(frozen, module = "convergence_study")]
+#[pyclass(frozen, get_all, module = "convergence_study")]
 pub(crate) struct Limit {
-    estimate: Estimate,
+    value: Option<f64>,
+    interval: Option<(f64, f64)>,
+    error: Option<f64>,
+    order: Option<f64>,
+    gci: Option<f64>,
+    verdict: &'static str,
+    reason: String,
+}
+
+impl Limit {
+    fn new(Estimate { bar, gci, judged }: Estimate) -> Self {
+        let reason = bar.as_ref().map_or_else(ToString::to_string, |_| judged.reason.clone());
+        let bar = bar.ok();
+        Self {
+            value: bar.as_ref().map(|bar| bar.extrapolated),
+            interval: bar.as_ref().map(|bar| bar.limit.into()),
+            error: bar.as_ref().map(|bar| bar.error),
+            order: judged.fitted,
+            gci: gci.ok().map(|gci| gci.half_width),
+            verdict: judged.verdict.name(),
+            reason,
+        }
+    }
 }
 
 #[pymethods]
 impl Limit {
-    #[getter]
-    fn value(&self) -> Option<f64> {
-        self.estimate.bar.as_ref().ok().map(|bar| bar.extrapolated)
-    }
-
-    #[getter]
-    fn interval(&self) -> Option<(f64, f64)> {
-        self.estimate.bar.as_ref().ok().map(|bar| (bar.limit[0], bar.limit[1]))
-    }
-
-    #[getter]
-    fn error(&self) -> Option<f64> {
-        self.estimate.bar.as_ref().ok().map(|bar| bar.error)
-    }
-
-    #[getter]
-    fn order(&self) -> Option<f64> {
-        self.estimate.judged.fitted
-    }
-
-    #[getter]
-    fn gci(&self) -> Option<f64> {
-        self.estimate.gci.as_ref().ok().map(|gci| gci.half_width)
-    }
-
-    #[getter]
-    fn verdict(&self) -> &'static str {
-        self.estimate.judged.verdict.name()
-    }
-
-    #[getter]
-    fn reason(&self) -> String {
-        self.estimate.bar.as_ref().map_or_else(ToString::to_string, |_| self.estimate.judged.reason.clone())
-    }
-
     fn __repr__(&self) -> String {
-        match &self.estimate.bar {
-            Ok(bar) => {
-                format!("limit {:?} ({:?} to {:?}): {}", bar.extrapolated, bar.limit[0], bar.limit[1], self.reason())
-            }
-            Err(refusal) => format!("no limit: {refusal}"),
+        match (self.value, self.interval) {
+            (Some(value), Some((low, high))) => format!("limit {value:?} ({low:?} to {high:?}): {}", self.reason),
+            _ => format!("no limit: {}", self.reason),
         }
     }
 }
@@ -309,5 +294,5 @@ pub(crate) fn limit(
     let estimator = Estimator::new(tolerance).map_err(refuse)?;
     let estimate =
         if order.is_none() { estimator.estimate_unclaimed(&values) } else { estimator.estimate(&values, claim.order) };
-    Ok(Limit { estimate })
+    Ok(Limit::new(estimate))
 }

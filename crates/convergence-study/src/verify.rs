@@ -17,7 +17,6 @@ use crate::store::diagnosis::{Fingerprints, diagnose};
 use crate::store::file_set::{ReportFolder, lock};
 use crate::store::provenance::Provenance;
 use crate::store::record::Record;
-use crate::store::writing;
 use crate::store::{json, write_json};
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
@@ -180,7 +179,7 @@ pub fn verify(
 
     let _lock = request.lock()?;
     // A request to end the process waits until everything is written.
-    let _writing = writing::begin();
+    let _writing = atomic::begin_write();
     // Another run may have blessed in the meantime: the baseline is read again under the lock.
     let mut baseline = Baseline::read(&baseline_file)?;
     let known = request.scope.known();
@@ -299,7 +298,7 @@ fn tidy(request: &Request) -> io::Result<()> {
         return Ok(());
     }
     let _lock = request.lock()?;
-    let _writing = writing::begin();
+    let _writing = atomic::begin_write();
     let tidy = || {
         // If the lock of the baseline is not held, another process may be writing it.
         if request.bless || request.is_one_lock() {

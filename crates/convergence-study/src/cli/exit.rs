@@ -1,7 +1,7 @@
 //! How a command ends: the exit status is part of the interface.
 //!
 //! On Ctrl-C pending writes are finished, the work done so far is reported, and the process exits with status 130. A separate
-//! thread answers, so that it exits within a second whatever the others do. No file is left half-written: see [`writing`].
+//! thread answers, so that it exits within a second whatever the others do. No file is left half-written: see [`atomic`].
 
 use std::error::Error;
 use std::path::Path;
@@ -12,7 +12,7 @@ use std::time::Duration;
 use super::screen;
 use crate::judge::verdict::Verdict;
 use crate::program::guard;
-use crate::store::writing;
+use crate::store::atomic;
 use crate::text::visible;
 
 /// For the end of `--help`.
@@ -76,7 +76,7 @@ pub fn listen() {
     }
     let _ = ctrlc::try_set_handler(|| {
         let said = SAID.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(|said| said());
-        writing::close(PATIENCE);
+        atomic::finish_writes(PATIENCE);
         let said = said.map_or(String::new(), |said| format!(": {said}"));
         screen::tell(&format!("\ninterrupted{said}"));
         process::exit(INTERRUPTED);

@@ -44,9 +44,6 @@ pub(super) struct Page {
     pub(super) y: Ruler,
     x_ticks: Ticks,
     y_ticks: Ticks,
-    /// Columns of the legend, and their width in px.
-    columns: usize,
-    column_width: f64,
     plan: Layout,
 }
 
@@ -60,9 +57,7 @@ impl Layout {
         let headline = self.above.is_some() || y_ticks.exponent != 0;
         let top = EDGE + if self.title.is_some() { 32.0 } else { 0.0 } + if headline { 24.0 } else { 0.0 };
         let plot = Rect { left, top, right, bottom: top + style::PLOT_HEIGHT };
-        let (columns, column_width) = arranged(&self.legend);
-        let height =
-            legend_top(&plot) + legend_height(&self.legend, columns) + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
+        let height = notes_top(&plot, &self.legend) + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
         Page {
             canvas: Canvas::new(style::WIDTH, height.round()),
             x: self.x.laid_out(plot.left, plot.right),
@@ -70,8 +65,6 @@ impl Layout {
             plot,
             x_ticks,
             y_ticks,
-            columns,
-            column_width,
             plan: self,
         }
     }
@@ -79,6 +72,10 @@ impl Layout {
 
 fn legend_top(plot: &Rect) -> f64 {
     plot.bottom + AXIS_LABEL_DROP + 18.0
+}
+
+fn notes_top(plot: &Rect, legend: &[Entry]) -> f64 {
+    legend_top(plot) + legend.len().div_ceil(arranged(legend).0) as f64 * ROW_HEIGHT
 }
 
 fn widest(ticks: &Ticks) -> f64 {
@@ -152,20 +149,20 @@ impl Page {
 
     /// Draws the legend centred on the plot but always within the page, its first row below `top`.
     fn draw_legend(&mut self, top: f64) {
-        let Self { columns, column_width, plan, canvas, .. } = self;
-        let width = *columns as f64 * *column_width - COLUMN_GAP;
+        let Self { plan, canvas, .. } = self;
+        let (columns, column_width) = arranged(&plan.legend);
+        let width = columns as f64 * column_width - COLUMN_GAP;
         let left = (self.plot.centre().0 - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
         for (k, entry) in plan.legend.iter().enumerate() {
-            let x = left + (k % *columns) as f64 * *column_width;
-            let y = top + ((k / *columns) as f64 + 0.5) * ROW_HEIGHT;
-            canvas.group(&canvas::entry(&entry.label), |canvas| draw_entry(canvas, entry, (x, y), *column_width));
+            let x = left + (k % columns) as f64 * column_width;
+            let y = top + ((k / columns) as f64 + 0.5) * ROW_HEIGHT;
+            canvas.group(&canvas::entry(&entry.label), |canvas| draw_entry(canvas, entry, (x, y), column_width));
         }
     }
 
     fn draw_foot(&mut self) {
-        let top = legend_top(&self.plot);
-        self.draw_legend(top);
-        let first = top + legend_height(&self.plan.legend, self.columns) + 0.5 * NOTE_HEIGHT;
+        self.draw_legend(legend_top(&self.plot));
+        let first = notes_top(&self.plot, &self.plan.legend) + 0.5 * NOTE_HEIGHT;
         let left = self.plot.left;
         let notes = &self.plan.notes;
         self.canvas.draw(Layer::default(), |pen| {
@@ -271,11 +268,6 @@ fn arranged(entries: &[Entry]) -> (usize, f64) {
     let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
     let rows = entries.len().div_ceil(most).max(1);
     (entries.len().div_ceil(rows).max(1), column_width)
-}
-
-/// Height of all rows in px.
-fn legend_height(entries: &[Entry], columns: usize) -> f64 {
-    entries.len().div_ceil(columns) as f64 * ROW_HEIGHT
 }
 
 /// Draws an entry at `x`, its row centred on `y`, in a column of this width.

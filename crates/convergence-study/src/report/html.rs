@@ -13,7 +13,8 @@ use crate::study::outcome::Figure;
 pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     let mut events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
     let mut kept = Vec::new();
-    let mut links = Links::default();
+    // Whether each open link leads to a place on the page.
+    let mut links = vec![];
     // The text before a table is its title.
     let mut title = String::new();
     while let Some(event) = events.next() {
@@ -25,7 +26,7 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                     Some(picture) => kept.push(Event::Html(picture.into())),
                     None => {
                         kept.push(Event::Start(Tag::Paragraph));
-                        kept.extend(inner.into_iter().filter_map(|event| links.tamed(event)));
+                        kept.extend(inner.into_iter().filter_map(|event| tamed(event, &mut links)));
                         kept.push(Event::End(TagEnd::Paragraph));
                     }
                 }
@@ -40,7 +41,7 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                 title = without_own_tags(&text).trim().to_owned();
                 kept.push(Event::Html(text));
             }
-            other => kept.extend(links.tamed(other)),
+            other => kept.extend(tamed(other, &mut links)),
         }
     }
     let mut html = String::new();
@@ -48,24 +49,18 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     html
 }
 
-/// The links that are open: whether each leads to a place on the page.
-#[derive(Default)]
-struct Links(Vec<bool>);
-
-impl Links {
-    /// An event that can load nothing, run nothing and not leave the page.
-    fn tamed<'e>(&mut self, event: Event<'e>) -> Option<Event<'e>> {
-        match event {
-            Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
-            Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => None,
-            Event::Start(Tag::Link { ref dest_url, .. }) => {
-                let stays = dest_url.starts_with('#');
-                self.0.push(stays);
-                stays.then_some(event)
-            }
-            Event::End(TagEnd::Link) => self.0.pop().unwrap_or(false).then_some(event),
-            other => Some(other),
+/// An event that can load nothing, run nothing and not leave the page.
+fn tamed<'e>(event: Event<'e>, links: &mut Vec<bool>) -> Option<Event<'e>> {
+    match event {
+        Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
+        Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => None,
+        Event::Start(Tag::Link { ref dest_url, .. }) => {
+            let stays = dest_url.starts_with('#');
+            links.push(stays);
+            stays.then_some(event)
         }
+        Event::End(TagEnd::Link) => links.pop().unwrap_or(false).then_some(event),
+        other => Some(other),
     }
 }
 

@@ -1,12 +1,15 @@
-//! Writes files atomically: a reader sees the old content or the new one, never a part.
+//! Writes files atomically: a reader sees the old content or the new one, never a part. Code that writes several holds the guard of
+//! [`begin_write`] until they are complete; code that ends the process on request calls [`finish_writes`] first.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{PoisonError, RwLock, RwLockReadGuard};
+use std::time::{Duration, Instant};
+use std::{mem, process, thread};
 
-use crate::store::{if_there, writing};
+use crate::store::if_there;
 use crate::text::visible;
 
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
@@ -24,7 +27,7 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
 /// # Errors
 /// The error of the operating system or of `fill`, preceded by `path`; nothing is left behind.
 pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
-    let _writing = writing::begin();
+    let _writing = begin_write();
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(naming(path))?;
     }
@@ -107,8 +110,41 @@ fn name_beside(path: &Path) -> io::Result<PathBuf> {
     Ok(path.with_file_name(beside))
 }
 
+/// Read by pending writes. It is never waited for with `write`: a thread may begin a write within another one.
+static PENDING: RwLock<()> = RwLock::new(());
+
+/// Between two looks at the pending writes.
+const PAUSE: Duration = Duration::from_millis(1);
+
+/// Registers a write, which is pending until the guard is dropped. After [`finish_writes`] it blocks until the process ends.
+pub fn begin_write() -> RwLockReadGuard<'static, ()> {
+    PENDING.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits for pending writes and blocks new ones. Call it right before the process exits.
+///
+/// * `patience`: it returns after this time even if a write is pending, for example on a disk that hangs; new ones are then
+///   not blocked.
+pub fn finish_writes(patience: Duration) {
+    close_of(&PENDING, patience);
+}
+
+fn close_of(pending: &'static RwLock<()>, patience: Duration) {
+    let end = Instant::now() + patience;
+    loop {
+        match pending.try_write() {
+            Ok(closed) => return mem::forget(closed),
+            Err(_) if Instant::now() >= end => return,
+            Err(_) => thread::sleep(PAUSE),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicBool;
+    use std::sync::mpsc;
+
     use super::*;
 
     #[test]
@@ -152,5 +188,50 @@ mod tests {
         fs::write(folder.path().join("file"), "").unwrap();
         let message = prepare_folder(&folder.path().join("file")).unwrap_err().to_string();
         assert!(message.contains("file"), "{message}");
+    }
+
+    const LONG: Duration = Duration::from_secs(60);
+    const SHORT: Duration = Duration::from_millis(50);
+
+    #[test]
+    fn closing_waits_for_pending_writes() {
+        static OPEN: RwLock<()> = RwLock::new(());
+        let is_whole = AtomicBool::new(false);
+        let (begun, begins) = mpsc::channel();
+        thread::scope(|scope| {
+            scope.spawn(|| {
+                let first = OPEN.read();
+                begun.send(()).unwrap();
+                thread::sleep(SHORT);
+                is_whole.store(true, Ordering::SeqCst);
+                drop(first);
+            });
+            begins.recv().unwrap();
+            drop(OPEN.read());
+            close_of(&OPEN, LONG);
+            assert!(is_whole.load(Ordering::SeqCst));
+        });
+    }
+
+    #[test]
+    fn closing_gives_up_on_a_write_that_hangs() {
+        static OPEN: RwLock<()> = RwLock::new(());
+        let _hanging = OPEN.read();
+        let start = Instant::now();
+        close_of(&OPEN, SHORT);
+        assert!((SHORT..LONG).contains(&start.elapsed()));
+    }
+
+    #[test]
+    fn no_write_begins_after_closing() {
+        static CLOSED: RwLock<()> = RwLock::new(());
+        close_of(&CLOSED, Duration::ZERO);
+        let (tell, told) = mpsc::channel();
+        // It waits for the end of the process.
+        thread::spawn(move || {
+            drop(CLOSED.read());
+            tell.send(())
+        });
+        assert_eq!(told.recv_timeout(SHORT), Err(mpsc::RecvTimeoutError::Timeout));
     }
 }

@@ -13,7 +13,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::store::{self, atomic, if_there, writing};
+use crate::store::{self, atomic, if_there};
 use crate::text::visible;
 
 /// The file that lists all files of the set, one per line.
@@ -86,7 +86,7 @@ impl ReportFolder {
     /// # Errors
     /// The error of the operating system; the next replacement completes an interrupted one.
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
-        let _writing = writing::begin();
+        let _writing = atomic::begin_write();
         self.tidy()?;
         let (staging, manifest) = (self.staging(), set.manifest());
         let changed: Vec<_> = set.files().filter(|(path, bytes)| !self.holds(path, bytes)).collect();

@@ -10,7 +10,6 @@ pub mod file_set;
 pub mod junit;
 pub mod provenance;
 pub mod record;
-pub mod writing;
 
 use std::fs::{self, File, OpenOptions};
 use std::io;

@@ -50,12 +50,7 @@ pub struct StudyFile {
 impl StudyFile {
     /// Reads a study file of any of these kinds.
     pub fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
-        let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
-            let header = Header::from_document(root)?;
-            let row = row(kinds, root, &header)?;
-            (row.read)(header, root, folder)
-        })?;
-        Ok(Self { path: path.to_owned(), study })
+        Self::read_after(&[], kinds, path)
     }
 
     /// Reads study files; ids must be unique.
@@ -65,15 +60,27 @@ impl StudyFile {
     pub fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
         let mut files: Vec<Self> = Vec::with_capacity(paths.len());
         for path in paths {
-            let file = Self::read(kinds, path)?;
-            let id = &file.study.header().id;
-            if let Some(earlier) = files.iter().find(|earlier| earlier.study.header().id == *id) {
-                let found = format!("\"{id}\", which {} has too", visible::path(&earlier.path));
-                return Err(refuse(path, "id", &found, "an id that no other study has"));
-            }
-            files.push(file);
+            files.push(Self::read_after(&files, kinds, path)?);
         }
         Ok(files)
+    }
+
+    /// Reads a study file whose id none of the `earlier` ones has.
+    fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
+        let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
+            let header = Header::from_document(root)?;
+            if let Some(earlier) = earlier.iter().find(|earlier| earlier.study.header().id == header.id) {
+                let found = format!("\"{}\", which {} has too", header.id, visible::path(&earlier.path));
+                return Err(root.require("study", "a table")?.section()?.refuse(
+                    "id",
+                    found,
+                    "an id that no other study has",
+                ));
+            }
+            let row = row(kinds, root, &header)?;
+            (row.read)(header, root, folder)
+        })?;
+        Ok(Self { path: path.to_owned(), study })
     }
 }
 
@@ -86,16 +93,6 @@ fn row<'k>(kinds: &'k [KindRow], root: &Section<'_>, header: &Header) -> Result<
     // A file without kind has the default kind, which not every project knows.
     study.require("kind", &names.join(", "))?;
     Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
-}
-
-/// The error about a key of `[study]` in a file read earlier, with its line.
-fn refuse(path: &Path, key: &str, found: &str, allowed: &str) -> InputError {
-    let complain = |root: &Section<'_>| -> Result<InputError, InputError> {
-        let study = root.require("study", "a table")?.section()?;
-        Ok(study.refuse(key, found, allowed))
-    };
-    let text = input::read_text(path);
-    text.and_then(|text| input::parse(&text, &path.display().to_string(), complain)).unwrap_or_else(|error| error)
 }
 
 /// A kind of study that a file describes.

@@ -18,7 +18,6 @@ use serde::{Deserialize, Serialize};
 use super::lines::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
 use convergence_study::store::atomic;
-use convergence_study::store::writing;
 
 /// Identifies the sweep of the folder.
 const MANIFEST: &str = "sweep.json";
@@ -133,7 +132,7 @@ impl Journal {
             found.agrees(manifest, &manifest.share, folder)?;
         }
         atomic::prepare_folder(folder)?;
-        let _writing = writing::begin();
+        let _writing = atomic::begin_write();
         let [path, results] = [JOURNAL, RESULTS].map(|name| folder.join(name));
         let file = OpenOptions::new().create(true).append(true).open(&path);
         let file = file.map_err(atomic::naming(&path))?;
@@ -198,7 +197,7 @@ impl Journal {
     /// The error of the operating system.
     pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
-        let _writing = writing::begin();
+        let _writing = atomic::begin_write();
         self.file.write_all(whole.as_bytes()).map_err(atomic::naming(&self.path))?;
         self.count(line.case, line.passed);
         Ok(())

@@ -1,7 +1,7 @@
 //! Exact modes against the equations, and frequencies against a dense eigenvalue problem.
 
 use thermobeam::mesh::Mesh;
-use thermobeam::vibration::{DampedMode, Mode, SpectrumError, discrete_frequencies, frequencies};
+use thermobeam::vibration::{Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies};
 
 mod p1_matrices;
 use p1_matrices::P1Matrices;
@@ -144,18 +144,17 @@ fn by_taylor(omega: f64, zeta: f64, start: (f64, f64), t: f64) -> (f64, f64) {
 
 #[test]
 fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
-    let mode = Mode::new(0);
-    let omega = mode.omega();
+    let omega = Mode::new(0).omega();
     let critical = 2.0 / omega;
     for zeta in [0.0, 0.1, critical * (1.0 - 1e-9), critical, critical * (1.0 + 1e-9), 2.0 * critical, 40.0] {
         for start in [(1.0, 0.0), (0.3, -2.0)] {
-            let damped = DampedMode::starting_from(mode, zeta, start.0, start.1).expect("a viscosity");
-            close(damped.factor(0.0), start.0, 0.0);
-            close(damped.factor_t(0.0), start.1, 0.0);
+            let damped = TimeFactor::new(omega, zeta, start.0, start.1).expect("a viscosity");
+            close(damped.value(0.0), start.0, 0.0);
+            close(damped.slope(0.0), start.1, 0.0);
             for t in [1e-3, 0.5, 3.0, 10.0] {
                 let (value, slope) = by_taylor(omega, zeta, start, t);
-                close(damped.factor(t), value, 3e-12);
-                close(damped.factor_t(t), slope, 3e-12);
+                close(damped.value(t), value, 3e-12);
+                close(damped.slope(t), slope, 3e-12);
             }
         }
     }
@@ -163,20 +162,19 @@ fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
 
 #[test]
 fn an_invalid_viscosity_is_rejected() {
+    let new = |zeta, velocity| TimeFactor::new(Mode::new(0).omega(), zeta, 1.0, velocity);
     for zeta in [-0.1, f64::NAN, f64::INFINITY] {
-        let error = DampedMode::new(Mode::new(0), zeta).expect_err("no viscosity");
-        assert_eq!(error.name, "zeta");
+        assert_eq!(new(zeta, 0.0).expect_err("no viscosity").name, "zeta");
     }
-    assert!(DampedMode::starting_from(Mode::new(0), 0.1, 1.0, f64::NAN).is_err());
-    assert_eq!(DampedMode::new(Mode::new(0), 0.1).expect("a viscosity").zeta(), 0.1);
+    assert!(new(0.1, f64::NAN).is_err() && new(0.1, 0.0).is_ok());
 }
 
 #[test]
 fn overdamped_modes_are_accurate_for_long_times() {
-    let damped = DampedMode::new(Mode::new(5), 1e9).expect("a viscosity");
+    let damped = TimeFactor::new(Mode::new(5).omega(), 1e9, 1.0, 0.0).expect("a viscosity");
     // The slow root is -1/ζ up to 1/(ζω)²: after t = ζ the mode has fallen to 1/e.
-    close(damped.factor(1e9), (-1.0_f64).exp(), 1e-15);
-    close(damped.factor_t(1e9), -(-1.0_f64).exp() * 1e-9, 1e-24);
+    close(damped.value(1e9), (-1.0_f64).exp(), 1e-15);
+    close(damped.slope(1e9), -(-1.0_f64).exp() * 1e-9, 1e-24);
 }
 
 #[test]

@@ -200,7 +200,7 @@ impl Nearest {
                 let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
                 differences.fold(0.0, max_or_nan)
             };
-            let errors = [largest(&level.u, &|x| state.u(x)), largest(&level.phi, &|x| state.phi(x))];
+            let errors = [largest(&level.u, &|x| state.shape.u(x)), largest(&level.phi, &|x| state.shape.phi(x))];
             Self { state, distance: max_or_nan(errors[0], errors[1]), errors }
         });
         measured.min_by(|a, b| a.distance.total_cmp(&b.distance))

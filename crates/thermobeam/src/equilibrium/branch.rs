@@ -3,7 +3,7 @@
 use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
 use super::scan::{Position, Root, Scan};
-use super::shape::{AboveMinusOne, BelowMinusOne, Shape};
+use super::shape::Shape;
 use super::{BUCKLING_VALUES, Contact, Equilibrium, EquilibriumError};
 use crate::parameters::Beam;
 
@@ -51,7 +51,7 @@ impl Branch<'_> {
             return self.resonant(s).map_or_else(|| Ok(self.straight()), Err);
         }
         if s == 0.0 {
-            return Ok(self.state(-1.0, Shape::Line { slope: -self.law.moment }, None, false));
+            return Ok(self.state(-1.0, Shape::line(self.law.moment), None, false));
         }
         if let Some(error) = self.resonant(s) {
             return Err(error);
@@ -77,7 +77,7 @@ impl Branch<'_> {
         let law = self.held_tip.unwrap_or(self.law);
         let unstable = (s > 0.0).then(|| law.buckling_above(s));
         let at_bifurcation = unstable.is_some_and(|k| law.buckling(k + 1) == s);
-        self.state(self.beam.beta, Shape::Line { slope: 0.0 }, unstable, at_bifurcation)
+        self.state(self.beam.beta, Shape::line(0.0), unstable, at_bifurcation)
     }
 
     /// Without load: the straight state, and a pair of buckled states at each buckling value above β.
@@ -111,7 +111,7 @@ impl Branch<'_> {
         let defect = -1.0 - beta - rho * slope * slope;
         let exists =
             self.law.support.is_none() && rho * slope != 0.0 && defect.abs() <= 4.0 * f64::EPSILON * beta.abs();
-        exists.then(|| self.state(-1.0, Shape::Line { slope }, None, false))
+        exists.then(|| self.state(-1.0, Shape::line(self.law.moment), None, false))
     }
 
     /// The state at a root; an error if it violates `N = β + ρ‖u'‖²`.
@@ -139,23 +139,13 @@ impl Branch<'_> {
             return Err(EquilibriumError::Bifurcation { contact: self.contact, n_value: s - 1.0 });
         }
         let factor = sign * square.sqrt();
-        Ok(match mode {
-            Shape::AboveMinusOne(w) => Shape::AboveMinusOne(AboveMinusOne {
-                alpha: factor * w.alpha,
-                stress: factor * w.stress,
-                moment: self.law.moment,
-                ..w
-            }),
-            Shape::BelowMinusOne(d) => {
-                Shape::BelowMinusOne(BelowMinusOne { stress: factor * d.stress, moment: self.law.moment, ..d })
-            }
-            line @ Shape::Line { .. } => line,
-        })
+        let (alpha, stress) = (factor * mode.alpha, factor * mode.stress);
+        Ok(Shape { alpha, stress, moment: self.law.moment, ..mode })
     }
 
     fn state(&self, n_value: f64, shape: Shape, unstable_directions: Option<usize>, singular: bool) -> Equilibrium {
         // A difference, so that a zero force is 0 and not -0.
-        let contact_force = 0.0 - shape.stress();
+        let contact_force = 0.0 - shape.stress;
         let u_tip = match self.law.support {
             // Equal to u(1), without the cancellation that a small compliance would amplify.
             Some(Support { epsilon, position }) => position + epsilon * contact_force,
@@ -209,12 +199,7 @@ mod tests {
         let values = [branch.law.buckling(1), branch.law.buckling_below_minus_one().unwrap()];
         for s in values {
             let shape = branch.buckled(s, -1.0).unwrap();
-            let moment = match shape {
-                Shape::AboveMinusOne(wave) => wave.moment,
-                Shape::BelowMinusOne(below) => below.moment,
-                Shape::Line { .. } => f64::NAN,
-            };
-            assert_eq!(moment, 0.25);
+            assert_eq!((shape.moment, shape.is_line()), (0.25, false));
         }
         let stiff = Beam { beta: 3.0, ..beam };
         let branch = Branch { beam: &stiff, ..branch };

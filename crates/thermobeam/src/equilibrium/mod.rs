@@ -68,8 +68,9 @@ mod shape;
 use crate::parameters::{Beam, Obstacles, ParameterError};
 use branch::Branch;
 use law::{Law, Support, free_buckling};
-use shape::Shape;
 use thiserror::Error;
+
+pub use shape::Shape;
 
 /// [`equilibria`] returns all states with N above the buckling value N_k of index k = `BUCKLING_VALUES` + 1.
 ///
@@ -149,29 +150,8 @@ pub struct Equilibrium {
     pub stable: bool,
     /// Number of negative directions of the second variation; `None` if there are infinitely many (N <= -1).
     pub unstable_directions: Option<usize>,
-    shape: Shape,
-}
-
-impl Equilibrium {
-    /// u at x in [0, 1].
-    pub fn u(&self, x: f64) -> f64 {
-        self.shape.u(x)
-    }
-
-    /// u' at x.
-    pub fn u_x(&self, x: f64) -> f64 {
-        self.shape.u_x(x)
-    }
-
-    /// φ at x.
-    pub fn phi(&self, x: f64) -> f64 {
-        self.shape.phi(x)
-    }
-
-    /// φ' at x.
-    pub fn phi_x(&self, x: f64) -> f64 {
-        self.shape.phi_x(x)
-    }
+    /// The bent beam.
+    pub shape: Shape,
 }
 
 /// Whether [`equilibria`] returns every steady state, which holds for β > -0.9996.
@@ -260,7 +240,7 @@ mod tests {
             contact_force,
             stable: true,
             unstable_directions: Some(0),
-            shape: Shape::Line { slope: u_tip },
+            shape: Shape::line(-u_tip),
         };
         for (contact, presses) in [(Contact::Upper, [false, false, true]), (Contact::Lower, [true, false, false])] {
             let found = [-1.0, 0.0, 1.0].map(|force| is_consistent(&state(contact, force, 0.0), Some(&obstacles)));

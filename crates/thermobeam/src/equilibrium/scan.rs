@@ -18,6 +18,7 @@
 
 use super::law::Law;
 use crate::bracket::{bisect, maximize};
+use std::cmp::Ordering;
 
 /// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead of N.
 ///
@@ -132,9 +133,9 @@ impl Scan<'_> {
             (false, true) => [Some(rising(between(a, b))), self.at_pole(hi, -1.0).map(falling)],
             (true, false) => [self.at_pole(lo, 1.0).map(rising), Some(falling(between(a, b)))],
             (false, false) => match self.maximum(a, b) {
-                Maximum::Positive(s) => [Some(rising(between(a, s))), Some(falling(between(s, b)))],
-                Maximum::Zero(s) => [Some(Root { fold: true, ..falling(Position::Between(s)) }), None],
-                Maximum::Negative => [None, None],
+                (Ordering::Greater, s) => [Some(rising(between(a, s))), Some(falling(between(s, b)))],
+                (Ordering::Equal, s) => [Some(Root { fold: true, ..falling(Position::Between(s)) }), None],
+                (Ordering::Less, _) => [None, None],
             },
         }
         .into_iter()
@@ -150,28 +151,22 @@ impl Scan<'_> {
         }
     }
 
-    /// Sign of the maximum of f on [a, b], to round-off, and its position.
-    fn maximum(&self, a: f64, b: f64) -> Maximum {
+    /// How the maximum of f on [a, b] compares with 0, to round-off, and its position.
+    fn maximum(&self, a: f64, b: f64) -> (Ordering, f64) {
         let round_off = |s: f64| {
             let tension = self.rho * self.law.solve(s).slope_squared();
             FOLD * (s.abs() + (1.0 + self.beta).abs() + tension)
         };
         let (s, value) = maximize(|s| self.f(s), a, b);
-        if value > round_off(s) {
-            Maximum::Positive(s)
+        let sign = if value > round_off(s) {
+            Ordering::Greater
         } else if value >= -round_off(s) {
-            Maximum::Zero(s)
+            Ordering::Equal
         } else {
-            Maximum::Negative
-        }
+            Ordering::Less
+        };
+        (sign, s)
     }
-}
-
-/// Sign of the maximum of f on an interval, to round-off, with its position.
-enum Maximum {
-    Positive(f64),
-    Zero(f64),
-    Negative,
 }
 
 #[cfg(test)]
@@ -255,10 +250,10 @@ mod tests {
             let allowed = 32.0 * f64::EPSILON * terms;
             for (shift, expected) in [(-1.3, 2), (-0.7, 1), (0.7, 1), (1.3, 0)] {
                 let scan = Scan { law: &law, beta: beta + shift * allowed, rho };
-                let found = match scan.maximum(a, b) {
-                    Maximum::Positive(_) => 2,
-                    Maximum::Zero(_) => 1,
-                    Maximum::Negative => 0,
+                let found = match scan.maximum(a, b).0 {
+                    Ordering::Greater => 2,
+                    Ordering::Equal => 1,
+                    Ordering::Less => 0,
                 };
                 assert_eq!(found, expected, "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}");
             }

@@ -1,9 +1,10 @@
 //! The time factor of a damped mode.
 
-use super::Mode;
 use crate::parameters::ParameterError;
 
 /// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
+///
+/// With a [`Mode`](super::Mode), `u = U(x) T(t)`, `φ = Φ(x) T(t)` is an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
 ///
 /// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (oscillation), equal for ζω = 2, and real for ζω > 2
 /// (overdamped), as for all high modes with ζ > 0. The mode may be one of the beam or of a mesh, each with its own ω.
@@ -66,52 +67,5 @@ impl TimeFactor {
         // (1 - e^{-gap t})/gap, equal to t at critical damping.
         let ramp = if gap == 0.0 { t } else { -(-gap * t).exp_m1() / gap };
         (slow * t).exp() * (value + (slope - slow * value) * ramp)
-    }
-}
-
-/// A mode with its time factor, `u = U(x) T(t)`, `φ = Φ(x) T(t)`: an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DampedMode {
-    mode: Mode,
-    factor: TimeFactor,
-}
-
-impl DampedMode {
-    /// The mode with U(1) T(0) = 1 and zero initial velocity: T(0) = 1, T'(0) = 0.
-    ///
-    /// * `zeta`: the viscosity ζ >= 0.
-    ///
-    /// # Errors
-    /// [`ParameterError`] if ζ is negative or not finite.
-    pub fn new(mode: Mode, zeta: f64) -> Result<Self, ParameterError> {
-        Self::starting_from(mode, zeta, 1.0, 0.0)
-    }
-
-    /// The mode with `T(0) = position` and `T'(0) = velocity`.
-    ///
-    /// # Errors
-    /// [`ParameterError`] if ζ is negative or not finite, or T(0) or T'(0) is not finite.
-    pub fn starting_from(mode: Mode, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
-        Ok(Self { mode, factor: TimeFactor::new(mode.omega(), zeta, position, velocity)? })
-    }
-
-    /// The mode.
-    pub fn mode(&self) -> &Mode {
-        &self.mode
-    }
-
-    /// ζ.
-    pub fn zeta(&self) -> f64 {
-        self.factor.zeta
-    }
-
-    /// T at t >= 0.
-    pub fn factor(&self, t: f64) -> f64 {
-        self.factor.value(t)
-    }
-
-    /// T' at t >= 0.
-    pub fn factor_t(&self, t: f64) -> f64 {
-        self.factor.slope(t)
     }
 }

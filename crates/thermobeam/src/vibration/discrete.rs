@@ -26,13 +26,8 @@ pub enum SpectrumError {
     Degree(usize),
 }
 
-/// A symmetric 2 x 2 block `[[a, b], [b, d]]`.
-#[derive(Debug, Clone, Copy)]
-struct Symmetric {
-    a: f64,
-    b: f64,
-    d: f64,
-}
+/// A 2 x 2 block of (u, φ); of a symmetric one, the entry below the diagonal is not read.
+type Block = [[f64; 2]; 2];
 
 /// The `count` lowest ω of the semi-discrete beam, `(K - ω² M) x = 0`, in increasing order.
 ///
@@ -102,13 +97,15 @@ fn spectral_bound(lengths: &[f64], degree: usize) -> f64 {
 fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
     let mut negative = 0;
     // The Schur complement of the current node's block after eliminating the elements to the left.
-    let mut node = Symmetric { a: 0.0, b: 0.0, d: 0.0 };
+    let mut node = Block::default();
     for (i, &h) in lengths.iter().enumerate() {
         let mut element = Element::new(h, degree, lambda);
         negative += element.eliminate_inner();
         // Node 0 is clamped.
         if i > 0 {
-            element.add(0, node);
+            for (sum, entry) in element.entries[0].as_flattened_mut().iter_mut().zip(node.as_flattened()) {
+                *sum += entry;
+            }
             negative += element.eliminate(0, 1);
         }
         node = element.block(1);
@@ -119,7 +116,7 @@ fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
 /// K - λM of one element, in 2 x 2 blocks of (u, φ), one for each function of the basis: the hats, then degrees 2 to p.
 struct Element {
     blocks: usize,
-    entries: Vec<[[f64; 2]; 2]>,
+    entries: Vec<Block>,
 }
 
 impl Element {
@@ -142,7 +139,7 @@ impl Element {
 
     /// Updates the blocks up to `last` after the elimination of `pivot`; counts its negative eigenvalues.
     fn eliminate(&mut self, pivot: usize, last: usize) -> usize {
-        let (negative, Symmetric { a, b, d }) = invert(self.block(pivot));
+        let (negative, [[a, b], [_, d]]) = invert(self.block(pivot));
         for row in (0..=last).filter(|&row| row != pivot) {
             let of = self.entries[row * self.blocks + pivot];
             let product = of.map(|[u, phi]| [u * a + phi * b, u * b + phi * d]);
@@ -160,20 +157,13 @@ impl Element {
     }
 
     /// A block of the diagonal.
-    fn block(&self, i: usize) -> Symmetric {
-        let [[a, b], [_, d]] = self.entries[i * self.blocks + i];
-        Symmetric { a, b, d }
-    }
-
-    fn add(&mut self, i: usize, Symmetric { a, b, d }: Symmetric) {
-        let entry = &mut self.entries[i * self.blocks + i];
-        *entry = [[entry[0][0] + a, entry[0][1] + b], [entry[1][0] + b, entry[1][1] + d]];
+    fn block(&self, i: usize) -> Block {
+        self.entries[i * self.blocks + i]
     }
 }
 
-/// Number of negative eigenvalues of the block, and its inverse.
-fn invert(block: Symmetric) -> (usize, Symmetric) {
-    let Symmetric { a, b, d } = block;
+/// Number of negative eigenvalues of a symmetric block, and its inverse.
+fn invert([[a, b], [_, d]]: Block) -> (usize, Block) {
     let mut determinant = a * d - b * b;
     if determinant == 0.0 {
         // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other
@@ -187,7 +177,7 @@ fn invert(block: Symmetric) -> (usize, Symmetric) {
     } else {
         0
     };
-    (negative, Symmetric { a: d / determinant, b: -b / determinant, d: a / determinant })
+    (negative, [[d, -b], [-b, a]].map(|row| row.map(|entry| entry / determinant)))
 }
 
 #[cfg(test)]
@@ -197,13 +187,14 @@ mod tests {
     #[test]
     fn a_singular_block_is_shifted_by_round_off_to_the_positive_side() {
         let square = f64::EPSILON * f64::EPSILON;
-        let (negative, inverse) = invert(Symmetric { a: 1.0, b: 3.0, d: 9.0 });
-        assert_eq!((negative, inverse.a * square), (0, 9.0 / 91.0));
-        assert_eq!((inverse.b * square, inverse.d * square), (-3.0 / 91.0, 1.0 / 91.0));
-        let (negative, inverse) = invert(Symmetric { a: -4.0, b: 0.0, d: 0.0 });
-        assert_eq!((negative, inverse.a, inverse.d * square), (2, 0.0, -0.25));
-        let (negative, inverse) = invert(Symmetric { a: 0.0, b: 0.0, d: 0.0 });
-        assert_eq!((negative, inverse.a, inverse.d), (0, 0.0, 0.0));
+        let scaled = |block| {
+            let (negative, [[a, b], [_, d]]) = invert(block);
+            (negative, [a * square, b * square, d * square])
+        };
+        assert_eq!(scaled([[1.0, 3.0], [3.0, 9.0]]), (0, [9.0 / 91.0, -3.0 / 91.0, 1.0 / 91.0]));
+        let (negative, [[a, _], [_, d]]) = invert([[-4.0, 0.0], [0.0, 0.0]]);
+        assert_eq!((negative, a, d * square), (2, 0.0, -0.25));
+        assert_eq!(invert(Block::default()), (0, Block::default()));
     }
 
     #[test]
@@ -231,10 +222,9 @@ mod tests {
     #[test]
     fn negative_eigenvalues_of_a_block_are_counted() {
         for (a, b, d, negative) in [(2.0, 1.0, 3.0, 0), (2.0, 3.0, 3.0, 1), (-1.0, 0.5, 4.0, 1), (-2.0, 1.0, -3.0, 2)] {
-            let (found, inverse) = invert(Symmetric { a, b, d });
+            let (found, [[x, y], [_, z]]) = invert([[a, b], [b, d]]);
             assert_eq!(found, negative, "{a} {b} {d}");
-            let identity =
-                [a * inverse.a + b * inverse.b, a * inverse.b + b * inverse.d, b * inverse.b + d * inverse.d];
+            let identity = [a * x + b * y, a * y + b * z, b * y + d * z];
             assert!(
                 identity.iter().zip([1.0, 0.0, 1.0]).all(|(found, one)| (found - one).abs() < 1e-15),
                 "{identity:?}"

@@ -7,7 +7,7 @@
 //!
 //! `T'' + ζω² T' + ω² T = 0`:
 //!
-//! see [`TimeFactor`] and [`DampedMode`]. The mode satisfies
+//! see [`TimeFactor`]. The mode satisfies
 //!
 //! ```text
 //! U'' - Φ' = -ω² U,      Φ'' + U' - Φ = -ω² Φ,
@@ -51,11 +51,12 @@
 //! ω - 1/(8ω)), at which the determinant itself has nearly double roots: a scan of its sign would miss them.
 //!
 //! ```
-//! use thermobeam::vibration::{DampedMode, Mode};
+//! use thermobeam::vibration::{Mode, TimeFactor};
 //!
-//! let lowest = DampedMode::new(Mode::new(0), 0.1)?;
-//! let tip = |t: f64| lowest.mode().u(1.0) * lowest.factor(t);
-//! assert!((lowest.mode().omega() - 1.27396492100).abs() < 1e-11);
+//! let lowest = Mode::new(0);
+//! let factor = TimeFactor::new(lowest.omega(), 0.1, 1.0, 0.0)?;
+//! let tip = |t: f64| lowest.u(1.0) * factor.value(t);
+//! assert!((lowest.omega() - 1.27396492100).abs() < 1e-11);
 //! assert!(tip(0.0) == 1.0 && tip(5.0).abs() < 1.0);
 //! # Ok::<(), thermobeam::parameters::ParameterError>(())
 //! ```
@@ -67,7 +68,7 @@ use crate::bracket::bisect;
 use crate::stumpff::{c0, c1};
 use std::f64::consts::FRAC_PI_2;
 
-pub use damped::{DampedMode, TimeFactor};
+pub use damped::TimeFactor;
 pub use discrete::{SpectrumError, discrete_frequencies, discrete_frequencies_until};
 
 /// The `count` lowest frequencies ω, in increasing order.

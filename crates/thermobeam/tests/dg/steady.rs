@@ -18,7 +18,7 @@ fn a_hot_end_drives_the_beam_to_its_steady_state() {
         let expected = if state.contact == Contact::Upper { Phase::Upper } else { Phase::Free };
         assert_eq!(simulation.phase(), expected);
         for x in [0.2, 0.6] {
-            close(simulation.value(Field::U, x, simulation.t()).unwrap(), state.u(x), 1e-11);
+            close(simulation.value(Field::U, x, simulation.t()).unwrap(), state.shape.u(x), 1e-11);
             close(simulation.temperature(x, simulation.t()).unwrap(), 20.0 * (1.0 - x), 1e-10);
         }
     }

@@ -95,7 +95,10 @@ fn the_state_at_axial_force_minus_one_has_no_stress() {
     for (beta, rho) in [(-1.25, 1.0), (-3.0, 8.0)] {
         let found = states(&loaded(beta, rho, 0.5), None);
         let state = found.iter().find(|state| state.n_value == -1.0).expect("the state at N = -1");
-        assert_eq!((state.u_tip, state.phi_tip, state.u_x(0.3), state.unstable_directions), (-0.5, 0.0, -0.5, None));
+        assert_eq!(
+            (state.u_tip, state.phi_tip, state.shape.u_x(0.3), state.unstable_directions),
+            (-0.5, 0.0, -0.5, None)
+        );
         assert!(states(&loaded(beta, 1.001 * rho, 0.5), None).iter().all(|state| state.n_value != -1.0));
     }
 }

@@ -45,7 +45,7 @@ fn variations(
 /// eigenvalues.
 fn discrete_state(beam: &Beam, obstacles: Option<&Obstacles>, state: &Equilibrium, n: usize) -> (f64, usize) {
     let discrete = P1Matrices::new(n);
-    let mut x = interpolate(&discrete, |x| state.u(x), |x| state.phi(x));
+    let mut x = interpolate(&discrete, |x| state.shape.u(x), |x| state.shape.phi(x));
     for _ in 0..20 {
         let (first, second) = variations(&discrete, beam, obstacles, &x);
         let step = second.lu().solve(&first).expect("regular second variation");

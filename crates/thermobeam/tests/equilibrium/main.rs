@@ -92,10 +92,10 @@ fn strong_residual(beam: &Beam, state: &Equilibrium, h: f64) -> f64 {
     let residual = |x: f64| {
         let difference = |f: &dyn Fn(f64) -> f64| (f(x + h) - f(x - h)) / (2.0 * h);
         let second = |f: &dyn Fn(f64) -> f64| (f(x + h) - 2.0 * f(x) + f(x - h)) / (h * h);
-        let (u, phi) = (|x| state.u(x), |x| state.phi(x));
+        let (u, phi) = (|x| state.shape.u(x), |x| state.shape.phi(x));
         let force = (1.0 + state.n_value) * second(&u) - difference(&phi);
         let moment = second(&phi) + difference(&u) - phi(x) + moment;
-        let slopes = (difference(&u) - state.u_x(x)).abs() + (difference(&phi) - state.phi_x(x)).abs();
+        let slopes = (difference(&u) - state.shape.u_x(x)).abs() + (difference(&phi) - state.shape.phi_x(x)).abs();
         force.abs() + moment.abs() + slopes
     };
     (1..20).map(|i| residual(f64::from(i) / 20.0)).fold(0.0, max_or_nan)
@@ -105,22 +105,25 @@ fn strong_residual(beam: &Beam, state: &Equilibrium, h: f64) -> f64 {
 fn slope_squared_by_quadrature(state: &Equilibrium) -> f64 {
     let n = 4000;
     let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
-    (0..=n).map(|i| weight(i) * state.u_x(f64::from(i) / f64::from(n)).powi(2)).sum::<f64>() / (3.0 * f64::from(n))
+    (0..=n).map(|i| weight(i) * state.shape.u_x(f64::from(i) / f64::from(n)).powi(2)).sum::<f64>()
+        / (3.0 * f64::from(n))
 }
 
 #[test]
 fn every_state_solves_the_strong_form() {
     for (beam, obstacles) in scenes() {
         for state in states(&beam, obstacles.as_ref()) {
-            let size = 1.0 + (0..=20).map(|i| state.u_x(f64::from(i) / 20.0).abs()).fold(0.0, max_or_nan);
+            let size = 1.0 + (0..=20).map(|i| state.shape.u_x(f64::from(i) / 20.0).abs()).fold(0.0, max_or_nan);
             let (coarse, fine) = (strong_residual(&beam, &state, 4e-3), strong_residual(&beam, &state, 2e-3));
             assert!(fine <= 0.27 * coarse || fine <= 1e-8 * size, "{beam:?} {state:?}: {coarse:e} {fine:e}");
-            let stress = (1.0 + state.n_value) * state.u_x(1.0) - state.phi(1.0);
+            let stress = (1.0 + state.n_value) * state.shape.u_x(1.0) - state.shape.phi(1.0);
             close(stress, -state.contact_force, 1e-12 * size);
-            for (found, name) in [(state.u(0.0), "u(0)"), (state.phi(0.0), "phi(0)"), (state.phi_x(1.0), "phi_x(1)")] {
+            for (found, name) in
+                [(state.shape.u(0.0), "u(0)"), (state.shape.phi(0.0), "phi(0)"), (state.shape.phi_x(1.0), "phi_x(1)")]
+            {
                 assert!(found.abs() <= 2e-13 * size, "{name} = {found:e} of {beam:?} {state:?}");
             }
-            close(state.u(1.0), state.u_tip, 2e-13 * size);
+            close(state.shape.u(1.0), state.u_tip, 2e-13 * size);
             let slope_squared = slope_squared_by_quadrature(&state);
             close(state.n_value, beam.beta + beam.rho * slope_squared, 1e-8 * (1.0 + beam.rho * slope_squared));
         }

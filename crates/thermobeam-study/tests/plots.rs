@@ -65,9 +65,9 @@ fn every_figure_is_in_the_gallery() {
 #[test]
 fn a_long_animation_stays_small() {
     let mut moving = figures::motion();
-    let shape = moving.frames.clone();
-    moving.times = (0..2000).map(f64::from).collect();
-    moving.frames = (0..2000).map(|k| shape[k % shape.len()].clone()).collect();
+    let shape = moving.frames.u.clone();
+    moving.frames.times = (0..2000).map(f64::from).collect();
+    moving.frames.u = (0..2000).map(|k| shape[k % shape.len()].clone()).collect();
     assert!(animation(&moving).len() < 300_000);
 }
 
@@ -112,9 +112,8 @@ fn extreme_data_are_no_reason_to_panic() {
             parse(&contraction(&series));
             let branches = vec![Branch { label: "b".into(), points, stable: true }];
             parse(&bifurcation(&branches, vec![], &Series::default()));
-            let frames = vec![vec![x, y], vec![y, 1.0]];
-            let (times, nodes) = (vec![x, y], vec![y, x]);
-            parse(&animation(&Animation { times, nodes, frames, obstacles: Some((x, y)), seconds: x, title: None }));
+            let frames = Frames { times: vec![x, y], points: vec![y, x], u: vec![vec![x, y], vec![y, 1.0]] };
+            parse(&animation(&Animation { frames, obstacles: Some((x, y)), seconds: x, title: None }));
         }
     }
 }
@@ -166,7 +165,7 @@ fn prediction_and_markers_are_filled_where_the_fixed_point_converges_only() {
 fn the_beam_of_an_animation_is_bent_where_nothing_moves() {
     let mut moving = figures::motion();
     // Straight at the start, like a beam at rest.
-    moving.frames[0] = vec![0.0; moving.nodes.len()];
+    moving.frames.u[0] = vec![0.0; moving.frames.points.len()];
     let svg = animation(&moving);
     let doc = parse(&svg);
     let beam = elements(&doc, "polyline").find(|n| n.children().any(|child| child.has_tag_name("animate"))).unwrap();

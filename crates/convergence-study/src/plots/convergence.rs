@@ -6,7 +6,7 @@ use super::canvas::Anchor;
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
 use super::xy::{Curve, Outline, Xy};
-use super::{Axis, Scale, style};
+use super::{Axis, Scale, Series, style};
 use crate::judge::verdict::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 
@@ -97,16 +97,9 @@ fn has_unused_points(series: &ErrorSeries) -> bool {
 /// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not
 /// use. If the rate is not known, only the markers.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
-    let marked = Curve {
-        name: label(series),
-        noted_as: Some(series.label.clone()),
-        points: series.points.clone(),
-        look,
-        width: if series.fit.is_some() { 0.0 } else { style::LINE },
-        fit: None,
-        marks: Marks::Filled,
-        is_data: true,
-    };
+    let line = Curve::line(0, &Series::new(label(series), series.points.clone()));
+    let (noted_as, width) = (Some(series.label.clone()), if series.fit.is_some() { 0.0 } else { line.width });
+    let marked = Curve { noted_as, width, look, marks: Marks::Filled, ..line };
     let Some(fit) = series.line() else { return vec![marked] };
     let used = series.used.clone().unwrap_or(0..series.points.len());
     let points = |of_used: bool| {

@@ -166,15 +166,13 @@ fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
 fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
     let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
-    let claimed: Vec<_> = levels.columns.iter().filter(|column| column.claim.is_some()).collect();
-    let series: Vec<Series> = claimed
-        .iter()
-        .map(|column| {
-            let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
-            let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
-            Series::new(column.name.clone(), points)
-        })
-        .collect();
+    let series = |column: &ErrorColumn| {
+        let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
+        let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
+        Series::new(column.name.clone(), points)
+    };
+    let claimed = levels.columns.iter().filter(|column| column.claim.is_some());
+    let series: Vec<Series> = claimed.map(series).collect();
     let drawn = plots::work_precision("work, as the program counts it", "error", &series).draw();
     Some(Figure::new("work", "Errors over the work that they cost: the lower and the further left, the better.", drawn))
 }
@@ -188,10 +186,9 @@ fn of_values(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcom
     let estimates: Vec<(&ErrorColumn, Estimate)> =
         columns.iter().filter_map(|column| Some((column, estimate(column, refinements)?))).collect();
     let rates: Vec<_> = estimates.iter().map(|(column, estimate)| (name(column), estimate.judged.clone())).collect();
-    let value = |column: &ErrorColumn, level: usize| Quantity {
-        name: format!("{}, {}", name(column), refinements[level].label),
-        value: column.errors[level].unwrap_or(f64::NAN),
-        tolerance: ERROR_TOLERANCE,
+    let value = |column: &ErrorColumn, level: usize| {
+        let name = format!("{}, {}", name(column), refinements[level].label);
+        Quantity::new(name, column.errors[level].unwrap_or(f64::NAN), ERROR_TOLERANCE)
     };
     let guarded = (0..refinements.len()).flat_map(|level| columns.iter().map(move |column| value(column, level)));
     let summary = estimates.iter().filter_map(|(column, estimate)| sentence(column, estimate)).collect::<Vec<_>>();

@@ -203,12 +203,9 @@ impl Levels {
         let caption = if has_line { caption + LINES } else { caption };
         let without = self.without_result();
         let notes: Vec<String> = without.iter().map(|label| format!("{label}: no result")).collect();
-        let caption = match without.as_slice() {
-            [] => caption,
-            labels => format!("{caption} No result: {}.", labels.join("; ")),
-        };
+        let missing = if without.is_empty() { String::new() } else { format!(" No result: {}.", without.join("; ")) };
         let xy = Xy { title, notes, ..Xy::of_errors(self.axis.label()) };
-        Figure::new(what, caption, plots::convergence(xy, &series, &[]))
+        Figure::new(what, caption + &missing, plots::convergence(xy, &series, &[]))
     }
 
     /// The same with only the coarsest levels.
@@ -254,11 +251,9 @@ impl Levels {
     /// The numbers that the baseline guards: every observed rate, then every error of every level.
     pub fn quantities(&self, rates: &Rates) -> Vec<Quantity> {
         let errors = self.refinements.iter().enumerate().flat_map(|(i, level)| {
-            self.columns.iter().map(move |column| Quantity {
-                name: format!("error {}, {}", column.name, level.label),
-                value: number(&column.errors, i),
-                tolerance: ERROR_TOLERANCE,
-            })
+            let name = |column: &ErrorColumn| format!("error {}, {}", column.name, level.label);
+            let quantity = move |column| Quantity::new(name(column), number(&column.errors, i), ERROR_TOLERANCE);
+            self.columns.iter().map(quantity)
         });
         rate_quantities(rates).chain(errors).collect()
     }
@@ -283,10 +278,7 @@ fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
 
 /// The observed rates, as numbers that the baseline guards.
 pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(|(name, rate)| {
-        let value = rate.fitted?;
-        Some(Quantity { name: format!("rate {name}"), value, tolerance: RATE_TOLERANCE })
-    })
+    rates.iter().filter_map(|(name, rate)| Some(Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE)))
 }
 
 /// Order, rate, interval and verdict of each error, in a separate table: for rates that decide nothing.
@@ -339,9 +331,8 @@ mod tests {
         let judged = |count: usize, tolerance: f64| {
             let errors = refinements.iter().take(count).map(|level| Some(level.step * level.step)).collect();
             let claim = Some(Claim::new(2.0, tolerance));
-            let columns = vec![ErrorColumn { name: "L2".into(), errors, claim, look: 0 }];
-            let levels = Levels { axis: Axis::Space, refinements: refinements.clone(), columns };
-            levels.judge().remove(0).1
+            let column = ErrorColumn { name: "L2".into(), errors, claim, look: 0 };
+            Levels::new(Axis::Space, refinements.clone(), [column]).judge().remove(0).1
         };
         assert_eq!(judged(5, 0.1).verdict, Verdict::Pass);
         assert_eq!(judged(4, 0.1).verdict, Verdict::Fail, "the finest level has no error");

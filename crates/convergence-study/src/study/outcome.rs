@@ -271,7 +271,7 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     outcome
 }
 
-fn joined(summary: &str, more: &str) -> String {
+pub(super) fn joined(summary: &str, more: &str) -> String {
     if summary.is_empty() { more.to_owned() } else { format!("{summary}; {more}") }
 }
 

@@ -8,7 +8,7 @@
 use crate::input::{Field, InputError, Section};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{Levels, Rates};
-use crate::study::outcome::Outcome;
+use crate::study::outcome::{Outcome, joined};
 
 /// Levels at the first look, each twice as fine as the previous one.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
@@ -60,8 +60,7 @@ pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
 /// another machine may afford others.
 pub fn ended(mut outcome: Outcome, next: Next, levels: &Levels, budget: f64, unit: &str) -> Outcome {
     let words = in_words(next, levels, &outcome.rates, budget, unit);
-    outcome.summary =
-        [outcome.summary, words].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join("; ");
+    outcome.summary = joined(&outcome.summary, &words);
     let first: Vec<String> =
         levels.refinements.iter().take(FIRST.len()).map(|level| format!(", {}", level.label)).collect();
     outcome.quantities.retain(|quantity| first.iter().any(|label| quantity.name.ends_with(label)));

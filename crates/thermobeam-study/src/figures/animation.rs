@@ -9,6 +9,7 @@ use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 use std::fmt::Write;
 
 use crate::run::driver::thinned;
+pub use crate::run::history::Frames;
 
 /// Maximum numbers of frames and of points per frame; their product bounds the size of the document.
 const MOST_FRAMES: usize = 120;
@@ -23,12 +24,8 @@ const HEIGHT: f64 = 530.0;
 pub struct Animation {
     /// Shown above the beam.
     pub title: Option<String>,
-    /// Times of the frames, ascending; the motion is shown in proportion to them.
-    pub times: Vec<f64>,
-    /// Nodes of the mesh, ascending.
-    pub nodes: Vec<f64>,
-    /// `frames[n][i]`: displacement at `times[n]` and `nodes[i]`.
-    pub frames: Vec<Vec<f64>>,
+    /// Displacements; the motion is shown in proportion to their times.
+    pub frames: Frames,
     /// Lower and upper obstacle, at the free end of the beam.
     pub obstacles: Option<(f64, f64)>,
     /// Duration of one cycle in seconds; 8 if not positive.
@@ -49,13 +46,13 @@ pub fn animation(figure: &Animation) -> String {
 
 /// `(t, displacement at the points to draw)`, thinned, without incomplete frames.
 fn drawable_frames(figure: &Animation) -> Vec<(f64, Vec<f64>)> {
-    let is_complete = |frame: &&Vec<f64>| {
-        frame.len() == figure.nodes.len() && frame.iter().all(|&v| on_scale(Scale::Linear, v).is_some())
-    };
-    let timed = figure.times.iter().zip(&figure.frames);
+    let Frames { times, points: nodes, u } = &figure.frames;
+    let is_complete =
+        |frame: &&Vec<f64>| frame.len() == nodes.len() && frame.iter().all(|&v| on_scale(Scale::Linear, v).is_some());
+    let timed = times.iter().zip(u);
     let all: Vec<(f64, &Vec<f64>)> =
         timed.filter(|(t, f)| t.is_finite() && is_complete(f)).map(|(&t, f)| (t, f)).collect();
-    let points = thinned(figure.nodes.len(), MOST_POINTS);
+    let points = thinned(nodes.len(), MOST_POINTS);
     let pick = |n: usize| (all[n].0, points.iter().map(|&i| all[n].1[i]).collect());
     thinned(all.len(), MOST_FRAMES).into_iter().map(pick).collect()
 }
@@ -74,9 +71,10 @@ impl Stage {
         let displacements = frames.iter().flat_map(|(_, u)| u.iter().copied());
         let obstacles = figure.obstacles.into_iter().flat_map(|(g1, g2)| [g1, g2]);
         let u = Ruler::around(Scale::Linear, displacements.chain(obstacles).chain([0.0]), 0.12);
-        let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
+        let points = &figure.frames.points;
+        let x = Ruler::around(Scale::Linear, points.iter().copied(), 0.0);
         let t = Ruler::around(Scale::Linear, frames.iter().map(|f| f.0), 0.0);
-        let nodes = thinned(figure.nodes.len(), MOST_POINTS).into_iter().map(|i| figure.nodes[i]);
+        let nodes = thinned(points.len(), MOST_POINTS).into_iter().map(|i| points[i]);
         Self {
             x: x.laid_out(PLOT.left, PLOT.right),
             u: u.laid_out(PLOT.bottom, PLOT.top),

@@ -2,7 +2,7 @@
 
 mod animation;
 
-pub use animation::{Animation, animation};
+pub use animation::{Animation, Frames, animation};
 
 use convergence_study::plots::look::{Look, Marker, Marks, look};
 use convergence_study::plots::style;
@@ -62,9 +62,7 @@ impl Run {
         });
         let motion = animation(&Animation {
             title: title("the beam between its obstacles"),
-            times: frames.times.clone(),
-            nodes: frames.points.clone(),
-            frames: frames.u.clone(),
+            frames: frames.clone(),
             obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
             seconds: 20.0,
         });

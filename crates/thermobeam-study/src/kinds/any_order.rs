@@ -234,8 +234,8 @@ impl Kind for AnyOrder {
         })
     }
 
-    fn judge(&self, ran: &[OneRun]) -> Outcome {
-        let completion = completion(ran, |errors| not_finite(errors));
+    fn judge(&self, ran: &[Ran<Resolution, NamedErrors>]) -> Outcome {
+        let completion = completion(ran, |errors| not_finite(errors.iter().copied()));
         let (mut rest, mut runs) = (ran, vec![]);
         for series in &self.series {
             // Fewer if some are missing.
@@ -243,15 +243,12 @@ impl Kind for AnyOrder {
             rest = others;
             runs.push((series, mine));
         }
-        if self.over == Over::Degree {
-            self.over_degrees(&runs, completion)
-        } else {
-            self.over_steps(&runs, completion)
+        match self.over {
+            Over::Degree => self.over_degrees(&runs, completion),
+            Over::Space | Over::Time => self.over_steps(&runs, completion),
         }
     }
 }
-
-type OneRun = Ran<Resolution, NamedErrors>;
 
 impl AnyOrder {
     fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
@@ -263,7 +260,7 @@ impl AnyOrder {
     }
 
     /// Rates over h or dt; one figure shows each degree's errors together.
-    fn over_steps(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
+    fn over_steps(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, NamedErrors>])], completion: Check) -> Outcome {
         let mut all = Outcome::new("", vec![], vec![completion]);
         for (series, runs) in runs {
             let Resolution { degree, time_degree, .. } = series.runs[0];
@@ -276,7 +273,7 @@ impl AnyOrder {
         Outcome { summary: summary(&all.rates), ..all }
     }
 
-    fn levels(&self, series: &RunsOfDegree, ran: &[OneRun]) -> Levels {
+    fn levels(&self, series: &RunsOfDegree, ran: &[Ran<Resolution, NamedErrors>]) -> Levels {
         let (name, orders) = match (self.over, &series.runs[0]) {
             (Over::Time, Resolution { time_degree: q, .. }) => {
                 let orders = vec![("ends", 2 * q + 1), ("u inside", (q + 2).min(2 * q + 1)), ("u_t inside", q + 1)];
@@ -289,7 +286,7 @@ impl AnyOrder {
         let errors: Vec<_> = ran.iter().map(|ran| ran.ok().map(Vec::as_slice)).collect();
         let mut columns = ErrorColumn::of(&claims, &errors);
         columns.iter_mut().for_each(|column| column.name = format!("{name}, {}", column.name));
-        let refinement = |ran: &OneRun| {
+        let refinement = |ran: &Ran<Resolution, NamedErrors>| {
             let Resolution { degree, elements, time_degree, steps } = ran.case.data;
             let numbers = [("degree", degree), ("elements", elements), ("time degree", time_degree), ("steps", steps)];
             let step = match self.over {
@@ -303,11 +300,11 @@ impl AnyOrder {
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
-    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[OneRun])], completion: Check) -> Outcome {
+    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, NamedErrors>])], completion: Check) -> Outcome {
         let mut checks = vec![completion];
         let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
         for (series, runs) in runs {
-            let error = |run: &OneRun| run.ok().map_or(f64::NAN, |errors| errors[0].1);
+            let error = |run: &Ran<Resolution, NamedErrors>| run.ok().map_or(f64::NAN, |errors| errors[0].1);
             let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
             checks.extend(exponential(&points, series.tolerance));
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));

@@ -130,29 +130,22 @@ impl Kind for EndStates {
         })];
         checks.extend(scenes.iter().map(Ends::check));
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
-        let figure = bent.figure(
-            "errors",
-            None,
-            "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.".to_owned(),
-            &rates,
-        );
+        let caption = "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
+        let figure = bent.figure("errors", None, caption.to_owned(), &rates);
         let rows: Vec<_> = scenes.iter().map(|ends| (vec![ends.scene.name.clone()], ends.readings())).collect();
         let bent_rows = rows.iter().zip(&scenes).filter(|(_, ends)| !ends.is_straight());
         let tips = readings::guarded(bent_rows.flat_map(|((_, readings), _)| readings));
         let elements = self.elements.last().unwrap_or(&0);
         let title = format!("Ends of long runs ({elements} elements, and extrapolated) and exact steady states");
         let worst = scenes.iter().map(Ends::error).fold(0.0, max_or_nan);
+        let summary = format!("{} long runs end at most {worst:.1e} from an exact steady state", scenes.len());
         Outcome {
             levels: self.levels(scenes.iter()).errors(),
             tables: vec![readings::table(title, &["scene"], &rows)],
             figures: vec![figure],
             quantities: [tips, bent.quantities(&rates)].concat(),
             headline: format!("largest error at the finest mesh {worst:.1e}, of {} ends", scenes.len()),
-            ..Outcome::new(
-                format!("{} long runs end at most {worst:.1e} from an exact steady state", scenes.len()),
-                rates,
-                checks,
-            )
+            ..Outcome::new(summary, rates, checks)
         }
     }
 }

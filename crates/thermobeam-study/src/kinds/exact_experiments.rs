@@ -73,8 +73,7 @@ pub struct ExactExperiments {
 impl FromFile for ExactExperiments {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "experiments", "discretisations"])?;
-        let section = root.require("experiments", "a table with scenes, times and agreement")?.section()?;
-        section.allow(&["scenes", "times", "agreement", "compare"])?;
+        let section = root.table("experiments", &["scenes", "times", "agreement", "compare"])?;
         let scene = |item: &Field<'_>| Scene::read_one_step(item, folder);
         let allowed = "a list of at least one scene file";
         let scenes = section.list("scenes", allowed, scene, |list| !list.is_empty())?;
@@ -103,9 +102,8 @@ fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<
         let last = times.last().map_or(0, |t| steps(t).round() as usize);
         if !(times.iter().all(is_level) && last.is_multiple_of(TIP_TIMES)) {
             let found = format!("{}, whose dt is {:?}", scene.name, scene.dt());
-            let expected = format!(
-                "scenes whose time levels include all `times`, the last after a multiple of {TIP_TIMES} steps, where compare = true"
-            );
+            let last = format!("the last after a multiple of {TIP_TIMES} steps, where compare = true");
+            let expected = format!("scenes whose time levels include all `times`, {last}");
             return Err(section.refuse("scenes", found, expected));
         }
     }
@@ -198,21 +196,16 @@ impl ExactExperiments {
             let history = plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>()).titled(title);
             Figure::new(what, caption, history.with_looks(&looks(scenes.iter().map(|scene| scene.name))).draw())
         };
-        let mut figures = vec![figure(
-            "tip",
-            "The free end of every experiment, to ten digits.",
-            "Displacement of the free end",
-            plots::Axis::linear("displacement u(1, t) (dimensionless)"),
-            |scene| scene.any_order[0].map(|shown| shown.tip.clone()).unwrap_or_default(),
-        )];
+        let y = plots::Axis::linear("displacement u(1, t) (dimensionless)");
+        let (caption, title) = ("The free end of every experiment, to ten digits.", "Displacement of the free end");
+        let tip = |scene: &OfScene<'_>| scene.any_order[0].map_or(vec![], |shown| shown.tip.clone());
+        let mut figures = vec![figure("tip", caption, title, y, tip)];
         if self.compare {
-            figures.push(figure(
-                "error",
-                "Error of the scenes' own schemes at their own resolution over time, in the displacement of the free end.",
-                "Error of the scenes' own scheme at their own resolution",
-                plots::Axis::log("error of u(1, t) (dimensionless)"),
-                |scene| scene.error_over_time(),
-            ));
+            let y = plots::Axis::log("error of u(1, t) (dimensionless)");
+            let title = "Error of the scenes' own scheme at their own resolution";
+            let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of \
+                           the free end.";
+            figures.push(figure("error", caption, title, y, |scene| scene.error_over_time()));
         }
         figures
     }
@@ -241,9 +234,6 @@ fn differences(one: &Sample, other: &Sample) -> [Reading; 6] {
         Reading::new(ones[k].name.clone(), difference)
     })
 }
-
-/// A row of a table: a scene, a time, and the numbers there.
-type AtTime = (Vec<String>, Vec<Reading>);
 
 impl<'r> OfScene<'r> {
     fn of(study: &'r ExactExperiments, ran: &'r [Ran<(usize, Option<usize>), ShownStates>], scene: usize) -> Self {
@@ -300,7 +290,7 @@ impl<'r> OfScene<'r> {
     }
 
     /// The numbers, to the digits that both discretisations agree on and one more.
-    fn values(&self) -> Vec<AtTime> {
+    fn values(&self) -> Vec<(Vec<String>, Vec<Reading>)> {
         let apart = self.difference();
         let decimals = if apart > 0.0 { (-apart.log10()).floor().clamp(0.0, 14.0) as usize } else { 14 };
         let row = |state: &Sample| {
@@ -316,7 +306,7 @@ impl<'r> OfScene<'r> {
     }
 
     /// Errors of the scene's own scheme.
-    fn errors(&self) -> Vec<AtTime> {
+    fn errors(&self) -> Vec<(Vec<String>, Vec<Reading>)> {
         let row = |(own, exact): (&Sample, &Sample)| {
             let largest = Reading::new("largest |error| of u(1, t)", self.own_error());
             let errors = differences(own, exact).into_iter().chain([largest]).map(|error| error.scientific(2));

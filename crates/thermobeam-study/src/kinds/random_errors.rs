@@ -223,10 +223,8 @@ impl Kind for RandomErrors {
         ];
         let rows: Vec<_> = found.iter().map(|(ran, found)| (vec![ran.case.label.clone()], found.readings())).collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
-        let headline = format!(
-            "{} scenes: errors at most {over_estimate:.2} of their estimates and {over_target:.2} of the target error",
-            found.len()
-        );
+        let errors = format!("{over_estimate:.2} of their estimates and {over_target:.2} of the target error");
+        let headline = format!("{} scenes: errors at most {errors}", found.len());
         Outcome {
             tables: vec![readings::table("Errors relative to the estimates and targets", &["scene"], &rows)],
             figures: vec![self.figure(&found)],

@@ -74,21 +74,20 @@ struct Whole {
     within: f64,
 }
 
-/// Numbers by their names: some of [`NUMBERS`] and of [`PREDICTED`], and those of [`PAIRS`].
+/// Numbers by their names: some of [`NUMBERS`] and of [`PREDICTED`], and those of lists of pairs.
 type Expected = Vec<(String, f64)>;
 
-/// The numbers that a list of pairs stands for.
-type Listed = fn(&[[f64; 2]]) -> Expected;
-
-/// Keys of an answer whose values are lists of pairs, and the numbers that each list stands for.
-const PAIRS: [(&str, Listed); 3] = [
-    ("history", |pairs| pairs.iter().map(|[t, u]| (format!("u(1, {t})"), *u)).collect()),
-    ("contact", |pairs| listed("contacts", ["begin of contact", "end of contact"], pairs)),
-    ("steady", |pairs| listed(STEADY, ["u(1) of steady state", "unstable directions of steady state"], pairs)),
-];
+/// Keys of an answer whose values are lists of pairs.
+const PAIRS: [&str; 3] = ["history", "contact", "steady"];
 const STEADY: &str = "steady states";
 
-fn listed(what: &str, names: [&str; 2], pairs: &[[f64; 2]]) -> Expected {
+/// The numbers that a list of pairs stands for.
+fn listed(key: &str, pairs: &[[f64; 2]]) -> Expected {
+    let (what, names) = match key {
+        "contact" => ("contacts", ["begin of contact", "end of contact"]),
+        "steady" => (STEADY, ["u(1) of steady state", "unstable directions of steady state"]),
+        _ => return pairs.iter().map(|[t, u]| (format!("u(1, {t})"), *u)).collect(),
+    };
     let named = |(k, pair): (usize, &[f64; 2])| [0, 1].map(|i| (format!("{} {}", names[i], k + 1), pair[i]));
     [(what.to_owned(), pairs.len() as f64)].into_iter().chain(pairs.iter().enumerate().flat_map(named)).collect()
 }
@@ -155,14 +154,14 @@ fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
 
 /// The numbers of an answer, and the bound.
 fn numbers_of(section: &Section<'_>) -> Result<(Expected, f64), InputError> {
-    section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS.map(|(key, _)| key)].concat())?;
+    section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS].concat())?;
     let within = section.positive("within")?;
     let number = |name: &str| section.get(name).map(|field| Ok((name.to_owned(), field.number()?)));
     let numbers = NUMBERS.into_iter().chain(PREDICTED).filter_map(number);
     let mut answer = numbers.collect::<Result<Expected, InputError>>()?;
-    for (key, named) in PAIRS {
+    for key in PAIRS {
         if let Some(field) = section.get(key) {
-            answer.extend(named(&pairs(&field)?));
+            answer.extend(listed(key, &pairs(&field)?));
         }
     }
     if answer.is_empty() {
@@ -211,7 +210,7 @@ impl Kind for Scenes {
         let mut checks = vec![completion(ran, |shown| {
             // A run without a step has no change of the energy.
             let count = if shown.counts[0] == 0 { NUMBERS.len() - 1 } else { NUMBERS.len() };
-            not_finite(&NUMBERS.into_iter().zip(shown.numbers).take(count).collect::<Vec<_>>())
+            not_finite(NUMBERS.into_iter().zip(shown.numbers).take(count))
         })];
         checks.extend(found.iter().map(|(whole, shown)| whole.check(shown)));
         checks.push(alike_in_lanes(&found));
@@ -249,8 +248,8 @@ impl Whole {
         if is_known(STEADY) {
             // Infinitely many unstable directions are no number of an answer.
             let unstable = |state: &Equilibrium| state.unstable_directions.map_or(f64::INFINITY, |count| count as f64);
-            let states = exact_states(&self.scene)?;
-            others.extend((PAIRS[2].1)(&states.iter().map(|state| [state.u_tip, unstable(state)]).collect::<Vec<_>>()));
+            let states = exact_states(&self.scene)?.into_iter();
+            others.extend(listed("steady", &states.map(|state| [state.u_tip, unstable(&state)]).collect::<Vec<_>>()));
         }
         Ok(others)
     }
@@ -313,7 +312,7 @@ impl Shown {
     fn named(&self) -> Expected {
         let numbers = NUMBERS.into_iter().map(str::to_owned).zip(self.numbers);
         let lists = [&self.tip, &self.contact].map(|list| list.iter().map(|&(a, b)| [a, b]).collect::<Vec<_>>());
-        let pairs = PAIRS.iter().zip(&lists).flat_map(|((_, named), list)| named(list));
+        let pairs = PAIRS.iter().zip(&lists).flat_map(|(key, list)| listed(key, list));
         numbers.chain(pairs).chain(self.others.clone()).collect()
     }
 

@@ -132,11 +132,8 @@ impl Of<'_> {
             self.text(&format!("beam.{name}")).map_or(default, |text| text.parse().unwrap_or(default))
         };
         let on = |is_on: bool, on: &'static str, off: &'static str| if is_on { on } else { off };
-        let meets = matches!(
-            self.kind(),
-            "experiments with contact" | "maps of the solvers" | "the energy's laws" | "steady states"
-        );
-        let paper = meets || self.item.contains("paper-") || self.text("refine.scene").is_some();
+        let meets = ["experiments with contact", "maps of the solvers", "the energy's laws", "steady states"];
+        let paper = meets.contains(&self.kind()) || self.item.contains("paper-") || self.text("refine.scene").is_some();
         [
             ("coupling", on(number("a", default.a) != 0.0, "coupling a > 0", "no coupling")),
             ("rho", on(number("rho", default.rho) != 0.0, "Kirchhoff's term, rho > 0", "a linear beam")),

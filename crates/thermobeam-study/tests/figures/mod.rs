@@ -59,11 +59,10 @@ pub(crate) fn motion() -> Animation {
     let nodes: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
     let shape =
         |t: f64, x: f64| tip(t) * x * x * (3.0 - x) / 2.0 + 0.012 * (4.71 * x).sin() * (16.0 * t).sin() * (1.0 - x);
+    let u = times.iter().map(|&t| nodes.iter().map(|&x| shape(t, x)).collect()).collect();
     Animation {
         title: Some("A beam between two obstacles".into()),
-        frames: times.iter().map(|&t| nodes.iter().map(|&x| shape(t, x)).collect()).collect(),
-        times,
-        nodes,
+        frames: Frames { u, times, points: nodes },
         obstacles: Some((-0.01, 0.1)),
         seconds: 10.0,
     }

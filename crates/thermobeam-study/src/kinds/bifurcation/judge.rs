@@ -170,7 +170,7 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
 }
 
 fn numbers_not_finite(found: &Found) -> Vec<String> {
-    not_finite(&match found {
+    not_finite(match found {
         Found::Diagram(Diagram { event: [low, high], .. }) => vec![("event, below", *low), ("event, above", *high)],
         Found::Force(force) => vec![("force", *force)],
         Found::Rest(rest) => vec![("u(1)", rest.tip[0]), ("distance", rest.distance())],

@@ -110,10 +110,8 @@ impl Kind for AnyOrderControls {
             let verdicts: Vec<_> = judged.iter().map(|judged| judged.map(|judged| judged.verdict)).collect();
             matrix.add(fault, &verdicts, judged.iter().map(cell).collect());
         }
-        let headline = format!("{} of {} wrong coefficients detected", matrix.detected, matrix.faults);
-        let summary = format!("{headline}, each off by {:e}; error without a fault {honest:.1e}", self.relative);
+        let more = format!("each off by {:e}; error without a fault {honest:.1e}", self.relative);
         let title = "Verdict of each study with one coefficient of the solver off, and the error of its finest run";
-        let tables = vec![matrix.table(title, "coefficient")];
-        Outcome { headline, tables, quantities, ..Outcome::new(summary, vec![], matrix.checks) }
+        Outcome { quantities, ..matrix.outcome("wrong coefficients", &more, title, "coefficient") }
     }
 }

@@ -113,16 +113,15 @@ struct Matrix<'s> {
     ids: Vec<&'s str>,
     /// Whether every study must notice each fault; otherwise one is enough.
     every: bool,
+    /// That of completion, that of all studies without a fault, then one for each fault.
     checks: Vec<Check>,
     rows: Vec<Vec<String>>,
-    faults: usize,
-    detected: usize,
 }
 
 impl<'s> Matrix<'s> {
     fn new<K>(studies: &'s [Described<K>], every: bool, completion: Check) -> Self {
         let ids = studies.iter().map(|study| study.header.id.as_str()).collect();
-        Self { ids, every, checks: vec![completion], rows: vec![], faults: 0, detected: 0 }
+        Self { ids, every, checks: vec![completion], rows: vec![] }
     }
 
     /// Adds a fault: the verdict of each study, if it has one, and its cell of the table.
@@ -141,12 +140,16 @@ impl<'s> Matrix<'s> {
         let (holds, by) = if self.every { (failed == all, " by every study") } else { (failed > 0, "") };
         let evidence = format!("{failed} of {all} studies notice it");
         self.checks.push(Check::that(holds, format!("{} is detected{by}", fault.name()), evidence));
-        self.faults += 1;
-        self.detected += usize::from(holds);
     }
 
-    fn table(&mut self, title: &str, first: &str) -> Table {
-        Table::new(title, [first].into_iter().chain(self.ids.iter().copied()), std::mem::take(&mut self.rows))
+    /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the faults' column.
+    fn outcome(self, faults: &str, more: &str, title: &str, first: &str) -> Outcome {
+        let of_faults = &self.checks[2..];
+        let detected = of_faults.iter().filter(|check| check.verdict == Verdict::Pass).count();
+        let headline = format!("{detected} of {} {faults} detected", of_faults.len());
+        let summary = format!("{headline}, {more}");
+        let tables = vec![Table::new(title, [first].into_iter().chain(self.ids), self.rows)];
+        Outcome { headline, tables, ..Outcome::new(summary, vec![], self.checks) }
     }
 }
 
@@ -156,8 +159,8 @@ pub struct Controls {
     studies: Vec<Described<Convergence>>,
 }
 
-/// Index of a study, with the elements and steps of one of its levels, on which every fault is planted.
-type LevelOf = (usize, (usize, usize));
+/// A level of a study, with and without faults.
+type RanOnLevel = Ran<<Controls as Kind>::Data, <Controls as Kind>::Found>;
 
 impl FromFile for Controls {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
@@ -168,7 +171,8 @@ impl FromFile for Controls {
 }
 
 impl Kind for Controls {
-    type Data = LevelOf;
+    /// Index of a study, with the elements and steps of one of its levels, on which every fault is planted.
+    type Data = (usize, (usize, usize));
     /// One run for each fault that can be planted, with its errors; NaN if it broke down.
     type Found = Vec<(Fault, Norms)>;
 
@@ -198,7 +202,7 @@ impl Kind for Controls {
         Ok(found)
     }
 
-    fn judge(&self, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Outcome {
+    fn judge(&self, ran: &[RanOnLevel]) -> Outcome {
         // In a run with a fault, a number that is not finite is a detection.
         let not_finite = |found: &Vec<(Fault, Norms)>| {
             let honest = errors_with(found, Fault::None);
@@ -211,20 +215,18 @@ impl Kind for Controls {
             let cell = |verdict: &Option<Verdict>| verdict.map_or("n/a", Verdict::name).to_owned();
             matrix.add(fault, &verdicts, verdicts.iter().map(cell).collect());
         }
-        let headline = format!("{} of {} planted faults detected", matrix.detected, matrix.faults);
-        let summary = format!("{headline}, coefficients being off by {:e}", self.relative);
+        let more = format!("coefficients being off by {:e}", self.relative);
         let title = "Verdict of each study under each fault: `fail` detects it; n/a: term absent";
-        let tables = vec![matrix.table(title, "fault")];
-        Outcome { headline, tables, ..Outcome::new(summary, vec![], matrix.checks) }
+        matrix.outcome("planted faults", &more, title, "fault")
     }
 }
 
 impl Controls {
     /// The verdict of one study under one fault, the worst over its norms; `None` if the fault cannot be planted.
-    fn verdict(&self, study: usize, fault: Fault, ran: &[Ran<LevelOf, Vec<(Fault, Norms)>>]) -> Option<Verdict> {
+    fn verdict(&self, study: usize, fault: Fault, ran: &[RanOnLevel]) -> Option<Verdict> {
         let spec = &self.studies[study].kind;
         fault.plant(spec.theory, self.relative)?;
-        let level = |ran: &Ran<LevelOf, Vec<(Fault, Norms)>>| {
+        let level = |ran: &RanOnLevel| {
             let errors = ran.ok().and_then(|found| errors_with(found, fault));
             (ran.case.data.1, errors.copied().unwrap_or(Norms::NAN))
         };

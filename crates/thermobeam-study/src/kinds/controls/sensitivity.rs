@@ -71,9 +71,7 @@ impl Kind for Sensitivity {
     }
 
     fn judge(&self, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> Outcome {
-        let not_finite =
-            |smallest: &Option<f64>| readings::not_finite(&[Reading::new("the smallest error", *smallest)]);
-        let mut checks = vec![completion(ran, not_finite)];
+        let mut checks = vec![completion(ran, |smallest| not_finite([("the smallest error", *smallest)]))];
         let (mut rows, mut quantities) = (vec![], vec![]);
         for key in Coefficients::names() {
             let cells: Vec<(f64, String)> = (0..self.studies.len()).map(|study| cell(study, key, ran)).collect();

@@ -128,9 +128,6 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Elements, steps and errors of a level.
-pub(in crate::kinds) type LevelNorms = ((usize, usize), Norms);
-
 /// All levels of a study, prepared once for runs with many faults.
 pub(in crate::kinds) struct Detector<'a> {
     study: &'a Convergence,
@@ -144,7 +141,7 @@ impl<'a> Detector<'a> {
     }
 
     /// The errors of every level; NaN if a run breaks down, so that every study fails on it.
-    pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<LevelNorms> {
+    pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<((usize, usize), Norms)> {
         let measure = |(prepared, level): &mut (Prepared<'_>, (usize, usize))| {
             (*level, prepared.run(level.1, solver, None).unwrap_or(Norms::NAN))
         };
@@ -161,10 +158,11 @@ impl<'a> Detector<'a> {
 /// The verdicts of a study on errors over its levels, coarse to fine: one for each judged norm.
 pub(in crate::kinds) fn verdicts<'a>(
     study: &'a Convergence,
-    levels: &'a [LevelNorms],
+    levels: &'a [((usize, usize), Norms)],
 ) -> impl Iterator<Item = Verdict> + 'a {
     study.expect.iter().map(move |&(norm, claim)| {
-        let error = |&((n, steps), errors): &LevelNorms| Error { step: study.step(n, steps), error: errors[norm] };
+        let error =
+            |&((n, steps), errors): &((usize, usize), Norms)| Error { step: study.step(n, steps), error: errors[norm] };
         judge(&levels.iter().map(error).collect::<Vec<_>>(), claim.order, claim.tolerance).verdict
     })
 }
@@ -201,10 +199,9 @@ pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
         found.push(Untested { what: key.to_owned(), why });
     }
     let is_exact = |norm: &Norm| levels.iter().all(|(_, errors)| errors[*norm] <= ROUND_OFF);
-    found.extend(Norm::ALL.into_iter().filter(is_exact).map(|norm| Untested {
-        what: norm.name().to_owned(),
-        why: "its error is round-off on every level: the solution lies in the space of the scheme".to_owned(),
-    }));
+    let why = "its error is round-off on every level: the solution lies in the space of the scheme";
+    let exact = Norm::ALL.into_iter().filter(is_exact).map(Norm::name);
+    found.extend(exact.map(|what| Untested { what: what.to_owned(), why: why.to_owned() }));
     found
 }
 

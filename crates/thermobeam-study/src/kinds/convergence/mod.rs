@@ -35,7 +35,7 @@ use convergence_study::study::grid::{Grid, GridColumn};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
-use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, not_finite, refine};
+use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
 pub use design::{Defect, Prepared};
 
 /// The row of the table of kinds.
@@ -85,11 +85,8 @@ impl FromFile for Convergence {
         let solver = control(root, theory)?;
         let expect = expectations(root)?;
         if refine.grid && expect.iter().any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance)) {
-            return Err(root.refuse(
-                "expect",
-                "a least order or a constant",
-                "orders alone, for a grid has one in h and in dt",
-            ));
+            let allowed = "orders alone, for a grid has one in h and in dt";
+            return Err(root.refuse("expect", "a least order or a constant", allowed));
         }
         Ok(Self { theory, solver, exact, refine, expect })
     }
@@ -117,7 +114,7 @@ impl Kind for Convergence {
 
     fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
         let levels = self.levels(ran);
-        let completion = completion(ran, not_finite);
+        let completion = completion(ran, |errors| not_finite(errors.iter().map(|(norm, error)| (norm.name(), error))));
         if self.refine.grid {
             return self.judge_grid(ran, &levels, completion);
         }

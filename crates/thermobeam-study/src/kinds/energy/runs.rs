@@ -25,8 +25,6 @@
 //! t_end = 1000.0
 //! ```
 
-use std::sync::Arc;
-
 use thermobeam::energy::Energy;
 
 use super::{End, Worst, named_cases};
@@ -49,16 +47,12 @@ pub struct EnergyRuns {
     histories: bool,
 }
 
-/// Where the problem of a run comes from.
-type ProblemSource = Arc<dyn Fn() -> Problem + Send + Sync>;
-
 /// A run, and what is claimed of it.
 #[derive(Clone)]
 struct EnergyRun {
     name: String,
-    elements: usize,
     /// The scene's, or a beam with random coefficients and smooth random data.
-    problem: ProblemSource,
+    problem: Problem,
     stepping: Stepping,
     steps: usize,
     /// In words.
@@ -138,12 +132,11 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
     let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
     let settings = Settings { tolerance: SOLVED, ..Settings::default() };
-    let by_scheme = |name: String, is_scene: bool, problem: ProblemSource| {
+    let by_scheme = |name: String, is_scene: bool, problem: Problem| {
         schemes.iter().enumerate().map(move |(k, &scheme)| EnergyRun {
             name: format!("{name}, {}", scheme.name),
             // Random beams and further schemes would crowd the figures.
             is_drawn: k == 0 && is_scene,
-            elements,
             problem: problem.clone(),
             stepping: Stepping { scheme, settings, dt, loaded: false },
             steps,
@@ -153,11 +146,8 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
             drift: None,
         })
     };
-    let of_scene = |scene: Scene| by_scheme(scene.name.clone(), true, Arc::new(move || simulate::problem(&scene)));
-    let smooth = |k: u64| {
-        let (mesh, seed) = (mesh.clone(), seed.wrapping_add(k));
-        by_scheme(format!("random-{k}"), false, Arc::new(move || super::smooth(&mesh, seed)))
-    };
+    let of_scene = |scene: Scene| by_scheme(scene.name.clone(), true, simulate::problem(&scene));
+    let smooth = |k: u64| by_scheme(format!("random-{k}"), false, super::smooth(&mesh, seed.wrapping_add(k)));
     Ok(scenes.into_iter().flat_map(of_scene).chain((0..random as u64).flat_map(smooth)).collect())
 }
 
@@ -186,8 +176,7 @@ fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
         stepping: Stepping { settings, ..stepping },
         steps: scene.steps(),
         is_drawn: false,
-        elements: scene.mesh.elements(),
-        problem: Arc::new(move || simulate::problem(&scene)),
+        problem: simulate::problem(&scene),
     })
 }
 
@@ -198,7 +187,7 @@ impl Kind for EnergyRuns {
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
-        let cost = |run: &EnergyRun| run.steps as f64 * (4.0 * run.elements as f64 + 4.0);
+        let cost = |run: &EnergyRun| run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
         let case = |(data, run): (usize, &EnergyRun)| Case { label: run.name.clone(), cost: cost(run), data };
         self.runs.iter().enumerate().map(case).collect()
     }
@@ -234,7 +223,7 @@ impl Kind for EnergyRuns {
 impl EnergyRun {
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
     fn run(&self) -> Result<Found, CaseFailure> {
-        let mut driver = Driver::new((self.problem)(), self.stepping)?;
+        let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
         let (simulation, level) = driver.present();
         let mut watch = EnergyWatch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
@@ -298,7 +287,7 @@ impl EnergyRun {
     fn readings(&self, found: &Found) -> Vec<Reading> {
         let of_steps = |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value)).scientific(1);
         vec![
-            Reading::text("elements", self.elements.to_string()),
+            Reading::text("elements", self.problem.mesh.elements().to_string()),
             Reading::text("dt", plain_text(self.stepping.dt)),
             Reading::text("steps", found.steps.to_string()),
             Reading::text("in contact", found.contact_steps.to_string()),
@@ -322,7 +311,7 @@ impl Found {
     fn not_finite(&self) -> Vec<String> {
         let numbers = [("initial energy", self.initial_energy), ("sum of residuals", self.drift)];
         let named = self.worst.named().into_iter().filter(|(name, _)| self.steps > 0 || *name != "rise");
-        not_finite(&numbers.into_iter().chain(named).collect::<Vec<_>>())
+        not_finite(numbers.into_iter().chain(named))
     }
 }
 
@@ -359,11 +348,9 @@ impl EnergyRuns {
         let residuals = not_zero(series(|_, sample| (sample.t, sample.residual)));
         let y = plots::Axis::log("largest residual up to t / initial energy");
         let balance = Xy { guides: allowed(|run| run.share), ..plots::history(y, &residuals).with_looks(&looks) };
+        let of_energy = "The energy, in units of its initial size: it never rises.";
         let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
-        vec![
-            Figure::new("energy", "The energy, in units of its initial size: it never rises.", energy.draw()),
-            Figure::new("balance", caption, balance.draw()),
-        ]
+        vec![Figure::new("energy", of_energy, energy.draw()), Figure::new("balance", caption, balance.draw())]
     }
 }
 

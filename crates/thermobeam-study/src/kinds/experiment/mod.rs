@@ -115,8 +115,7 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
     let section = root.table("experiments", &["first", "second", "rests", "third"])?;
     // At least two scenes in ascending order of β, since the claims compare neighbours.
     let ascending = |key: &str| {
-        let fits =
-            |scenes: &[Scene]| scenes.len() >= 2 && scenes.windows(2).all(|pair| pair[0].beam.beta < pair[1].beam.beta);
+        let fits = |scenes: &[Scene]| scenes.len() >= 2 && scenes.is_sorted_by(|a, b| a.beam.beta < b.beam.beta);
         let allowed = "a list of at least two scene files, beta ascending";
         section.list(key, allowed, |item| listed_scene(item, folder), fits)
     };
@@ -199,8 +198,8 @@ pub struct Measured {
     pub largest_increase: f64,
     /// Free end and energy over time.
     pub points: Vec<Sample>,
-    /// Times of the first seconds, each with u at each node.
-    pub frames: Vec<(f64, Vec<f64>)>,
+    /// u in the first seconds.
+    pub frames: figures::Frames,
 }
 
 impl Experiments {
@@ -240,13 +239,14 @@ struct MotionLog<'a> {
     motion: Vec<[f64; 3]>,
     largest_increase: f64,
     points: Vec<Sample>,
-    frames: Vec<(f64, Vec<f64>)>,
+    frames: figures::Frames,
 }
 
 impl<'a> MotionLog<'a> {
     fn new(scene: &'a Scene, driver: &mut Driver) -> Self {
         let largest_increase = f64::NEG_INFINITY;
-        let mut log = Self { scene, motion: vec![], largest_increase, points: vec![], frames: vec![] };
+        let frames = figures::Frames { points: scene.mesh.nodes().to_vec(), ..Default::default() };
+        let mut log = Self { scene, motion: vec![], largest_increase, points: vec![], frames };
         let (simulation, level) = driver.present();
         log.add(simulation, level);
         log
@@ -261,7 +261,8 @@ impl<'a> MotionLog<'a> {
         }
         let of_frames = (SPAN / dt).round() as usize;
         if step <= of_frames && step.is_multiple_of((of_frames / PARTS).max(1)) {
-            self.frames.push((t, level.u.clone()));
+            self.frames.times.push(t);
+            self.frames.u.push(level.u.clone());
         }
         // Beyond the figures' span only slow, smooth motion is left.
         let stride = ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };

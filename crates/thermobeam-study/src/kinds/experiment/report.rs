@@ -41,9 +41,7 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
         let caption = format!("The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.", beta_label(experiment));
         let svg = figures::animation(&figures::Animation {
             title: Some("The beam between its obstacles".to_owned()),
-            frames: run.frames.iter().map(|(_, u)| u.clone()).collect(),
-            times: run.frames.iter().map(|(t, _)| *t).collect(),
-            nodes: experiment.scene.mesh.nodes().to_vec(),
+            frames: run.frames.clone(),
             obstacles: experiment.scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
             seconds: SECONDS,
         });

@@ -90,9 +90,9 @@ impl<'r> Compliance<'r> {
     }
 }
 
-fn not_finite(found: &ShownImpact) -> Vec<String> {
+fn numbers_not_finite(found: &ShownImpact) -> Vec<String> {
     let tip = found.tip.iter().map(|(t, u)| t.abs() + u.abs()).fold(0.0, max_or_nan);
-    let numbers = [
+    not_finite([
         ("velocity", found.velocity),
         ("force", found.force),
         ("penetration", found.penetration),
@@ -101,8 +101,7 @@ fn not_finite(found: &ShownImpact) -> Vec<String> {
         ("iterations", found.mean_iterations),
         ("tip", Some(tip)),
         ("time of failure", found.failed_at),
-    ];
-    readings::not_finite(&numbers.map(|(name, value)| Reading::new(name, value)))
+    ])
 }
 
 pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
@@ -111,7 +110,7 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
     let rates = rates(study, &all);
     let observed: Vec<String> = rates.iter().map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted))).collect();
     let checks = vec![
-        completion(ran, not_finite),
+        completion(ran, numbers_not_finite),
         peak_as_predicted(study, all.last()),
         newton_does_not_depend_on_epsilon(study, &all, limit),
         fixed_point_fails_at_one(&all),

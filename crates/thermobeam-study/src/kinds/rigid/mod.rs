@@ -110,11 +110,8 @@ impl FromFile for RigidStudy {
         let impact = root.table("impact", &["scene", "steps"])?;
         let t_end = moving.positive("t_end")?;
         let allowed = "a list of at least three positive numbers, descending";
-        let fits = |list: &[f64]| {
-            list.len() >= 3
-                && list.windows(2).all(|pair| pair[0] > pair[1])
-                && list.iter().all(|epsilon| *epsilon > 0.0)
-        };
+        // Descending, so that the last is the smallest.
+        let fits = |list: &[f64]| list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0;
         Ok(Self {
             epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
             limit: obstacles.positive("limit")?,

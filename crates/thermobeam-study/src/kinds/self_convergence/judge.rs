@@ -17,8 +17,6 @@ const VALUE_TOLERANCE: f64 = 1e-8;
 /// The part of the finest level's error that the two references may differ by.
 const KNOWN: f64 = 1e-2;
 
-type Results = [Ran<usize, Traced>];
-
 /// A difference of two runs, the second on a mesh that is the first's or nested in it; each the maximum over the times compared.
 #[derive(Debug)]
 pub(super) struct Observable {
@@ -85,7 +83,7 @@ impl Observable {
 /// Each level is compared with the next finer one, or with the reference.
 const READINGS: [&str; 2] = ["successive", "reference"];
 
-pub(super) fn judge(study: &SelfConvergence, ran: &Results) -> Outcome {
+pub(super) fn judge(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Outcome {
     let (mut rates, mut shown, mut quantities, mut errors) = (vec![], vec![], vec![], vec![]);
     for reading in READINGS {
         let claimed = differences(study, ran, reading, |claim| claim.is_some());
@@ -114,7 +112,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &Results) -> Outcome {
 }
 
 /// All differences to the reference; the legend marks those without a claim.
-fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: &Rates) -> Figure {
+fn to_reference(study: &SelfConvergence, ran: &[Ran<usize, Traced>], claimed: &Rates, shown: &Rates) -> Figure {
     let not_claimed = |name: &str| format!("{name} (not claimed)");
     let mut rates = claimed.to_vec();
     rates.extend(shown.iter().map(|(name, rate)| (not_claimed(name), rate.clone())));
@@ -122,16 +120,13 @@ fn to_reference(study: &SelfConvergence, ran: &Results, claimed: &Rates, shown: 
     for column in differences.columns.iter_mut().filter(|column| shown.iter().any(|(name, _)| *name == column.name)) {
         column.name = not_claimed(&column.name);
     }
-    differences.figure(
-        "errors",
-        Some(format!("Differences to a run of any order: {}", study.scene.name)),
-        "Differences to a run of any order, with the orders of a smooth solution.".to_owned(),
-        &rates,
-    )
+    let title = format!("Differences to a run of any order: {}", study.scene.name);
+    let caption = "Differences to a run of any order, with the orders of a smooth solution.";
+    differences.figure("errors", Some(title), caption.to_owned(), &rates)
 }
 
 /// How far u(1) of each level is from the reference over time.
-fn tip(study: &SelfConvergence, ran: &Results) -> Figure {
+fn tip(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Figure {
     let reference = study.levels.len();
     let name = |k: usize| match study.axis {
         Axis::Time => format!("{} steps", study.levels[k].1),
@@ -164,7 +159,7 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
 /// Differences of each level to what it is compared with, of the observables whose claim is `wanted`.
 fn differences(
     study: &SelfConvergence,
-    ran: &Results,
+    ran: &[Ran<usize, Traced>],
     reading: &str,
     wanted: impl Fn(Option<&Claim>) -> bool,
 ) -> Levels {
@@ -189,7 +184,7 @@ fn differences(
 }
 
 /// The result of a run: the levels, then the references.
-fn found(ran: &Results, run: usize) -> Option<&Traced> {
+fn found(ran: &[Ran<usize, Traced>], run: usize) -> Option<&Traced> {
     ran.get(run)?.ok()
 }
 
@@ -201,12 +196,12 @@ fn not_finite(found: &Traced) -> Vec<String> {
 }
 
 /// u(1) of a run at sample `k` from 1; NaN where there is none.
-fn tip_at(ran: &Results, run: usize, k: usize) -> f64 {
+fn tip_at(ran: &[Ran<usize, Traced>], run: usize, k: usize) -> f64 {
     found(ran, run).and_then(|found| found.levels.get(k - 1)).map_or(f64::NAN, |level| last(&level.u))
 }
 
 /// Tip displacements of the finest level, what Richardson adds to them, and those of the reference.
-fn values(study: &SelfConvergence, ran: &Results) -> Table {
+fn values(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
     let ratio = study.step(before) / study.step(finest);
@@ -227,7 +222,7 @@ fn values(study: &SelfConvergence, ran: &Results) -> Table {
     Table::new("Tip displacement: finest level, extrapolated, reference", head, (1..=study.samples).map(row))
 }
 
-fn contact(study: &SelfConvergence, ran: &Results) -> Option<Check> {
+fn contact(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Option<Check> {
     let obstacles = study.scene.obstacles.filter(|_| study.contact)?;
     let [low, high] = found(ran, study.levels.len()).map_or([f64::NAN; 2], |found| found.tip_range);
     let evidence =
@@ -236,7 +231,7 @@ fn contact(study: &SelfConvergence, ran: &Results) -> Option<Check> {
 }
 
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
-fn reference_known(study: &SelfConvergence, ran: &Results) -> Check {
+fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check {
     let reference = study.levels.len();
     let part = |observable: &Observable| {
         let (finest, one, other) = (found(ran, reference - 1)?, found(ran, reference)?, found(ran, reference + 1)?);
@@ -252,7 +247,7 @@ fn reference_known(study: &SelfConvergence, ran: &Results) -> Check {
 }
 
 /// Values of the finest level.
-fn values_guarded(study: &SelfConvergence, ran: &Results) -> [Quantity; 3] {
+fn values_guarded(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> [Quantity; 3] {
     let (finest, samples) = (study.levels.len() - 1, study.samples);
     let energy = found(ran, finest).and_then(|found| found.energies.get(samples - 1).copied());
     let tip_max = found(ran, finest).map_or(f64::NAN, |found| found.tip_range[1]);

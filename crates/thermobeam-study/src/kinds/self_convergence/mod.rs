@@ -88,17 +88,16 @@ impl FromFile for SelfConvergence {
         let scene = Scene::read(file.file(folder)?)?;
         let mut stepping =
             scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
-        let section = root.require("refine", "a table with axis, elements and steps")?.section()?;
-        section.allow(&["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"])?;
+        let keys = ["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"];
+        let section = root.table("refine", &keys)?;
         let axes = [("time", Axis::Time), ("both", Axis::Both)];
         let axis = section.require("axis", "\"time\", \"both\"")?.choice(&axes)?;
         let samples = section.count("samples", 1..=1000)?;
         let (levels, power) = levels(&section, axis, samples)?;
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
-        let schemes = SCHEMES.map(|scheme| (scheme.name, scheme));
         let observables: Vec<_> = Observable::all(axis).map(|observable| (observable.name, observable)).collect();
-        if let Some(field) = section.get("scheme") {
-            stepping.scheme = field.choice(&schemes)?;
+        if section.get("scheme").is_some() {
+            stepping.scheme = tables::scheme(&section)?;
         }
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
@@ -116,12 +115,12 @@ impl FromFile for SelfConvergence {
 }
 
 fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
-    let Some(field) = section.get("contact") else { return Ok(false) };
-    let contact = field.boolean()?;
-    if contact && scene.obstacles.is_none() {
-        return Err(field.refuse("true, of a scene without obstacles", "false, or a scene with obstacles"));
+    match section.get("contact").map_or(Ok(false), |field| field.boolean())? {
+        true if scene.obstacles.is_none() => {
+            Err(section.refuse("contact", "true, of a scene without obstacles", "false, or a scene with obstacles"))
+        }
+        contact => Ok(contact),
     }
-    Ok(contact)
 }
 
 /// The levels, coarse to fine, and the power of h that dt is proportional to if both are refined.

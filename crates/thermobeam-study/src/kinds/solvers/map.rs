@@ -154,17 +154,14 @@ impl Map {
         let elements = |value: f64| if self.over == Parameter::Width { 1.0 / value } else { self.elements as f64 };
         let row = |value: f64| {
             let cost = (self.points * (ITERATIONS + 4 * self.steps)) as f64 * elements(value);
-            Case { label: format!("{name} = {value:.3e}"), cost, data: SolverTask::Row(value) }
+            Case::new(format!("{name} = {value:.3e}"), cost, SolverTask::Row(value))
         };
         let line = |&value: &f64| {
-            let label = format!("boundary at {name} = {}", plain_text(value));
-            Case { label, cost: (2 * HALVINGS * SETTLED) as f64 * elements(value), data: SolverTask::Boundary(value) }
+            let cost = (2 * HALVINGS * SETTLED) as f64 * elements(value);
+            Case::new(format!("boundary at {name} = {}", plain_text(value)), cost, SolverTask::Boundary(value))
         };
-        spaced(self.range, self.points, self.over.is_linear())
-            .into_iter()
-            .map(row)
-            .chain(self.lines.iter().map(line))
-            .collect()
+        let rows = spaced(self.range, self.points, self.over.is_linear()).into_iter().map(row);
+        rows.chain(self.lines.iter().map(line)).collect()
     }
 }
 
@@ -225,7 +222,7 @@ impl Point {
             numbers.push(("the contact force", contact_force));
             numbers.extend(worst.named());
         }
-        not_finite(&numbers)
+        not_finite(numbers)
     }
 }
 
@@ -262,9 +259,9 @@ pub struct Boundary {
 
 impl Boundary {
     pub(super) fn not_finite(&self) -> Vec<String> {
-        let at = self.found.map(|at| [("boundary", at.dt), ("alpha", at.alpha), ("gamma", at.gamma)]);
-        let predicted = self.predicted.map(|dt| ("predicted boundary", dt));
-        not_finite(&predicted.into_iter().chain(at.into_iter().flatten()).collect::<Vec<_>>())
+        let at = |name, of: fn(&FixedPointStep) -> f64| (name, self.found.as_ref().map(of));
+        let found = [at("boundary", |at| at.dt), at("alpha", |at| at.alpha), at("gamma", |at| at.gamma)];
+        not_finite([("predicted boundary", self.predicted)].into_iter().chain(found))
     }
 }
 

@@ -91,11 +91,10 @@ impl Found {
     /// Names of the numbers that are NaN, or infinite although only a finite value makes sense.
     fn not_finite(&self) -> Vec<String> {
         match self {
-            Found::Contraction(found) => not_finite(&[("alpha", found.alpha), ("gamma", found.gamma)]),
-            Found::Comparison(found) => not_finite(&[
-                ("the distance", found.distance),
-                ("the mean number of iterations", found.mean_iterations),
-            ]),
+            Found::Contraction(found) => not_finite([("alpha", found.alpha), ("gamma", found.gamma)]),
+            Found::Comparison(Agreement { distance, mean_iterations, .. }) => {
+                not_finite([("the distance", *distance), ("the mean number of iterations", *mean_iterations)])
+            }
             Found::Row(row) => row.iter().flat_map(Point::not_finite).collect(),
             Found::Boundary(boundary) => boundary.not_finite(),
         }
@@ -196,14 +195,9 @@ impl FixedPointStep {
     ///
     /// # Errors
     /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
-    fn run(
-        problem: &Problem,
-        dt: f64,
-        n_value: f64,
-        tolerance: f64,
-        max_iterations: usize,
-    ) -> Result<Self, CaseFailure> {
-        let settings = Settings { solver: Solver::FixedPoint, tolerance, max_iterations, ..Settings::default() };
+    fn run(problem: &Problem, dt: f64, n_value: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
+        let newton = Settings { tolerance, max_iterations: iterations, ..Settings::default() };
+        let settings = Settings { solver: Solver::FixedPoint, ..newton };
         let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
         let outcome = Driver::new(problem.clone(), stepping)?.advance(|_, _| ());
         let (iterations, contraction) = match &outcome {

@@ -192,13 +192,9 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
         let evidence = format!("{:.2e}, {:.3} of the tolerance", found.distance, found.distance / eta);
         Check::that(found.distance <= *eta, format!("eta* = {eta:e}: the error is below eta*"), evidence)
     };
-    let row = |(eta, found): &(f64, &Agreement)| {
-        vec![
-            format!("{eta:e}"),
-            format!("{:.3e}", found.distance),
-            format!("{:.3}", found.mean_iterations),
-            found.most_iterations.to_string(),
-        ]
+    let row = |(eta, Agreement { distance, mean_iterations, most_iterations, .. }): &(f64, &Agreement)| {
+        [format!("{eta:e}"), format!("{distance:.3e}"), format!("{mean_iterations:.3}"), most_iterations.to_string()]
+            .into()
     };
     let head = ["tolerance", "distance to Newton", "mean iterations", "most iterations"];
     let last = found.last().map(|(_, found)| *found);
@@ -215,11 +211,8 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
 
 fn iterations_figure(found: Option<&Agreement>) -> Figure {
     let curve = |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
-    let series = |label: &str, points| plots::Series { label: label.to_owned(), points };
-    let series = [
-        series("fixed point", curve(|found| &found.iterations)),
-        series("Newton's method", curve(|found| &found.newton)),
-    ];
+    let fixed_point = plots::Series::new("fixed point", curve(|found| &found.iterations));
+    let series = [fixed_point, plots::Series::new("Newton's method", curve(|found| &found.newton))];
     let phases = plots::Phases { label: "in contact".to_owned(), intervals: curve(|found| &found.contact) };
     let shaded = if phases.intervals.is_empty() { "" } else { "; shaded where the tip is in contact" };
     let caption =

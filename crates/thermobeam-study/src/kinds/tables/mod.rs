@@ -28,8 +28,8 @@ pub(crate) fn manufactured(root: &Section<'_>, beam: &Beam, t_end: f64) -> Resul
     if exact.u.is_empty() && exact.phi.is_empty() && exact.theta.is_empty() {
         return Err(root.refuse("exact", "an empty table", allowed));
     }
-    for (x, expected) in [(0.0, beam.theta_a), (1.0, 0.0)] {
-        temperature_meets(&section, &exact.theta, x, expected, t_end)?;
+    for end in [[0.0, beam.theta_a], [1.0, 0.0]] {
+        meets(&section, &exact.theta, end, t_end)?;
     }
     Ok(exact)
 }
@@ -55,13 +55,7 @@ fn products(section: &Section<'_>, key: &str, t_end: f64) -> Result<Vec<Product>
 }
 
 /// θ(x, t) = `expected` at an end of the beam, at some times, up to round-off.
-fn temperature_meets(
-    section: &Section<'_>,
-    theta: &[Product],
-    x: f64,
-    expected: f64,
-    t_end: f64,
-) -> Result<(), InputError> {
+fn meets(section: &Section<'_>, theta: &[Product], [x, expected]: [f64; 2], t_end: f64) -> Result<(), InputError> {
     // Unlikely to be a multiple of the period of a study.
     const TIMES: u32 = 7;
     // The error of X is proportional to X and amplified by T, and vice versa.
@@ -149,11 +143,6 @@ pub(crate) fn norm_levels<'r>(
         look: norm as usize,
     };
     Levels::new(refine.axis, ran.clone().map(refinement), Norm::ALL.into_iter().map(column))
-}
-
-/// Names of the norms in which the error is not finite.
-pub(crate) fn not_finite(errors: &Norms) -> Vec<String> {
-    errors.iter().filter(|(_, error)| !error.is_finite()).map(|(norm, _)| norm.name().to_owned()).collect()
 }
 
 /// The table `[control]`: coefficients in which the solver differs from `theory`; without the table they are equal.

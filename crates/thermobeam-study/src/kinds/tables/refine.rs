@@ -194,13 +194,11 @@ fn levels(
 }
 
 fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {
-    let seed = section.get("seed");
-    let Some(field) = section.get("perturb") else {
-        return match seed {
-            Some(seed) => Err(seed.refuse(format!("{} without perturb", seed.as_written()), "perturb beside it")),
-            None => Ok(None),
-        };
-    };
+    let (seed, perturb) = (section.get("seed"), section.get("perturb"));
+    if let (Some(seed), None) = (&seed, &perturb) {
+        return Err(seed.refuse(format!("{} without perturb", seed.as_written()), "perturb beside it"));
+    }
+    let Some(field) = perturb else { return Ok(None) };
     let amount = field.number_where("a number >= 0 and < 1", |amount| (0.0..1.0).contains(&amount))?;
     let seed = seed.map_or(Ok(0), |seed| seed.count(0..=usize::MAX))? as u64;
     Ok(Some(Perturbation { amount, seed }))

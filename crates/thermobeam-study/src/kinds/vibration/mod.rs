@@ -6,7 +6,7 @@
 mod modes;
 
 use super::prelude::*;
-use super::tables::{Refine, control, expectations, norm_levels, not_finite as norms_not_finite, refine};
+use super::tables::{Refine, control, expectations, norm_levels, refine};
 use crate::exact::sources::Nodal;
 use modes::Modes;
 
@@ -170,10 +170,9 @@ impl Kind for Vibration {
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Outcome {
-        let mut checks = vec![completion(ran, |found| {
-            let mut names = norms_not_finite(&found.errors);
-            names.extend(readings::not_finite(&[Reading::new("closed form", found.closed_form)]));
-            names
+        let mut checks = vec![completion(ran, |Vibrated { errors, closed_form, .. }| {
+            let norms = errors.iter().map(|(norm, error)| (norm.name(), Some(error)));
+            not_finite(norms.chain([("closed form", *closed_form)]))
         })];
         if self.refine.isolates(Axis::Time) {
             checks.push(closed_form(ran));

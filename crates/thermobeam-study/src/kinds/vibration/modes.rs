@@ -32,6 +32,7 @@ use crate::kinds::prelude::*;
 /// Modes, each with the exact motion of its equation in time.
 ///
 /// Each vibration has one product of u and one of φ, in the same order.
+#[derive(Default)]
 pub(super) struct Modes {
     pub(super) exact: Manufactured,
     /// ω² of each vibration, and its position and velocity at t = 0.
@@ -42,13 +43,9 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    fn none(zeta: f64) -> Self {
-        Self { exact: Manufactured::default(), vibrations: vec![], temperatures: vec![], zeta }
-    }
-
     /// The exact modes.
     pub(super) fn of_beam(study: &Vibration) -> Result<Self, CaseFailure> {
-        let mut modes = Self::none(study.theory.beam.zeta);
+        let mut modes = Self { zeta: study.theory.beam.zeta, ..Self::default() };
         for &(index, start) in &study.modes {
             free_vibration::add_mode(&mut modes.exact, index, modes.zeta, start)?;
             modes.vibrations.push((Mode::new(index).omega().powi(2), start));
@@ -62,8 +59,8 @@ impl Modes {
 
     /// The modes of the mesh itself: P1 functions that oscillate at their own frequencies.
     pub(super) fn of_mesh(study: &Vibration, mesh: &Mesh) -> Result<Self, CaseFailure> {
-        let none = || CaseFailure { reason: "the mesh has no modes".to_owned() };
-        let mut modes = Self::none(study.theory.beam.zeta);
+        let none = || CaseFailure::new("the mesh has no modes");
+        let mut modes = Self { zeta: study.theory.beam.zeta, ..Self::default() };
         let vibrations = vibrations(mesh).ok_or_else(none)?;
         for &(index, start) in &study.modes {
             let (square, [u, phi]) = vibrations.get(index).cloned().ok_or_else(none)?;

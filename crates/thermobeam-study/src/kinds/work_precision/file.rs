@@ -12,26 +12,14 @@ use crate::kinds::tables::discretisations;
 const TOLERANCE: f64 = 1e-11;
 /// Default for the largest misfit of the law.
 const MISFIT: f64 = 0.15;
-/// The keys of a file; the problem is a solution, a scene or a vibration.
-const KEYS: [&str; 12] = [
-    "elements",
-    "steps",
-    "solution",
-    "scene",
-    "vibration",
-    "zeta",
-    "t_end",
-    "agreement",
-    "dg",
-    "diagonal",
-    "tolerance",
-    "misfit",
-];
+/// The keys of the problem, which is a solution, a scene or a vibration, and those of the runs.
+const PROBLEM: [&str; 6] = ["solution", "scene", "vibration", "zeta", "t_end", "agreement"];
+const RUNS: [&str; 6] = ["elements", "steps", "dg", "diagonal", "tolerance", "misfit"];
 
 impl FromFile for WorkPrecision {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", ROW.name, "reference", "advantage"])?;
-        let section = root.table(ROW.name, &KEYS)?;
+        let section = root.table(ROW.name, &[RUNS, PROBLEM].concat())?;
         let steps = levels(&section, "steps", limits::STEPS)?;
         if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
             return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));

@@ -121,14 +121,9 @@ fn points(
         };
         for (k, dt) in dts.into_iter().enumerate() {
             let run = found.as_ref().ok().and_then(|runs| runs.get(k));
-            let value = |number: &dyn Fn(&Measurement) -> f64| run.map_or(f64::NAN, number);
-            points.push(GridPoint {
-                h,
-                dt,
-                error: value(&|run| run.errors[quantity]),
-                node_steps: value(&|run| run.spent.node_steps),
-                node_solves: value(&|run| run.spent.node_solves),
-            });
+            let numbers = |run: &Measurement| [run.errors[quantity], run.spent.node_steps, run.spent.node_solves];
+            let [error, node_steps, node_solves] = run.map_or([f64::NAN; 3], numbers);
+            points.push(GridPoint { h, dt, error, node_steps, node_solves });
         }
     }
     points
@@ -146,7 +141,7 @@ fn rows(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Vec<Metho
                 let [full, superclose, tip] = &points;
                 let close = fit(superclose);
                 let law = match &close {
-                    Ok(close) => CostLaw::with_interpolation(full, (superclose, close)),
+                    Ok(close) => CostLaw::with_interpolation(full, superclose, close),
                     Err(reason) => Err(reason.clone()),
                 };
                 [law, close, fit(tip)].map(CostBy::Law)
@@ -276,11 +271,8 @@ fn figure(quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
     let series: Vec<_> = of_quantity.map(|row| plots::Series::new(row.method.name, costs(row))).collect();
     let (cost, error) = ("cost: elements × linear solves", format!("error, {}", quantity.name()));
     let drawn = plots::work_precision(cost, error, &series);
-    let caption = format!(
-        "Error ({}) over cost, in elements times linear solves: for each method the runs that no other run of it beats.",
-        quantity.name()
-    );
-    Figure::new(quantity.name(), caption, drawn.draw())
+    let runs = "in elements times linear solves: for each method the runs that no other run of it beats.";
+    Figure::new(quantity.name(), format!("Error ({}) over cost, {runs}", quantity.name()), drawn.draw())
 }
 
 /// Costs by the laws, and the ratios claimed for dG.

@@ -64,9 +64,9 @@ impl CostLaw {
     /// dt: `e² = (C h^p)² + s²`. The scheme's time error is visible in s, but negligible in e.
     pub(super) fn with_interpolation(
         points: &[GridPoint],
-        superclose: (&[GridPoint], &CostLaw),
+        distances: &[GridPoint],
+        law: &Self,
     ) -> Result<Self, String> {
-        let (distances, law) = superclose;
         let finest = points.iter().map(|point| point.dt).fold(f64::INFINITY, f64::min);
         let of_finest = points.iter().zip(distances).filter(|(point, _)| point.dt == finest);
         let level = |(e, s): (&GridPoint, &GridPoint)| fit::Level {

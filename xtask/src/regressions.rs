@@ -81,9 +81,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     complaints.iter().for_each(|complaint| screen::complain(complaint));
     let all = judged::judged(&root, all)?;
-    let rows: Vec<Vec<String>> = all.iter().map(|one| row(one.regression, &one.found)).collect();
     let named = all.iter().filter(|one| is_named(one.regression, &one.found)).count();
-    let table = Table { title: String::new(), head: HEAD.map(str::to_owned).to_vec(), rows };
+    let table = Table::new("", HEAD, all.iter().map(|one| row(one.regression, &one.found)));
     let rest = if all.len() < count { format!(", {} more are not recorded", count - all.len()) } else { String::new() };
     let sentence = format!("{named} of {} mistakes are noticed by the study named for them{rest}", all.len());
     let scores = judged::page(&all, passing);

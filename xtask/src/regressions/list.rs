@@ -45,17 +45,16 @@ struct Edit {
     new: String,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct List {
-    regression: Vec<Regression>,
-}
-
 /// Reads the list.
 ///
 /// # Errors
 /// A list that is missing or unreadable, or two mistakes with the same name.
 pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct List {
+        regression: Vec<Regression>,
+    }
     let path = root.join(FILE);
     let text = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;
     let List { regression: all } = toml::from_str(&text).map_err(|error| Unusable::file(&path, &error))?;

@@ -110,7 +110,6 @@ impl Copy {
             return Err(Unusable::because("nothing was recorded of it"));
         }
         let found = find(key)?;
-        fs::create_dir_all(self.folder.join("records"))?;
         atomic::write(&kept, json(&found)?)?;
         Ok(found)
     }

@@ -5,9 +5,7 @@ use std::path::PathBuf;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::project::Project;
 use convergence_study::run::{self, Finished};
-use convergence_study::store::atomic;
-use convergence_study::store::baseline::Baseline;
-use convergence_study::store::record::Record;
+use convergence_study::store::{Baseline, Record, atomic};
 use convergence_study::verify;
 use pyo3::prelude::*;
 

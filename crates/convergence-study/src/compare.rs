@@ -20,7 +20,7 @@ use serde::Serialize;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{Judge, JudgeError, RateVerdict, Verdict};
 use crate::run::Finished;
-use crate::store::record::Record;
+use crate::store::Record;
 use crate::study::LevelErrors;
 use crate::study::outcome::Outcome;
 use crate::text::lists::distinct;

@@ -11,13 +11,11 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{FULL, Findings};
 use crate::run::{self, Effort, Finished, Progress, RunError};
-use crate::store::atomic;
-use crate::store::baseline::{Baseline, Change, Refusal, Works};
-use crate::store::diagnosis::{Fingerprints, diagnose};
-use crate::store::file_set::{ReportFolder, lock};
-use crate::store::provenance::Provenance;
-use crate::store::record::Record;
-use crate::store::{json, write_json};
+use crate::store::{
+    Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
+    diagnosis::{Fingerprints, diagnose},
+    json, lock, write_json,
+};
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 use crate::text::visible;

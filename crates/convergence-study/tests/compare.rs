@@ -5,8 +5,7 @@ use std::path::Path;
 use convergence_study::compare::{Comparison, Shift, WITHIN, compare, rule};
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
 use convergence_study::run::{Finished, Spent};
-use convergence_study::store::json;
-use convergence_study::store::record::Record;
+use convergence_study::store::{Record, json};
 use convergence_study::study::{Header, LevelErrors, Outcome};
 
 const COUNTS: [u32; 5] = [8, 16, 32, 64, 128];

@@ -10,8 +10,7 @@ use std::time::Instant;
 
 use convergence_study::cli::exit::Unusable;
 use convergence_study::report::not_passed;
-use convergence_study::store::record::Record;
-use convergence_study::store::{atomic, content_hash, json};
+use convergence_study::store::{Record, atomic, content_hash, json};
 use serde::{Deserialize, Serialize};
 
 /// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No run may know in advance what

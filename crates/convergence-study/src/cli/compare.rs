@@ -7,7 +7,7 @@ use super::flags::Flags;
 use crate::cli::screen;
 use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare, rule};
 use crate::judge::verdict::Verdict;
-use crate::store::record::Record;
+use crate::store::Record;
 use crate::text::visible::{self, visible};
 
 /// Compare two versions by their records: order, errors at the same step, work for the same error

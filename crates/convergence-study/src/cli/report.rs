@@ -11,9 +11,7 @@ use super::flags::Flags;
 use super::screen;
 use crate::project::Project;
 use crate::report::sentence;
-use crate::store::file_set::MANIFEST;
-use crate::store::provenance::Provenance;
-use crate::store::record::{FIGURES, Record};
+use crate::store::{FIGURES, MANIFEST, Provenance, Record};
 use crate::text::visible;
 use crate::verify::{rebuild, reports_around};
 

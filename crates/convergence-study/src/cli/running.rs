@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use super::{exit, screen};
 use crate::judge::verdict::Verdict;
 use crate::run::{self, Progress, Spent};
-use crate::store::provenance::Provenance;
+use crate::store::Provenance;
 use crate::study::Study;
 
 /// Time limits of the commands that run studies.

@@ -12,9 +12,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
 use crate::run::{Effort, Finished};
-use crate::store::baseline::Change;
-use crate::store::json;
-use crate::store::record::Record;
+use crate::store::{Change, Record, json};
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
@@ -229,7 +227,7 @@ fn claim(change: &Change) -> String {
 #[cfg(test)]
 mod tests {
     use super::moved_lines;
-    use crate::store::baseline::{Change, Movement};
+    use crate::store::{Change, Movement};
 
     fn moved(study: &str, name: &str, to: f64) -> Change {
         let movement = Movement::Moved { from: 1.0, to, tolerance: 1e-3 };

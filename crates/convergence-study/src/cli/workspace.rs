@@ -14,8 +14,7 @@ use super::screen;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::store;
-use crate::store::provenance::Provenance;
-use crate::store::record::Record;
+use crate::store::{Provenance, Record};
 use crate::study::{Header, StudyFile, Tier};
 use crate::text::visible;
 

@@ -3,7 +3,7 @@
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::baseline::{Change, Movement};
+use crate::store::{Change, Movement};
 use crate::study::levels;
 use crate::study::outcome::Outcome;
 use crate::text::lists::{self, and_more};

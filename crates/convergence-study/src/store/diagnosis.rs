@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::baseline::{Change, Movement};
+use crate::store::{Change, Movement};
 use crate::study::header::field;
 use crate::study::kind::COMPLETION;
 use crate::text::json;

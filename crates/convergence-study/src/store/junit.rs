@@ -7,9 +7,7 @@ use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStat
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::baseline::Change;
-use crate::store::diagnosis::Diagnosis;
-use crate::store::record::Record;
+use crate::store::{Change, Record, diagnosis::Diagnosis};
 
 /// The document, for the project of this name.
 ///

@@ -4,12 +4,18 @@
 //! block it for ever.
 
 pub mod atomic;
-pub mod baseline;
+mod baseline;
 pub mod diagnosis;
-pub mod file_set;
-pub mod junit;
-pub mod provenance;
-pub mod record;
+mod file_set;
+mod junit;
+mod provenance;
+mod record;
+
+pub use baseline::{Baseline, BlessedClaim, Change, Guarded, Movement, Refusal, Works};
+pub use file_set::{MANIFEST, ReportFolder, ReportSet, lock};
+pub use junit::{junit, junit_of};
+pub use provenance::{Provenance, StudyTime};
+pub use record::{FIGURES, Record, SCHEMA};
 
 use std::fs::{self, File, OpenOptions};
 use std::io;

@@ -10,8 +10,7 @@ use chrono::DateTime;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
-use crate::store::read_if_there;
-use crate::store::record::SCHEMA;
+use crate::store::{SCHEMA, read_if_there};
 
 /// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! The record of a run: its findings, as data with a versioned schema. Reports are made from it, and programs read it.
 //!
 //! A study of a record is a [`Finished`] without its times: machine, revision and times belong to the
-//! [`provenance`](crate::store::provenance). [`Record::committed`] has the digits of the file under version control, which must not
+//! [`Provenance`](crate::store::Provenance). [`Record::committed`] has the digits of the file under version control, which must not
 //! change by a byte when nothing has changed; reports are made from it, so that this file suffices to make them anew.
 //!
 //! A number that is not finite is `null`; `not_finite` says where it is and what it was, `failed_cases` says why. Read
@@ -14,9 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
-use crate::store::baseline::Change;
-use crate::store::diagnosis::Diagnosis;
-use crate::store::{self, atomic, parsed};
+use crate::store::{self, Change, atomic, diagnosis::Diagnosis, parsed};
 use crate::text::number::{committed, committed_rate};
 
 /// Version of the schema; it increases when a field changes its name or meaning, not when one is added.

@@ -1,7 +1,7 @@
 use std::{fs, io};
 
 use convergence_study::run::Finished;
-use convergence_study::store::baseline::Baseline;
+use convergence_study::store::Baseline;
 use convergence_study::study::Quantity;
 
 use crate::fake::{Does, Fake, fake, finished, ids, study};

@@ -5,8 +5,7 @@ use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::{blessing, sentence};
-use convergence_study::store::baseline::{Baseline, BlessedClaim, Change};
-use convergence_study::store::junit::junit;
+use convergence_study::store::{Baseline, BlessedClaim, Change, junit};
 use convergence_study::study::{Header, Study, Tier};
 use convergence_study::verify::{Request, Scope, Verification, verify};
 

@@ -5,7 +5,7 @@ use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};
 use convergence_study::project::{Front, Project};
 use convergence_study::report::Findings;
 use convergence_study::run::Finished;
-use convergence_study::store::record::Record;
+use convergence_study::store::Record;
 use convergence_study::study::outcome::Figure;
 use roxmltree::{Document, Node};
 

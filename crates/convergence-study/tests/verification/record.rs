@@ -2,9 +2,7 @@ use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::Findings;
-use convergence_study::store::baseline::Baseline;
-use convergence_study::store::json;
-use convergence_study::store::record::Record;
+use convergence_study::store::{Baseline, Record, json};
 use serde_json::Value;
 
 use crate::fake::{Does, Fake, PROJECT, fake, finished, study};

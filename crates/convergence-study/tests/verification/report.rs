@@ -1,9 +1,7 @@
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
 use convergence_study::report::{Findings, LONGEST, NotPassed, not_passed, sentence, tables};
 use convergence_study::run::Finished;
-use convergence_study::store::baseline::{Baseline, Change, Movement};
-use convergence_study::store::junit::junit;
-use convergence_study::store::record::Record;
+use convergence_study::store::{Baseline, Change, Movement, Record, junit};
 use convergence_study::study::levels;
 use convergence_study::study::outcome::{LevelErrors, Table};
 use roxmltree::Document;

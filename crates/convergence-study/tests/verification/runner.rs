@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::{self, Effort, RunError};
-use convergence_study::store::baseline::Works;
+use convergence_study::store::Works;
 use convergence_study::study::{Header, Study};
 
 use crate::fake::{Does, finished, jobs, study};

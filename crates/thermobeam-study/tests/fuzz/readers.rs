@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::input::error_table::{Choice, RateTable};
 use convergence_study::judge::{claims::Claim, verdict::Judge};
-use convergence_study::store::baseline::Baseline;
+use convergence_study::store::Baseline;
 use tempfile::TempDir;
 use thermobeam::dg;
 use thermobeam_study::kinds;

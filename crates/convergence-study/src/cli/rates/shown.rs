@@ -15,7 +15,7 @@ use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Aside, Reason, SetAside, Verdict};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
-use crate::store::{atomic, junit};
+use crate::store::{atomic, junit_of};
 use crate::text::number::{error_text, order_text, pair_text, plain_text, short_text};
 use crate::text::visible::{self, visible};
 
@@ -216,7 +216,7 @@ pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
     }
-    let junit = junit::junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
+    let junit = junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
     atomic::write(&folder.join("junit.xml"), junit)?;
     // A picture would need an address on the web.
     github::summarise(&markdown(findings, ""));

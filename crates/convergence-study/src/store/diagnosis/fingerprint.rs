@@ -7,8 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
-use crate::store::baseline::{Change, Movement};
-use crate::store::read_if_there;
+use crate::store::{Change, Movement, read_if_there};
 use crate::study::header::field;
 
 /// Logarithm of the ratio that weighs as much as a failure.

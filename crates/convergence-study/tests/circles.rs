@@ -42,29 +42,17 @@ const ORDERS: [(&str, &[&str]); 4] = [
     ),
     (
         "thermobeam-exact",
-        &[
-            "nearest",
-            "norm",
-            "quadrature",
-            "expression",
-            "function",
-            "factors",
-            "solution",
-            "sources",
-            "errors",
-            "any_order",
-        ],
+        &["nearest", "norm", "quadrature", "expression", "function", "solution", "sources", "errors", "any_order"],
     ),
     ("thermobeam-study", &["scene", "run", "figures", "error", "predict", "sweep", "kinds", "timing"]),
 ];
 
 /// Remaining uses against these orders: crate, file, file used.
-const ARROWS_UP: [(&str, &str, &str); 5] = [
+const ARROWS_UP: [(&str, &str, &str); 4] = [
     ("thermobeam", "solve/balance", "energy"),
     ("thermobeam", "solve/balance", "energy/sums"),
     ("thermobeam", "solve/stepper", "energy"),
     ("thermobeam-exact", "expression", "function"),
-    ("thermobeam-exact", "factors", "solution"),
 ];
 
 /// A module by its path inside the crate; empty for the root.

@@ -1,5 +1,6 @@
 //! `bench`: measures times on this machine. With `--out` it writes `bench.md` there; no verdict depends on it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use convergence_study::input;
@@ -38,12 +39,6 @@ pub struct Arguments {
     beside: Option<PathBuf>,
     #[command(flatten)]
     flags: Flags,
-}
-
-/// The keys of `bench --format json` in addition to the verdict.
-#[derive(serde::Serialize)]
-struct Tables<'a> {
-    tables: &'a [Table],
 }
 
 /// Runs the command.
@@ -85,7 +80,8 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         None => "nothing is written without --out".to_owned(),
     };
     let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
-    Ok(arguments.flags.print(Verdict::Pass, &Tables { tables: &page.tables }, &words)?)
+    let tables = BTreeMap::from([("tables", &page.tables)]);
+    Ok(arguments.flags.print(Verdict::Pass, &tables, &words)?)
 }
 
 /// The runs of a library, from the output of its program.

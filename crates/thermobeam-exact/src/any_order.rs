@@ -3,8 +3,7 @@
 use thermobeam::dg::{Field, Initial, Level, Load, Space};
 use thermobeam::parameters::{Beam, Obstacles};
 
-use crate::factors::Factors;
-use crate::solution::{Manufactured, Product};
+use crate::solution::{Factors, Manufactured, Product};
 use crate::sources::{BoundaryLoads, Sources};
 
 /// Additional quadrature points per element for errors, beyond the degree p.

@@ -9,10 +9,9 @@
 //! Hence `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1 functions d, p and interpolation errors η, ψ of u,
 //! φ, `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
 
-use crate::factors::Factors;
 use crate::norm::{Norm, Norms};
 use crate::quadrature::RULE;
-use crate::solution::{Manufactured, Product};
+use crate::solution::{Factors, Manufactured, Product};
 use crate::sources::nodal;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::{TheoremSquares, l2_squared};
@@ -29,13 +28,10 @@ struct Interpolation {
 /// Computes the errors of a level against the exact solution.
 pub struct ErrorMeter {
     lengths: Vec<f64>,
-    u: Vec<Interpolation>,
-    phi: Vec<Interpolation>,
-    theta: Vec<Interpolation>,
+    /// The products of u, φ and θ.
+    fields: [Vec<Interpolation>; 3],
     /// Gram matrices of η in L², row by row, for u, φ and θ.
-    gram_u: Vec<f64>,
-    gram_phi: Vec<f64>,
-    gram_theta: Vec<f64>,
+    grams: [Vec<f64>; 3],
     /// Gram matrix of η_x for φ.
     gram_curvature: Vec<f64>,
     /// Gram matrix of the shear η_x - ψ, for the products of u followed by those of φ.
@@ -51,23 +47,19 @@ impl ErrorMeter {
     ///
     /// The lifting is zero until [`Self::lift`] sets it.
     pub fn new(exact: &Manufactured, mesh: &Mesh, interpolant: bool) -> Self {
-        let fields = [&exact.u, &exact.phi, &exact.theta];
-        let [u, phi, theta] = fields.map(|products| {
+        let fields = [&exact.u, &exact.phi, &exact.theta].map(|products| {
             products.iter().map(|p| Interpolation { nodal: nodal(p, mesh), moments: vec![] }).collect::<Vec<_>>()
         });
+        let [u, phi, _] = fields.each_ref().map(Vec::len);
         let square = |n: usize| vec![0.0; n * n];
         let mut meter = Self {
             lengths: mesh.lengths().collect(),
-            gram_u: square(u.len()),
-            gram_phi: square(phi.len()),
-            gram_theta: square(theta.len()),
-            gram_curvature: square(phi.len()),
-            gram_shear: square(u.len() + phi.len()),
+            grams: fields.each_ref().map(|products| square(products.len())),
+            gram_curvature: square(phi),
+            gram_shear: square(u + phi),
             lifting: vec![0.0; mesh.nodes().len()],
             difference: std::array::from_fn(|_| vec![0.0; mesh.nodes().len()]),
-            u,
-            phi,
-            theta,
+            fields,
         };
         if !interpolant {
             meter.integrate(exact, mesh);
@@ -84,10 +76,8 @@ impl ErrorMeter {
 
     /// Computes moments and Gram matrices of the interpolation errors by quadrature.
     fn integrate(&mut self, exact: &Manufactured, mesh: &Mesh) {
-        for field in [&mut self.u, &mut self.phi, &mut self.theta] {
-            for interpolation in field {
-                interpolation.moments = vec![[0.0; 2]; mesh.elements()];
-            }
+        for interpolation in self.fields.iter_mut().flatten() {
+            interpolation.moments = vec![[0.0; 2]; mesh.elements()];
         }
         for (i, ends) in mesh.nodes().windows(2).enumerate() {
             let h = ends[1] - ends[0];
@@ -97,28 +87,26 @@ impl ErrorMeter {
                     let errors = products.iter().zip(field).map(|(p, f)| interpolation_error(p, f, i, h, s, x));
                     errors.collect::<Vec<[f64; 2]>>()
                 };
-                let of_u = sample(&exact.u, &self.u);
-                let (of_phi, of_theta) = (sample(&exact.phi, &self.phi), sample(&exact.theta, &self.theta));
-                self.add_sample(i, s, weight * h, [&of_u, &of_phi, &of_theta]);
+                let [u, phi, theta] = &self.fields;
+                let samples = [sample(&exact.u, u), sample(&exact.phi, phi), sample(&exact.theta, theta)];
+                self.add_samples(i, s, weight * h, &samples);
             }
         }
     }
 
     /// Adds the contribution of one quadrature point, given η and η_x of the products of u, φ and θ there.
-    fn add_sample(&mut self, element: usize, s: f64, weight: f64, sample: [&[[f64; 2]]; 3]) {
-        for (field, sample) in [&mut self.u, &mut self.phi, &mut self.theta].into_iter().zip(sample) {
+    fn add_samples(&mut self, element: usize, s: f64, weight: f64, samples: &[Vec<[f64; 2]>; 3]) {
+        let values = |sample: &[[f64; 2]]| sample.iter().map(|[eta, _]| *eta).collect::<Vec<_>>();
+        let slopes = |sample: &[[f64; 2]]| sample.iter().map(|[_, eta_x]| *eta_x).collect::<Vec<_>>();
+        for ((field, gram), sample) in self.fields.iter_mut().zip(&mut self.grams).zip(samples) {
             for (interpolation, [eta, _]) in field.iter_mut().zip(sample) {
                 interpolation.moments[element][0] += weight * (1.0 - s) * eta;
                 interpolation.moments[element][1] += weight * s * eta;
             }
+            add_outer(gram, weight, &values(sample));
         }
-        let [u, phi, theta] = sample;
-        let values = |sample: &[[f64; 2]]| sample.iter().map(|[eta, _]| *eta).collect::<Vec<_>>();
-        let slopes = |sample: &[[f64; 2]]| sample.iter().map(|[_, eta_x]| *eta_x).collect::<Vec<_>>();
+        let [u, phi, _] = samples;
         let shear: Vec<f64> = slopes(u).into_iter().chain(values(phi).into_iter().map(|psi| -psi)).collect();
-        add_outer(&mut self.gram_u, weight, &values(u));
-        add_outer(&mut self.gram_phi, weight, &values(phi));
-        add_outer(&mut self.gram_theta, weight, &values(theta));
         add_outer(&mut self.gram_curvature, weight, &slopes(phi));
         add_outer(&mut self.gram_shear, weight, &shear);
     }
@@ -126,12 +114,13 @@ impl ErrorMeter {
     /// The errors of `level` against the exact solution with the given factors.
     pub fn measure(&mut self, level: &Level, factors: &Factors) -> Norms {
         let Factors { u, phi, theta } = factors;
+        let ([of_u, of_phi, of_theta], [gram_u, gram_phi, gram_theta]) = (&self.fields, &self.grams);
         let [v_d, u_d, w_d, phi_d, theta_d] = &mut self.difference;
-        difference_into(&level.v, &self.u, &u.rate, v_d);
-        difference_into(&level.u, &self.u, &u.value, u_d);
-        difference_into(&level.w, &self.phi, &phi.rate, w_d);
-        difference_into(&level.phi, &self.phi, &phi.value, phi_d);
-        difference_into(&level.theta, &self.theta, &theta.value, theta_d);
+        difference_into(&level.v, of_u, &u.rate, v_d);
+        difference_into(&level.u, of_u, &u.value, u_d);
+        difference_into(&level.w, of_phi, &phi.rate, w_d);
+        difference_into(&level.phi, of_phi, &phi.value, phi_d);
+        difference_into(&level.theta, of_theta, &theta.value, theta_d);
         for (theta, lifting) in theta_d.iter_mut().zip(&self.lifting) {
             *theta += lifting;
         }
@@ -139,13 +128,13 @@ impl ErrorMeter {
         let nodal = TheoremSquares::of(&self.lengths, v_d, u_d, w_d, phi_d, theta_d);
         let shear_factors: Vec<f64> = u.value.iter().chain(&phi.value).copied().collect();
         let squares = TheoremSquares {
-            velocity: nodal.velocity + correction(v_d, &self.u, &u.rate, &self.gram_u),
+            velocity: nodal.velocity + correction(v_d, of_u, &u.rate, gram_u),
             shear: nodal.shear + quadratic(&self.gram_shear, &shear_factors) + 2.0 * self.shear_product(factors),
-            rotation_rate: nodal.rotation_rate + correction(w_d, &self.phi, &phi.rate, &self.gram_phi),
+            rotation_rate: nodal.rotation_rate + correction(w_d, of_phi, &phi.rate, gram_phi),
             curvature: nodal.curvature + quadratic(&self.gram_curvature, &phi.value),
-            temperature: nodal.temperature + correction(theta_d, &self.theta, &theta.value, &self.gram_theta),
+            temperature: nodal.temperature + correction(theta_d, of_theta, &theta.value, gram_theta),
         };
-        let displacement = l2_squared(&self.lengths, u_d) + correction(u_d, &self.u, &u.value, &self.gram_u);
+        let displacement = l2_squared(&self.lengths, u_d) + correction(u_d, of_u, &u.value, gram_u);
         let root = |square: f64| if square < 0.0 { 0.0 } else { square.sqrt() };
         Norms::of(|norm| match norm {
             Norm::Velocity => root(squares.velocity),
@@ -161,11 +150,11 @@ impl ErrorMeter {
 
     /// `p_x ∫η - d_x ∫ψ + (p, ψ)` over all elements.
     fn shear_product(&self, factors: &Factors) -> f64 {
-        let [_, u, _, phi, _] = &self.difference;
+        let ([of_u, of_phi, _], [_, u, _, phi, _]) = (&self.fields, &self.difference);
         let mut sum = 0.0;
         for (i, h) in self.lengths.iter().enumerate() {
-            let eta = moment(&self.u, &factors.u.value, i);
-            let psi = moment(&self.phi, &factors.phi.value, i);
+            let eta = moment(of_u, &factors.u.value, i);
+            let psi = moment(of_phi, &factors.phi.value, i);
             let (d_x, p_x) = ((u[i + 1] - u[i]) / h, (phi[i + 1] - phi[i]) / h);
             sum += p_x * (eta[0] + eta[1]) - d_x * (psi[0] + psi[1]) + phi[i] * psi[0] + phi[i + 1] * psi[1];
         }

@@ -6,8 +6,7 @@
 //!
 //! * [`expression`]: functions of one variable, with exact derivatives.
 //! * [`function`]: any function with two derivatives, as a factor of a product.
-//! * [`solution`]: the sums of products.
-//! * [`factors`]: T, T', T'' and the like at one time, exact or in the scheme's time-discrete form.
+//! * [`solution`]: the sums of products, and T, T', T'' and the like at one time, exact or in the scheme's time-discrete form.
 //! * [`sources`]: the space vectors, from the strong form (1.1) or from the discrete matrices.
 //! * [`errors`]: the errors in each [`norm`].
 //! * [`any_order`]: the same for elements of any degree.
@@ -19,7 +18,6 @@
 pub mod any_order;
 pub mod errors;
 pub mod expression;
-pub mod factors;
 pub mod function;
 pub mod nearest;
 pub mod norm;

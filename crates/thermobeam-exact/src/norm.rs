@@ -2,6 +2,8 @@
 
 use std::ops::{Index, IndexMut};
 
+use thermobeam::norms::max_or_nan;
+
 /// A norm of the error at one time level. A convergence study takes its maximum over the time levels n = 1..N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Norm {
@@ -75,10 +77,7 @@ impl Norms {
 
     /// The larger number in each norm; NaN if either is NaN.
     pub fn max(&self, other: &Self) -> Self {
-        Self::of(|norm| {
-            let (a, b) = (self[norm], other[norm]);
-            if a.is_nan() || a >= b { a } else { b }
-        })
+        Self::of(|norm| max_or_nan(self[norm], other[norm]))
     }
 }
 

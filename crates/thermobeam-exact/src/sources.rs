@@ -13,10 +13,8 @@
 //! computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
 //! contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
 
-use crate::factors::Factors;
 use crate::quadrature::RULE;
-use crate::solution::{Manufactured, Product};
-use std::rc::Rc;
+use crate::solution::{Factors, Manufactured, Product};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
@@ -72,13 +70,11 @@ pub struct Sources {
     boundary: [Vec<f64>; 3],
 }
 
-/// The vectors of one product, tested with the functions of each of the three equations.
-type PerEquation = [Rc<Vectors>; 3];
-
 /// Additional quadrature points per element beyond the degree p: the loads are exact to round-off for smooth functions.
 const EXTRA_POINTS: usize = 12;
 
-/// The space integrals of one product: (X, N_i), (X', N_i), and the weak second derivative.
+/// The space integrals of one product, tested with the functions of an equation: (X, N_i), (X', N_i), and the weak second derivative.
+#[derive(Clone)]
 struct Vectors {
     value: Vec<f64>,
     slope: Vec<f64>,
@@ -219,8 +215,8 @@ impl Sources {
 
     /// The loads from the strong form (1.1) and the boundary conditions (1.3), for elements of any degree.
     pub fn any_order(exact: &Manufactured, beam: &Beam, space: &Space) -> Self {
-        let vectors = |product: &Product| -> PerEquation {
-            [Field::U, Field::Phi, Field::Theta].map(|field| Rc::new(Vectors::any_order(product, space, field)))
+        let vectors = |product: &Product| {
+            [Field::U, Field::Phi, Field::Theta].map(|field| Vectors::any_order(product, space, field))
         };
         Self::assemble(exact, beam, vectors, continuous_gram(&exact.u), space.mesh().elements())
     }
@@ -241,7 +237,7 @@ impl Sources {
     fn assemble(
         exact: &Manufactured,
         beam: &Beam,
-        vectors: impl Fn(&Product) -> PerEquation,
+        vectors: impl Fn(&Product) -> [Vectors; 3],
         gram: Vec<f64>,
         tip_index: usize,
     ) -> Self {
@@ -253,10 +249,10 @@ impl Sources {
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|weights| (weights, false));
         // T + ζ T' and (1 + N) T + ζ T'.
         let [damped, tension] = [false, true].map(|is_tension| ([1.0, beam.zeta, 0.0], is_tension));
-        let all = |products: &[Product]| products.iter().map(&vectors).collect::<Vec<PerEquation>>();
+        let all = |products: &[Product]| products.iter().map(&vectors).collect::<Vec<[Vectors; 3]>>();
         let (u, phi) = (all(&exact.u), all(&exact.phi));
         let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
-        let slopes = |of: &[PerEquation]| of.iter().map(|[vectors, ..]| vectors.boundary_slope).collect();
+        let slopes = |of: &[[Vectors; 3]]| of.iter().map(|[vectors, ..]| vectors.boundary_slope).collect();
         let boundary = [slopes(&u), phi.iter().map(|[vectors, ..]| vectors.tip).collect(), slopes(&phi)];
         let scaled = |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
         for (j, [in_u, in_phi, _]) in u.iter().enumerate() {
@@ -345,9 +341,8 @@ impl Sources {
 }
 
 /// Test functions that are the same in every equation.
-fn alike(vectors: Vectors) -> PerEquation {
-    let vectors = Rc::new(vectors);
-    [Rc::clone(&vectors), Rc::clone(&vectors), vectors]
+fn alike(vectors: Vectors) -> [Vectors; 3] {
+    [vectors.clone(), vectors.clone(), vectors]
 }
 
 /// `∫ X_j' X_k'` over [0, 1].

@@ -4,9 +4,8 @@ use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 use thermobeam_exact::errors::ErrorMeter;
 use thermobeam_exact::expression::{Expression, Variable};
-use thermobeam_exact::factors::Factors;
 use thermobeam_exact::norm::Norm;
-use thermobeam_exact::solution::{Manufactured, Product};
+use thermobeam_exact::solution::{Factors, Manufactured, Product};
 
 /// The root of `∫ f²` over [0, 1], by the midpoint rule on many panels of each element.
 fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {

@@ -3,8 +3,7 @@
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 use thermobeam_exact::expression::{Expression, Variable};
-use thermobeam_exact::factors::Factors;
-use thermobeam_exact::solution::{Manufactured, Product};
+use thermobeam_exact::solution::{Factors, Manufactured, Product};
 use thermobeam_exact::sources::{BoundaryLoads, Nodal, Sources};
 
 const TIME: f64 = 0.7;

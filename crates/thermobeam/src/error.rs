@@ -128,7 +128,7 @@ fn advice(pivot: f64) -> &'static str {
 /// A simulation that cannot be set up.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SetupError {
-    /// A coefficient out of range.
+    /// A coefficient, a time step, a degree, a tolerance or an iteration limit out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// Nodes that do not form a mesh.
@@ -178,12 +178,6 @@ pub enum SetupError {
         /// The boundary value.
         allowed: f64,
     },
-    /// A time step that is not a positive number.
-    #[error("dt: expected a finite number > 0, found {found}")]
-    TimeStep {
-        /// The value.
-        found: f64,
-    },
     /// A method that cannot do what is requested.
     #[error("scheme: expected {allowed}, found {found}")]
     Method {
@@ -191,16 +185,6 @@ pub enum SetupError {
         found: &'static str,
         /// The methods allowed, in words.
         allowed: &'static str,
-    },
-    /// A degree, a length of steps, a tolerance or an iteration limit out of range.
-    #[error("{name}: expected {allowed}, found {found}")]
-    Setting {
-        /// Name of the setting.
-        name: &'static str,
-        /// The value.
-        found: f64,
-        /// The values allowed, in words.
-        allowed: String,
     },
 }
 

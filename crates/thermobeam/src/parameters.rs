@@ -1,17 +1,19 @@
 //! The coefficients of (1.1) and (1.3) and their ranges.
 
+use std::borrow::Cow;
+
 use thiserror::Error;
 
-/// A coefficient out of its range.
+/// A coefficient or a setting out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{name}: expected {allowed}, found {found}")]
 pub struct ParameterError {
-    /// Name of the coefficient, as in [`Beam`] or [`Obstacles`].
+    /// Its name: for a coefficient, as in [`Beam`] or [`Obstacles`].
     pub name: &'static str,
     /// The value given.
     pub found: f64,
     /// The allowed range, in words.
-    pub allowed: &'static str,
+    pub allowed: Cow<'static, str>,
 }
 
 /// Coefficients of the equations (1.1), all dimensionless.
@@ -56,9 +58,19 @@ impl Default for Obstacles {
     }
 }
 
-fn check(name: &'static str, found: f64, ok: bool, allowed: &'static str) -> Result<(), ParameterError> {
-    // `ok` is false for NaN, as every comparison with NaN is.
-    if ok { Ok(()) } else { Err(ParameterError { name, found, allowed }) }
+/// Refuses a value that is not a finite number > 0.
+pub(crate) fn check_positive(name: &'static str, found: f64) -> Result<(), ParameterError> {
+    check(name, found, found > 0.0 && found.is_finite(), "a finite number > 0")
+}
+
+/// Refuses a value that is not allowed; `is_allowed` is false for NaN, as every comparison with NaN is.
+pub(crate) fn check(
+    name: &'static str,
+    found: f64,
+    is_allowed: bool,
+    allowed: impl Into<Cow<'static, str>>,
+) -> Result<(), ParameterError> {
+    if is_allowed { Ok(()) } else { Err(ParameterError { name, found, allowed: allowed.into() }) }
 }
 
 impl Beam {
@@ -82,7 +94,7 @@ impl Obstacles {
     /// # Errors
     /// [`ParameterError`] for the first coefficient out of range.
     pub fn validate(&self) -> Result<(), ParameterError> {
-        check("epsilon", self.epsilon, self.epsilon > 0.0 && self.epsilon.is_finite(), "a finite number > 0")?;
+        check_positive("epsilon", self.epsilon)?;
         check("g1", self.g1, self.g1 <= 0.0 && self.g1.is_finite(), "a finite number <= 0")?;
         check("g2", self.g2, self.g2 >= 0.0 && self.g2.is_finite(), "a finite number >= 0")
     }

@@ -3,7 +3,7 @@
 use crate::energy::{Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
-use crate::parameters::{Beam, Obstacles};
+use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive};
 use crate::scheme::Scheme;
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
@@ -217,31 +217,22 @@ pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
 
 /// The solver of the steps.
 fn choose(case: Case, settings: Settings, level: &Level, heated: bool) -> Result<Box<dyn Stepper<f64>>, SetupError> {
-    let dt = case.dt;
     Ok(match settings.solver {
         Solver::Newton => newton(vec![case], settings, &[level], heated),
         Solver::FixedPoint => {
-            let solver = FixedPoint::new(case, settings, level);
-            Box::new(solver.map_err(|_| SetupError::TimeStep { found: dt })?)
+            let refused = ParameterError { name: "dt", found: case.dt, allowed: "a finite number > 0".into() };
+            Box::new(FixedPoint::new(case, settings, level).map_err(|_| refused)?)
         }
     })
 }
 
 fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupError> {
     problem.beam.validate()?;
-    if let Some(obstacles) = &problem.obstacles {
-        obstacles.validate()?;
-    }
-    if !(stepping.dt > 0.0 && stepping.dt.is_finite()) {
-        return Err(SetupError::TimeStep { found: stepping.dt });
-    }
+    problem.obstacles.as_ref().map_or(Ok(()), Obstacles::validate)?;
     let Settings { tolerance, max_iterations, .. } = stepping.settings;
-    if !(tolerance > 0.0 && tolerance.is_finite()) {
-        return Err(SetupError::Setting { name: "tolerance", found: tolerance, allowed: "a finite number > 0".into() });
-    }
-    if max_iterations == 0 {
-        return Err(SetupError::Setting { name: "max_iterations", found: 0.0, allowed: "an integer >= 1".into() });
-    }
+    check_positive("dt", stepping.dt)?;
+    check_positive("tolerance", tolerance)?;
+    check("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1")?;
     Ok(())
 }
 

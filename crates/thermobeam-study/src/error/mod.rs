@@ -8,9 +8,8 @@ pub mod reference;
 
 use crate::error::reference::Traced;
 use crate::exact::errors::ErrorMeter;
-use crate::exact::factors::Factors;
 use crate::exact::norm::Norm;
-use crate::exact::solution::{Manufactured, Product};
+use crate::exact::solution::{Factors, Manufactured, Product};
 use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
 use thermobeam::mesh::Mesh;

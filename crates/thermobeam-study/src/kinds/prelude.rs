@@ -29,9 +29,8 @@ pub(crate) use thermobeam::vibration::Mode;
 
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
-pub(crate) use crate::exact::factors::Factors;
 pub(crate) use crate::exact::norm::{Norm, Norms};
-pub(crate) use crate::exact::solution::{Manufactured, Product};
+pub(crate) use crate::exact::solution::{Factors, Manufactured, Product};
 pub(crate) use crate::expression::{Expression, Variable};
 pub(crate) use crate::figures::{self, looks};
 pub(crate) use crate::run::driver::{Driver, Step};

@@ -6,8 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::exact::factors::Factors;
-use crate::exact::solution::Manufactured;
+use crate::exact::solution::{Factors, Manufactured};
 use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
 use crate::run::Motion;
 use crate::run::dg::DgMotion;

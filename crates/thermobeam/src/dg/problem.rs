@@ -6,7 +6,7 @@ use super::space::{Field, Space};
 use super::{Level, MAX_TIME_DEGREE};
 use crate::error::SetupError;
 use crate::mesh::Mesh;
-use crate::parameters::{Beam, Obstacles};
+use crate::parameters::{Beam, Obstacles, check, check_positive};
 
 /// Allowed rounding errors of an initial value in a boundary condition, in units of the field's largest coefficient.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
@@ -72,37 +72,27 @@ impl Default for Stepping {
     }
 }
 
-pub(super) fn check(
+pub(super) fn check_problem(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
     degree: usize,
     stepping: &Stepping,
 ) -> Result<(), SetupError> {
     beam.validate()?;
-    if let Some(obstacles) = obstacles {
-        obstacles.validate()?;
-    }
+    obstacles.map_or(Ok(()), Obstacles::validate)?;
     let Stepping { degree: q, dt, restart_dt, growth, tolerance, max_iterations } = *stepping;
-    let positive = |value: f64| value > 0.0 && value.is_finite();
-    let few_rungs = growth <= 1.0 || (dt / restart_dt).ln() / growth.ln() <= MAX_RUNGS as f64;
     let degrees = format!("an integer from 1 to {MAX_DEGREE}");
-    let is_degree = (1..=MAX_DEGREE).contains(&degree);
-    let first = format!("a number > 0 and at most dt = {dt}");
-    let rungs = format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps");
-    for (name, found, is_allowed, allowed) in [
-        ("degree of the elements", degree as f64, is_degree, degrees),
-        ("degree in time", q as f64, q <= MAX_TIME_DEGREE, format!("an integer from 0 to {MAX_TIME_DEGREE}")),
-        ("dt", dt, positive(dt), "a finite number > 0".into()),
-        ("restart_dt", restart_dt, positive(restart_dt) && restart_dt <= dt, first),
-        ("growth", growth, growth >= 1.0 && growth.is_finite(), "a finite number >= 1".into()),
-        ("growth", growth, few_rungs, rungs),
-        ("tolerance", tolerance, positive(tolerance), "a finite number > 0".into()),
-        ("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1".into()),
-    ] {
-        if !is_allowed {
-            return Err(SetupError::Setting { name, found, allowed });
-        }
-    }
+    check("degree of the elements", degree as f64, (1..=MAX_DEGREE).contains(&degree), degrees)?;
+    let degrees = format!("an integer from 0 to {MAX_TIME_DEGREE}");
+    check("degree in time", q as f64, q <= MAX_TIME_DEGREE, degrees)?;
+    check_positive("dt", dt)?;
+    let at_most_dt = format!("a number > 0 and at most dt = {dt}");
+    check("restart_dt", restart_dt, restart_dt > 0.0 && restart_dt <= dt, at_most_dt)?;
+    check("growth", growth, growth >= 1.0 && growth.is_finite(), "a finite number >= 1")?;
+    let few_rungs = growth == 1.0 || (dt / restart_dt).ln() / growth.ln() <= MAX_RUNGS as f64;
+    check("growth", growth, few_rungs, format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"))?;
+    check_positive("tolerance", tolerance)?;
+    check("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1")?;
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
 use super::lengths::Lengths;
-use super::problem::{Problem, Stepping, check, initial_level};
+use super::problem::{Problem, Stepping, check_problem, initial_level};
 use super::residual::Equations;
 use super::space::Space;
 use super::stages::{Stages, stepper};
@@ -97,7 +97,7 @@ impl Simulation {
         load: impl FnOnce(&Space) -> Option<Box<Load>>,
     ) -> Result<Self, SetupError> {
         let Problem { beam, obstacles, mesh, degree, initial } = problem;
-        check(&beam, obstacles.as_ref(), degree, &stepping)?;
+        check_problem(&beam, obstacles.as_ref(), degree, &stepping)?;
         let space = Space::new(mesh, degree);
         let level = initial_level(&space, &beam, &initial)?;
         let lengths = Lengths::new(stepping.restart_dt, stepping.growth, stepping.dt);

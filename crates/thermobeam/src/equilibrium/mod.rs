@@ -186,9 +186,7 @@ pub fn lists_all(beam: &Beam) -> bool {
 /// ```
 pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equilibrium>, EquilibriumError> {
     beam.validate()?;
-    if let Some(obstacles) = obstacles {
-        obstacles.validate()?;
-    }
+    obstacles.map_or(Ok(()), Obstacles::validate)?;
     let mut found = Vec::new();
     for (contact, law) in laws(beam, obstacles) {
         let branch = Branch { beam, contact, law, held_tip: held_tip(obstacles) };

@@ -20,14 +20,12 @@ const DIFFERENCE: f64 = 1e-5;
 /// A larger first relative step indicates a fold, where the result of the scan is more accurate.
 const LARGEST_FIRST_STEP: f64 = 1e-3;
 
-type Vector = [f64; 3];
-
 /// Improves a state by Newton's method; returns it unchanged if the first step is too large.
 pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
     if start.is_line() {
         return start;
     }
-    let residual = |v: Vector| residual(law, beta, rho, v);
+    let residual = |v: [f64; 3]| residual(law, beta, rho, v);
     let mut state = [1.0 / start.q, start.alpha, start.stress];
     let mut bound = LARGEST_FIRST_STEP;
     for _ in 0..STEPS {
@@ -44,18 +42,18 @@ pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
 }
 
 /// `|ds|/|s| + max(|dα|, |dc|)/max(|α|, |c|)`.
-fn relative_size(step: Vector, state: Vector) -> f64 {
+fn relative_size(step: [f64; 3], state: [f64; 3]) -> f64 {
     let bending = state[1].abs().max(state[2].abs());
     let change = step[1].abs().max(step[2].abs());
     (step[0] / state[0]).abs() + if change == 0.0 { 0.0 } else { change / bending }
 }
 
-fn unpack(law: &Law, [s, alpha, stress]: Vector) -> Shape {
+fn unpack(law: &Law, [s, alpha, stress]: [f64; 3]) -> Shape {
     Shape { q: 1.0 / s, alpha, stress, moment: law.moment }
 }
 
 /// The three conditions.
-fn residual(law: &Law, beta: f64, rho: f64, v: Vector) -> Vector {
+fn residual(law: &Law, beta: f64, rho: f64, v: [f64; 3]) -> [f64; 3] {
     let shape = unpack(law, v);
     let [s, alpha, stress] = v;
     let clamped = if s > 0.0 { shape.phi(0.0) } else { alpha };
@@ -66,7 +64,7 @@ fn residual(law: &Law, beta: f64, rho: f64, v: Vector) -> Vector {
     [clamped, contact, s - (1.0 + beta) - rho * shape.slope_squared()]
 }
 
-fn newton_step(residual: &impl Fn(Vector) -> Vector, state: Vector) -> Option<Vector> {
+fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Option<[f64; 3]> {
     let bending = state[1].abs().max(state[2].abs());
     let mut jacobian = [[0.0; 3]; 3];
     for (column, scale) in [state[0].abs(), bending, bending].into_iter().enumerate() {
@@ -83,11 +81,11 @@ fn newton_step(residual: &impl Fn(Vector) -> Vector, state: Vector) -> Option<Ve
 }
 
 /// Solves a 3 x 3 system by Cramer's rule; `None` if it is singular.
-fn solve(a: [Vector; 3], b: Vector) -> Option<Vector> {
-    let cross = |x: Vector, y: Vector| -> Vector {
+fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> Option<[f64; 3]> {
+    let cross = |x: [f64; 3], y: [f64; 3]| -> [f64; 3] {
         [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
     };
-    let dot = |x: Vector, y: Vector| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
+    let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
     let inverse_rows = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
     let determinant = dot(a[0], inverse_rows[0]);
     if determinant == 0.0 || !determinant.is_finite() {

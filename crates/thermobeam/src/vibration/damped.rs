@@ -1,6 +1,6 @@
 //! The time factor of a damped mode.
 
-use crate::parameters::ParameterError;
+use crate::parameters::{ParameterError, check};
 
 /// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
 ///
@@ -24,16 +24,11 @@ impl TimeFactor {
     /// # Errors
     /// [`ParameterError`] if ω or ζ is negative or not finite, or T(0) or T'(0) is not finite.
     pub fn new(omega: f64, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
-        let refuse = |name, found, allowed| Err(ParameterError { name, found, allowed });
         for (name, value) in [("omega", omega), ("zeta", zeta)] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return refuse(name, value, "a finite number >= 0");
-            }
+            check(name, value, value >= 0.0 && value.is_finite(), "a finite number >= 0")?;
         }
         for (name, value) in [("T(0)", position), ("T'(0)", velocity)] {
-            if !value.is_finite() {
-                return refuse(name, value, "a finite number");
-            }
+            check(name, value, value.is_finite(), "a finite number")?;
         }
         Ok(Self { omega, zeta, start: (position, velocity) })
     }

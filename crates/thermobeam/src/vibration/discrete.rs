@@ -26,9 +26,6 @@ pub enum SpectrumError {
     Degree(usize),
 }
 
-/// A 2 x 2 block of (u, φ); of a symmetric one, the entry below the diagonal is not read.
-type Block = [[f64; 2]; 2];
-
 /// The `count` lowest ω of the semi-discrete beam, `(K - ω² M) x = 0`, in increasing order.
 ///
 /// K and M are the matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on elements of degree p, with exact integration and
@@ -97,7 +94,7 @@ fn spectral_bound(lengths: &[f64], degree: usize) -> f64 {
 fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
     let mut negative = 0;
     // The Schur complement of the current node's block after eliminating the elements to the left.
-    let mut node = Block::default();
+    let mut node = [[0.0; 2]; 2];
     for (i, &h) in lengths.iter().enumerate() {
         let mut element = Element::new(h, degree, lambda);
         negative += element.eliminate_inner();
@@ -116,7 +113,7 @@ fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
 /// K - λM of one element, in 2 x 2 blocks of (u, φ), one for each function of the basis: the hats, then degrees 2 to p.
 struct Element {
     blocks: usize,
-    entries: Vec<Block>,
+    entries: Vec<[[f64; 2]; 2]>,
 }
 
 impl Element {
@@ -157,13 +154,13 @@ impl Element {
     }
 
     /// A block of the diagonal.
-    fn block(&self, i: usize) -> Block {
+    fn block(&self, i: usize) -> [[f64; 2]; 2] {
         self.entries[i * self.blocks + i]
     }
 }
 
-/// Number of negative eigenvalues of a symmetric block, and its inverse.
-fn invert([[a, b], [_, d]]: Block) -> (usize, Block) {
+/// Number of negative eigenvalues of a symmetric block, whose entry below the diagonal is not read, and its inverse.
+fn invert([[a, b], [_, d]]: [[f64; 2]; 2]) -> (usize, [[f64; 2]; 2]) {
     let mut determinant = a * d - b * b;
     if determinant == 0.0 {
         // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other
@@ -194,7 +191,7 @@ mod tests {
         assert_eq!(scaled([[1.0, 3.0], [3.0, 9.0]]), (0, [9.0 / 91.0, -3.0 / 91.0, 1.0 / 91.0]));
         let (negative, [[a, _], [_, d]]) = invert([[-4.0, 0.0], [0.0, 0.0]]);
         assert_eq!((negative, a, d * square), (2, 0.0, -0.25));
-        assert_eq!(invert(Block::default()), (0, Block::default()));
+        assert_eq!(invert([[0.0; 2]; 2]), (0, [[0.0; 2]; 2]));
     }
 
     #[test]

@@ -125,43 +125,33 @@ impl Mode {
 
     /// U at x in [0, 1].
     pub fn u(&self, x: f64) -> f64 {
-        let [plus, minus] = self.waves(x);
-        self.a * ((1.0 - self.omega) * plus.sine - (1.0 + self.omega) * minus.sine)
-            + self.b * (plus.cosine - minus.cosine)
+        let [[c_plus, s_plus], [c_minus, s_minus]] = self.waves(x);
+        self.a * ((1.0 - self.omega) * s_plus - (1.0 + self.omega) * s_minus) + self.b * (c_plus - c_minus)
     }
 
     /// U' at x.
     pub fn u_x(&self, x: f64) -> f64 {
-        let ([plus, minus], [plus_square, minus_square]) = (self.waves(x), squares(self.omega));
-        self.a * ((1.0 - self.omega) * plus.cosine - (1.0 + self.omega) * minus.cosine)
-            + self.b * (minus_square * minus.sine - plus_square * plus.sine)
+        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) = (self.waves(x), squares(self.omega));
+        self.a * ((1.0 - self.omega) * c_plus - (1.0 + self.omega) * c_minus)
+            + self.b * (minus * s_minus - plus * s_plus)
     }
 
     /// Φ at x.
     pub fn phi(&self, x: f64) -> f64 {
-        let [plus, minus] = self.waves(x);
-        self.a * (plus.cosine - minus.cosine) + self.b * self.omega * (plus.sine + minus.sine)
+        let [[c_plus, s_plus], [c_minus, s_minus]] = self.waves(x);
+        self.a * (c_plus - c_minus) + self.b * self.omega * (s_plus + s_minus)
     }
 
     /// Φ' at x.
     pub fn phi_x(&self, x: f64) -> f64 {
-        let ([plus, minus], [plus_square, minus_square]) = (self.waves(x), squares(self.omega));
-        self.a * (minus_square * minus.sine - plus_square * plus.sine)
-            + self.b * self.omega * (plus.cosine + minus.cosine)
+        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) = (self.waves(x), squares(self.omega));
+        self.a * (minus * s_minus - plus * s_plus) + self.b * self.omega * (c_plus + c_minus)
     }
 
-    /// C± and S± at x.
-    fn waves(&self, x: f64) -> [Wave; 2] {
-        squares(self.omega).map(|square| {
-            let argument = square * x * x;
-            Wave { cosine: c0(argument), sine: x * c1(argument) }
-        })
+    /// `[C±, S±]` at x.
+    fn waves(&self, x: f64) -> [[f64; 2]; 2] {
+        squares(self.omega).map(|square| [c0(square * x * x), x * c1(square * x * x)])
     }
-}
-
-struct Wave {
-    cosine: f64,
-    sine: f64,
 }
 
 /// `κ±² = ω² ∓ ω`.

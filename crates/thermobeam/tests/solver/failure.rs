@@ -3,7 +3,7 @@
 use crate::scenes::{paper, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure};
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thermobeam::scheme::SCHEMES;
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver};
@@ -148,16 +148,19 @@ fn initial_data_that_violate_a_boundary_condition_are_rejected() {
 
 #[test]
 fn invalid_settings_are_rejected() {
+    let is_named =
+        |error: &SetupError, name| matches!(error, SetupError::Parameter(parameter) if parameter.name == name);
     for dt in [0.0, -1.0, f64::INFINITY] {
-        assert_eq!(rejection(|_, stepping| stepping.dt = dt), SetupError::TimeStep { found: dt });
+        let expected = ParameterError { name: "dt", found: dt, allowed: "a finite number > 0".into() };
+        assert_eq!(rejection(|_, stepping| stepping.dt = dt), SetupError::Parameter(expected));
     }
-    assert!(matches!(rejection(|_, stepping| stepping.dt = f64::NAN), SetupError::TimeStep { .. }));
+    assert!(is_named(&rejection(|_, stepping| stepping.dt = f64::NAN), "dt"));
     for tolerance in [0.0, -1e-10, f64::NAN, f64::INFINITY] {
         let error = rejection(|_, stepping| stepping.settings.tolerance = tolerance);
-        assert!(matches!(error, SetupError::Setting { name: "tolerance", .. }), "{error}");
+        assert!(is_named(&error, "tolerance"), "{error}");
     }
     let error = rejection(|_, stepping| stepping.settings.max_iterations = 0);
-    assert!(matches!(error, SetupError::Setting { name: "max_iterations", .. }), "{error}");
+    assert!(is_named(&error, "max_iterations"), "{error}");
 }
 
 #[test]

@@ -6,7 +6,6 @@ use convergence_study::plots::look::look;
 use convergence_study::plots::ruler::{Ruler, fixed, on_scale};
 use convergence_study::plots::sheet::elide;
 use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
-use std::fmt::Write;
 
 use crate::run::driver::thinned;
 pub use crate::run::history::Frames;
@@ -155,30 +154,18 @@ impl Stage {
         let list = |v: &mut dyn Iterator<Item = f64>| v.map(|v| grid(v).to_string()).collect::<Vec<_>>().join(";");
         let heights = list(&mut frames.iter().map(|f| tip(f).1));
         let marks = list(&mut frames.iter().map(|f| self.t.px_of(f.0)));
-        let (tip_at, mark_at) = (tip(shown), grid(self.t.px_of(shown.0)));
-        let mut svg = String::new();
-        let _ = writeln!(
-            svg,
+        let (beam, beams) = (&shapes[still], shapes.join(";"));
+        let (tip_x, tip_y) = tip(shown);
+        let [tip_x, tip_y, mark_x, mark_y] = [tip_x, tip_y, self.t.px_of(shown.0), TIME_BAR].map(grid);
+        format!(
             "<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"70\" stroke-linecap=\"round\" \
-             stroke-linejoin=\"round\" points=\"{}\">\n<animate attributeName=\"points\" {clock} values=\"{}\"/>\n\
-             </polyline>",
-            shapes[still],
-            shapes.join(";")
-        );
-        let _ = writeln!(
-            svg,
-            "<circle cx=\"{}\" cy=\"{}\" r=\"75\" fill=\"{colour}\" stroke=\"#ffffff\" stroke-width=\"18\">\n\
-             <animate attributeName=\"cy\" {clock} values=\"{heights}\"/>\n</circle>",
-            grid(tip_at.0),
-            grid(tip_at.1)
-        );
-        let _ = writeln!(
-            svg,
-            "<circle cx=\"{mark_at}\" cy=\"{}\" r=\"80\" fill=\"{colour}\">\n\
-             <animate attributeName=\"cx\" {clock} values=\"{marks}\"/>\n</circle>",
-            grid(TIME_BAR)
-        );
-        svg
+             stroke-linejoin=\"round\" points=\"{beam}\">\n\
+             <animate attributeName=\"points\" {clock} values=\"{beams}\"/>\n</polyline>\n\
+             <circle cx=\"{tip_x}\" cy=\"{tip_y}\" r=\"75\" fill=\"{colour}\" stroke=\"#ffffff\" stroke-width=\"18\">\n\
+             <animate attributeName=\"cy\" {clock} values=\"{heights}\"/>\n</circle>\n\
+             <circle cx=\"{mark_x}\" cy=\"{mark_y}\" r=\"80\" fill=\"{colour}\">\n\
+             <animate attributeName=\"cx\" {clock} values=\"{marks}\"/>\n</circle>\n"
+        )
     }
 
     fn beam(&self, u: &[f64]) -> Vec<Point> {

@@ -215,17 +215,14 @@ impl<'a> Ends<'a> {
         // The beam may buckle to either side, but errors are comparable only if it is the same side on all meshes.
         let contact = self.finest().and_then(AtRest::contact);
         let same_side = self.ends.iter().all(|end| end.is_some() && end.and_then(AtRest::contact) == contact);
+        let n = self.study.elements.last().unwrap_or(&0);
+        let [of_u, of_phi] = self.finest().map_or([f64::NAN; 2], AtRest::errors);
+        let [found, expected] = [u, exact].map(|u| decimals(u, 10));
+        let errors = format!("largest error at {n} elements: u {of_u:.2e}, φ {of_phi:.2e}");
         Check::that(
             self.error() <= allowed && (u - exact).abs() <= EXTRAPOLATED * allowed && same_side,
             format!("{} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name),
-            format!(
-                "largest error at {} elements: u {:.2e}, φ {:.2e}; u(1) extrapolated from the last two meshes {} for {}",
-                self.study.elements.last().unwrap_or(&0),
-                self.number(|end| end.errors()[0]),
-                self.number(|end| end.errors()[1]),
-                decimals(u, 10),
-                decimals(exact, 10)
-            ),
+            format!("{errors}; u(1) extrapolated from the last two meshes {found} for {expected}"),
         )
     }
 

@@ -199,6 +199,7 @@ impl Kind for RandomErrors {
         let falls: Vec<f64> =
             found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
         let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
+        let fall = format!("their error falls {FALL} times or more");
         let refused: Vec<&str> = found.iter().filter_map(|(_, found)| found.refused.as_deref()).collect();
         let checks = vec![
             completion(ran, |found| readings::not_finite(&found.readings())),
@@ -215,9 +216,7 @@ impl Kind for RandomErrors {
             Check::that(refused.is_empty(), "every search ends with a run", refused.join("; ")),
             Check::that(
                 least >= FALL && !falls.is_empty(),
-                format!(
-                    "linear elements and steps of midpoint tend to the same motion: their error falls {FALL} times or more"
-                ),
+                format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
                 format!("with four times of both it falls at least {least:.1} times, of {} scenes", falls.len()),
             ),
         ];

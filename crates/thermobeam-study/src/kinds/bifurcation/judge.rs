@@ -106,10 +106,8 @@ impl<'r> DiagramOf<'r> {
     fn figures(&self) -> Vec<Figure> {
         let Some(diagram) = self.diagram else { return vec![] };
         let theta_a = self.theta_a();
-        let caption = format!(
-            "Steady states over β for θ_A = {theta_a}: solid where stable, dashed where not; open markers: where moving \
-             beams come to rest."
-        );
+        let markers = "solid where stable, dashed where not; open markers: where moving beams come to rest";
+        let caption = format!("Steady states over β for θ_A = {theta_a}: {markers}.");
         let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
         let mut figures = vec![Figure::new(&format!("theta-a-{theta_a}"), caption, whole)];
         if super::buckles(self.scene) {

@@ -100,10 +100,8 @@ impl Kind for RandomScenes {
         let [answers, indefinite, others] = total.ended();
         let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
         let largest = format!("{:.1e} of the energy", worst.residual);
-        let summary = format!(
-            "{scenes} scenes, {steps} steps: {solved}, {others} other failures; residual at most {largest}, {exceptions} \
-             above {CLOSED:.0e}"
-        );
+        let above = format!("residual at most {largest}, {exceptions} above {CLOSED:.0e}");
+        let summary = format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
         let others = if others > 0 { format!(", {others} other failures") } else { String::new() };
         let counts = End::ALL.iter().zip(ends).map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
         let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);

@@ -228,13 +228,9 @@ fn has_arrived(run: &Measured) -> bool {
 }
 
 fn at_rest(run: &Measured) -> String {
-    format!(
-        "u(1) = {:.9}, contact force {:.6}, at t = {:.0}; the exact state has u(1) = {:.9}",
-        run.end.tip[0],
-        run.contact_force,
-        run.end.t,
-        run.end.exact_tip()[0]
-    )
+    let ([u, _], [exact, _]) = (run.end.tip, run.end.exact_tip());
+    let force = format!("contact force {:.6}, at t = {:.0}", run.contact_force, run.end.t);
+    format!("u(1) = {u:.9}, {force}; the exact state has u(1) = {exact:.9}")
 }
 
 /// The paper's last sentence: how many steady states there are below β = -1/2, and in which a moving beam comes to rest.

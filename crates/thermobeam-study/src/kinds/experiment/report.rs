@@ -49,31 +49,20 @@ fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
     });
     let above = |experiment: &Experiment, point: &Sample| point.energy - straight_energy(&experiment.scene);
     let decay = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
+    let of_energy = "Figure 2 of the paper: the energy for three β, θ_A = 0, and its limits β²/(4ρ), labelled.";
+    let falls = "the energy beyond buckling, until steady; the line is β²/(4ρ), which the bent beam falls below.";
+    let bends = "displacement and rotation of the free end beyond buckling, until steady: the beam comes to rest bent.";
+    let [left, right] = [format!("Figure 7, left: {falls}"), format!("Figure 7, right: {bends}")];
+    let decays = "Energy above that of the straight beam until each run is steady, θ_A = 0.";
     let drawn = [
-        (
-            "figure-2",
-            "Figure 2 of the paper: the energy for three β, θ_A = 0, and its limits β²/(4ρ), labelled.",
-            energy(&first, false),
-        ),
+        ("figure-2", of_energy, energy(&first, false)),
         ("figure-3", "Figure 3: displacement of the free end, θ_A = 0.", displacement(&first)),
         ("figure-4", "Figure 4: rotation of the free end, θ_A = 0.", rotation(&first)),
         ("figure-5", "Figure 5: displacement of the free end, θ_A = 20.", displacement(&second)),
         ("figure-6", "Figure 6: rotation of the free end, θ_A = 20.", rotation(&second)),
-        (
-            "figure-7-energy",
-            "Figure 7, left: the energy beyond buckling, until steady; the line is β²/(4ρ), which the bent beam falls below.",
-            energy(&third, true),
-        ),
-        (
-            "figure-7-tip",
-            "Figure 7, right: displacement and rotation of the free end beyond buckling, until steady: the beam comes to rest bent.",
-            tip(&third),
-        ),
-        (
-            "decay",
-            "Energy above that of the straight beam until each run is steady, θ_A = 0.",
-            curves(&first, decay, true, above),
-        ),
+        ("figure-7-energy", &left, energy(&third, true)),
+        ("figure-7-tip", &right, tip(&third)),
+        ("decay", decays, curves(&first, decay, true, above)),
     ];
     beam.into_iter().chain(drawn.map(|(what, caption, history)| Figure::new(what, caption, history.draw()))).collect()
 }

@@ -174,13 +174,10 @@ fn newton_does_not_depend_on_epsilon(study: &RigidStudy, all: &[Compliance<'_>],
     let holds = |found: &&ShownImpact| {
         mean(found) <= 1.1 * mean(softest) && found.most_iterations <= softest.most_iterations + 2
     };
-    let evidence = format!(
-        "mean from {:.3} at the softest to {:.3} at the stiffest, ε = {:.0e}; most in a step: {}",
-        mean(softest),
-        mean(limit),
-        study.limit,
-        bouncing.iter().map(|found| found.most_iterations).max().unwrap_or(0)
-    );
+    let (first, last, epsilon) = (mean(softest), mean(limit), study.limit);
+    let means = format!("mean from {first:.3} at the softest to {last:.3} at the stiffest, ε = {epsilon:.0e}");
+    let most = bouncing.iter().map(|found| found.most_iterations).max().unwrap_or(0);
+    let evidence = format!("{means}; most in a step: {most}");
     Check::that(bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds), claim, evidence)
 }
 
@@ -222,19 +219,13 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
         plots::Series::new(label, runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))))
     };
     let series = vec![of_fixed_point("converges", true), of_fixed_point("fails", false)];
+    let orders = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
+                  order 2/3 where it is resolved.";
+    let contracts = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
     vec![
-        Figure::new(
-            "penetration",
-            "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; order \
-             2/3 where it is resolved.",
-            penetrations(all),
-        ),
+        Figure::new("penetration", orders, penetrations(all)),
         Figure::new("tip", "Displacement of the free end as the obstacles become rigid.", tip(study, all, limit)),
-        Figure::new(
-            "contraction",
-            "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.",
-            contraction(&series),
-        ),
+        Figure::new("contraction", contracts, contraction(&series)),
     ]
 }
 

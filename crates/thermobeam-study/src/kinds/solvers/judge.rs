@@ -36,14 +36,13 @@ impl Map {
         };
         let worst = 100.0 * lines.iter().filter_map(|(_, line)| ratio(line)).fold(0.0, max_or_nan);
         let residual = largest(rows, |newton| newton.worst.residual);
-        let summary = format!(
-            "{} points: the fixed point converges at {converged}, Newton's method at {completes}; boundary within {worst:.2} % of alpha = 1 where gamma <= {ALONE}; residual at most {residual:.1e} of the energy",
-            self.points * self.points,
-        );
+        let boundary = format!("boundary within {worst:.2} % of alpha = 1");
+        let residual = format!("residual at most {residual:.1e} of the energy");
+        let all = self.points * self.points;
+        let points = format!("{all} points: the fixed point converges at {converged}, Newton's method at {completes}");
+        let summary = format!("{points}; {boundary} where gamma <= {ALONE}; {residual}");
         Outcome {
-            headline: format!(
-                "boundary within {worst:.2} % of alpha = 1, residual at most {residual:.1e} of the energy"
-            ),
+            headline: format!("{boundary}, {residual}"),
             tables: vec![self.boundaries(lines)],
             figures: self.figures(rows, lines),
             quantities: self.quantities(lines, converged as f64),
@@ -79,30 +78,23 @@ impl Map {
     /// The contact's factor at the boundary found is 1, up to a share of γ.
     fn check_boundary(&self, value: f64, line: &Boundary) -> Check {
         let (name, value) = (self.over.name(), plain_text(value));
-        let (crossing, predicted) = match *line {
+        let claim = format!("{name} = {value}: the fixed point fails from alpha = 1 on");
+        let (FixedPointStep { dt, alpha, gamma, .. }, predicted) = match *line {
             Boundary { found: Some(found), predicted: Some(predicted) } => (found, predicted),
             Boundary { found: None, predicted: None } => {
                 let claim = format!("{name} = {value}: no boundary on the map, as predicted");
                 return Check::that(true, claim, "the fixed point behaves alike at both ends");
             }
             Boundary { found, .. } => {
-                let (where_to, not) = if found.is_some() { ("found", "predicted") } else { ("predicted", "found") };
-                let claim = format!("{name} = {value}: the fixed point fails from alpha = 1 on");
-                return Check::that(false, claim, format!("a boundary is {where_to} on the map, but none is {not}"));
+                let [here, not] = if found.is_some() { ["found", "predicted"] } else { ["predicted", "found"] };
+                return Check::that(false, claim, format!("a boundary is {here} on the map, but none is {not}"));
             }
         };
-        let difference = 100.0 * (crossing.dt / predicted - 1.0);
-        Check::that(
-            (crossing.alpha - 1.0).abs() <= self.agreement + crossing.gamma,
-            format!("{name} = {value}: the fixed point fails from alpha = 1 on"),
-            format!(
-                "from dt = {} on, predicted {} ({difference:+.2} %); alpha {:.4} there, gamma {:.1e}",
-                plain_text(crossing.dt),
-                plain_text(predicted),
-                crossing.alpha,
-                crossing.gamma
-            ),
-        )
+        let difference = 100.0 * (dt / predicted - 1.0);
+        let [from, expected] = [dt, predicted].map(plain_text);
+        let boundary = format!("from dt = {from} on, predicted {expected} ({difference:+.2} %)");
+        let evidence = format!("{boundary}; alpha {alpha:.4} there, gamma {gamma:.1e}");
+        Check::that((alpha - 1.0).abs() <= self.agreement + gamma, claim, evidence)
     }
 
     fn boundaries(&self, lines: &Lines<'_>) -> Table {
@@ -165,12 +157,13 @@ fn as_predicted(rows: &MapRows<'_>) -> Check {
             wrong += usize::from(converged);
         }
     }
+    let claim =
+        "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma";
+    let points = format!("{fast} points with small factors, {beyond} with a large alpha");
     Check::that(
         wrong == 0 && fast > 0 && beyond > 0,
-        "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma",
-        format!(
-            "{fast} points with small factors, {beyond} with a large alpha, {wrong} of them against the prediction"
-        ),
+        claim,
+        format!("{points}, {wrong} of them against the prediction"),
     )
 }
 
@@ -189,13 +182,10 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
         let evidence = format!("{:.1e} of the energy, {}", largest(rows, number), of_allowed(share));
         Check::that(every_row && share <= 1.0, claim, evidence)
     };
+    let closes = "the balance closes to 1e-12 of the energy, or to what rounding errors explain";
     [
         check("the energy never rises beyond rounding errors", |newton| newton.worst.rise, |newton| newton.worst.risen),
-        check(
-            "the balance closes to 1e-12 of the energy, or to what rounding errors explain",
-            |newton| newton.worst.residual,
-            |newton| newton.worst.open,
-        ),
+        check(closes, |newton| newton.worst.residual, |newton| newton.worst.open),
     ]
 }
 

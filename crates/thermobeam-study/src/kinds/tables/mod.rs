@@ -252,12 +252,11 @@ pub(crate) fn discretisations(
     elements: Option<usize>,
     t_end: f64,
 ) -> Result<[Discretisation; 2], InputError> {
-    let allowed = match elements {
-        None => format!("two tables [[{key}]] that differ in elements, degree, time_degree and dt"),
-        Some(n) => format!(
-            "two tables [[{key}]] of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
-        ),
+    let differing = match elements {
+        None => "that differ in elements, degree, time_degree and dt".to_owned(),
+        Some(n) => format!("of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"),
     };
+    let allowed = format!("two tables [[{key}]] {differing}");
     let one = |item: &Field<'_>| {
         let section = item.section()?;
         section.allow(&DISCRETISATION_KEYS)?;

@@ -210,14 +210,9 @@ impl Vibration {
         let row = |&(index, start): &(usize, [f64; 2])| {
             let omega = Mode::new(index).omega();
             let damping = 0.5 * self.theory.beam.zeta * omega;
-            vec![
-                (index + 1).to_string(),
-                format!("{omega:.11}"),
-                format!("{damping:.4}"),
-                if damping < 1.0 { "underdamped" } else { "overdamped" }.into(),
-                start[0].to_string(),
-                start[1].to_string(),
-            ]
+            let motion = if damping < 1.0 { "underdamped" } else { "overdamped" };
+            let mode = [(index + 1).to_string(), format!("{omega:.11}"), format!("{damping:.4}"), motion.to_owned()];
+            mode.into_iter().chain(start.map(|value| value.to_string())).collect()
         };
         let head = ["mode", "ω", "ζω/2", "motion", "u(1) at t = 0", "u_t(1) at t = 0"];
         Table::new("Modes superposed", head, self.modes.iter().map(row))

@@ -223,14 +223,9 @@ fn winners(quantity: ErrorMeasure, rows: &[MethodRow]) -> Table {
         [format!("{error:e}")].into_iter().chain(of_quantity.iter().map(cell)).chain([cheapest, ahead]).collect()
     };
     let names = of_quantity.iter().map(|row| row.method.name);
-    Table::new(
-        format!(
-            "Cost of an error in {}: node-steps / node-solves on the best path, of dg by the cheapest run; * extrapolated",
-            quantity.name()
-        ),
-        ["error"].into_iter().chain(names).chain(["cheapest", "ahead of the next"]),
-        TARGETS.iter().map(line),
-    )
+    let cells = "node-steps / node-solves on the best path, of dg by the cheapest run; * extrapolated";
+    let head = ["error"].into_iter().chain(names).chain(["cheapest", "ahead of the next"]);
+    Table::new(format!("Cost of an error in {}: {cells}", quantity.name()), head, TARGETS.iter().map(line))
 }
 
 fn laws(rows: &[MethodRow]) -> Table {

@@ -235,14 +235,12 @@ impl<'a> Surface<'a> {
     }
 
     fn jacobian_matrix(&self) -> OMatrix<f64, Dyn, U4> {
-        let mut jacobian = OMatrix::<f64, Dyn, U4>::zeros(self.points.len());
-        for (row, point) in self.points.iter().enumerate() {
+        let row = |point: &GridPoint| {
             let [a, b] = self.contributions(point).into();
             let w = 1.0 / (1.0 + (2.0 * (b - a)).exp());
-            let entries = [w, w * point.h.ln(), 1.0 - w, (1.0 - w) * point.dt.ln()];
-            entries.into_iter().enumerate().for_each(|(column, entry)| jacobian[(row, column)] = entry);
-        }
-        jacobian
+            [w, w * point.h.ln(), 1.0 - w, (1.0 - w) * point.dt.ln()]
+        };
+        OMatrix::<f64, Dyn, U4>::from_row_iterator(self.points.len(), self.points.iter().flat_map(row))
     }
 }
 

@@ -180,9 +180,8 @@ pub fn verify(
     let _writing = atomic::begin_write();
     // Another run may have blessed in the meantime: the baseline is read again under the lock.
     let mut baseline = Baseline::read(&baseline_file)?;
-    let known = request.scope.known();
     let blessing = request.bless.then(|| bless(&mut baseline, &finished, request)).transpose()?;
-    let changes = baseline.compare(&finished, known);
+    let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
     let verdict = verdict(&finished, &changes);
     let mut record = Record::new(request.scope.name(), &command, verdict, Some(&changes), finished);
@@ -191,9 +190,8 @@ pub fn verify(
     let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &record.studies);
     let committed = record.clone().committed();
     let see_also = see_also(&committed, folder);
-    let files = Findings { project, record: &committed, see_also, provenance: Some(&provenance) }
-        .files()
-        .map_err(unwritable(folder))?;
+    let findings = Findings { project, record: &committed, see_also, provenance: Some(&provenance) };
+    let files = findings.files().map_err(unwritable(folder))?;
     let provenance = json(&provenance).map_err(unwritable(folder))?;
     if let Some(Ok(())) = &blessing {
         baseline.write(&baseline_file)?;

@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
 use super::sheet::elide;
 use super::style::{self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, text_width};
-use crate::judge::verdict::Verdict;
+use crate::judge::verdict::{RateVerdict, Verdict};
 use plotters::style::RGBColor;
 
 /// Half the width of the plot in tolerances: the band of a claim is [-1, 1].
@@ -22,24 +22,13 @@ const CLEAR: f64 = 16.0;
 /// Widest label, in px; a longer one is cut.
 const LABELS: f64 = 300.0;
 
-/// A judged rate in units of its claim's tolerance: (rate - order) / tolerance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForestRate {
-    /// The rate; `None` if there is none.
-    pub rate: Option<f64>,
-    /// Of the ends of its interval.
-    pub interval: Option<[f64; 2]>,
-    /// The verdict.
-    pub verdict: Verdict,
-}
-
 /// A study with its rates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForestRow {
     /// The study's id.
     pub label: String,
     /// Its rates.
-    pub rates: Vec<ForestRate>,
+    pub rates: Vec<RateVerdict>,
     /// Numbers to show next to them, such as those of failing rates; may be empty.
     pub note: String,
 }
@@ -144,8 +133,11 @@ fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBCol
     if note.is_empty() {
         return;
     }
-    let drawn = || row.rates.iter().flat_map(|rate| rate.rate.into_iter().chain(rate.interval.into_iter().flatten()));
-    let ends = drawn().filter(|value| value.is_finite()).map(|value| px(plot, value));
+    let drawn = row.rates.iter().flat_map(|rate| {
+        let values = rate.fitted.into_iter().chain(rate.interval.into_iter().flatten());
+        values.map(|value| relative(rate, value))
+    });
+    let ends = drawn.filter(|value| value.is_finite()).map(|value| px(plot, value));
     let (left, right) = ends.fold((plot.right, plot.left), |(left, right), x| (x.min(left), x.max(right)));
     let width = text_width(&note, NOTE_SIZE);
     let (start, anchor) = match right + CLEAR + width < plot.right {
@@ -157,7 +149,8 @@ fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBCol
 
 /// The note of the row, and how many of its rates are missing.
 fn note(row: &ForestRow) -> String {
-    let missing = row.rates.iter().filter(|rate| rate.rate.is_none_or(|value| !value.is_finite())).count();
+    let is_missing = |rate: &&RateVerdict| rate.fitted.is_none_or(|value| !relative(rate, value).is_finite());
+    let missing = row.rates.iter().filter(is_missing).count();
     let without = match missing {
         0 => String::new(),
         all if all == row.rates.len() => "no rate".to_owned(),
@@ -167,18 +160,25 @@ fn note(row: &ForestRow) -> String {
     parts.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join("; ")
 }
 
-fn draw_rate(pen: &Pen<'_>, rate: &ForestRate, plot: &Rect, y: f64) {
+/// A value in units of its claim's tolerance.
+fn relative(rate: &RateVerdict, value: f64) -> f64 {
+    (value - rate.order) / rate.tolerance
+}
+
+fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {
     let colour = colour(rate.verdict);
+    let value = rate.fitted.map(|value| relative(rate, value));
+    let interval = rate.interval.map(|ends| ends.map(|end| relative(rate, end)));
     let finite = |value: &f64| value.is_finite();
-    if let Some([low, high]) = rate.interval.filter(|ends| ends.iter().all(finite)) {
+    if let Some([low, high]) = interval.filter(|ends| ends.iter().all(finite)) {
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 1.8);
         // An interval that extends beyond the frame; if the rate does too, it has its own arrow.
-        let is_within = rate.rate.is_some_and(|value| value.abs() <= REACH);
+        let is_within = value.is_some_and(|value| value.abs() <= REACH);
         for end in [low, high].into_iter().filter(|end| is_within && end.abs() > REACH) {
             tick(pen, (px(plot, end), y), end.signum(), colour);
         }
     }
-    match rate.rate.filter(finite) {
+    match value.filter(finite) {
         Some(value) if value.abs() <= REACH => pen.disc((px(plot, value), y), 2.4, colour),
         Some(value) => arrow(pen, (px(plot, value) - 8.0 * value.signum(), y), value.signum(), colour),
         None => {}
@@ -208,19 +208,25 @@ fn colour(verdict: Verdict) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::verdict::judge_pairs;
+
+    /// Claimed are an order of 0 and a tolerance of 1.
+    fn missing(verdict: Verdict) -> RateVerdict {
+        RateVerdict { verdict, ..judge_pairs([], 0.0, 1.0) }
+    }
 
     fn row(label: &str, rates: &[(f64, f64, Verdict)]) -> ForestRow {
-        let rate = |&(rate, half, verdict): &(f64, f64, Verdict)| ForestRate {
-            rate: Some(rate),
+        let rate = |&(rate, half, verdict): &(f64, f64, Verdict)| RateVerdict {
+            fitted: Some(rate),
             interval: Some([rate - half, rate + half]),
-            verdict,
+            ..missing(verdict)
         };
         ForestRow { label: label.into(), rates: rates.iter().map(rate).collect(), note: String::new() }
     }
 
     #[test]
     fn every_study_is_named_and_a_rate_beyond_the_plot_is_an_arrow() {
-        let none = ForestRate { rate: None, interval: None, verdict: Verdict::Inconclusive };
+        let none = missing(Verdict::Inconclusive);
         let rows = vec![
             row("sound", &[(0.1, 0.2, Verdict::Pass), (0.0, 0.1, Verdict::Pass)]),
             row("lost-order", &[(-20.0, 0.1, Verdict::Fail)]),
@@ -245,9 +251,8 @@ mod tests {
             let tag = &before[before.rfind("<text").unwrap()..];
             tag.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
         };
-        let missing = ForestRate { rate: None, interval: None, verdict: Verdict::Fail };
         let mut low = row("low", &[(-20.0, 0.1, Verdict::Fail), (0.0, 0.1, Verdict::Pass)]);
-        low.rates.push(missing);
+        low.rates.push(missing(Verdict::Fail));
         low.note = "1.000, claimed 2".into();
         let high = ForestRow { note: "3.000, claimed 2".into(), ..row("high", &[(20.0, 0.1, Verdict::Fail)]) };
         let svg = forest("", &[("g", vec![low, high])]);

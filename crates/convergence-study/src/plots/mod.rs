@@ -41,7 +41,7 @@ pub mod style;
 pub mod xy;
 
 pub use convergence::{ErrorSeries, convergence};
-pub use forest::{ForestRate, ForestRow, forest};
+pub use forest::{ForestRow, forest};
 pub use heat::{SpaceTime, Surface, space_time, surface};
 pub use history::{history, iterations, work_precision};
 

@@ -2,7 +2,7 @@
 
 use super::words::range;
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::plots::{ForestRate, ForestRow, forest};
+use crate::plots::{ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::Figure;
@@ -40,9 +40,8 @@ pub(super) fn grouped<'f>(project: &Project, finished: &'f [Finished]) -> Vec<(&
 }
 
 fn row(study: &Finished) -> Option<ForestRow> {
-    let rates: Vec<ForestRate> = study.outcome.rates.iter().map(|(_, rate)| relative(rate)).collect();
-    let note = failed(study);
-    (!rates.is_empty()).then(|| ForestRow { label: study.header.id.clone(), rates, note })
+    let rates: Vec<RateVerdict> = study.outcome.rates.iter().map(|(_, rate)| rate.clone()).collect();
+    (!rates.is_empty()).then(|| ForestRow { label: study.header.id.clone(), rates, note: failed(study) })
 }
 
 /// Most claims that fit next to the rates of one study.
@@ -56,14 +55,4 @@ fn failed(study: &Finished) -> String {
         |(order, rates): &(f64, Vec<_>)| format!("{}, claimed {}", range(rates.iter().copied()), order_text(*order));
     let more = if orders.len() > MOST_CLAIMS { "; \u{2026}" } else { "" };
     orders.iter().take(MOST_CLAIMS).map(one).collect::<Vec<_>>().join("; ").replace('-', "\u{2212}") + more
-}
-
-/// A rate in units of its tolerance.
-fn relative(rate: &RateVerdict) -> ForestRate {
-    let scaled = |value: f64| (value - rate.order) / rate.tolerance;
-    ForestRate {
-        rate: rate.fitted.map(scaled),
-        interval: rate.interval.map(|ends| ends.map(scaled)),
-        verdict: rate.verdict,
-    }
 }

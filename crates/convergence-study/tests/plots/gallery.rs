@@ -1,7 +1,6 @@
 //! Made-up data that look like the real thing, one set per figure.
 
-use convergence_study::judge::verdict::PowerLaw;
-use convergence_study::judge::verdict::Verdict;
+use convergence_study::judge::verdict::{PowerLaw, RateVerdict, Verdict, judge_pairs};
 use convergence_study::plots::xy::Xy;
 use convergence_study::plots::*;
 
@@ -243,18 +242,18 @@ pub(crate) fn hostile() -> Xy {
 
 /// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
 pub(crate) fn all_rates() -> [(&'static str, Vec<ForestRow>); 2] {
-    let rate = |rate: f64, half: f64, verdict| ForestRate {
-        rate: Some(rate),
-        interval: Some([rate - half, rate + half]),
-        verdict,
+    // Claimed are an order of 0 and a tolerance of 1.
+    let none = || RateVerdict { verdict: Verdict::Inconclusive, ..judge_pairs([], 0.0, 1.0) };
+    let rate = |rate: f64, half: f64, verdict| {
+        let interval = Some([rate - half, rate + half]);
+        RateVerdict { fitted: Some(rate), interval, verdict, ..none() }
     };
-    let none = ForestRate { rate: None, interval: None, verdict: Verdict::Inconclusive };
-    let row = |label: &str, rates: Vec<ForestRate>| ForestRow { label: label.into(), rates, note: String::new() };
+    let row = |label: &str, rates: Vec<RateVerdict>| ForestRow { label: label.into(), rates, note: String::new() };
     let space = vec![
         row("first-order", vec![rate(0.1, 0.2, Verdict::Pass), rate(-0.3, 0.1, Verdict::Pass)]),
         ForestRow {
             note: "1.000, claimed 2".into(),
-            ..row("lost-order", vec![rate(-20.0, 0.1, Verdict::Fail), none, none])
+            ..row("lost-order", vec![rate(-20.0, 0.1, Verdict::Fail), none(), none()])
         },
     ];
     let time =

@@ -103,8 +103,11 @@ impl Claims {
     }
 }
 
+/// Numbers by the names of their columns.
+pub(crate) type Columns = Vec<(String, Vec<f64>)>;
+
 /// The columns of numbers of a data frame or a dict of lists, by name; `None` for other types.
-pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<Option<Vec<(String, Vec<f64>)>>> {
+pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<Option<Columns>> {
     let names = match table.cast::<PyDict>() {
         Ok(table) => table.keys().into_any(),
         Err(_) if table.hasattr("columns")? => table.getattr("columns")?,

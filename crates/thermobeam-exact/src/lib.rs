@@ -28,4 +28,4 @@ pub mod sources;
 /// The code of the README, run by the doc tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+mod readme {}

@@ -5,142 +5,123 @@
 //!
 //! | loop | quantity of the previous iterate | factor | for dt ≪ ζ, on fine meshes |
 //! | --- | --- | --- | --- |
-//! | [`Loop::Contact`] | g(u) in the first equation | [`contact_contraction`] | g' dt^{3/2}/√(cζ) |
-//! | [`Loop::Rotation`] | u and û in the second | [`coupling_contraction`] | ζ dt/(2c) |
-//! | [`Loop::Heat`] | φ̂ in the third | [`heat_contraction`] | a² dt/(√c + √(2ζ))² |
-//! | [`Loop::AxialForce`] | N(u) in the first | [`axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(cζ) |
+//! | [`Loop::Contact`] | g(u) in the first equation | [`Case::contact_contraction`] | g' dt^{3/2}/√(cζ) |
+//! | [`Loop::Rotation`] | u and û in the second | [`Case::coupling_contraction`] | ζ dt/(2c) |
+//! | [`Loop::Heat`] | φ̂ in the third | [`Case::heat_contraction`] | a² dt/(√c + √(2ζ))² |
+//! | [`Loop::AxialForce`] | N(u) in the first | [`Case::axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(cζ) |
 //!
 //! c is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's scheme, 2 and 1/(2ε) for
 //! `midpoint`.
+
 pub use crate::error::Loop;
 use crate::norms::{l2_squared, slope_squared};
-use crate::parameters::{Beam, Obstacles};
-use crate::scheme::{ContactRule, Scheme};
+use crate::scheme::{Case, ContactRule};
 use crate::tridiagonal::TridiagonalFactor;
-
-/// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`.
-///
-/// `A_u = κ M + (ζ + dt (1 + N)/2) K` is the matrix of the first equation of (4.2), κ = inertia/dt, and g' the slope of
-/// the contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous iterate enters
-/// the right-hand side at the tip only, so an error e of u(1) becomes -α e.
-///
-/// * `lengths`: length of each element.
-/// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
-/// * Returns infinity if A_u is not positive definite: then the fixed point cannot perform the step.
-pub fn contact_contraction(
-    beam: &Beam,
-    obstacles: &Obstacles,
-    lengths: &[f64],
-    scheme: &Scheme,
-    dt: f64,
-    n_value: f64,
-) -> f64 {
-    let slope = match scheme.contact {
-        ContactRule::Implicit => 1.0 / obstacles.epsilon,
-        ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
-    };
-    let stiffness = beam.zeta + 0.5 * dt * (1.0 + n_value);
-    let mut factor = TridiagonalFactor::new(lengths.len());
-    match factor.factorize(lengths, scheme.inertia / dt, stiffness, n_value) {
-        Ok(()) => dt * slope * factor.last_of_inverse(),
-        Err(_) => f64::INFINITY,
-    }
-}
 
 /// Largest number of power iterations, and the relative change of the quotient at which they stop.
 const ITERATIONS: usize = 300;
 const RELATIVE_CHANGE: f64 = 1e-13;
 
-/// Contraction factor of the fixed point due to the coupling of rotation and displacement.
-///
-/// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as
-/// `s C W`. The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
-///
-/// ```text
-/// A_u = κ M + s' K,   A_φ = (κ + s) M + s K,   κ = inertia/dt,   s = ζ + dt/2,   s' = s + dt N/2.
-/// ```
-///
-/// A wave of wavenumber k in the interior has the factor `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about s/(4κ).
-/// A layer at the free end has a larger one, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` if it is thin, about s/(2κ).
-/// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
-///
-/// * `lengths`: length of each element.
-/// * `n_value`: the mean axial force ½(N(u) + N(u0)) of the step.
-/// * Returns infinity if A_u is not positive definite.
-pub fn coupling_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64) -> f64 {
-    let n = lengths.len();
-    let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
-    let of_u = Operator::new(n, lengths, kappa, s + 0.5 * dt * n_value);
-    let of_phi = Operator::new(n, lengths, kappa + s, s);
-    of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, s, &of_u, &of_phi))
-}
-
-/// Contraction factor of the fixed point due to the coupling of rotation and temperature.
-///
-/// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ enters the second as `a C Θ`. The
-/// factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes sign. A
-/// wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + s (1 + k²)))`, at most about `a² dt/(√c + √(2s))²` with the
-/// inertia c: larger than that of rotation and displacement where `a² > s (1 + √(2s))²/2` (c = 1), and above 1 for a large a.
-///
-/// * `lengths`: length of each element.
-pub fn heat_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64) -> f64 {
-    let n = lengths.len();
-    let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
-    if n == 1 || beam.a == 0.0 {
-        return 0.0;
+/// In all of these, `n_value` is the mean axial force ½(N(u) + N(u0)) of the step.
+impl Case {
+    /// κ = inertia/dt and s = ζ + dt/2.
+    fn kappa_and_s(&self) -> (f64, f64) {
+        (self.scheme.inertia / self.dt, self.beam.zeta + 0.5 * self.dt)
     }
-    let of_phi = Operator::new(n, lengths, kappa + s, s);
-    let of_theta = Operator::new(n - 1, lengths, 2.0 / dt, 1.0);
-    of_phi.zip(of_theta).map_or(f64::INFINITY, |(of_phi, of_theta)| round_trip(lengths, beam.a, &of_phi, &of_theta))
-}
 
-/// Contraction factor of the fixed point due to the axial force of the previous iterate, `ρ dt (K u)ᵀ A_u⁻¹ K u`.
-///
-/// An error of V changes the mean axial force ½(N(u) + N(u0)) by `ρ dt (K u)ᵀ V`, and the first equation by that times `K u`: a
-/// rank-one map, whose only nonzero eigenvalue is -1 times the factor.
-///
-/// * `lengths`: length of each element.
-/// * `n_value`: the mean axial force of the step.
-/// * `u`: the displacement at the nodes, used for both the old and the new level.
-/// * Returns infinity if A_u is not positive definite.
-pub fn axial_contraction(beam: &Beam, lengths: &[f64], scheme: &Scheme, dt: f64, n_value: f64, u: &[f64]) -> f64 {
-    let n = lengths.len();
-    let stiffness = beam.zeta + 0.5 * dt * (1.0 + n_value);
-    let Some(of_u) = Operator::new(n, lengths, scheme.inertia / dt, stiffness) else { return f64::INFINITY };
-    let mut bent = vec![0.0; n + 1];
-    for (i, h) in lengths.iter().enumerate() {
-        let slope = (u[i + 1] - u[i]) / h;
-        bent[i] -= slope;
-        bent[i + 1] += slope;
+    /// `A_u = κ M + (ζ + dt (1 + N)/2) K`, the matrix of the first equation of (4.2); `None` if it is not positive definite.
+    fn matrix_of_u(&self, n_value: f64) -> Option<Operator> {
+        let stiffness = self.beam.zeta + 0.5 * self.dt * (1.0 + n_value);
+        Operator::new(self.lengths.len(), &self.lengths, self.scheme.inertia / self.dt, stiffness)
     }
-    bent[0] = 0.0;
-    let mut moved = bent.clone();
-    of_u.factor.solve_in_place(&mut moved);
-    beam.rho * dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
-}
 
-/// The contraction factor of the fixed point: the largest factor of the four loops.
-///
-/// * `obstacles`: `None` without contact.
-/// * `lengths`: length of each element.
-/// * `u`: the displacement at the nodes, which determines the axial force.
-pub fn contraction(
-    beam: &Beam,
-    obstacles: Option<&Obstacles>,
-    lengths: &[f64],
-    scheme: &Scheme,
-    dt: f64,
-    u: &[f64],
-) -> (f64, Loop) {
-    let n_value = beam.axial_force(slope_squared(lengths, u));
-    let contact = |obstacles| contact_contraction(beam, obstacles, lengths, scheme, dt, n_value);
-    let loops = [
-        (obstacles.map_or(0.0, contact), Loop::Contact),
-        (coupling_contraction(beam, lengths, scheme, dt, n_value), Loop::Rotation),
-        (heat_contraction(beam, lengths, scheme, dt), Loop::Heat),
-        (axial_contraction(beam, lengths, scheme, dt, n_value, u), Loop::AxialForce),
-    ];
-    loops.into_iter().fold((0.0, Loop::Contact), |most, next| if next.0 > most.0 { next } else { most })
+    /// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`; 0 without obstacles.
+    ///
+    /// g' is the slope of the contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous
+    /// iterate enters the right-hand side at the tip only, so an error e of u(1) becomes -α e.
+    ///
+    /// * Returns infinity if A_u is not positive definite: then the fixed point cannot perform the step.
+    pub fn contact_contraction(&self, n_value: f64) -> f64 {
+        let Some(obstacles) = &self.obstacles else { return 0.0 };
+        let slope = match self.scheme.contact {
+            ContactRule::Implicit => 1.0 / obstacles.epsilon,
+            ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
+        };
+        self.matrix_of_u(n_value).map_or(f64::INFINITY, |of_u| self.dt * slope * of_u.factor.last_of_inverse())
+    }
+
+    /// Contraction factor of the fixed point due to the coupling of rotation and displacement.
+    ///
+    /// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as
+    /// `s C W`. The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
+    ///
+    /// ```text
+    /// A_u = κ M + s' K,   A_φ = (κ + s) M + s K,   κ = inertia/dt,   s = ζ + dt/2,   s' = s + dt N/2.
+    /// ```
+    ///
+    /// A wave of wavenumber k in the interior has the factor `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about s/(4κ).
+    /// A layer at the free end has a larger one, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` if it is thin, about s/(2κ).
+    /// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
+    ///
+    /// * Returns infinity if A_u is not positive definite.
+    pub fn coupling_contraction(&self, n_value: f64) -> f64 {
+        let (n, lengths, (kappa, s)) = (self.lengths.len(), &self.lengths, self.kappa_and_s());
+        let of_u = Operator::new(n, lengths, kappa, s + 0.5 * self.dt * n_value);
+        let of_phi = Operator::new(n, lengths, kappa + s, s);
+        of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, s, &of_u, &of_phi))
+    }
+
+    /// Contraction factor of the fixed point due to the coupling of rotation and temperature.
+    ///
+    /// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ enters the second as `a C Θ`.
+    /// The factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes
+    /// sign. A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + s (1 + k²)))`, at most about `a² dt/(√c + √(2s))²` with
+    /// the inertia c: larger than that of rotation and displacement where `a² > s (1 + √(2s))²/2` (c = 1), and above 1 for a large a.
+    pub fn heat_contraction(&self) -> f64 {
+        let (n, lengths, (kappa, s)) = (self.lengths.len(), &self.lengths, self.kappa_and_s());
+        if n == 1 || self.beam.a == 0.0 {
+            return 0.0;
+        }
+        let of_phi = Operator::new(n, lengths, kappa + s, s);
+        let of_theta = Operator::new(n - 1, lengths, 2.0 / self.dt, 1.0);
+        let factor = |(of_phi, of_theta)| round_trip(lengths, self.beam.a, &of_phi, &of_theta);
+        of_phi.zip(of_theta).map_or(f64::INFINITY, factor)
+    }
+
+    /// Contraction factor of the fixed point due to the axial force of the previous iterate, `ρ dt (K u)ᵀ A_u⁻¹ K u`.
+    ///
+    /// An error of V changes the mean axial force ½(N(u) + N(u0)) by `ρ dt (K u)ᵀ V`, and the first equation by that times
+    /// `K u`: a rank-one map, whose only nonzero eigenvalue is -1 times the factor.
+    ///
+    /// * `u`: the displacement at the nodes, used for both the old and the new level.
+    /// * Returns infinity if A_u is not positive definite.
+    pub fn axial_contraction(&self, n_value: f64, u: &[f64]) -> f64 {
+        let Some(of_u) = self.matrix_of_u(n_value) else { return f64::INFINITY };
+        let mut bent = vec![0.0; u.len()];
+        for (i, h) in self.lengths.iter().enumerate() {
+            let slope = (u[i + 1] - u[i]) / h;
+            bent[i] -= slope;
+            bent[i + 1] += slope;
+        }
+        bent[0] = 0.0;
+        let mut moved = bent.clone();
+        of_u.factor.solve_in_place(&mut moved);
+        self.beam.rho * self.dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
+    }
+
+    /// The contraction factor of the fixed point: the largest factor of the four loops.
+    ///
+    /// * `u`: the displacement at the nodes, which determines the axial force.
+    pub fn contraction(&self, u: &[f64]) -> (f64, Loop) {
+        let n_value = self.beam.axial_force(slope_squared(&self.lengths, u));
+        let loops = [
+            (self.contact_contraction(n_value), Loop::Contact),
+            (self.coupling_contraction(n_value), Loop::Rotation),
+            (self.heat_contraction(), Loop::Heat),
+            (self.axial_contraction(n_value, u), Loop::AxialForce),
+        ];
+        loops.into_iter().fold((0.0, Loop::Contact), |most, next| if next.0 > most.0 { next } else { most })
+    }
 }
 
 /// `mass M + stiffness K`, with its factorisation.
@@ -219,7 +200,14 @@ fn coupling(s: f64, w: &[f64], v: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::{Beam, Obstacles};
     use crate::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
+
+    /// Without obstacles, by the paper's scheme.
+    fn case(beam: Beam, elements: usize, dt: f64) -> Case {
+        let lengths = vec![1.0 / elements as f64; elements];
+        Case { beam, obstacles: None, scheme: EULER_CRANK_NICOLSON, dt, lengths }
+    }
 
     #[test]
     fn the_contact_factor_agrees_with_measured_values() {
@@ -232,21 +220,22 @@ mod tests {
             (1e-3, 0.01, 1e-3, 0.230, 5e-4),
         ];
         for (epsilon, zeta, dt, expected, half_a_digit) in rows {
-            let (beam, obstacles) = (Beam { zeta, ..Beam::default() }, Obstacles { epsilon, ..Obstacles::default() });
-            let alpha = contact_contraction(&beam, &obstacles, &[0.01; 100], &EULER_CRANK_NICOLSON, dt, 0.0);
+            let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
+            let case = Case { obstacles, ..case(Beam { zeta, ..Beam::default() }, 100, dt) };
+            let alpha = case.contact_contraction(0.0);
             assert!((alpha - expected).abs() <= 1.5 * half_a_digit, "{alpha} for {expected}");
         }
     }
 
     #[test]
     fn on_one_element_the_contact_factor_is_the_closed_formula() {
-        let (beam, obstacles) =
-            (Beam { zeta: 0.3, ..Beam::default() }, Obstacles { epsilon: 0.01, ..Obstacles::default() });
-        let (dt, n_value) = (0.1, 2.0);
+        let dt = 0.1;
+        let obstacles = Some(Obstacles { epsilon: 0.01, ..Obstacles::default() });
         for (scheme, slope) in [(EULER_CRANK_NICOLSON, 100.0), (MIDPOINT, 50.0)] {
             // The tip's hat function has the mass 1/3 and the stiffness 1.
             let operator = scheme.inertia / dt / 3.0 + 0.3 + 0.5 * dt * 3.0;
-            let found = contact_contraction(&beam, &obstacles, &[1.0], &scheme, dt, n_value);
+            let case = Case { obstacles, scheme, ..case(Beam { zeta: 0.3, ..Beam::default() }, 1, dt) };
+            let found = case.contact_contraction(2.0);
             assert!((found / (dt * slope / operator) - 1.0).abs() < 1e-14, "{found}");
         }
     }
@@ -259,7 +248,7 @@ mod tests {
                 let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
                 let stiffness_u = s + 0.5 * dt * n_value;
                 let layer = s * s / (stiffness_u * (kappa + s) + (s * stiffness_u * kappa * (kappa + s)).sqrt());
-                let found = coupling_contraction(&beam, &[1e-3; 1000], &scheme, dt, n_value);
+                let found = Case { scheme, ..case(beam, 1000, dt) }.coupling_contraction(n_value);
                 assert!((found - layer).abs() <= 0.01 * layer, "{found} for {layer}");
             }
         }
@@ -268,7 +257,7 @@ mod tests {
     #[test]
     fn the_coupling_factor_stays_below_its_limit_for_large_steps() {
         let limit = 1.0 / (1.0 + std::f64::consts::PI.powi(2) / 4.0);
-        let of = |dt| coupling_contraction(&Beam::default(), &[0.01; 100], &EULER_CRANK_NICOLSON, dt, 0.0);
+        let of = |dt| case(Beam::default(), 100, dt).coupling_contraction(0.0);
         let mut last = 0.0;
         for exponent in -4..=4 {
             let factor = of(10f64.powi(exponent));
@@ -280,16 +269,16 @@ mod tests {
 
     #[test]
     fn the_factors_of_heat_and_axial_force_are_those_of_waves_and_layers() {
-        let lengths = [1e-3; 1000];
         let bent: Vec<f64> = (0..=1000).map(|i| (f64::from(i) * 1e-3).powi(2)).collect();
         let beam = Beam { zeta: 0.1, a: 1.0, rho: 1.0, ..Beam::default() };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for dt in [1e-3_f64, 1e-4] {
                 let wave = dt / (scheme.inertia.sqrt() + (2.0 * beam.zeta + dt).sqrt()).powi(2);
-                let heat = heat_contraction(&beam, &lengths, &scheme, dt);
+                let case = Case { scheme, ..case(beam, 1000, dt) };
+                let heat = case.heat_contraction();
                 assert!((heat - wave).abs() <= 0.01 * wave, "{heat} for {wave}");
                 let layer = 4.0 * dt.powf(1.5) / (scheme.inertia * beam.zeta).sqrt();
-                let axial = axial_contraction(&beam, &lengths, &scheme, dt, 0.0, &bent);
+                let axial = case.axial_contraction(0.0, &bent);
                 assert!((axial - layer).abs() <= 0.03 * layer, "{axial} for {layer}");
             }
         }
@@ -297,10 +286,9 @@ mod tests {
 
     #[test]
     fn the_largest_loop_is_named() {
-        let lengths = [0.02; 50];
         let largest = |beam: Beam, obstacles: Option<Obstacles>, slope: f64| {
             let u: Vec<f64> = (0..=50).map(|i| slope * f64::from(i) / 50.0).collect();
-            contraction(&beam, obstacles.as_ref(), &lengths, &EULER_CRANK_NICOLSON, 1e-2, &u)
+            Case { obstacles, ..case(beam, 50, 1e-2) }.contraction(&u)
         };
         let obstacles = Some(Obstacles::default());
         let (hot, stiff) = (Beam { a: 20.0, ..Beam::default() }, Beam { rho: 1e3, ..Beam::default() });
@@ -317,9 +305,7 @@ mod tests {
 
     #[test]
     fn the_contraction_factor_of_an_indefinite_operator_is_infinite() {
-        let (beam, obstacles) = (Beam::default(), Obstacles::default());
-        let alpha = contact_contraction(&beam, &obstacles, &[0.1; 10], &EULER_CRANK_NICOLSON, 10.0, -3.0);
-        assert_eq!(alpha, f64::INFINITY);
-        assert_eq!(coupling_contraction(&beam, &[0.1; 10], &EULER_CRANK_NICOLSON, 10.0, -3.0), f64::INFINITY);
+        let case = Case { obstacles: Some(Obstacles::default()), ..case(Beam::default(), 10, 10.0) };
+        assert_eq!([case.contact_contraction(-3.0), case.coupling_contraction(-3.0)], [f64::INFINITY; 2]);
     }
 }

@@ -23,7 +23,8 @@ pub use rounding::Rounding;
 
 use crate::norms::{l2_squared, shear_squared, slope_squared};
 use crate::parameters::Obstacles;
-use crate::solve::{Case, Level};
+use crate::scheme::Case;
+use crate::solve::Level;
 use sums::Sums;
 
 /// The terms of the discrete energy E^n, (3.9).

@@ -7,11 +7,11 @@
 use crate::energy::Balance;
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
-use crate::scheme::Scheme;
+use crate::scheme::{Case, Scheme};
 use crate::simulation::{Problem, Stepping, is_heated, prepare};
 use crate::solve::newton::newton;
 use crate::solve::stepper::Batch;
-use crate::solve::{Case, Level, Settings, StepReport, Work};
+use crate::solve::{Level, Settings, StepReport, Work};
 
 /// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the registers of AVX2.
 const WIDTH: usize = 4;

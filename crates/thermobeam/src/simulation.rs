@@ -4,11 +4,11 @@ use crate::energy::{Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive};
-use crate::scheme::Scheme;
+use crate::scheme::{Case, Scheme};
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
 use crate::solve::stepper::Stepper;
-use crate::solve::{Case, Level, Settings, Solver, StepReport, Work};
+use crate::solve::{Level, Settings, Solver, StepReport, Work};
 
 /// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is
 /// 1e-16, 20 cos(5πx/2) there is 6e-15.
@@ -54,7 +54,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub(crate) fn case(&self, scheme: Scheme, dt: f64) -> Case {
+    /// The problem, stepped by a scheme.
+    pub fn case(&self, scheme: Scheme, dt: f64) -> Case {
         Case { beam: self.beam, obstacles: self.obstacles, scheme, dt, lengths: self.mesh.lengths().collect() }
     }
 }

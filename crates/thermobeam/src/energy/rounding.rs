@@ -27,7 +27,8 @@
 use crate::energy::Energy;
 use crate::norms::slope_squared;
 use crate::parameters::Obstacles;
-use crate::solve::{Case, Level};
+use crate::scheme::Case;
+use crate::solve::Level;
 
 /// The constant c of the module documentation: some ten terms per equation, each of a few operations, and the same
 /// number in the balance; the elimination multiplies by inverted blocks, which doubles the count.

@@ -10,6 +10,8 @@
 //!
 //! `V = c v + (1 - c) v0` with ½ <= c <= 1 is also a row, with inertia 1/c and order 1 for c > ½.
 
+use crate::parameters::{Beam, Obstacles};
+
 /// How the contact force enters a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactRule {
@@ -33,6 +35,21 @@ pub struct Scheme {
     pub contact: ContactRule,
     /// Where the scheme is defined.
     pub source: &'static str,
+}
+
+/// A beam in elements with its obstacles, stepped by a scheme.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Coefficients of (1.1).
+    pub beam: Beam,
+    /// The obstacles of (1.3), if any.
+    pub obstacles: Option<Obstacles>,
+    /// The time scheme.
+    pub scheme: Scheme,
+    /// Time step δt.
+    pub dt: f64,
+    /// Length of each element.
+    pub lengths: Vec<f64>,
 }
 
 /// The paper's scheme (3.7)-(3.8): backward Euler for inertia, viscosity and contact, Crank-Nicolson for the rest.

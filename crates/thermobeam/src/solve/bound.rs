@@ -79,8 +79,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 mod tests {
     use super::*;
     use crate::parameters::Beam;
-    use crate::scheme::EULER_CRANK_NICOLSON;
-    use crate::solve::{Case, Level, Settings};
+    use crate::scheme::{Case, EULER_CRANK_NICOLSON};
+    use crate::solve::{Level, Settings};
 
     const DT: f64 = 0.5;
 

@@ -3,7 +3,8 @@
 
 use crate::contact::Tip;
 use crate::norms::slope_squared;
-use crate::solve::{Case, Level, Work};
+use crate::scheme::Case;
+use crate::solve::{Level, Work};
 
 /// The coefficients of a step that do not depend on the node.
 #[derive(Debug, Clone, Copy)]

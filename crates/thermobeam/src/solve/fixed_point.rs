@@ -11,12 +11,12 @@
 //!
 //! The increment is measured in the norm of (3.14). The convergence is analysed in [`contraction`](crate::contraction).
 
-use crate::contraction::{Loop, contraction};
-use crate::error::StepFailure;
+use crate::error::{Loop, StepFailure};
 use crate::norms::{TheoremSquares, slope_squared};
-use crate::scheme::ContactRule;
+use crate::parameters::Obstacles;
+use crate::scheme::{Case, ContactRule};
 use crate::solve::stepper::Stepper;
-use crate::solve::{Case, Level, Settings, StepReport, Work};
+use crate::solve::{Level, Settings, StepReport, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for example between both
@@ -112,10 +112,10 @@ impl FixedPoint {
 
     /// The loop with the largest factor at the initial level of the step, in contact if the last iterate is.
     fn largest_loop(&self) -> Loop {
-        let Case { beam, dt, lengths, obstacles, scheme } = &self.case;
-        let tip = self.u_before[lengths.len()];
-        let touched = obstacles.as_ref().filter(|obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0);
-        contraction(beam, touched, lengths, scheme, *dt, &self.old.u).1
+        let tip = self.u_before[self.case.lengths.len()];
+        let touches = |obstacles: &Obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0;
+        let obstacles = self.case.obstacles.filter(touches);
+        Case { obstacles, ..self.case.clone() }.contraction(&self.old.u).1
     }
 
     /// Sets the initial iterate to the previous level, (4.1).

@@ -9,9 +9,6 @@ mod root;
 pub(crate) mod stepper;
 mod sweeps;
 
-use crate::parameters::{Beam, Obstacles};
-use crate::scheme::Scheme;
-
 /// The method that solves the nonlinear system of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Solver {
@@ -86,21 +83,6 @@ pub struct Work {
     pub loads: usize,
     /// Levels copied for an observer.
     pub observations: usize,
-}
-
-/// A beam in elements with its obstacles, stepped by a scheme.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Case {
-    /// Coefficients of (1.1).
-    pub beam: Beam,
-    /// The obstacles of (1.3), if any.
-    pub obstacles: Option<Obstacles>,
-    /// The time scheme.
-    pub scheme: Scheme,
-    /// Time step δt.
-    pub dt: f64,
-    /// Length of each element.
-    pub lengths: Vec<f64>,
 }
 
 /// The discrete solution at one time level: n + 1 nodal values of each field.

@@ -20,9 +20,10 @@
 use crate::block_tridiagonal::Factor;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
+use crate::scheme::Case;
 use crate::solve::control::{Control, Element, Progress, Scalars};
 use crate::solve::stepper::{Batch, Stepper};
-use crate::solve::{Case, Level, Settings, Start, StepReport, Work};
+use crate::solve::{Level, Settings, Start, StepReport, Work};
 
 /// Passes with the kept factorisation before the safeguarded iteration takes over.
 const KEPT_PASSES: usize = 6;

@@ -2,9 +2,9 @@
 
 use crate::scenes::{EXPERIMENTS, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::norms::max_or_nan;
-use thermobeam::scheme::MIDPOINT;
+use thermobeam::scheme::{Case, MIDPOINT};
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Case, Level, Settings, Start};
+use thermobeam::solve::{Level, Settings, Start};
 
 /// The largest residual relative to the initial energy, over 1000 steps of every experiment, both schemes, both meshes.
 fn largest_residual(tolerance: f64, dt: f64) -> f64 {

@@ -3,8 +3,7 @@
 use crate::scenes::{advance, graded, simulate, stepping, uniform};
 use nalgebra::DMatrix;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
-use thermobeam::contraction::{Loop, contact_contraction, coupling_contraction, heat_contraction};
-use thermobeam::error::StepFailure;
+use thermobeam::error::{Loop, StepFailure};
 use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
@@ -27,8 +26,7 @@ fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
 }
 
 fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
-    let lengths: Vec<f64> = problem.mesh.lengths().collect();
-    contact_contraction(&problem.beam, problem.obstacles.as_ref().unwrap(), &lengths, scheme, dt, 0.0144)
+    problem.case(*scheme, dt).contact_contraction(0.0144)
 }
 
 #[test]
@@ -105,8 +103,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
             let problem = Problem { beam, obstacles: None, mesh: mesh.clone(), initial };
             let report = by_fixed_point(&problem, scheme, dt, 1e-12).advance().unwrap();
             let measured = report.contraction.unwrap();
-            let lengths: Vec<f64> = mesh.lengths().collect();
-            let predicted = coupling_contraction(&beam, &lengths, &scheme, dt, 0.0);
+            let predicted = problem.case(scheme, dt).coupling_contraction(0.0);
             let exact = spectral_radius(&problem, &scheme, dt);
             assert!((predicted - exact).abs() <= 1e-6 * exact, "{}: {predicted} for {exact}", scheme.name);
             // For small steps the iteration converges before the slowest mode dominates.
@@ -125,7 +122,7 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
         initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
         let beam = Beam { a, ..Beam::default() };
         let problem = Problem { beam, obstacles: None, mesh: mesh.clone(), initial };
-        let factor = heat_contraction(&beam, &[0.02; 50], &EULER_CRANK_NICOLSON, 1e-2);
+        let factor = problem.case(EULER_CRANK_NICOLSON, 1e-2).heat_contraction();
         // A hundred iterations, since more would overflow.
         let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
         let outcome = simulate(&problem, Stepping { settings, ..stepping(1e-2) }).advance();

@@ -23,8 +23,6 @@
 
 mod judge;
 
-use thermobeam::contraction::contact_contraction;
-
 use super::prelude::*;
 use super::steady::{listed_scene, settle, tolerance};
 
@@ -262,10 +260,8 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
 
 /// The factor for the mean axial force β of a nearly straight beam; infinite if the operator is not definite.
 fn alpha(scene: &Scene, by: &Stepping) -> f64 {
-    let lengths: Vec<f64> = scene.mesh.lengths().collect();
-    let beta = scene.beam.beta;
-    let factor = |obstacles| contact_contraction(&scene.beam, &obstacles, &lengths, &by.scheme, by.dt, beta);
-    scene.obstacles.map_or(f64::NAN, factor)
+    let case = simulate::problem(scene).case(by.scheme, by.dt);
+    scene.obstacles.map_or(f64::NAN, |_| case.contact_contraction(scene.beam.beta))
 }
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.

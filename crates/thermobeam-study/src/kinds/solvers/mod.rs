@@ -32,8 +32,6 @@ mod judge;
 mod map;
 mod parts;
 
-use thermobeam::contraction::{contact_contraction, coupling_contraction};
-
 use super::prelude::*;
 
 pub use map::{Boundary, NewtonSteps, Point};
@@ -218,8 +216,6 @@ impl FixedPointStep {
 /// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite if the
 /// operator is not definite.
 fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
-    let lengths: Vec<f64> = problem.mesh.lengths().collect();
-    let (beam, scheme) = (&problem.beam, &EULER_CRANK_NICOLSON);
-    let contact = |obstacles| contact_contraction(beam, &obstacles, &lengths, scheme, dt, n_value);
-    [problem.obstacles.map_or(0.0, contact), coupling_contraction(beam, &lengths, scheme, dt, n_value)]
+    let case = problem.case(EULER_CRANK_NICOLSON, dt);
+    [case.contact_contraction(n_value), case.coupling_contraction(n_value)]
 }

@@ -248,25 +248,17 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
         let evidence = if each.is_empty() { "no β in this range".to_owned() } else { each.join("; ") };
         Check::that(holds, text, evidence + more)
     };
+    let bent = |rest: &AtRest| rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable();
+    let unique =
+        "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it";
+    let one = "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 < β < -1/2 \
+               there is only one, the straight beam";
+    let convex = format!("; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}", -BUCKLING);
+    let several =
+        "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent";
     [
-        claim(
-            [AS_PRINTED, f64::INFINITY],
-            alone_and_straight,
-            "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it",
-            "",
-        ),
-        claim(
-            [-BUCKLING, AS_PRINTED],
-            alone_and_straight,
-            "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 < β < -1/2 there is only \
-             one, the straight beam",
-            &format!("; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}", -BUCKLING),
-        ),
-        claim(
-            [f64::NEG_INFINITY, -BUCKLING],
-            |rest| rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable(),
-            "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent",
-            "",
-        ),
+        claim([AS_PRINTED, f64::INFINITY], alone_and_straight, unique, ""),
+        claim([-BUCKLING, AS_PRINTED], alone_and_straight, one, &convex),
+        claim([f64::NEG_INFINITY, -BUCKLING], bent, several, ""),
     ]
 }

@@ -145,15 +145,12 @@ fn tip(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Figure {
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.
 fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
-    for (k, level) in more.into_iter().enumerate() {
-        match levels.get_mut(k) {
-            Some(known) => {
-                known.errors.extend(level.errors);
-                known.without.extend(level.without);
-            }
-            None => levels.push(level),
-        }
+    let mut more = more.into_iter();
+    for (known, level) in levels.iter_mut().zip(more.by_ref()) {
+        known.errors.extend(level.errors);
+        known.without.extend(level.without);
     }
+    levels.extend(more);
 }
 
 /// Differences of each level to what it is compared with, of the observables whose claim is `wanted`.

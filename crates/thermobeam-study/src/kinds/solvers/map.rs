@@ -238,13 +238,13 @@ impl Map {
             *most = iterations.max(*most);
             contact_force.get_or_insert(level.contact_force);
         })?;
-        let point =
-            |((Watched { worst, failure }, dt), (iterations, contact_force)): ((_, f64), (usize, Option<f64>))| {
-                let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
-                let newton = contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst });
-                Ok(Point { step, newton_completes: failure.is_none(), newton })
-            };
-        runs.into_iter().zip(dts).zip(seen).map(point).collect()
+        let mut points = Vec::with_capacity(dts.len());
+        for ((Watched { worst, failure }, dt), (iterations, contact_force)) in runs.into_iter().zip(dts).zip(seen) {
+            let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
+            let newton = contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst });
+            points.push(Point { step, newton_completes: failure.is_none(), newton });
+        }
+        Ok(points)
     }
 }
 

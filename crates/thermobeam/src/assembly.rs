@@ -80,6 +80,19 @@ pub fn coupling(mesh: &Mesh) -> Tridiagonal {
 }
 
 #[cfg(test)]
+impl Tridiagonal {
+    /// Entry (i, j).
+    pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
+        match j as isize - i as isize {
+            -1 => self.lower[i],
+            0 => self.diagonal[i],
+            1 => self.upper[i],
+            _ => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
@@ -131,17 +144,12 @@ mod tests {
         let (m, c) = (mass(&mesh), coupling(&mesh));
         for i in 0..=n {
             for j in i.saturating_sub(1)..=(i + 1).min(n) {
-                let entry = |a: &Tridiagonal| match j as isize - i as isize {
-                    -1 => a.lower[i],
-                    0 => a.diagonal[i],
-                    _ => a.upper[i],
-                };
                 let (ni, nj) = (hat(i), hat(j));
-                assert!((entry(&m) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
+                assert!((m.entry(i, j) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
                 // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i times the mean of
                 // N_j.
                 let exact: f64 = x.windows(2).map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1]))).sum();
-                assert!((entry(&c) - exact).abs() < 1e-15);
+                assert!((c.entry(i, j) - exact).abs() < 1e-15);
             }
         }
     }

@@ -20,12 +20,6 @@ pub(crate) struct Node<T, const B: usize> {
     pub(crate) inverse: Block<T, B>,
 }
 
-/// The factorisation, a [`Node`] for each unknown node 1..n; entry 0 is unused.
-#[derive(Debug, Clone)]
-pub(crate) struct Factor<T, const B: usize> {
-    pub(crate) nodes: Vec<Node<T, B>>,
-}
-
 // The loops below write arrays in place, which the compiler keeps in registers, unlike those of `std::array::from_fn`.
 
 /// `matrix * vector`.
@@ -102,49 +96,47 @@ fn signs<const B: usize>() -> [f64; B] {
     std::array::from_fn(|k| if k == 2 { -1.0 } else { 1.0 })
 }
 
-impl<T: Lane, const B: usize> Factor<T, B> {
-    /// An uninitialised factorisation for n elements.
-    pub(crate) fn new(elements: usize) -> Self {
-        let zero = [[T::splat(0.0); B]; B];
-        Self { nodes: vec![Node { multiplier: zero, inverse: zero }; elements + 1] }
-    }
+/// An uninitialised factorisation for n elements: a [`Node`] for each unknown node 1..n; entry 0 is unused.
+pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<Node<T, B>> {
+    let zero = [[T::splat(0.0); B]; B];
+    vec![Node { multiplier: zero, inverse: zero }; elements + 1]
+}
 
-    /// Factorises the matrix of case `lane`; `blocks(i)` gives `(O_i, D_i)` for node i = 1..n.
-    ///
-    /// # Errors
-    /// [`StepFailure::Indefinite`] at the first pivot of the wrong sign; the factorisation is then unusable.
-    pub(crate) fn factorize(
-        &mut self,
-        lane: usize,
-        n_value: f64,
-        mut blocks: impl FnMut(usize) -> (Block<f64, B>, Block<f64, B>),
-    ) -> Result<(), StepFailure> {
-        let mut inverse = [[0.0; B]; B];
-        for (node, stored) in self.nodes.iter_mut().enumerate().skip(1) {
-            let (lower, mut pivot_block) = blocks(node);
-            // `inverse` is zero at the first node, whose left neighbour is clamped.
-            let mut multiplier = [[0.0; B]; B];
-            for row in 0..B {
-                for column in 0..B {
-                    multiplier[row][column] = (0..B).map(|k| lower[row][k] * inverse[k][column]).sum();
-                }
-            }
-            for row in 0..B {
-                for column in 0..B {
-                    let update: f64 = (0..B).map(|k| multiplier[row][k] * lower[column][k]).sum();
-                    pivot_block[row][column] -= update;
-                }
-            }
-            inverse = invert(pivot_block, signs()).map_err(|pivot| StepFailure::Indefinite { node, pivot, n_value })?;
-            for row in 0..B {
-                for column in 0..B {
-                    stored.multiplier[row][column].set_lane(lane, multiplier[row][column]);
-                    stored.inverse[row][column].set_lane(lane, inverse[row][column]);
-                }
+/// Factorises the matrix of case `lane`; `blocks(i)` gives `(O_i, D_i)` for node i = 1..n.
+///
+/// # Errors
+/// [`StepFailure::Indefinite`] at the first pivot of the wrong sign; the factorisation is then unusable.
+pub(crate) fn factorize<T: Lane, const B: usize>(
+    nodes: &mut [Node<T, B>],
+    lane: usize,
+    n_value: f64,
+    mut blocks: impl FnMut(usize) -> (Block<f64, B>, Block<f64, B>),
+) -> Result<(), StepFailure> {
+    let mut inverse = [[0.0; B]; B];
+    for (node, stored) in nodes.iter_mut().enumerate().skip(1) {
+        let (lower, mut pivot_block) = blocks(node);
+        // `inverse` is zero at the first node, whose left neighbour is clamped.
+        let mut multiplier = [[0.0; B]; B];
+        for row in 0..B {
+            for column in 0..B {
+                multiplier[row][column] = (0..B).map(|k| lower[row][k] * inverse[k][column]).sum();
             }
         }
-        Ok(())
+        for row in 0..B {
+            for column in 0..B {
+                let update: f64 = (0..B).map(|k| multiplier[row][k] * lower[column][k]).sum();
+                pivot_block[row][column] -= update;
+            }
+        }
+        inverse = invert(pivot_block, signs()).map_err(|pivot| StepFailure::Indefinite { node, pivot, n_value })?;
+        for row in 0..B {
+            for column in 0..B {
+                stored.multiplier[row][column].set_lane(lane, multiplier[row][column]);
+                stored.inverse[row][column].set_lane(lane, inverse[row][column]);
+            }
+        }
     }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -199,17 +191,17 @@ mod tests {
             }
             let right = DVector::from_fn(3 * N, |i, _| seed[i]);
             let expected = dense.lu().solve(&right).unwrap();
-            let mut factor = Factor::<f64, 3>::new(N);
-            factor.factorize(0, 0.0, &blocks).unwrap();
+            let mut nodes = uninitialised::<f64, 3>(N);
+            factorize(&mut nodes, 0, 0.0, &blocks).unwrap();
             let mut x = [[0.0; 3]; N + 2];
             let mut y = [0.0; 3];
             for node in 1..=N {
                 let r = std::array::from_fn(|k| right[3 * node - 3 + k]);
-                y = minus_times(r, &factor.nodes[node].multiplier, y);
-                x[node] = times(&factor.nodes[node].inverse, y);
+                y = minus_times(r, &nodes[node].multiplier, y);
+                x[node] = times(&nodes[node].inverse, y);
             }
             for node in (1..N).rev() {
-                x[node] = minus_transpose_times(x[node], &factor.nodes[node + 1].multiplier, x[node + 1]);
+                x[node] = minus_transpose_times(x[node], &nodes[node + 1].multiplier, x[node + 1]);
             }
             for i in 0..3 * N {
                 prop_assert!((x[i / 3 + 1][i % 3] - expected[i]).abs() < 1e-13);
@@ -219,8 +211,8 @@ mod tests {
 
     #[test]
     fn a_pivot_of_the_wrong_sign_is_reported_with_its_node() {
-        let mut factor = Factor::<f64, 2>::new(3);
-        let failure = factor.factorize(0, -0.9, |node| {
+        let mut nodes = uninitialised::<f64, 2>(3);
+        let failure = factorize(&mut nodes, 0, -0.9, |node| {
             let d = if node == 3 { -1.0 } else { 1.0 };
             ([[0.0; 2]; 2], [[d, 0.0], [0.0, 1.0]])
         });

@@ -90,13 +90,7 @@ mod tests {
         let last = matrix.diagonal.len() - 1;
         for i in 0..=last {
             for j in 0..=last {
-                let expected = match j as isize - i as isize {
-                    -1 => matrix.lower[i],
-                    0 => matrix.diagonal[i],
-                    1 => matrix.upper[i],
-                    _ => 0.0,
-                };
-                let found = form(i, j);
+                let (found, expected) = (form(i, j), matrix.entry(i, j));
                 assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(), "{i} {j}: {found} {expected}");
             }
         }

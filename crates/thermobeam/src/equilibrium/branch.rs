@@ -2,10 +2,9 @@
 
 use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
-use super::scan::{Position, Root, Scan};
+use super::scan::{Position, Root};
 use super::shape::Shape;
 use super::{BUCKLING_VALUES, Contact, Equilibrium, EquilibriumError};
-use crate::parameters::Beam;
 
 /// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its terms.
 const CONSISTENCY: f64 = 1e-9;
@@ -19,9 +18,7 @@ fn is_listed(n_value: f64) -> bool {
 }
 
 /// One state of contact: its law, and the solutions of that law, whether or not they press the obstacle.
-pub(super) struct Branch<'a> {
-    /// The coefficients.
-    pub(super) beam: &'a Beam,
+pub(super) struct Branch {
     /// The state of contact.
     pub(super) contact: Contact,
     /// The linear problem for given N.
@@ -30,10 +27,10 @@ pub(super) struct Branch<'a> {
     pub(super) held_tip: Option<Law>,
 }
 
-impl Branch<'_> {
+impl Branch {
     /// All solutions of the law.
     pub(super) fn states(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        let mut states = if self.beam.rho == 0.0 {
+        let mut states = if self.law.rho == 0.0 {
             vec![self.linear()?]
         } else if self.law.homogeneous() {
             self.straight_and_buckled()?
@@ -46,7 +43,7 @@ impl Branch<'_> {
 
     /// ρ = 0: N = β, and one linear problem.
     fn linear(&self) -> Result<Equilibrium, EquilibriumError> {
-        let s = 1.0 + self.beam.beta;
+        let s = 1.0 + self.law.beta;
         if self.law.homogeneous() && self.law.support.is_none() {
             return self.resonant(s).map_or_else(|| Ok(self.straight()), Err);
         }
@@ -57,7 +54,7 @@ impl Branch<'_> {
             return Err(error);
         }
         let above = (s > 0.0).then(|| self.law.buckling_above(s));
-        Ok(self.state(self.beam.beta, self.law.solve(s), above, false))
+        Ok(self.state(self.law.beta, self.law.solve(s), above, false))
     }
 
     fn resonant(&self, s: f64) -> Option<EquilibriumError> {
@@ -68,16 +65,16 @@ impl Branch<'_> {
         } else {
             self.law.buckling_below_minus_one().is_some_and(|pole| (s - pole).abs() <= RESONANCE * s.abs())
         };
-        singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.beam.beta })
+        singular.then_some(EquilibriumError::Resonance { contact: self.contact, n_value: self.law.beta })
     }
 
     /// The straight beam without load: u = φ = 0, N = β.
     fn straight(&self) -> Equilibrium {
-        let s = 1.0 + self.beam.beta;
+        let s = 1.0 + self.law.beta;
         let law = self.held_tip.unwrap_or(self.law);
         let unstable = (s > 0.0).then(|| law.buckling_above(s));
         let at_bifurcation = unstable.is_some_and(|k| law.buckling(k + 1) == s);
-        self.state(self.beam.beta, Shape::line(0.0), unstable, at_bifurcation)
+        self.state(self.law.beta, Shape::line(0.0), unstable, at_bifurcation)
     }
 
     /// Without load: the straight state, and a pair of buckled states at each buckling value above β.
@@ -86,7 +83,7 @@ impl Branch<'_> {
         let mut states = if self.law.support.is_none() { vec![self.straight()] } else { Vec::new() };
         let above = (1..=BUCKLING_VALUES + 1).map(|k| (self.law.buckling(k), Some(k - 1)));
         let below = self.law.buckling_below_minus_one().map(|s| (s, None));
-        let exists = |s: f64| s > 1.0 + self.beam.beta && is_listed(s - 1.0);
+        let exists = |s: f64| s > 1.0 + self.law.beta && is_listed(s - 1.0);
         for (s, unstable_directions) in above.chain(below).filter(|(s, _)| exists(*s)) {
             for sign in [1.0, -1.0] {
                 let position = Position::Buckling(s, sign);
@@ -98,15 +95,15 @@ impl Branch<'_> {
 
     /// With a load: the roots of the scalar equation.
     fn bent(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
-        let scan = Scan { law: &self.law, beta: self.beam.beta, rho: self.beam.rho };
-        let roots = scan.roots_above_minus_one(BUCKLING_VALUES + 1).into_iter().chain(scan.roots_below_minus_one());
+        let above = self.law.roots_above_minus_one(BUCKLING_VALUES + 1);
+        let roots = above.into_iter().chain(self.law.roots_below_minus_one());
         let states: Result<Vec<_>, _> = roots.map(|root| self.state_at(&root)).collect();
         Ok(states?.into_iter().filter(|state| is_listed(state.n_value)).collect())
     }
 
     /// The free state at N = -1, which exists if `ρ(aθ_A)² = -1 - β` to round-off.
     fn at_minus_one(&self) -> Option<Equilibrium> {
-        let Beam { beta, rho, .. } = *self.beam;
+        let Law { beta, rho, .. } = self.law;
         let slope = -self.law.moment;
         let defect = -1.0 - beta - rho * slope * slope;
         let exists =
@@ -116,12 +113,12 @@ impl Branch<'_> {
 
     /// The state at a root; an error if it violates `N = β + ρ‖u'‖²`.
     fn state_at(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
-        let Beam { beta, rho, .. } = *self.beam;
+        let Law { beta, rho, .. } = self.law;
         let shape = match root.position {
             Position::Between(s) => self.law.solve(s),
             Position::Buckling(s, sign) => self.buckled(s, sign)?,
         };
-        let shape = if root.fold { shape } else { polish(&self.law, beta, rho, shape) };
+        let shape = if root.fold { shape } else { polish(&self.law, shape) };
         let n_value = shape.n_value();
         let tension = rho * shape.slope_squared();
         let defect = (n_value - beta - tension) / (1.0 + n_value.abs().max(beta.abs()).max(tension));
@@ -134,7 +131,7 @@ impl Branch<'_> {
     /// The buckling mode at s with the given sign and the amplitude for which `N = β + ρ‖u'‖²`.
     fn buckled(&self, s: f64, sign: f64) -> Result<Shape, EquilibriumError> {
         let mode = self.law.mode(s);
-        let square = (s - (1.0 + self.beam.beta)) / (self.beam.rho * mode.slope_squared());
+        let square = (s - (1.0 + self.law.beta)) / (self.law.rho * mode.slope_squared());
         if square.is_nan() || square <= 0.0 {
             return Err(EquilibriumError::Bifurcation { contact: self.contact, n_value: s - 1.0 });
         }
@@ -168,10 +165,12 @@ impl Branch<'_> {
 mod tests {
     use super::super::EquilibriumError::{Bifurcation, Inaccurate};
     use super::*;
+    use crate::parameters::Beam;
 
-    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch<'_> {
+    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch {
         let contact = if support.is_some() { Contact::Upper } else { Contact::Free };
-        Branch { beam, contact, law: Law { moment: beam.a * beam.theta_a, support }, held_tip }
+        let law = Law { moment: beam.a * beam.theta_a, beta: beam.beta, rho: beam.rho, support };
+        Branch { contact, law, held_tip }
     }
 
     #[test]
@@ -201,8 +200,7 @@ mod tests {
             let shape = branch.buckled(s, -1.0).unwrap();
             assert_eq!((shape.moment, shape.is_line()), (0.25, false));
         }
-        let stiff = Beam { beta: 3.0, ..beam };
-        let branch = Branch { beam: &stiff, ..branch };
+        let branch = Branch { law: Law { beta: 3.0, ..branch.law }, ..branch };
         for s in values {
             let Err(Bifurcation { n_value, contact }) = branch.buckled(s, 1.0) else { panic!("{s} is below beta") };
             assert_eq!((n_value, contact), (s - 1.0, Contact::Upper));
@@ -218,7 +216,7 @@ mod tests {
             branch(&beam, support, None).resonant(1.0 + beta).is_some()
         };
         for support in [None, Some(Support { epsilon: 12.0, position: 0.1 })] {
-            let law = Law { moment: 0.5, support };
+            let law = Law { moment: 0.5, support, ..Law::default() };
             let size = |q: f64| 1.0 + q + support.map_or(0.0, |support| support.epsilon);
             let excess = |beta: f64| {
                 let q = 1.0 / (1.0 + beta);
@@ -236,7 +234,7 @@ mod tests {
             assert!(counts[0] > 50 && counts[1] > 10, "{counts:?}");
         }
         let support = Some(Support { epsilon: 0.05, position: 0.1 });
-        let pole = Law { moment: 0.5, support }.buckling_below_minus_one().unwrap();
+        let pole = Law { moment: 0.5, support, ..Law::default() }.buckling_below_minus_one().unwrap();
         for (relative, expected) in [(-2e-13, false), (-7e-14, true), (0.0, true), (7e-14, true), (2e-13, false)] {
             assert_eq!(is_resonant(pole * (1.0 + relative) - 1.0, support), expected, "{relative:e}");
         }
@@ -267,7 +265,7 @@ mod tests {
         let mut tried = 0;
         for k in 0..50 {
             let support = Support { epsilon: 1e-3 * f64::from(1 + k), position: 0.0 };
-            let held_tip = Law { moment: 0.0, support: Some(support) };
+            let held_tip = Law { support: Some(support), ..Law::default() };
             let Some(beta) = beta_at(held_tip.buckling(1)) else { continue };
             let at = Beam { beta, theta_a: 0.0, ..Beam::default() };
             let above = Beam { beta: beta + 1e-12, ..at };

@@ -4,14 +4,18 @@ use super::shape::{Shape, tanh_ratio};
 use crate::bracket::bisect;
 use std::f64::consts::PI;
 
-/// Load of the beam and support of its tip.
+/// Axial force and load of the beam, and support of its tip.
 ///
 /// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in compression: the caller
 /// checks whether the state presses the obstacle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Law {
     /// The thermal moment aθ_A.
     pub(super) moment: f64,
+    /// β.
+    pub(super) beta: f64,
+    /// ρ.
+    pub(super) rho: f64,
     /// The obstacle in contact.
     pub(super) support: Option<Support>,
 }
@@ -163,7 +167,7 @@ mod tests {
     fn the_amplitude_changes_sign_at_each_buckling_value() {
         let support = |position| Some(Support { epsilon: 0.3, position });
         for law in [(0.4, None), (-0.4, None), (0.4, support(0.2)), (-0.7, support(0.2)), (0.7, support(-0.2))]
-            .map(|(moment, support)| Law { moment, support })
+            .map(|(moment, support)| Law { moment, support, ..Law::default() })
         {
             for s in (1..=12).map(|k| law.buckling(k)).chain(law.buckling_below_minus_one()) {
                 let amplitude = |s: f64| {
@@ -179,7 +183,7 @@ mod tests {
 
     #[test]
     fn free_buckling_values_above_a_number_are_counted() {
-        let law = Law { moment: 0.0, support: None };
+        let law = Law::default();
         for k in 1..=40 {
             let s = free_buckling(k);
             assert_eq!([s * (1.0 + 1e-9), s * (1.0 - 1e-9)].map(|s| law.buckling_above(s)), [k - 1, k]);
@@ -190,7 +194,7 @@ mod tests {
     #[test]
     fn supported_buckling_values_interlace_with_the_free_ones() {
         for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
-            let law = Law { moment: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
+            let law = Law { support: Some(Support { epsilon, position: 0.0 }), ..Law::default() };
             for k in 1..=20 {
                 let s = law.buckling(k);
                 assert!(free_buckling(k + 1) < s && s < free_buckling(k), "{k}-th at epsilon = {epsilon}");
@@ -203,7 +207,7 @@ mod tests {
     #[test]
     fn below_minus_one_the_tip_flexibility_equals_the_compliance_once() {
         for epsilon in [1e-8, 1e-4, 0.01, 0.3, 1.0, 3.0, 100.0, 1e4, 1e8] {
-            let law = Law { moment: 0.0, support: Some(Support { epsilon, position: 0.0 }) };
+            let law = Law { support: Some(Support { epsilon, position: 0.0 }), ..Law::default() };
             let s = law.buckling_below_minus_one().unwrap();
             assert!(s * 0.999 < 0.0);
             let flexibility = |s: f64| law.mode(s).u(1.0);
@@ -211,6 +215,6 @@ mod tests {
             assert!((flexibility(s) / -epsilon - 1.0).abs() < 1e-12, "{epsilon}: {s}");
             assert!(flexibility(s * 1.001) > flexibility(s) && flexibility(s) > flexibility(s * 0.999));
         }
-        assert_eq!(Law { moment: 0.0, support: None }.buckling_below_minus_one(), None);
+        assert_eq!(Law::default().buckling_below_minus_one(), None);
     }
 }

@@ -189,7 +189,7 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
     obstacles.map_or(Ok(()), Obstacles::validate)?;
     let mut found = Vec::new();
     for (contact, law) in laws(beam, obstacles) {
-        let branch = Branch { beam, contact, law, held_tip: held_tip(obstacles) };
+        let branch = Branch { contact, law, held_tip: held_tip(obstacles) };
         let states = branch.states()?;
         found.extend(states.into_iter().filter(|state| is_consistent(state, obstacles)));
     }
@@ -198,12 +198,11 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
 }
 
 fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
-    let moment = beam.a * beam.theta_a;
-    let mut laws = vec![(Contact::Free, Law { moment, support: None })];
+    let free = Law { moment: beam.a * beam.theta_a, beta: beam.beta, rho: beam.rho, support: None };
+    let mut laws = vec![(Contact::Free, free)];
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
-        let on = |position| Law { moment, support: Some(Support { epsilon, position }) };
-        laws.push((Contact::Upper, on(g2)));
-        laws.push((Contact::Lower, on(g1)));
+        let on = |position| Law { support: Some(Support { epsilon, position }), ..free };
+        laws.extend([(Contact::Upper, on(g2)), (Contact::Lower, on(g1))]);
     }
     laws
 }
@@ -211,7 +210,7 @@ fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
 /// The spring that holds the tip at 0 in both directions if both obstacles stand there.
 fn held_tip(obstacles: Option<&Obstacles>) -> Option<Law> {
     let touching = obstacles.filter(|o| o.g1 == 0.0 && o.g2 == 0.0)?;
-    Some(Law { moment: 0.0, support: Some(Support { epsilon: touching.epsilon, position: 0.0 }) })
+    Some(Law { support: Some(Support { epsilon: touching.epsilon, position: 0.0 }), ..Law::default() })
 }
 
 /// Whether a root satisfies the inequalities of the state of contact whose law it solves.

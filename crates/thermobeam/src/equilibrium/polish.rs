@@ -21,11 +21,11 @@ const DIFFERENCE: f64 = 1e-5;
 const LARGEST_FIRST_STEP: f64 = 1e-3;
 
 /// Improves a state by Newton's method; returns it unchanged if the first step is too large.
-pub(super) fn polish(law: &Law, beta: f64, rho: f64, start: Shape) -> Shape {
+pub(super) fn polish(law: &Law, start: Shape) -> Shape {
     if start.is_line() {
         return start;
     }
-    let residual = |v: [f64; 3]| residual(law, beta, rho, v);
+    let residual = |v: [f64; 3]| residual(law, v);
     let mut state = [1.0 / start.q, start.alpha, start.stress];
     let mut bound = LARGEST_FIRST_STEP;
     for _ in 0..STEPS {
@@ -53,7 +53,7 @@ fn unpack(law: &Law, [s, alpha, stress]: [f64; 3]) -> Shape {
 }
 
 /// The three conditions.
-fn residual(law: &Law, beta: f64, rho: f64, v: [f64; 3]) -> [f64; 3] {
+fn residual(law: &Law, v: [f64; 3]) -> [f64; 3] {
     let shape = unpack(law, v);
     let [s, alpha, stress] = v;
     let clamped = if s > 0.0 { shape.phi(0.0) } else { alpha };
@@ -61,7 +61,7 @@ fn residual(law: &Law, beta: f64, rho: f64, v: [f64; 3]) -> [f64; 3] {
         None => stress,
         Some(Support { epsilon, position }) => epsilon * stress + shape.u(1.0) - position,
     };
-    [clamped, contact, s - (1.0 + beta) - rho * shape.slope_squared()]
+    [clamped, contact, s - (1.0 + law.beta) - law.rho * shape.slope_squared()]
 }
 
 fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Option<[f64; 3]> {
@@ -110,14 +110,15 @@ mod tests {
 
     #[test]
     fn the_residual_equals_the_documented_conditions() {
-        let law = |epsilon, position| Law { moment: 0.5, support: Some(Support { epsilon, position }) };
+        let coefficients = Law { moment: 0.5, beta: -3.0, rho: 2.0, support: None };
+        let law = |epsilon, position| Law { support: Some(Support { epsilon, position }), ..coefficients };
         for s in [0.25, 2.0, -0.5] {
             let Shape { alpha, stress, .. } = law(0.5, 0.125).solve(s);
             if s < 0.0 {
                 assert_eq!(alpha, 0.0);
-                assert_eq!(residual(&law(0.5, 0.125), -3.0, 2.0, [s, 0.25, stress])[0], 0.25);
+                assert_eq!(residual(&law(0.5, 0.125), [s, 0.25, stress])[0], 0.25);
             }
-            let at = |law: &Law| residual(law, -3.0, 2.0, [s, alpha, stress]);
+            let at = |law: &Law| residual(law, [s, alpha, stress]);
             let found = at(&law(0.5, 0.125));
             let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).slope_squared();
             assert!(
@@ -127,23 +128,25 @@ mod tests {
             // A compliance and a position of the obstacle that the shape does not satisfy.
             assert!((at(&law(2.5, 0.125))[1] - 2.0 * stress).abs() < 1e-14);
             assert!((at(&law(0.5, 1.125))[1] + 1.0).abs() < 1e-14);
-            assert_eq!(at(&Law { moment: 0.5, support: None })[1], stress);
+            assert_eq!(at(&coefficients)[1], stress);
         }
     }
 
     #[test]
     fn polishing_improves_a_nearby_state_and_leaves_a_distant_one_unchanged() {
-        let law = Law { moment: 0.5, support: Some(Support { epsilon: 0.5, position: 0.125 }) };
+        let support = Some(Support { epsilon: 0.5, position: 0.125 });
+        let law = Law { moment: 0.5, rho: 2.0, support, ..Law::default() };
         // The β for which s is the state.
         for s in [0.7, 2.0, -0.5] {
             let beta = s - 1.0 - 2.0 * law.solve(s).slope_squared();
-            let n = |start: f64| polish(&law, beta, 2.0, law.solve(start)).n_value();
+            let at = Law { beta, ..law };
+            let n = |start: f64| polish(&at, law.solve(start)).n_value();
             assert!((n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14, "{s}: {:e}", n(s * (1.0 + 1e-5)) - (s - 1.0));
             let far = law.solve(1.1 * s);
-            assert_eq!(polish(&law, beta, 2.0, far), far, "{s}");
+            assert_eq!(polish(&at, far), far, "{s}");
         }
         let line = Shape::line(-1.0);
-        assert_eq!(polish(&law, 0.0, 1.0, line), line);
+        assert_eq!(polish(&law, line), line);
     }
 
     #[test]

@@ -59,25 +59,15 @@ enum Endpoint {
     Regular(f64),
 }
 
-/// f for one law, as a function of `s = 1 + N`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Scan<'a> {
-    /// The linear problem.
-    pub(super) law: &'a Law,
-    /// β.
-    pub(super) beta: f64,
-    /// ρ > 0.
-    pub(super) rho: f64,
-}
-
-impl Scan<'_> {
+/// f is a function of `s = 1 + N`; all of this is for ρ > 0.
+impl Law {
     /// All roots N > -1 above the `count`-th buckling value, in decreasing order.
     pub(super) fn roots_above_minus_one(&self, count: usize) -> Vec<Root> {
         let rest = 1.0 + self.beta;
-        let mut hi = Endpoint::Regular(self.upper_end(self.law.buckling(1)));
+        let mut hi = Endpoint::Regular(self.upper_end(self.buckling(1)));
         let mut roots = Vec::new();
         for above in 0..count {
-            let pole = self.law.buckling(above + 1);
+            let pole = self.buckling(above + 1);
             roots.extend(self.interval(Endpoint::Buckling(pole), hi, Some(above)));
             if pole <= rest {
                 break;
@@ -94,7 +84,7 @@ impl Scan<'_> {
             return Vec::new();
         }
         let upper = Endpoint::Regular(-MINUS_ONE_GAP);
-        match self.law.buckling_below_minus_one() {
+        match self.buckling_below_minus_one() {
             Some(pole) if rest < pole => {
                 let mut roots = self.interval(Endpoint::Regular(rest), Endpoint::Buckling(pole), None);
                 roots.extend(self.interval(Endpoint::Buckling(pole), upper, None));
@@ -105,7 +95,7 @@ impl Scan<'_> {
     }
 
     fn f(&self, s: f64) -> f64 {
-        s - (1.0 + self.beta) - self.rho * self.law.solve(s).slope_squared()
+        s - (1.0 + self.beta) - self.rho * self.solve(s).slope_squared()
     }
 
     /// An s above the largest pole with f(s) > 0.
@@ -113,7 +103,7 @@ impl Scan<'_> {
     /// For `s > max(pole, 1 + β)`, `f(s + ρS(s)) >= s - (1 + β) > 0`, because S decreases there.
     fn upper_end(&self, pole: f64) -> f64 {
         let s = 2.0 * (pole + (1.0 + self.beta).abs());
-        s + self.rho * self.law.solve(s).slope_squared()
+        s + self.rho * self.solve(s).slope_squared()
     }
 
     /// The roots of f in an interval in which it is concave, with `above` poles above the interval.
@@ -147,14 +137,14 @@ impl Scan<'_> {
     fn at_pole(&self, end: Endpoint, side: f64) -> Option<Position> {
         match end {
             Endpoint::Regular(_) => None,
-            Endpoint::Buckling(s) => Some(Position::Buckling(s, side * self.law.sign_above(s))),
+            Endpoint::Buckling(s) => Some(Position::Buckling(s, side * self.sign_above(s))),
         }
     }
 
     /// How the maximum of f on [a, b] compares with 0, to round-off, and its position.
     fn maximum(&self, a: f64, b: f64) -> (Ordering, f64) {
         let round_off = |s: f64| {
-            let tension = self.rho * self.law.solve(s).slope_squared();
+            let tension = self.rho * self.solve(s).slope_squared();
             FOLD * (s.abs() + (1.0 + self.beta).abs() + tension)
         };
         let (s, value) = maximize(|s| self.f(s), a, b);
@@ -178,7 +168,7 @@ mod tests {
     fn laws() -> [Law; 4] {
         let support = |epsilon, position| Some(Support { epsilon, position });
         [(0.5, None), (0.5, support(0.5, 0.125)), (-0.25, support(0.01, -0.5)), (0.0, support(2.0, 0.25))]
-            .map(|(moment, support)| Law { moment, support })
+            .map(|(moment, support)| Law { moment, support, ..Law::default() })
     }
 
     #[test]
@@ -189,7 +179,7 @@ mod tests {
                 for rho in [0.25, 30.0] {
                     // The β for which s is a root.
                     let beta = s - 1.0 - rho * law.solve(s).slope_squared();
-                    let scan = Scan { law: &law, beta, rho };
+                    let scan = Law { beta, rho, ..law };
                     let roots = if s > 0.0 {
                         scan.roots_above_minus_one(BUCKLING_VALUES + 1)
                     } else {
@@ -214,7 +204,7 @@ mod tests {
             let law = Law { moment, ..law };
             for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 100.0, 1e6] {
                 for rho in [1e-6, 1.0, 400.0, 1e6] {
-                    let scan = Scan { law: &law, beta, rho };
+                    let scan = Law { beta, rho, ..law };
                     let pole = law.buckling(1);
                     let end = scan.upper_end(pole);
                     assert!(end > pole && scan.f(end) > 0.0, "{law:?}, beta {beta}, rho {rho}: {end}");
@@ -227,7 +217,7 @@ mod tests {
     fn roots_below_minus_one_exist_only_for_beta_below_minus_one() {
         for law in laws() {
             for beta in [3.0, -0.5, -1.0, -1.0 + f64::EPSILON] {
-                assert_eq!(Scan { law: &law, beta, rho: 1.0 }.roots_below_minus_one(), []);
+                assert_eq!(Law { beta, rho: 1.0, ..law }.roots_below_minus_one(), []);
             }
         }
     }
@@ -249,7 +239,7 @@ mod tests {
             let terms = s + (1.0 + beta).abs() + rho * law.solve(s).slope_squared();
             let allowed = 32.0 * f64::EPSILON * terms;
             for (shift, expected) in [(-1.3, 2), (-0.7, 1), (0.7, 1), (1.3, 0)] {
-                let scan = Scan { law: &law, beta: beta + shift * allowed, rho };
+                let scan = Law { beta: beta + shift * allowed, rho, ..law };
                 let found = match scan.maximum(a, b).0 {
                     Ordering::Greater => 2,
                     Ordering::Equal => 1,
@@ -257,13 +247,12 @@ mod tests {
                 };
                 assert_eq!(found, expected, "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}");
             }
-            let fold =
-                Scan { law: &law, beta, rho }.interval(Endpoint::Buckling(low), Endpoint::Buckling(high), Some(1));
+            let fold = Law { beta, rho, ..law }.interval(Endpoint::Buckling(low), Endpoint::Buckling(high), Some(1));
             let [Root { position: Position::Between(at), unstable_directions: Some(0), fold: true }] = fold[..] else {
                 panic!("{fold:?} of {law:?}");
             };
             assert!((at - s).abs() < 1e-6);
-            let apart = Scan { law: &law, beta: beta - 1e-6, rho }.interval(
+            let apart = Law { beta: beta - 1e-6, rho, ..law }.interval(
                 Endpoint::Buckling(low),
                 Endpoint::Buckling(high),
                 Some(1),

@@ -17,7 +17,7 @@
 //! more solve (Kirchhoff term as a rank-one change, contact as a change of the tip's pivot), and bisection if an
 //! iterate leaves the bracket.
 
-use crate::block_tridiagonal::Factor;
+use crate::block_tridiagonal::{Node, factorize, uninitialised};
 use crate::error::StepFailure;
 use crate::lanes::Lane;
 use crate::scheme::Case;
@@ -55,7 +55,8 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) settings: Settings,
     pub(super) scalars: Scalars<T>,
     pub(super) elements: Vec<Element<T>>,
-    pub(super) factor: Factor<T, B>,
+    /// The factorisation.
+    pub(super) nodes: Vec<Node<T, B>>,
     /// (u, φ, θ~) at the old level.
     pub(super) old: Vec<[T; B]>,
     /// (u, φ, θ~) of the iterate.
@@ -119,7 +120,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let velocity = if scheme.inertia == 1.0 { [vec![], vec![]] } else { [start.clone(), zeros.clone()] };
         let controls = (0..T::WIDTH).map(|k| Control::new(&cases[k], levels[k])).collect();
         Self {
-            factor: Factor::new(n),
+            nodes: uninitialised(n),
             elements,
             new: zeros.clone(),
             iterates: [zeros.clone(), start.clone(), start.clone(), start],
@@ -179,7 +180,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         self.controls[k].work.factorizations += 1;
         // Invalid until the elimination has succeeded.
         self.controls[k].factorized = f64::NAN;
-        self.factor.factorize(k, m, |i| {
+        factorize(&mut self.nodes, k, m, |i| {
             let right = (i + 1 < count).then(|| of_lane(elements[i + 1]));
             scalars.blocks(m, of_lane(elements[i]), right)
         })?;
@@ -211,7 +212,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// δ at the tip: the solution without contact, minus `F S⁻¹ e` with the contact force F in closed form.
     fn solve_tip(&mut self, active: T) -> [T; B] {
         let last = self.elements.len() - 1;
-        let inverse = &self.factor.nodes[last].inverse;
+        let inverse = &self.nodes[last].inverse;
         let mut delta = self.middle[last];
         for k in 0..T::WIDTH {
             let Some(obstacles) = self.cases[k].obstacles else { continue };

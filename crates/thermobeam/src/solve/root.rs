@@ -98,13 +98,13 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for i in 1..=last {
             let mut right = [0.0; B];
             right[0] = mean_slope(i) - if i < last { mean_slope(i + 1) } else { 0.0 };
-            y = minus_times(right, &of_lane(&self.factor.nodes[i].multiplier), y);
-            let z = times(&of_lane(&self.factor.nodes[i].inverse), y);
+            y = minus_times(right, &of_lane(&self.nodes[i].multiplier), y);
+            let z = times(&of_lane(&self.nodes[i].inverse), y);
             for (to, value) in self.middle[i].iter_mut().zip(z) {
                 to.set_lane(k, value);
             }
         }
-        let inverse = of_lane(&self.factor.nodes[last].inverse);
+        let inverse = of_lane(&self.nodes[last].inverse);
         let mut z = self.middle[last].map(|component| component.lane(k));
         let stiffness = if self.cases[k].obstacles.is_some() { dt * self.controls[k].tip.stiffness } else { 0.0 };
         let force = stiffness * z[0] / (1.0 + stiffness * inverse[0][0]);
@@ -113,7 +113,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for i in (1..=last).rev() {
             let next = if i > 1 {
                 let middle = self.middle[i - 1].map(|component| component.lane(k));
-                minus_transpose_times(middle, &of_lane(&self.factor.nodes[i].multiplier), z)
+                minus_transpose_times(middle, &of_lane(&self.nodes[i].multiplier), z)
             } else {
                 [0.0; B]
             };

@@ -87,7 +87,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let weights = self.weights().map(T::splat);
         let count = self.elements.len();
         // Slices of equal length, so the compiler removes the bounds checks in the loop.
-        let (elements, nodes) = (&self.elements[..count], &self.factor.nodes[..count]);
+        let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
         let [iterate, history @ ..] = &mut self.iterates;
         let history = history.each_ref().map(|level| &level[..count]);
         let old = &self.old[..count];
@@ -206,7 +206,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     #[inline(always)]
     pub(super) fn backward(&mut self, active: T, tip: [T; B]) -> [T; 2] {
         let count = self.elements.len();
-        let (elements, nodes) = (&self.elements[..count], &self.factor.nodes[..count]);
+        let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
         let (middle, old) = (&self.middle[..count], &self.old[..count]);
         let (iterate, new) = (&mut self.iterates[0][..count], &mut self.new[..count]);
         let zero = T::splat(0.0);

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use thermobeam::equilibrium::{Contact, Equilibrium, EquilibriumError, equilibria, lists_all};
+use thermobeam::equilibrium::{Equilibrium, EquilibriumError, equilibria, lists_all};
+use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
 use convergence_study::cli::exit::{Outcome, Unusable};
@@ -62,7 +63,7 @@ struct ListedState {
 impl Listed {
     fn new(scene: &Scene, states: &[Equilibrium]) -> Self {
         let state = |state: &Equilibrium| ListedState {
-            contact: name(state.contact),
+            contact: phase_name(state.contact),
             n_value: state.n_value,
             u_tip: state.u_tip,
             phi_tip: state.phi_tip,
@@ -71,14 +72,6 @@ impl Listed {
             unstable_directions: state.unstable_directions,
         };
         Self { equilibria: states.iter().map(state).collect(), complete: lists_all(&scene.beam) }
-    }
-}
-
-fn name(contact: Contact) -> &'static str {
-    match contact {
-        Contact::Free => "free",
-        Contact::Upper => "upper",
-        Contact::Lower => "lower",
     }
 }
 
@@ -109,7 +102,7 @@ fn text(scene: &Scene, states: &[Equilibrium]) -> String {
         let _ = writeln!(
             text,
             "  {:<8}{:>20.12e}{:>20.12e}{:>20.12e}{:>20.12e}  {stability}",
-            name(state.contact),
+            phase_name(state.contact),
             state.u_tip,
             state.phi_tip,
             state.n_value,

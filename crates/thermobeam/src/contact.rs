@@ -11,6 +11,38 @@
 use crate::parameters::Obstacles;
 use crate::scheme::ContactRule;
 
+/// The contact phase of the free end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Phase {
+    /// It touches nothing: `g₁ <= u(1) <= g₂`.
+    Free,
+    /// It is on the upper obstacle: `u(1) >= g₂`.
+    Upper,
+    /// It is on the lower obstacle: `u(1) <= g₁`.
+    Lower,
+}
+
+impl Phase {
+    /// The phase of a free end at u, which is free if it just touches; with `g_1 = g_2` there is no free phase.
+    pub(crate) fn of(u: f64, obstacles: Option<&Obstacles>) -> Self {
+        match obstacles {
+            Some(obstacles) if u > obstacles.g2 => Phase::Upper,
+            Some(obstacles) if u < obstacles.g1 => Phase::Lower,
+            Some(obstacles) if obstacles.g1 == obstacles.g2 => Phase::Upper,
+            _ => Phase::Free,
+        }
+    }
+
+    /// Position of the touched obstacle.
+    pub(crate) fn obstacle(self, obstacles: Option<&Obstacles>) -> Option<f64> {
+        match self {
+            Phase::Free => None,
+            Phase::Lower => obstacles.map(|obstacles| obstacles.g1),
+            Phase::Upper => obstacles.map(|obstacles| obstacles.g2),
+        }
+    }
+}
+
 /// Tip displacement and contact force at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {

@@ -23,18 +23,14 @@ const WIDTH: usize = 4;
 /// one.
 pub struct Ensemble {
     cases: Vec<Case>,
-    groups: Vec<Group>,
+    /// Up to [`WIDTH`] cases each; unused lanes repeat the last case.
+    groups: Vec<Box<dyn Batch<Lanes<WIDTH>>>>,
+    /// One for each lane, used or not.
+    outcomes: Vec<Result<StepReport, StepFailure>>,
     step: usize,
     /// The step in which a case failed, if any.
     failed: Vec<Option<usize>>,
     heated: Vec<bool>,
-}
-
-/// Up to [`WIDTH`] cases in lanes.
-struct Group {
-    stepper: Box<dyn Batch<Lanes<WIDTH>>>,
-    /// One for each lane, used or not.
-    outcomes: Vec<Result<StepReport, StepFailure>>,
 }
 
 impl Ensemble {
@@ -63,11 +59,17 @@ impl Ensemble {
             starts.push((problem.case(scheme, dt), level));
         }
         let heated: Vec<bool> = starts.iter().map(|(case, level)| is_heated(&case.beam, level)).collect();
-        let group = |(starts, heated): (&[_], &[bool])| Group::new(starts, heated.contains(&true), settings);
-        let groups = starts.chunks(WIDTH).zip(heated.chunks(WIDTH)).map(group).collect();
+        let group = |(starts, heated): (&[(Case, Level)], &[bool])| {
+            let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
+            let cases = lanes().map(|(case, _)| case.clone()).collect();
+            let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
+            newton(cases, settings, &levels, heated.contains(&true))
+        };
+        let groups: Vec<_> = starts.chunks(WIDTH).zip(heated.chunks(WIDTH)).map(group).collect();
+        let outcomes = vec![Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN }); WIDTH * groups.len()];
         let failed = vec![None; starts.len()];
         let cases = starts.into_iter().map(|(case, _)| case).collect();
-        Ok(Self { cases, groups, step: 0, failed, heated })
+        Ok(Self { cases, groups, outcomes, step: 0, failed, heated })
     }
 
     /// The cases, which compute energies, and scales for them.
@@ -83,12 +85,12 @@ impl Ensemble {
     /// Does one step of every case that has not failed. It allocates memory only when a case fails.
     pub fn advance(&mut self) {
         self.step += 1;
-        for (group, failed) in self.groups.iter_mut().zip(self.failed.chunks_mut(WIDTH)) {
-            group.stepper.advance(&mut group.outcomes);
-            for (failed, outcome) in failed.iter_mut().zip(&group.outcomes) {
-                if outcome.is_err() && failed.is_none() {
-                    *failed = Some(self.step);
-                }
+        for (group, outcomes) in self.groups.iter_mut().zip(self.outcomes.chunks_mut(WIDTH)) {
+            group.advance(outcomes);
+        }
+        for (failed, outcome) in self.failed.iter_mut().zip(&self.outcomes) {
+            if outcome.is_err() && failed.is_none() {
+                *failed = Some(self.step);
             }
         }
     }
@@ -98,7 +100,7 @@ impl Ensemble {
     /// # Errors
     /// [`StepError`] of the step in which the case failed.
     pub fn report(&self, k: usize) -> Result<StepReport, StepError> {
-        self.groups[k / WIDTH].outcomes[k % WIDTH].clone().map_err(|failure| {
+        self.outcomes[k].clone().map_err(|failure| {
             let step = self.failed[k].unwrap_or(self.step);
             let dt = self.cases[k].dt;
             StepError { step, t: (step - 1) as f64 * dt, dt, failure }
@@ -107,7 +109,7 @@ impl Ensemble {
 
     /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
     pub fn observe(&self, k: usize, level: &mut Level) {
-        self.groups[k / WIDTH].stepper.read(k % WIDTH, level);
+        self.groups[k / WIDTH].read(k % WIDTH, level);
     }
 
     /// The energy [`Balance`] of the last step of every case; NaN for failed cases and before the first step.
@@ -119,44 +121,32 @@ impl Ensemble {
         balances.clear();
         balances.resize(self.cases.len(), Balance::NAN);
         let groups = self.groups.iter().zip(balances.chunks_mut(WIDTH));
-        groups.for_each(|(group, balances)| group.stepper.balances(balances));
+        groups.for_each(|(group, balances)| group.balances(balances));
     }
 
     /// u(1) at the current level of case k; if the case has failed, at the last level before the failure.
     pub fn tip(&self, k: usize) -> f64 {
-        self.groups[k / WIDTH].stepper.tip(k % WIDTH)
+        self.groups[k / WIDTH].tip(k % WIDTH)
     }
 
     /// The contact force of the step that led to the current level of case k.
     pub fn contact_force(&self, k: usize) -> f64 {
-        self.groups[k / WIDTH].stepper.contact_force(k % WIDTH)
+        self.groups[k / WIDTH].contact_force(k % WIDTH)
     }
 
     /// Counts of the work done so far for all cases; a pass of a group counts once.
     pub fn work(&self) -> Work {
-        let sum = |count: fn(Work) -> usize| self.groups.iter().map(|group| count(group.stepper.work())).sum();
+        let sum = |count: fn(Work) -> usize| self.groups.iter().map(|group| count(group.work())).sum();
         Work { passes: sum(|work| work.passes), factorizations: sum(|work| work.factorizations), ..Work::default() }
     }
 
     /// Counts of the work for case k so far, the same as in a single run.
     pub fn work_of(&self, k: usize) -> Work {
-        self.groups[k / WIDTH].stepper.work_of(k % WIDTH)
+        self.groups[k / WIDTH].work_of(k % WIDTH)
     }
 
     /// Whether anything heats case k: in a single run, its temperature would then be computed.
     pub fn is_heated(&self, k: usize) -> bool {
         self.heated[k]
-    }
-}
-
-impl Group {
-    /// A group for up to [`WIDTH`] cases; unused lanes repeat the last case.
-    fn new(starts: &[(Case, Level)], heated: bool, settings: Settings) -> Self {
-        let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
-        let cases: Vec<Case> = lanes().map(|(case, _)| case.clone()).collect();
-        let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
-        let stepper = newton(cases, settings, &levels, heated);
-        let outcomes = vec![Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN }); WIDTH];
-        Self { stepper, outcomes }
     }
 }

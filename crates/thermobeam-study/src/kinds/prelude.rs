@@ -17,7 +17,7 @@ pub(crate) use convergence_study::study::{
 };
 pub(crate) use convergence_study::text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text};
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
-pub(crate) use thermobeam::equilibrium::{Contact, Equilibrium};
+pub(crate) use thermobeam::equilibrium::{Equilibrium, Phase};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
 pub(crate) use thermobeam::mesh::{Mesh, MeshError};

@@ -137,7 +137,7 @@ impl AtRest {
     }
 
     /// Its state of contact.
-    pub(super) fn contact(&self) -> Option<Contact> {
+    pub(super) fn contact(&self) -> Option<Phase> {
         self.nearest.map(|nearest| nearest.state.contact)
     }
 
@@ -208,10 +208,10 @@ impl Nearest {
 }
 
 /// A contact state in words.
-pub(super) fn name_of(contact: Contact) -> &'static str {
+pub(super) fn name_of(contact: Phase) -> &'static str {
     match contact {
-        Contact::Free => "free",
-        Contact::Upper => "on the upper obstacle",
-        Contact::Lower => "on the lower obstacle",
+        Phase::Free => "free",
+        Phase::Upper => "on the upper obstacle",
+        Phase::Lower => "on the lower obstacle",
     }
 }

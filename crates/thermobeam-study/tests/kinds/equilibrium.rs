@@ -3,7 +3,7 @@ use crate::typed::{Runs, passes_but_not_without_each_case};
 use crate::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, run_cases_here};
-use thermobeam::equilibrium::Contact;
+use thermobeam::equilibrium::Phase;
 use thermobeam_study::kinds::equilibrium::{AtRest, EndStates, Nearest};
 
 fn study() -> EndStates {
@@ -36,7 +36,7 @@ fn every_claim_about_end_states_can_fail() {
         ("paper-2-beta-5, n = 160", |end| end.tip[0] = 0.0141797),
         ("paper-2-beta-5, n = 160", |end| {
             let contact = &mut near(end).state.contact;
-            *contact = if *contact == Contact::Upper { Contact::Lower } else { Contact::Upper };
+            *contact = if *contact == Phase::Upper { Phase::Lower } else { Phase::Upper };
         }),
         ("paper-2-beta-5, n = 40", |end| near(end).errors[0] = 1e-5),
         ("paper-1-beta-0, n = 160", |end| near(end).errors[0] = 2e-6),

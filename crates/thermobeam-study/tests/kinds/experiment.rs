@@ -1,6 +1,6 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam::equilibrium::{Contact, Equilibrium};
+use thermobeam::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::experiment::{AtRest, Experiments, Found, Measured, Nearest, ROW};
 
 use crate::file;
@@ -52,7 +52,7 @@ fn each_claim_of_section_5_can_fail() {
         (straight, run(|run| run.frequency = None)),
         (straight, run(|run| run.phi_amplitude = 0.5)),
         (resting, run(|run| run.contact_force = 0.0)),
-        (resting, run(|run| state(&mut run.end.nearest).contact = Contact::Free)),
+        (resting, run(|run| state(&mut run.end.nearest).contact = Phase::Free)),
         (resting, run(|run| state(&mut run.end.nearest).stable = false)),
         (resting, run(|run| far(&mut run.end.nearest, 0.01))),
         (resting, run(|run| run.end.nearest = None)),

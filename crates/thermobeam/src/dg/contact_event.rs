@@ -7,39 +7,8 @@
 use super::legendre;
 use super::time::MAX_STAGES;
 use crate::bracket::bisect;
+use crate::contact::Phase;
 use crate::parameters::Obstacles;
-
-/// The contact phase of the free end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// Nothing: `g_1 <= u(1) <= g_2`.
-    Free,
-    /// The lower obstacle: `u(1) <= g_1`.
-    Lower,
-    /// The upper obstacle: `u(1) >= g_2`.
-    Upper,
-}
-
-impl Phase {
-    /// The phase of a free end at u, which is free if it just touches; with `g_1 = g_2` there is no free phase.
-    pub(super) fn of(u: f64, obstacles: Option<&Obstacles>) -> Self {
-        match obstacles {
-            Some(obstacles) if u > obstacles.g2 => Phase::Upper,
-            Some(obstacles) if u < obstacles.g1 => Phase::Lower,
-            Some(obstacles) if obstacles.g1 == obstacles.g2 => Phase::Upper,
-            _ => Phase::Free,
-        }
-    }
-
-    /// Position of the touched obstacle.
-    pub(super) fn obstacle(self, obstacles: Option<&Obstacles>) -> Option<f64> {
-        match self {
-            Phase::Free => None,
-            Phase::Lower => obstacles.map(|obstacles| obstacles.g1),
-            Phase::Upper => obstacles.map(|obstacles| obstacles.g2),
-        }
-    }
-}
 
 /// A change of phase.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -61,7 +61,8 @@ mod space;
 mod stages;
 mod time;
 
-pub use contact_event::{ContactEvent, Phase};
+pub use crate::contact::Phase;
+pub use contact_event::ContactEvent;
 pub use element::MAX_DEGREE;
 pub use problem::{Initial, Problem, Stepping};
 pub use simulation::{Simulation, StepReport};

@@ -1,9 +1,10 @@
 //! The equations of a step, tested with every basis function and every L_i(t): their residuals.
 
+use super::Level;
 use super::block::{Block, add_columns};
 use super::space::Space;
 use super::time::{Forcing, MAX_STAGES, Path, TimeForms};
-use super::{Level, contact_event::Phase};
+use crate::contact::Phase;
 use crate::parameters::{Beam, Obstacles};
 
 /// u and φ in a block during the step, and the combinations of them in the equations.

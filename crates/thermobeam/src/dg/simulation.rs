@@ -1,6 +1,6 @@
 //! A simulation, which holds one level and does steps: their lengths, and where contact cuts them.
 
-use super::contact_event::{ContactEvent, Fall, Phase, Polynomial, bounds};
+use super::contact_event::{ContactEvent, Fall, Polynomial, bounds};
 use super::lengths::Lengths;
 use super::problem::{Problem, Stepping, check_problem, initial_level};
 use super::residual::Equations;
@@ -8,6 +8,7 @@ use super::space::Space;
 use super::stages::{Stages, stepper};
 use super::time::Load;
 use super::{Level, Work};
+use crate::contact::Phase;
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::parameters::{Beam, Obstacles};
 

@@ -1,13 +1,14 @@
 //! The polynomials of one step, and their computation.
 
 use super::block::{Block, add_columns};
-use super::contact_event::{Phase, Polynomial};
+use super::contact_event::Polynomial;
 use super::factor::Factor;
 use super::operator::Operator;
 use super::residual::{Equations, Terms};
 use super::space::{Field, Space};
 use super::time::{Forcing, Load, MAX_STAGES, Path, TimeForms};
 use super::{Level, Stepping, Work};
+use crate::contact::Phase;
 use crate::energy::Balance;
 use crate::error::StepFailure;
 use crate::parameters::Beam;

@@ -4,7 +4,7 @@ use super::law::{Law, Support, free_buckling};
 use super::polish::polish;
 use super::scan::{Position, Root};
 use super::shape::Shape;
-use super::{BUCKLING_VALUES, Contact, Equilibrium, EquilibriumError};
+use super::{BUCKLING_VALUES, Equilibrium, EquilibriumError, Phase};
 
 /// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its terms.
 const CONSISTENCY: f64 = 1e-9;
@@ -20,7 +20,7 @@ fn is_listed(n_value: f64) -> bool {
 /// One state of contact: its law, and the solutions of that law, whether or not they press the obstacle.
 pub(super) struct Branch {
     /// The state of contact.
-    pub(super) contact: Contact,
+    pub(super) contact: Phase,
     /// The linear problem for given N.
     pub(super) law: Law,
     /// The law of the straight beam if both obstacles hold its tip at 0.
@@ -168,7 +168,7 @@ mod tests {
     use crate::parameters::Beam;
 
     fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch {
-        let contact = if support.is_some() { Contact::Upper } else { Contact::Free };
+        let contact = if support.is_some() { Phase::Upper } else { Phase::Free };
         let law = Law { moment: beam.a * beam.theta_a, beta: beam.beta, rho: beam.rho, support };
         Branch { contact, law, held_tip }
     }
@@ -203,7 +203,7 @@ mod tests {
         let branch = Branch { law: Law { beta: 3.0, ..branch.law }, ..branch };
         for s in values {
             let Err(Bifurcation { n_value, contact }) = branch.buckled(s, 1.0) else { panic!("{s} is below beta") };
-            assert_eq!((n_value, contact), (s - 1.0, Contact::Upper));
+            assert_eq!((n_value, contact), (s - 1.0, Phase::Upper));
         }
     }
 

@@ -70,6 +70,7 @@ use branch::Branch;
 use law::{Law, Support, free_buckling};
 use thiserror::Error;
 
+pub use crate::contact::Phase;
 pub use shape::Shape;
 
 /// [`equilibria`] returns all states with N above the buckling value N_k of index k = `BUCKLING_VALUES` + 1.
@@ -77,17 +78,6 @@ pub use shape::Shape;
 /// A state with smaller N has at least `BUCKLING_VALUES - 1` unstable directions, so every stable state is returned for
 /// any β.
 pub const BUCKLING_VALUES: usize = 16;
-
-/// The obstacle that the tip presses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Contact {
-    /// No obstacle: `g₁ <= u(1) <= g₂`.
-    Free,
-    /// The upper obstacle, `u(1) > g₂`.
-    Upper,
-    /// The lower obstacle, `u(1) < g₁`.
-    Lower,
-}
 
 /// Why the steady states cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -102,7 +92,7 @@ pub enum EquilibriumError {
     )]
     Resonance {
         /// The state of contact.
-        contact: Contact,
+        contact: Phase,
         /// N = β.
         n_value: f64,
     },
@@ -110,7 +100,7 @@ pub enum EquilibriumError {
     #[error("beta is within round-off of the buckling value N = {n_value} ({contact:?}): change beta")]
     Bifurcation {
         /// The state of contact.
-        contact: Contact,
+        contact: Phase,
         /// The buckling value.
         n_value: f64,
     },
@@ -121,7 +111,7 @@ pub enum EquilibriumError {
     )]
     Inaccurate {
         /// The state of contact.
-        contact: Contact,
+        contact: Phase,
         /// N of the state.
         n_value: f64,
         /// `N - β - ρ‖u'‖²` over one plus the largest of its terms.
@@ -132,15 +122,15 @@ pub enum EquilibriumError {
 /// A steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium {
-    /// The obstacle that the tip presses.
-    pub contact: Contact,
+    /// The obstacle that the tip presses, `u(1) > g₂` or `u(1) < g₁`, if any.
+    pub contact: Phase,
     /// Axial force N = β + ρ‖u'‖².
     pub n_value: f64,
     /// u(1).
     pub u_tip: f64,
     /// φ(1).
     pub phi_tip: f64,
-    /// Contact force g(u(1)): positive at the upper obstacle, negative at the lower, zero without contact.
+    /// Phase force g(u(1)): positive at the upper obstacle, negative at the lower, zero without contact.
     pub contact_force: f64,
     /// Whether the second variation of the potential energy is positive definite: a strict minimum.
     ///
@@ -175,13 +165,13 @@ pub fn lists_all(beam: &Beam) -> bool {
 /// load of the size of round-off, and if the computed state is inaccurate.
 ///
 /// ```
-/// use thermobeam::equilibrium::{Contact, equilibria};
+/// use thermobeam::equilibrium::{Phase, equilibria};
 /// use thermobeam::parameters::{Beam, Obstacles};
 ///
 /// let beam = Beam { beta: -0.8, ..Beam::default() };
 /// let states = equilibria(&beam, Some(&Obstacles::default()))?;
 /// let found: Vec<_> = states.iter().map(|state| (state.contact, state.stable)).collect();
-/// assert_eq!(found, [(Contact::Lower, true), (Contact::Free, false), (Contact::Upper, true)]);
+/// assert_eq!(found, [(Phase::Lower, true), (Phase::Free, false), (Phase::Upper, true)]);
 /// # Ok::<(), thermobeam::equilibrium::EquilibriumError>(())
 /// ```
 pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equilibrium>, EquilibriumError> {
@@ -197,12 +187,12 @@ pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equi
     Ok(found)
 }
 
-fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Contact, Law)> {
+fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
     let free = Law { moment: beam.a * beam.theta_a, beta: beam.beta, rho: beam.rho, support: None };
-    let mut laws = vec![(Contact::Free, free)];
+    let mut laws = vec![(Phase::Free, free)];
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
         let on = |position| Law { support: Some(Support { epsilon, position }), ..free };
-        laws.extend([(Contact::Upper, on(g2)), (Contact::Lower, on(g1))]);
+        laws.extend([(Phase::Upper, on(g2)), (Phase::Lower, on(g1))]);
     }
     laws
 }
@@ -216,9 +206,9 @@ fn held_tip(obstacles: Option<&Obstacles>) -> Option<Law> {
 /// Whether a root satisfies the inequalities of the state of contact whose law it solves.
 fn is_consistent(state: &Equilibrium, obstacles: Option<&Obstacles>) -> bool {
     match state.contact {
-        Contact::Free => obstacles.is_none_or(|o| (o.g1..=o.g2).contains(&state.u_tip)),
-        Contact::Upper => state.contact_force > 0.0,
-        Contact::Lower => state.contact_force < 0.0,
+        Phase::Free => obstacles.is_none_or(|o| (o.g1..=o.g2).contains(&state.u_tip)),
+        Phase::Upper => state.contact_force > 0.0,
+        Phase::Lower => state.contact_force < 0.0,
     }
 }
 
@@ -239,12 +229,12 @@ mod tests {
             unstable_directions: Some(0),
             shape: Shape::line(-u_tip),
         };
-        for (contact, presses) in [(Contact::Upper, [false, false, true]), (Contact::Lower, [true, false, false])] {
+        for (contact, presses) in [(Phase::Upper, [false, false, true]), (Phase::Lower, [true, false, false])] {
             let found = [-1.0, 0.0, 1.0].map(|force| is_consistent(&state(contact, force, 0.0), Some(&obstacles)));
             assert_eq!(found, presses, "{contact:?}");
         }
-        let free = |u_tip| is_consistent(&state(Contact::Free, 0.0, u_tip), Some(&obstacles));
+        let free = |u_tip| is_consistent(&state(Phase::Free, 0.0, u_tip), Some(&obstacles));
         assert_eq!([-0.26, -0.25, 0.0, 0.5, 0.51].map(free), [false, true, true, true, false]);
-        assert!(is_consistent(&state(Contact::Free, 0.0, 7.0), None));
+        assert!(is_consistent(&state(Phase::Free, 0.0, 7.0), None));
     }
 }

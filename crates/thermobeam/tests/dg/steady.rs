@@ -2,7 +2,7 @@
 
 use crate::scenes::{advanced, close, experiment, tip};
 use thermobeam::dg::{Field, Phase, Stepping};
-use thermobeam::equilibrium::{Contact, equilibria};
+use thermobeam::equilibrium::equilibria;
 
 #[test]
 fn a_hot_end_drives_the_beam_to_its_steady_state() {
@@ -15,7 +15,7 @@ fn a_hot_end_drives_the_beam_to_its_steady_state() {
         close(tip(&simulation, Field::U), state.u_tip, 1e-12);
         close(tip(&simulation, Field::Phi), state.phi_tip, 1e-11);
         close(tip(&simulation, Field::V), 0.0, 1e-10);
-        let expected = if state.contact == Contact::Upper { Phase::Upper } else { Phase::Free };
+        let expected = if state.contact == Phase::Upper { Phase::Upper } else { Phase::Free };
         assert_eq!(simulation.phase(), expected);
         for x in [0.2, 0.6] {
             close(simulation.value(Field::U, x, simulation.t()).unwrap(), state.shape.u(x), 1e-11);

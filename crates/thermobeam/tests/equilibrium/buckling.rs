@@ -2,7 +2,7 @@
 
 use super::{close, loaded, obstacles, states};
 use std::f64::consts::PI;
-use thermobeam::equilibrium::{BUCKLING_VALUES, Contact, EquilibriumError, equilibria, lists_all};
+use thermobeam::equilibrium::{BUCKLING_VALUES, EquilibriumError, Phase, equilibria, lists_all};
 use thermobeam::parameters::Obstacles;
 
 /// The buckling value N_k of the beam without support.
@@ -39,8 +39,8 @@ fn obstacles_exclude_the_free_states_that_would_cross_them() {
     let wide = Obstacles { g1: -1.001 * amplitude, g2: 1.001 * amplitude, epsilon: 1e-3 };
     let narrow = Obstacles { g1: -0.999 * amplitude, ..wide };
     let contacts = |o: &Obstacles| states(&beam, Some(o)).iter().map(|state| state.contact).collect::<Vec<_>>();
-    assert_eq!(contacts(&wide), [Contact::Free; 3]);
-    assert_eq!(contacts(&narrow), [Contact::Lower, Contact::Free, Contact::Free]);
+    assert_eq!(contacts(&wide), [Phase::Free; 3]);
+    assert_eq!(contacts(&narrow), [Phase::Lower, Phase::Free, Phase::Free]);
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn sixteen_buckled_pairs_are_listed_for_any_beta() {
 #[test]
 fn undecidable_equilibria_are_errors() {
     let resonant = equilibria(&loaded(buckling(2), 0.0, 0.1), None);
-    assert!(matches!(resonant, Err(EquilibriumError::Resonance { contact: Contact::Free, .. })), "{resonant:?}");
+    assert!(matches!(resonant, Err(EquilibriumError::Resonance { contact: Phase::Free, .. })), "{resonant:?}");
     let bad = equilibria(&loaded(f64::NAN, 1.0, 0.1), None);
     assert!(matches!(bad, Err(EquilibriumError::Parameter(_))), "{bad:?}");
     assert!(lists_all(&loaded(-0.999, 1.0, 0.0)) && !lists_all(&loaded(-1.0, 1.0, 0.0)));

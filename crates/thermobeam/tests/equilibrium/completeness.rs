@@ -2,7 +2,7 @@
 
 use super::{close, loaded, slope_squared_by_quadrature, states};
 use proptest::prelude::*;
-use thermobeam::equilibrium::{Contact, Equilibrium, equilibria};
+use thermobeam::equilibrium::{Equilibrium, Phase, equilibria};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The textbook formula for one law at one N, with integrals by Simpson's rule: (f, c, u(1)).
@@ -26,9 +26,9 @@ fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64
 }
 
 /// All states with N > -0.98 by a fine scan: (contact, u(1)).
-fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Contact, f64)> {
+fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Phase, f64)> {
     let Obstacles { epsilon, g1, g2 } = *obstacles;
-    let laws = [(Contact::Free, None), (Contact::Upper, Some((epsilon, g2))), (Contact::Lower, Some((epsilon, g1)))];
+    let laws = [(Phase::Free, None), (Phase::Upper, Some((epsilon, g2))), (Phase::Lower, Some((epsilon, g1)))];
     let mut found = Vec::new();
     for (contact, support) in laws {
         let f = |n| textbook(beam, support, n).0;
@@ -46,9 +46,9 @@ fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Contact,
             }
             let (_, c, tip) = textbook(beam, support, lo);
             let consistent = match contact {
-                Contact::Free => (g1..=g2).contains(&tip),
-                Contact::Upper => c < 0.0,
-                Contact::Lower => c > 0.0,
+                Phase::Free => (g1..=g2).contains(&tip),
+                Phase::Upper => c < 0.0,
+                Phase::Lower => c > 0.0,
             };
             if consistent {
                 found.push((contact, tip));

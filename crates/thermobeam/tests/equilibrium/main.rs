@@ -6,7 +6,7 @@ mod discrete;
 #[path = "../p1_matrices/mod.rs"]
 mod p1_matrices;
 
-use thermobeam::equilibrium::{Contact, Equilibrium, equilibria};
+use thermobeam::equilibrium::{Equilibrium, Phase, equilibria};
 use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -63,15 +63,15 @@ fn scenes() -> Vec<(Beam, Option<Obstacles>)> {
 #[test]
 fn reference_states_are_reproduced() {
     let paper = Obstacles::default();
-    type Row = (Contact, f64, bool);
+    type Row = (Phase, f64, bool);
     let rows: [(f64, f64, &[Row]); 4] = [
-        (-0.5, 20.0, &[(Contact::Upper, 0.1000634088, true)]),
-        (0.0, 20.0, &[(Contact::Upper, 0.1000086904, true)]),
-        (5.0, 20.0, &[(Contact::Free, 0.0141796394, true)]),
+        (-0.5, 20.0, &[(Phase::Upper, 0.1000634088, true)]),
+        (0.0, 20.0, &[(Phase::Upper, 0.1000086904, true)]),
+        (5.0, 20.0, &[(Phase::Free, 0.0141796394, true)]),
         (
             -0.8,
             0.0,
-            &[(Contact::Lower, -0.0100012352, true), (Contact::Free, 0.0, false), (Contact::Upper, 0.1000098954, true)],
+            &[(Phase::Lower, -0.0100012352, true), (Phase::Free, 0.0, false), (Phase::Upper, 0.1000098954, true)],
         ),
     ];
     for (beta, theta_a, expected) in rows {

@@ -1,12 +1,12 @@
 //! With a heated clamped end the beam converges to its steady state, which is known in closed form.
 
 use crate::scenes::{advance, paper, simulate, stepping, uniform};
-use thermobeam::equilibrium::{Contact, equilibria};
+use thermobeam::equilibrium::{Phase, equilibria};
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::Settings;
 
 /// Errors of u(1), φ(1) and the contact force in the steady state with the given number of elements.
-fn errors(beta: f64, contact: Contact, elements: usize) -> [f64; 3] {
+fn errors(beta: f64, contact: Phase, elements: usize) -> [f64; 3] {
     let problem = paper(uniform(elements), (beta, 20.0));
     let states = equilibria(&problem.beam, problem.obstacles.as_ref()).unwrap();
     let [state] = states.as_slice() else { panic!("{states:?}") };
@@ -23,10 +23,10 @@ fn errors(beta: f64, contact: Contact, elements: usize) -> [f64; 3] {
 
 #[test]
 fn a_hot_end_drives_the_beam_to_its_steady_state_at_second_order_in_h() {
-    for (beta, contact) in [(-0.5, Contact::Upper), (0.0, Contact::Upper), (5.0, Contact::Free)] {
+    for (beta, contact) in [(-0.5, Phase::Upper), (0.0, Phase::Upper), (5.0, Phase::Free)] {
         let [coarse, fine] = [16, 32].map(|elements| errors(beta, contact, elements));
         for (k, (coarse, fine)) in coarse.into_iter().zip(fine).enumerate() {
-            if k == 2 && contact == Contact::Free {
+            if k == 2 && contact == Phase::Free {
                 assert_eq!((coarse, fine), (0.0, 0.0));
                 continue;
             }

@@ -123,7 +123,7 @@ impl<'r> DiagramOf<'r> {
         let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().copied().filter(|(beta, _)| (range[0]..=range[1]).contains(beta)).collect()
         };
-        let labels = [(Contact::Free, "free"), (Contact::Upper, "upper obstacle"), (Contact::Lower, "lower obstacle")];
+        let labels = [(Phase::Free, "free"), (Phase::Upper, "upper obstacle"), (Phase::Lower, "lower obstacle")];
         let mut branches = Vec::new();
         for ((contact, label), stable) in labels.into_iter().flat_map(|label| [(label, true), (label, false)]) {
             let of = |branch: &&SteadyBranch| branch.key.contact == contact && branch.key.stable == stable;

@@ -153,7 +153,7 @@ pub struct SteadyBranch {
 /// The invariants of a branch: contact, side and number of unstable directions change only where branches meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BranchKey {
-    contact: Contact,
+    contact: Phase,
     /// The side to which the beam bends.
     side: Option<Ordering>,
     stable: bool,
@@ -267,7 +267,7 @@ fn buckles(scene: &Scene) -> bool {
 fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result<[f64; 2], CaseFailure> {
     let is_before = |at: &StatesAt| match buckles(scene) {
         true => at.states.len() > 1,
-        false => at.states.iter().any(|state| state.contact == Contact::Upper),
+        false => at.states.iter().any(|state| state.contact == Phase::Upper),
     };
     let before: Vec<bool> = samples.iter().map(is_before).collect();
     let changes: Vec<usize> = (1..before.len()).filter(|&k| before[k - 1] != before[k]).collect();

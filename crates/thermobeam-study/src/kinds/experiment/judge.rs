@@ -198,14 +198,14 @@ fn moves(first: &OfGroup<'_>) -> [Check; 3] {
     ]
 }
 
-fn comes_to_rest(scene: &Scene, contact: Contact, run: &Measured) -> Check {
+fn comes_to_rest(scene: &Scene, contact: Phase, run: &Measured) -> Check {
     let presses = match contact {
-        Contact::Upper => run.contact_force > 0.0,
-        Contact::Lower => run.contact_force < 0.0,
-        Contact::Free => run.contact_force == 0.0,
+        Phase::Upper => run.contact_force > 0.0,
+        Phase::Lower => run.contact_force < 0.0,
+        Phase::Free => run.contact_force == 0.0,
     };
     let Scene { beam, .. } = scene;
-    let place = if contact == Contact::Free { "free of both obstacles" } else { name_of(contact) };
+    let place = if contact == Phase::Free { "free of both obstacles" } else { name_of(contact) };
     let is_there = run.end.contact() == Some(contact);
     Check::that(
         presses && is_there && has_arrived(run),

@@ -58,7 +58,7 @@ enum SectionGroup {
     /// θ_A = 0, (5.4): the beam becomes straight.
     First,
     /// θ_A = 20, (5.5): the beam comes to rest in this state of contact.
-    Second(Contact),
+    Second(Phase),
     /// Beyond buckling: the beam comes to rest bent.
     Third,
 }
@@ -121,7 +121,7 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
     };
     let (first, second) = (ascending("first")?, ascending("second")?);
     // The contact state that is claimed for each beam of the second group.
-    let choices = [("upper", Contact::Upper), ("lower", Contact::Lower), ("free", Contact::Free)];
+    let choices = [("upper", Phase::Upper), ("lower", Phase::Lower), ("free", Phase::Free)];
     let allowed = "a list of \"upper\", \"lower\" or \"free\", one for each scene of second";
     let rests = section.list("rests", allowed, |item| item.choice(&choices), |list| list.len() == second.len())?;
     let third = listed_scene(&section.require("third", "a scene file")?, folder)?;

@@ -91,7 +91,7 @@ fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     let mean = |value: &dyn Fn(&Explanation) -> f64| {
         candidates.iter().zip(&weights).map(|(c, w)| w * value(c)).sum::<f64>() / total
     };
-    let half = mean(&|c| c.half_width).hypot(2.0 * mean(&|c| (c.rate - rate) * (c.rate - rate)).sqrt());
+    let half = mean(&|c| c.half_width.powi(2)).sqrt().hypot(2.0 * mean(&|c| (c.rate - rate) * (c.rate - rate)).sqrt());
     (rate, heaviest.pollution, [rate - half, rate + half])
 }
 

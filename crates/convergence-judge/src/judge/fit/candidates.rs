@@ -20,7 +20,7 @@ pub const SCATTER_EXPONENTS: [f64; 2] = [0.0, 1.0];
 /// The weight of a candidate with k parameters is `rss^(-m/2) exp(-PENALTY k)`: likelihood against freedom.
 ///
 /// Each further unit lets 1 in 100 more of the sound tables pass and costs 1 in 100 of coverage where errors scatter.
-pub const PENALTY: f64 = 4.0;
+pub const PENALTY: f64 = 6.0;
 
 /// Candidates with pollution slower than h^[`SLOW`] weigh e^-3 less: such pollution is rare, and 5 levels can hardly tell it from rates that wander.
 pub const SLOW_PENALTY: f64 = 3.0;
@@ -29,8 +29,8 @@ pub const SLOW_PENALTY: f64 = 3.0;
 pub const SLOW: f64 = 0.75;
 
 /// Factor on the half-width of every candidate, for terms that no candidate has: the intervals of the [calibration](crate::judge::calibration) then
-/// hold the order 91.8 times in 100 in the worst family of errors that is declared; with a factor of 1, 89.7 times.
-pub const SAFETY: f64 = 1.3;
+/// hold the order 92.0 times in 100 in the worst family of errors that is declared; with a factor of 1, 88.8 times.
+pub const SAFETY: f64 = 1.25;
 
 /// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.
 pub const SLOWEST_POLLUTION: f64 = 1.0 / 3.0;
@@ -77,8 +77,8 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         sum / candidates.iter().map(weight).sum::<f64>()
     };
     let rate = mean(&|candidate| candidate.rate);
-    // Two standard deviations between the candidates, and the mean half-width.
-    let half = (mean(&|c| c.half_width).powi(2) + 4.0 * mean(&|c| (c.rate - rate).powi(2))).sqrt();
+    // Two standard deviations between the candidates, and the root mean square of their half-widths.
+    let half = mean(&|c| c.half_width.powi(2) + 4.0 * (c.rate - rate).powi(2)).sqrt();
     let scatter = mean(&|c| c.scatter.powi(2)).sqrt();
     let sound = rate.is_finite() && half.is_finite();
     sound.then_some(RateInterval { rate, pollution: heaviest.pollution, interval: [rate - half, rate + half], scatter })

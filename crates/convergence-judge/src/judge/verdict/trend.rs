@@ -15,7 +15,7 @@ const GROWTH: f64 = 1.3;
 const STEADY_GROWTH: f64 = 1.1;
 
 /// Least growth over a change of the other sign: noise makes changes of similar size to and fro.
-const TURN: f64 = 3.0;
+const TURN: f64 = 4.0;
 
 /// Shares of the tolerance above which changes count: three in a row, two in a row, one against the one before, one against fading pollution.
 const DEPARTED: [f64; 4] = [1.0 / 40.0, 1.0 / 6.0, 1.0, 0.1];
@@ -148,19 +148,19 @@ mod tests {
             (&[1.0, 1.5], 14.5, true),
             (&[-1.0, -1.5], 15.5, false),
             (&[-1.0, -1.25], 8.0, false),
-            // One against the one before and three times as large, over more than the tolerance.
-            (&[1.0, -3.5], 3.25, true),
-            (&[-1.0, 3.5], 3.25, true),
-            (&[0.0, -3.5], 3.25, true),
-            (&[1.0, -3.5], 3.75, false),
-            (&[1.0, -2.5], 2.0, false),
-            (&[0.5, 1.0, -3.5], 4.0, false),
-            // After fading pollution, three times as large, over more than a tenth.
-            (&[1.5, 1.0, -3.5], 34.0, true),
-            (&[-1.5, -1.0, 3.5], 34.0, true),
-            (&[1.5, 1.0, -3.5], 36.0, false),
-            (&[1.5, 1.0, -2.75], 6.0, false),
-            (&[0.5, 1.0, -3.5], 12.0, false),
+            // One against the one before and four times as large, over more than the tolerance.
+            (&[1.0, -4.5], 4.25, true),
+            (&[-1.0, 4.5], 4.25, true),
+            (&[0.0, -4.5], 4.25, true),
+            (&[1.0, -4.5], 4.75, false),
+            (&[1.0, -3.5], 2.0, false),
+            (&[0.5, 1.0, -4.5], 5.0, false),
+            // After fading pollution, four times as large, over more than a tenth.
+            (&[1.5, 1.0, -4.5], 44.0, true),
+            (&[-1.5, -1.0, 4.5], 44.0, true),
+            (&[1.5, 1.0, -4.5], 46.0, false),
+            (&[1.5, 1.0, -3.75], 6.0, false),
+            (&[0.5, 1.0, -4.5], 12.0, false),
             (&[1.5, -1.0, -1.25], 12.0, false),
             (&[1.5], 0.1, false),
             (&[], 0.1, false),

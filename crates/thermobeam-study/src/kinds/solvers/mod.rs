@@ -1,8 +1,8 @@
 //! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always converges.
 //!
-//! The paper does not treat the convergence of its iteration. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn`
-//! per iteration ([`contact_contraction`]), without contact by a factor γ < 1 ([`coupling_contraction`]); past α = 1
-//! the iteration diverges. A study asks one or more of three questions, one table of its file each:
+//! The paper does not treat the convergence of its iteration. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn` per
+//! iteration, without contact by a factor γ < 1 ([`contraction`](thermobeam::contraction)); past α = 1 the iteration
+//! diverges. A study asks one or more of three questions, one table of its file each:
 //!
 //! ```toml
 //! [contraction]              # the factor of one step in contact against α, for all combinations

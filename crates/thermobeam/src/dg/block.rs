@@ -11,15 +11,17 @@ pub(super) const fn zero<const S: usize>() -> Matrix<S> {
     [[[[0.0; S]; 3]; S]; 3]
 }
 
-/// `y - A x`.
-pub(super) fn minus_product<const S: usize>(y: &Block<S>, matrix: &Matrix<S>, x: &Block<S>) -> Block<S> {
+/// `y -= A x`.
+///
+/// In place, as in [`multiply`]: the copy of a returned block would wait for its stores.
+pub(super) fn subtract_product<const S: usize>(y: &mut Block<S>, matrix: &Matrix<S>, x: &Block<S>) {
     let mut sum = *y;
     for (columns, x) in matrix.iter().zip(x) {
         for (column, x) in columns.iter().zip(x) {
             add_multiple(&mut sum, column, -x);
         }
     }
-    sum
+    *y = sum;
 }
 
 /// `Σ_j x_j column_j` added to y.
@@ -32,30 +34,28 @@ pub(super) fn add_columns<const S: usize>(y: &mut [f64; S], columns: &[[f64; S];
     }
 }
 
-/// `A x`.
-pub(super) fn product<const S: usize>(matrix: &Matrix<S>, x: &Block<S>) -> Block<S> {
+/// Replaces x by `A x`.
+pub(super) fn multiply<const S: usize>(matrix: &Matrix<S>, x: &mut Block<S>) {
     let mut sum = [[0.0; S]; 3];
-    for (columns, x) in matrix.iter().zip(x) {
+    for (columns, x) in matrix.iter().zip(&*x) {
         for (column, x) in columns.iter().zip(x) {
             add_multiple(&mut sum, column, *x);
         }
     }
-    sum
+    *x = sum;
 }
 
 /// `A B`.
 pub(super) fn matrix_product<const S: usize>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
-    let mut c = zero();
-    for (c, b) in c.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
-        *c = product(a, b);
-    }
+    let mut c = *b;
+    c.as_flattened_mut().iter_mut().for_each(|column| multiply(a, column));
     c
 }
 
 /// `C -= A B`.
-pub(super) fn subtract_product<const S: usize>(c: &mut Matrix<S>, a: &Matrix<S>, b: &Matrix<S>) {
+pub(super) fn subtract_matrix_product<const S: usize>(c: &mut Matrix<S>, a: &Matrix<S>, b: &Matrix<S>) {
     for (c, b) in c.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
-        *c = minus_product(c, a, b);
+        subtract_product(c, a, b);
     }
 }
 

@@ -4,7 +4,7 @@
 //! cost is proportional to the number of elements times the degree.
 
 use super::block::{
-    Block, Matrix, add, clear_column, clear_row, invert, isolate, matrix_product, minus_product, product,
+    Block, Matrix, add, clear_column, clear_row, invert, isolate, matrix_product, multiply, subtract_matrix_product,
     subtract_product, zero,
 };
 use super::operator::Operator;
@@ -120,7 +120,7 @@ impl<const S: usize> Factor<S> {
                 isolate(&mut pivot, 2);
             }
             if node > 1 {
-                subtract_product(&mut pivot, &left, &self.nodes[node - 1].right);
+                subtract_matrix_product(&mut pivot, &left, &self.nodes[node - 1].right);
             }
             let lost = |pivot| StepFailure::Indefinite { node, pivot, n_value };
             if node == tip {
@@ -147,14 +147,16 @@ impl<const S: usize> Factor<S> {
         }
         nodes[tip][2] = [0.0; S];
         for node in 1..=tip {
+            let (before, from) = nodes.split_at_mut(node);
             if node > 1 {
-                nodes[node] = minus_product(&nodes[node], &self.nodes[node].left, &nodes[node - 1]);
+                subtract_product(&mut from[0], &self.nodes[node].left, &before[node - 1]);
             }
             let inverse = if node == tip { &self.tip[usize::from(in_contact)] } else { &self.nodes[node].inverse };
-            nodes[node] = product(inverse, &nodes[node]);
+            multiply(inverse, &mut from[0]);
         }
         for node in (1..tip).rev() {
-            nodes[node] = minus_product(&nodes[node], &self.nodes[node].right, &nodes[node + 1]);
+            let (upto, beyond) = nodes.split_at_mut(node + 1);
+            subtract_product(&mut upto[node], &self.nodes[node].right, &beyond[0]);
         }
         nodes[0] = [[0.0; S]; 3];
         if inner > 0 {
@@ -197,7 +199,7 @@ impl<const S: usize> Inside<S> {
                 link.towards = between(block - 2, block);
                 link.back = matrix_product(&pivot, &between(block, block - 2));
                 pivot = pivot_of(space, &between, block - 2);
-                subtract_product(&mut pivot, &link.towards, &link.back);
+                subtract_matrix_product(&mut pivot, &link.towards, &link.back);
             }
             invert(&mut pivot)?;
             chain.inverse = pivot;
@@ -207,7 +209,7 @@ impl<const S: usize> Inside<S> {
             }
             for row in 0..2 {
                 for column in 0..2 {
-                    subtract_product(&mut self.hats[row][column], &chain.towards[row], &chain.back[column]);
+                    subtract_matrix_product(&mut self.hats[row][column], &chain.towards[row], &chain.back[column]);
                 }
             }
         }
@@ -218,13 +220,14 @@ impl<const S: usize> Inside<S> {
         for (c, chain) in self.chains.iter().enumerate() {
             let mut block = c + 2 * chain.links.len();
             for link in &chain.links {
-                blocks[block] = product(&link.inverse, &blocks[block]);
-                blocks[block - 2] = minus_product(&blocks[block - 2], &link.towards, &blocks[block]);
+                let (lower, from) = blocks.split_at_mut(block);
+                multiply(&link.inverse, &mut from[0]);
+                subtract_product(&mut lower[block - 2], &link.towards, &from[0]);
                 block -= 2;
             }
-            blocks[block] = product(&chain.inverse, &blocks[block]);
+            multiply(&chain.inverse, &mut blocks[block]);
             for (hat, towards) in hats.iter_mut().zip(&chain.towards) {
-                *hat = minus_product(hat, towards, &blocks[block]);
+                subtract_product(hat, towards, &blocks[block]);
             }
         }
     }
@@ -232,11 +235,12 @@ impl<const S: usize> Inside<S> {
     fn backward(&self, blocks: &mut [Block<S>], hats: &[Block<S>]) {
         for (c, chain) in self.chains.iter().enumerate() {
             for (hat, back) in hats.iter().zip(&chain.back) {
-                blocks[c] = minus_product(&blocks[c], back, hat);
+                subtract_product(&mut blocks[c], back, hat);
             }
             for (i, link) in chain.links.iter().rev().enumerate() {
                 let block = c + 2 * (i + 1);
-                blocks[block] = minus_product(&blocks[block], &link.back, &blocks[block - 2]);
+                let (lower, from) = blocks.split_at_mut(block);
+                subtract_product(&mut from[0], &link.back, &lower[block - 2]);
             }
         }
     }

@@ -1,18 +1,28 @@
 //! The bilinear forms of the weak form on a space, with coefficients given block by block by a closure.
 
+use super::block::Block;
 use super::space::{Coupling, Space, degrees};
 use super::{element, space::Field};
 
 impl Space {
     /// Sums `entry(coupling, length, row block, column block)` over all couplings of all elements.
     fn sum(&self, entry: impl Fn(&Coupling, f64, usize, usize) -> f64) -> f64 {
-        let mut sum = 0.0;
+        let [sum] = self.sums(|c, length, row, column| [entry(c, length, row, column)]);
+        sum
+    }
+
+    /// The same for several forms at once.
+    fn sums<const N: usize>(&self, entries: impl Fn(&Coupling, f64, usize, usize) -> [f64; N]) -> [f64; N] {
+        let mut sums = [0.0; N];
         for (element, &length) in self.lengths.iter().enumerate() {
             for c in &self.couplings {
-                sum += entry(c, length, self.block(element, c.row), self.block(element, c.column));
+                let entries = entries(c, length, self.block(element, c.row), self.block(element, c.column));
+                for (sum, entry) in sums.iter_mut().zip(entries) {
+                    *sum += entry;
+                }
             }
         }
-        sum
+        sums
     }
 
     /// `(y, z)` of three fields each.
@@ -25,20 +35,25 @@ impl Space {
 
     /// `(u_x - φ, y_x - χ) + (φ_x, χ_x)` for the pairs (u, φ) and (y, χ).
     pub(super) fn strain(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
-        self.sum(|c, length, row, column| {
-            let ([u, phi], [u_z, phi_z]) = (y(row), z(column));
-            self.shear_entry(c, length, [u, phi], [u_z, phi_z]) + 2.0 / length * c.stiff_phi * phi * phi_z
-        })
+        self.sum(|c, length, row, column| strain_entry(c, length, y(row), z(column)))
+    }
+
+    /// `‖v_x - w‖² + ‖w_x‖²` and `‖θ~_x‖²` for every coefficient in time of (v, w, θ~).
+    pub(super) fn dissipation<const S: usize>(&self, x: &[Block<S>]) -> ([f64; S], [f64; S]) {
+        let viscous = self.sums(|c, length, row, column| {
+            let ([v, w, _], [v_z, w_z, _]) = (&x[row], &x[column]);
+            std::array::from_fn(|i| strain_entry(c, length, [v[i], w[i]], [v_z[i], w_z[i]]))
+        });
+        let thermal = self.sums(|c, length, row, column| {
+            let (theta, theta_z) = (&x[row][2], &x[column][2]);
+            std::array::from_fn(|i| 2.0 / length * c.stiff_u * theta[i] * theta_z[i])
+        });
+        (viscous, thermal)
     }
 
     /// `(u_x - φ, y_x - χ)`.
     pub(super) fn shear(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
-        self.sum(|c, length, row, column| self.shear_entry(c, length, y(row), z(column)))
-    }
-
-    fn shear_entry(&self, c: &Coupling, length: f64, [u, phi]: [f64; 2], [u_z, phi_z]: [f64; 2]) -> f64 {
-        2.0 / length * c.stiff_u * u * u_z - c.u_phi * u * phi_z - c.phi_u * phi * u_z
-            + 0.5 * length * c.mass_phi * phi * phi_z
+        self.sum(|c, length, row, column| shear_entry(c, length, y(row), z(column)))
     }
 
     /// `(y_x, z_x)` for coefficients of u or θ.
@@ -77,6 +92,17 @@ impl Space {
         }
         integrals
     }
+}
+
+#[inline]
+fn strain_entry(c: &Coupling, length: f64, [u, phi]: [f64; 2], [u_z, phi_z]: [f64; 2]) -> f64 {
+    shear_entry(c, length, [u, phi], [u_z, phi_z]) + 2.0 / length * c.stiff_phi * phi * phi_z
+}
+
+#[inline]
+fn shear_entry(c: &Coupling, length: f64, [u, phi]: [f64; 2], [u_z, phi_z]: [f64; 2]) -> f64 {
+    2.0 / length * c.stiff_u * u * u_z - c.u_phi * u * phi_z - c.phi_u * phi * u_z
+        + 0.5 * length * c.mass_phi * phi * phi_z
 }
 
 #[cfg(test)]

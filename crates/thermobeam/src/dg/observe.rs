@@ -88,7 +88,7 @@ impl Simulation {
     /// The balance of the last step; at the start, of an empty step.
     pub fn balance(&self) -> Balance {
         let Self { space, beam, old, level: new, .. } = self;
-        let losses = self.stages.losses(space, beam, old, self.last_dt);
+        let losses = self.stages.losses(space, beam, self.last_dt);
         let rates = |sign: f64| {
             move |b: usize| -> [f64; 3] { std::array::from_fn(|f| new.rates[b][f] + sign * old.rates[b][f]) }
         };

@@ -16,8 +16,8 @@ pub(super) struct Terms<const S: usize> {
     inertia: [[f64; S]; 3],
     /// `∫ (u + ζ v) L_i` and `∫ (φ + ζ w) L_i`.
     strain: [[f64; S]; 2],
-    /// `∫ N(u) u L_i`.
-    axial: [f64; S],
+    /// `∫ (u + ζ v + N(u) u) L_i`.
+    tension: [f64; S],
     /// `a ∫ w L_i`.
     turning: [f64; S],
     /// `∫ θ~ L_i`.
@@ -29,7 +29,7 @@ impl<const S: usize> Terms<S> {
         places: [Path { low: [0.0; S], top: 0.0 }; 2],
         inertia: [[0.0; S]; 3],
         strain: [[0.0; S]; 2],
-        axial: [0.0; S],
+        tension: [0.0; S],
         turning: [0.0; S],
         heat: [0.0; S],
     };
@@ -123,8 +123,7 @@ impl Equations<'_> {
                 let [inertia_v, inertia_w, inertia_theta] = &terms.inertia;
                 let [u, phi] = &terms.strain;
                 for i in 0..S {
-                    row[0][i] +=
-                        m * c.mass_u * inertia_v[i] + k * c.stiff_u * (u[i] + terms.axial[i]) - c.u_phi * phi[i];
+                    row[0][i] += m * c.mass_u * inertia_v[i] + k * c.stiff_u * terms.tension[i] - c.u_phi * phi[i];
                     row[1][i] += m * c.mass_phi * (inertia_w[i] + phi[i]) + k * c.stiff_phi * phi[i]
                         - c.phi_u * u[i]
                         - c.phi_theta * self.beam.a * terms.heat[i];
@@ -202,7 +201,7 @@ impl Equations<'_> {
         let mut sum = axial.top.map(|top| top * u.top);
         // Symmetric: its rows equal its columns.
         add_columns(&mut sum, &axial.low, &u.low);
-        terms.axial = sum.map(|sum| self.h * sum);
+        terms.tension = std::array::from_fn(|i| terms.strain[0][i] + self.h * sum[i]);
     }
 }
 

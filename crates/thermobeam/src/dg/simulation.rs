@@ -224,7 +224,7 @@ impl Simulation {
         if let Some(next) = next {
             self.change_phase(next, t).map_err(|failure| self.failed(h, failure))?;
         }
-        self.stages.accept();
+        self.stages.accept(&self.level);
         std::mem::swap(&mut self.level, &mut self.old);
         self.stages.level_into(1.0, &self.old, h, &mut self.level);
         self.level.t = t;

@@ -42,14 +42,14 @@ pub(super) trait Stages: Send {
     fn tip(&self, space: &Space) -> Polynomial;
     /// The mean contact force over the step from the balance of momentum, and the corresponding axial force.
     fn forces(&self) -> [f64; 2];
-    /// Accepts the solution as the last step.
-    fn accept(&mut self);
+    /// Accepts the solution as the last step, from the given level.
+    fn accept(&mut self, start: &Level);
     /// The level at s of the last step, 0 < s <= 1, from the level at its start.
     fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level);
     /// One coefficient of the space, as a polynomial over the last step.
     fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial;
     /// The losses of the last step, except those of contact; the other terms are zero.
-    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Balance;
+    fn losses(&self, space: &Space, beam: &Beam, h: f64) -> Balance;
     /// Counts.
     fn work(&self) -> Work;
 }
@@ -75,6 +75,8 @@ pub(super) struct DgStepper<const S: usize> {
     forms: TimeForms<S>,
     trial: Polynomials<S>,
     accepted: Polynomials<S>,
+    /// `y(0+) - y_0` of the last step, for v, w, θ~.
+    jumps: Vec<[f64; 3]>,
     residual: Vec<Block<S>>,
     weights: Vec<[f64; 3]>,
     slots: Vec<Slot<S>>,
@@ -97,6 +99,7 @@ impl<const S: usize> DgStepper<S> {
             forms: TimeForms::new(),
             trial: motion(),
             accepted: motion(),
+            jumps: vec![[0.0; 3]; blocks],
             residual: vec![[[0.0; S]; 3]; blocks],
             weights: space.diagonal_mass(),
             slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
@@ -276,8 +279,12 @@ impl<const S: usize> Stages for DgStepper<S> {
         self.forces
     }
 
-    fn accept(&mut self) {
+    fn accept(&mut self, start: &Level) {
         std::mem::swap(&mut self.trial, &mut self.accepted);
+        let at_start = |y: &[f64; S]| y.iter().zip(&self.forms.start).map(|(y, sign)| y * sign).sum::<f64>();
+        for ((jump, x), start) in self.jumps.iter_mut().zip(&self.accepted.x).zip(&start.rates) {
+            *jump = std::array::from_fn(|field| at_start(&x[field]) - start[field]);
+        }
         self.work.steps += 1;
     }
 
@@ -305,19 +312,16 @@ impl<const S: usize> Stages for DgStepper<S> {
         }
     }
 
-    fn losses(&self, space: &Space, beam: &Beam, start: &Level, h: f64) -> Balance {
+    fn losses(&self, space: &Space, beam: &Beam, h: f64) -> Balance {
         let x = &self.accepted.x;
         let mut losses = Balance::default();
+        let (viscous, thermal) = space.dissipation(x);
         for i in 0..S {
             let duration = h * self.forms.product[i];
-            losses.viscous +=
-                duration * beam.zeta * space.strain(|b| [x[b][0][i], x[b][1][i]], |b| [x[b][0][i], x[b][1][i]]);
-            losses.thermal += duration * space.stiffness(|b| x[b][2][i], |b| x[b][2][i]);
+            losses.viscous += duration * beam.zeta * viscous[i];
+            losses.thermal += duration * thermal[i];
         }
-        let jump = |block: usize| -> [f64; 3] {
-            let at_start = |y: &[f64; S]| y.iter().zip(&self.forms.start).map(|(y, sign)| y * sign).sum::<f64>();
-            std::array::from_fn(|field| at_start(&x[block][field]) - start.rates[block][field])
-        };
+        let jump = |block: usize| self.jumps[block];
         losses.inertial = 0.5 * space.mass(jump, jump);
         if let Some(forcing) = &self.forcing {
             for (stage, moments) in forcing.moments.iter().enumerate() {

@@ -43,17 +43,17 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = list::read(&root)?;
-    let is_meant = |regression: &&Regression| {
-        let of = |part: &String| regression.name.contains(part.as_str()) || regression.file.contains(part.as_str());
-        arguments.only.is_empty() || arguments.only.iter().any(of)
+    let is_meant = |one: &&Regression| {
+        let has = |part: &String| one.name.contains(part.as_str()) || one.file.contains(part.as_str());
+        arguments.only.is_empty() || arguments.only.iter().any(has)
     };
     let chosen: Vec<&Regression> = all.iter().filter(is_meant).collect();
     if chosen.is_empty() {
         return Err(Unusable::because(&format!("no regression with {} in its name", arguments.only.join(" or "))));
     }
     if arguments.list {
-        let rows: Vec<_> =
-            chosen.iter().map(|one| vec![one.name.clone(), one.file.clone(), one.study.clone()]).collect();
+        let row = |one: &&Regression| vec![one.name.clone(), one.file.clone(), one.study.clone()];
+        let rows = chosen.iter().map(row).collect::<Vec<_>>();
         screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
         return Ok(Verdict::Pass);
     }
@@ -61,12 +61,10 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let planted = chosen.iter().map(|regression| regression.planted(&root)).collect::<Result<Vec<_>, _>>()?;
     let reported = root.join("reports/regressions.md");
     let clock = LongRun::begin("one build and one run of the quick tier for each mistake", &reported, false);
-    let copy = Copy::of(&root)?;
+    let (copy, count) = (Copy::of(&root)?, chosen.len());
     let passing = copy.as_it_is(arguments.recorded)?.seconds;
-    let count = chosen.len();
     exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
-    let mut all = vec![];
-    let mut complaints = vec![];
+    let (mut all, mut complaints) = (vec![], vec![]);
     for (regression, text) in chosen.iter().zip(&planted) {
         match copy.with(&regression.name, &regression.file, text, arguments.recorded) {
             Ok(found) => {

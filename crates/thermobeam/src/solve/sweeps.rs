@@ -100,18 +100,15 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         left.mass[1] = -scalars.lift;
         let (mut pending, mut y) = ([zero; B], [zero; B]);
         for i in 1..count {
-            let x = if FIRST {
+            if FIRST {
                 let mut x = history[0][i];
                 for k in 0..B {
                     let sum = history[1][i][k].mul_add(weights[1], history[2][i][k] * weights[2]);
                     x[k] = x[k].mul_add(weights[0], sum);
                 }
                 iterate[i] = x;
-                x
-            } else {
-                iterate[i]
-            };
-            let right = nodal(scalars, m, x, old[i], old_velocity[i]);
+            }
+            let right = nodal(scalars, m, iterate[i], old[i], old_velocity[i]);
             let (to_left, to_right) = element(scalars, elements[i], &left, &right);
             if i > 1 {
                 let mut residual = to_left;

@@ -69,16 +69,8 @@ enum Shape {
     Oscillation { r: [f64; 2] },
     /// h^p + b h^(p - d), d = 1/2 or 1; the second term is 0.01 to 10 times the first on the finest level.
     LowerOrder,
-    /// h^p + f, f as a share of H^p.
-    Plateau { share: [f64; 2] },
-    /// |h^p - f|, f as a share of H^p.
-    WrongLimit,
-    /// √(h^2p + f²)
-    Hypot,
-    /// max(h^p, f)
-    Max,
-    /// h^p + f / h²
-    RoundOff,
+    /// An error that does not tend to zero: of [h, H], h^p and f, f being a share of H^p and H the finest step.
+    Stagnating { share: [f64; 2], error: fn([f64; 2], f64, f64) -> f64 },
     /// h^p / (h + h0)^g, g in [0.25, 1]
     Shifted,
     /// x / (1 + x), x = (h / h0)^p
@@ -95,6 +87,10 @@ const fn law(name: &'static str, group: Group, shape: Shape) -> Law {
 
 const fn polluted(name: &'static str, a: [f64; 2], r: [f64; 2]) -> Law {
     law(name, Group::Polluted, Shape::Pollution { a, r })
+}
+
+const fn stagnating(name: &'static str, share: [f64; 2], error: fn([f64; 2], f64, f64) -> f64) -> Law {
+    law(name, Group::Stagnating, Shape::Stagnating { share, error })
 }
 
 const fn noisy(name: &'static str, sigma: f64) -> Law {
@@ -116,12 +112,12 @@ pub const LAWS: [Law; 29] = [
     law("h^p (1 + a h^r cos), r 0.5 to 2", Group::Polluted, Shape::Oscillation { r: [0.5, 2.0] }),
     law("h^p (1 + a cos)", Group::Scattered, Shape::Oscillation { r: [0.0, 0.0] }),
     law("h^p + b h^(p - 1/2 or 1)", Group::Emerging, Shape::LowerOrder),
-    law("h^p + f, f 1 to 100 H^p", Group::Stagnating, Shape::Plateau { share: [1.0, 100.0] }),
-    law("h^p + f, f 0.01 to 1 H^p", Group::Stagnating, Shape::Plateau { share: [0.01, 1.0] }),
-    law("|h^p - f|", Group::Stagnating, Shape::WrongLimit),
-    law("√(h^2p + f²)", Group::Stagnating, Shape::Hypot),
-    law("max(h^p, f)", Group::Stagnating, Shape::Max),
-    law("h^p + f/h²", Group::Stagnating, Shape::RoundOff),
+    stagnating("h^p + f, f 1 to 100 H^p", [1.0, 100.0], |_, power, f| power + f),
+    stagnating("h^p + f, f 0.01 to 1 H^p", [0.01, 1.0], |_, power, f| power + f),
+    stagnating("|h^p - f|", [0.01, 0.9], |_, power, f| (power - f).abs()),
+    stagnating("√(h^2p + f²)", [0.1, 10.0], |_, power, f| power.hypot(f)),
+    stagnating("max(h^p, f)", [0.1, 10.0], |_, power, f| power.max(f)),
+    stagnating("h^p + f/h²", [0.1, 10.0], |[h, finest], power, f| power + f * finest.powi(2) / (h * h)),
     law("h^p / (h + h0)^g", Group::Polluted, Shape::Shifted),
     law("x / (1 + x), x = (h/h0)^p", Group::Polluted, Shape::Saturated),
     noisy("noise 0.1 %", 0.001),
@@ -182,7 +178,6 @@ impl Shape {
         random: &'a mut SplitMix,
     ) -> Box<dyn FnMut(f64) -> f64 + 'a> {
         let finest = steps[steps.len() - 1];
-        let plateau = |share: [f64; 2], random: &mut SplitMix| finest.powf(p) * log_uniform(share, random);
         match self {
             Self::Pollution { a, r } => {
                 let (a, r) = (random.within(a), random.within(r));
@@ -209,25 +204,9 @@ impl Shape {
                 let b = finest.powf(lower) * log_uniform([0.01, 10.0], random);
                 Box::new(move |h| h.powf(p) * (1.0 + b * h.powf(-lower)))
             }
-            Self::Plateau { share } => {
-                let f = plateau(share, random);
-                Box::new(move |h| h.powf(p) + f)
-            }
-            Self::WrongLimit => {
-                let f = plateau([0.01, 0.9], random);
-                Box::new(move |h| (h.powf(p) - f).abs())
-            }
-            Self::Hypot => {
-                let f = plateau([0.1, 10.0], random);
-                Box::new(move |h| h.powf(p).hypot(f))
-            }
-            Self::Max => {
-                let f = plateau([0.1, 10.0], random);
-                Box::new(move |h| h.powf(p).max(f))
-            }
-            Self::RoundOff => {
-                let f = plateau([0.1, 10.0], random) * finest.powi(2);
-                Box::new(move |h| h.powf(p) + f / (h * h))
+            Self::Stagnating { share, error } => {
+                let f = finest.powf(p) * log_uniform(share, random);
+                Box::new(move |h| error([h, finest], h.powf(p), f))
             }
             Self::Shifted => {
                 let (h0, g) = (log_uniform([finest, 1.0], random), random.within([0.25, 1.0]));
@@ -235,10 +214,8 @@ impl Shape {
             }
             Self::Saturated => {
                 let h0 = log_uniform([finest, 1.0], random);
-                Box::new(move |h| {
-                    let x = (h / h0).powf(p);
-                    x / (1.0 + x)
-                })
+                let of = |x: f64| x / (1.0 + x);
+                Box::new(move |h| of((h / h0).powf(p)))
             }
             Self::Noise { sigma, a, s } => {
                 let (a, r, s) = (random.within(a), random.within([1.0, 4.0]), random.within(s));
@@ -246,8 +223,7 @@ impl Shape {
                 Box::new(move |h| h.powf(p) * (1.0 + a * h.powf(r)) * (sigma * h.powf(s) * random.normal()).exp())
             }
             Self::Outlier => {
-                let (wrong, factor) = (random.below(steps.len()), log_uniform([1.0 / 3.0, 3.0], random));
-                let wrong = steps[wrong];
+                let (wrong, factor) = (steps[random.below(steps.len())], log_uniform([1.0 / 3.0, 3.0], random));
                 Box::new(move |h| h.powf(p) * if h == wrong { factor } else { 1.0 })
             }
         }

@@ -214,6 +214,7 @@ impl Reason {
     }
 
     /// Code, reason and advice.
+    #[expect(clippy::too_many_lines, reason = "a table")]
     fn words(self) -> [&'static str; 3] {
         match self {
             Self::Agrees => [

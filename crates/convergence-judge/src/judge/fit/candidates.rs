@@ -13,8 +13,8 @@ pub const POLLUTION_EXPONENTS: [f64; 8] = [1.0 / 3.0, 0.5, 0.75, 1.0, 1.5, 2.0, 
 /// Exponents s of the scatter: residuals of log e are expected to be proportional to h^s.
 ///
 /// s = 0 is noise of the same relative size on all levels. s = 1 trusts fine levels more than coarse ones, which is
-/// right if terms that no candidate has fade: without it intervals of smooth data of 8 levels hold the order 92 instead
-/// of 96 times in 100. Adding s = 1/2 and 3/2 gains nothing.
+/// right if terms that no candidate has fade: without it intervals of h^p (1 + a h^r), r from 1 to 4, hold the order 97.9
+/// instead of 99.7 times in 100. Adding s = 1/2 and 3/2 gains nothing.
 pub const SCATTER_EXPONENTS: [f64; 2] = [0.0, 1.0];
 
 /// The weight of a candidate with k parameters is `rss^(-m/2) exp(-PENALTY k)`: likelihood against freedom.

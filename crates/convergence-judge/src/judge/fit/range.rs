@@ -11,7 +11,7 @@ pub const FLOOR_MARGIN: f64 = 1e3;
 ///
 /// Pollution of c h^r shifts a rate by about r c h^r: at 0.3 the terms of order c², which no fit here contains, shift
 /// it by less than 0.05 and fade twice as fast, and candidates with fading scatter trust coarse levels little.
-/// The finest rate is no better known than the rates scatter: without that part 1 in 50 of the true claims on 8 levels no longer pass.
+/// The finest rate is no better known than the rates scatter: without that part 1 in 25 of the true claims on 8 levels no longer pass.
 pub const PRE_ASYMPTOTIC_SPREAD: f64 = 0.3;
 
 /// The same for the fourth finest level, if the changes of the last three rates fade like those of pollution: three levels cannot show its exponent, four can.

@@ -100,10 +100,9 @@ pub fn figure(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) ->
     let series = study.methods().map(|method| {
         let own = timed.iter().filter(|run| run.method == method.name);
         let points = front(own.map(|run| (run.seconds, run.errors[quantity as usize])));
-        plots::Series { label: method.name.to_owned(), points }
+        plots::Series::new(method.name, points)
     });
-    let error = format!("error, {}", quantity.name());
-    plots::work_precision("run time (s)", error, &series.collect::<Vec<_>>()).draw()
+    plots::work_precision("run time (s)", format!("error, {}", quantity.name()), &series.collect::<Vec<_>>()).draw()
 }
 
 /// Viscosity, nodes, and a degree for which dG's error in space is negligible.

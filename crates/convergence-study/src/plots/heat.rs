@@ -359,10 +359,8 @@ mod tests {
 
     #[test]
     fn a_boundary_without_cells_is_still_a_document() {
-        let figure = Surface {
-            boundaries: vec![Series { label: "b".into(), points: vec![(f64::NAN, 1.0), (0.5, 0.5)] }],
-            ..Default::default()
-        };
+        let figure =
+            Surface { boundaries: vec![Series::new("b", vec![(f64::NAN, 1.0), (0.5, 0.5)])], ..Default::default() };
         assert!(surface(&figure).ends_with("</svg>\n"));
     }
 

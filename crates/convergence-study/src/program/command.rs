@@ -49,9 +49,9 @@ impl Invocation {
     /// The program cannot be started, ended with a status other than 0, took too long, or gave no answer: in one line that names it.
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
         let program = visible(&self.words[0]);
-        let failed = |what: String| CaseFailure { reason: format!("{program} {what}") };
+        let failed = |what: String| CaseFailure::new(format!("{program} {what}"));
         let mut group = Group::new()
-            .map_err(|error| CaseFailure { reason: format!("the guard of {program} cannot be started: {error}") })?;
+            .map_err(|error| CaseFailure::new(format!("the guard of {program} cannot be started: {error}")))?;
         let child = group.start(&mut self.command());
         let mut child = child.map_err(|error| failed(format!("cannot be started: {error}")))?;
         let printed = in_background(child.stdout.take(), read_output);
@@ -73,7 +73,7 @@ impl Invocation {
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
         let object =
             object.map_err(|reason| failed(format!("answered nothing: {}{words}", with_example(reason, expected))))?;
-        let unusable = |error: String| CaseFailure { reason: format!("{program}: {error}{words}") };
+        let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
         let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
         let missing = || expected.iter().find_map(|expected| answer.require(expected).err());
         answer.failure = complaint.or_else(missing).map(unusable);

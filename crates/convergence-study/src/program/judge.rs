@@ -115,7 +115,7 @@ fn completion(ran: &[Run]) -> Check {
     let whole = |Ran { case, found }: &Run| {
         let answered = found.as_ref().map_err(Clone::clone);
         let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
-        Ran { case: Case { label: case.label.clone(), cost: case.cost, data: () }, found }
+        Ran { case: Case::new(case.label.clone(), case.cost, ()), found }
     };
     kind::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }

@@ -117,14 +117,14 @@ impl Kind for Program {
     type Found = Answer;
 
     fn cases(&self) -> Vec<Case<Resolution>> {
-        let case = |data: Resolution| Case { label: data.label.clone(), cost: data.cost(), data };
+        let case = |data: Resolution| Case::new(data.label.clone(), data.cost(), data);
         self.refine.resolutions().into_iter().map(case).collect()
     }
 
     fn more(&self, ran: &[Run]) -> Option<Case<Resolution>> {
         let is_next = judge::next(self, ran)? == Next::Another;
         let data = is_next.then(|| self.refine.finer(&ran[ran.len() - 1].case.data, ran.len()))?;
-        Some(Case { label: data.label.clone(), cost: data.cost(), data })
+        Some(Case::new(data.label.clone(), data.cost(), data))
     }
 
     fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {

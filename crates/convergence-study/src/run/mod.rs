@@ -238,7 +238,7 @@ fn run_cases(
             // If a study requests more cases, they run one after the other, on this thread.
             let more = |plan: &dyn Plan| {
                 caught(|| plan.more()).unwrap_or_else(|reason| {
-                    plan.fail(job.case, CaseFailure { reason });
+                    plan.fail(job.case, CaseFailure::new(reason));
                     None
                 })
             };
@@ -269,7 +269,7 @@ fn run_case(planned: &Planned<'_>, limit: Option<Duration>, allowed: Allowed<'_>
         let run = || time_limit::within(limit, || caught(|| plan.run(job.case)));
         let ((ended, up), work) = time_limit::counted(most, run);
         if let Err(reason) = ended {
-            plan.fail(job.case, CaseFailure { reason });
+            plan.fail(job.case, CaseFailure::new(reason));
         }
         // A case that was stopped has no result, even if it returned one.
         if let Some(up) = up {

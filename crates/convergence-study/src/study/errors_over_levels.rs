@@ -150,7 +150,7 @@ where
 
     /// A finer level is assumed to cost more.
     fn cases(&self) -> Vec<Case<usize>> {
-        let case = |&count: &usize| Case { label: self.label(count), cost: count as f64, data: count };
+        let case = |&count: &usize| Case::new(self.label(count), count as f64, count);
         self.counts.iter().map(case).collect()
     }
 
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_level_that_fails_or_lacks_an_error_fails_the_study() {
-        let failure = || Err(CaseFailure { reason: "diverged".to_owned() });
+        let failure = || Err(CaseFailure::new("diverged"));
         let failed = outcome(2.0, |n, error| if n == 8 { failure() } else { Ok([("e", error)]) });
         assert_eq!(failed.verdict, Verdict::Fail);
         assert!(failed.checks[0].evidence.contains("cells = 8: diverged"), "{:?}", failed.checks);

@@ -253,12 +253,12 @@ impl<K: Kind> Typed<'_, K> {
 }
 
 fn never_run() -> CaseFailure {
-    CaseFailure { reason: "the case was not run".to_owned() }
+    CaseFailure::new("the case was not run")
 }
 
 impl<K: Kind> Plan for Typed<'_, K> {
     fn cases(&self) -> Vec<Case<()>> {
-        let case = |ran: &Ran<_, _>| Case { label: ran.case.label.clone(), cost: ran.case.cost, data: () };
+        let case = |ran: &Ran<_, _>| Case::new(ran.case.label.clone(), ran.case.cost, ());
         self.ran().iter().map(case).collect()
     }
 
@@ -310,14 +310,14 @@ mod tests {
     #[test]
     fn a_failed_case_or_a_nan_fails_the_completion() {
         let verdict = |found: Vec<Result<f64, CaseFailure>>| {
-            let case = || Case { label: "n = 8".into(), cost: 1.0, data: () };
+            let case = || Case::new("n = 8", 1.0, ());
             let ran: Vec<_> = found.into_iter().map(|found| Ran { case: case(), found }).collect();
             let names = |value: &f64| if value.is_finite() { vec![] } else { vec!["error".to_owned()] };
             completion(&ran, names).verdict
         };
         assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
         assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);
-        assert_eq!(verdict(vec![Ok(1.0), Err(CaseFailure { reason: "diverged".into() })]), Verdict::Fail);
+        assert_eq!(verdict(vec![Ok(1.0), Err(CaseFailure::new("diverged"))]), Verdict::Fail);
         assert_eq!(verdict(vec![]), Verdict::Fail);
     }
 }

@@ -32,7 +32,11 @@ impl ErrorMeasure {
 
     /// The name in files, reports and on the command line.
     pub fn name(self) -> &'static str {
-        ["theorem-3.4", "superclose", "tip"][self as usize]
+        match self {
+            ErrorMeasure::Theorem34 => "theorem-3.4",
+            ErrorMeasure::Superclose => "superclose",
+            ErrorMeasure::Tip => "tip",
+        }
     }
 }
 

@@ -49,7 +49,7 @@ impl Run {
         };
         let title = |what: &str| Some(format!("{}: {what}", scene.name));
         let over_time = |what: &str, y: &str, label: &str, value: fn(&Sample) -> f64| {
-            let series = [Series { label: label.into(), points: history.over_time(value) }];
+            let series = [Series::new(label, history.over_time(value))];
             Xy { title: title(what), ..plots::history(Axis::linear(format!("{y} (dimensionless)")), &series) }
         };
         let frames = &history.frames;
@@ -134,7 +134,7 @@ fn branch_curve(branch: &Branch, look: Look) -> Curve {
     };
     // The colour shows the contact state, dashes show instability.
     let (dash, stability) = if branch.stable { (style::SOLID, "stable") } else { (style::SHORT, "unstable") };
-    let series = Series { label: format!("{}, {stability}", branch.label), points: branch.points.clone() };
+    let series = Series::new(format!("{}, {stability}", branch.label), branch.points.clone());
     Curve { look: Look { dash, marker: Marker::Circle, ..look }, width: 2.6, marks, ..Curve::line(0, &series) }
 }
 
@@ -172,8 +172,8 @@ fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
 
 /// The line on which prediction and measurement agree, up to α = 1.
 fn identity(xy: &Xy) -> Curve {
-    let points = [xy.x_ruler().lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v))).to_vec();
-    let line = Curve::line(0, &Series { label: "measured = predicted".into(), points });
+    let points = [xy.x_ruler().lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v)));
+    let line = Curve::line(0, &Series::new("measured = predicted", points));
     let look = Look { colour: style::MUTED, dash: style::LONG, ..line.look };
     Curve { look, width: 1.6, is_data: false, ..line }
 }

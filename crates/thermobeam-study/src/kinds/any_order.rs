@@ -198,7 +198,7 @@ impl Kind for AnyOrder {
                 Over::Degree => format!("p = {degree}"),
             };
             let cost = (elements * degree * (time_degree + 1) * (steps + 10)) as f64 * 10.0;
-            Case { label, cost, data }
+            Case::new(label, cost, data)
         };
         self.series.iter().flat_map(|series| &series.runs).map(case).collect()
     }
@@ -312,7 +312,7 @@ impl AnyOrder {
             quantities.extend(measurable.map(guarded));
             let name = counted(series.runs[0].elements, "element");
             rows.extend(points.iter().map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]));
-            curves.push(plots::Series { label: name, points });
+            curves.push(plots::Series::new(name, points));
         }
         let history = plots::history(plots::Axis::log("L2 error of all fields (dimensionless)"), &curves).marked();
         let drawing = Xy { x: plots::Axis::linear("degree p"), ..history };

@@ -190,7 +190,7 @@ type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
-        let curve = |row: &Row| plots::Series { label: row.name.clone(), points: points(sheet, row) };
+        let curve = |row: &Row| plots::Series::new(row.name.clone(), points(sheet, row));
         let history = plots::history(y, &sheet.rows.iter().map(curve).collect::<Vec<_>>()).marked();
         let (show_x, show_y, notes) = (ends.to_vec(), vec![100.0], vec![note.to_owned()]);
         Some(Figure::new(key, caption, Xy { x, show_x, show_y, notes, ..history }.draw()))

@@ -93,7 +93,7 @@ impl Kind for EndStates {
                     (format!("n = {n}"), cost_to_rest(n, self.dt))
                 }
             };
-            Case { label: format!("{}, {how}", self.scenes[scene].name), cost, data: (scene, elements) }
+            Case::new(format!("{}, {how}", self.scenes[scene].name), cost, (scene, elements))
         };
         let scenes = || 0..self.scenes.len();
         let linear = scenes().flat_map(|scene| self.elements.iter().map(move |&n| (scene, Some(n))));

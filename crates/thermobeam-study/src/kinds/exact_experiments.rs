@@ -122,7 +122,7 @@ impl Kind for ExactExperiments {
                 Some(how) => (how.label(), how.cost(of.t_end)),
                 None => (of.method.name().to_owned(), of.mesh.elements() as f64 * of.steps() as f64),
             };
-            Case { label: format!("{}, {how}", of.name), cost, data: (scene, by) }
+            Case::new(format!("{}, {how}", of.name), cost, (scene, by))
         };
         let runs = [Some(0), Some(1), None].into_iter().filter(|by| self.compare || by.is_some());
         (0..self.scenes.len()).flat_map(|scene| runs.clone().map(move |by| case(scene, by))).collect()

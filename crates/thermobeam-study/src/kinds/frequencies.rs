@@ -82,7 +82,7 @@ impl Kind for Frequencies {
     fn cases(&self) -> Vec<Case<usize>> {
         // Bisection to the last bit takes some 60 counts per frequency.
         let cost = |n: usize| 60.0 * (n * self.degree.pow(3) * self.count) as f64;
-        self.elements.iter().map(|&n| Case { label: format!("n = {n}"), cost: cost(n), data: n }).collect()
+        self.elements.iter().map(|&n| Case::new(format!("n = {n}"), cost(n), n)).collect()
     }
 
     fn run(&self, &elements: &usize) -> Result<Vec<f64>, CaseFailure> {

@@ -166,7 +166,7 @@ impl Kind for RandomErrors {
     type Found = Found;
 
     fn cases(&self) -> Vec<Case<usize>> {
-        (0..self.scenes).map(|data| Case { label: format!("scene {data}"), cost: 3e7, data }).collect()
+        (0..self.scenes).map(|data| Case::new(format!("scene {data}"), 3e7, data)).collect()
     }
 
     fn run(&self, &number: &usize) -> Result<Found, CaseFailure> {

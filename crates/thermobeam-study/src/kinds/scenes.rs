@@ -188,11 +188,10 @@ impl Kind for Scenes {
         let cost = |scene: &Scene| match scene.method {
             Method::OneStep(_) => scene.steps() as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
             Method::Dg(stepping) => {
-                let Scene { degree, t_end, .. } = *scene;
-                Discretisation { elements: scene.mesh.elements(), degree, stepping }.cost(t_end)
+                Discretisation { elements: scene.mesh.elements(), degree: scene.degree, stepping }.cost(scene.t_end)
             }
         };
-        let case = |(data, whole): (usize, &Whole)| Case { label: whole.name.clone(), cost: cost(&whole.scene), data };
+        let case = |(data, whole): (usize, &Whole)| Case::new(whole.name.clone(), cost(&whole.scene), data);
         self.scenes.iter().enumerate().map(case).collect()
     }
 

@@ -214,8 +214,8 @@ impl Shape {
             }
             Self::Saturated => {
                 let h0 = log_uniform([finest, 1.0], random);
-                let of = |x: f64| x / (1.0 + x);
-                Box::new(move |h| of((h / h0).powf(p)))
+                let saturated = |x: f64| x / (1.0 + x);
+                Box::new(move |h| saturated((h / h0).powf(p)))
             }
             Self::Noise { sigma, a, s } => {
                 let (a, r, s) = (random.within(a), random.within([1.0, 4.0]), random.within(s));

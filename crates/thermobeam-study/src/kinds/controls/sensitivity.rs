@@ -47,8 +47,7 @@ impl Kind for Sensitivity {
         };
         let of_study = |(study, spec): (usize, &Described<Convergence>)| {
             let can_be_planted = |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
-            let label = |key: &str| format!("{key} in {}", spec.header.id);
-            let case = |key| Case { label: label(key), cost: cost(spec), data: (study, key) };
+            let case = |key| Case::new(format!("{key} in {}", spec.header.id), cost(spec), (study, key));
             Coefficients::names().filter(can_be_planted).map(case).collect::<Vec<_>>()
         };
         self.studies.iter().enumerate().flat_map(of_study).collect()

@@ -152,9 +152,8 @@ impl Convergence {
         }
     }
 
-    fn case(data: (usize, usize)) -> Case<(usize, usize)> {
-        let (elements, steps) = data;
-        Case { label: Refine::label(elements, steps), cost: elements as f64 * (steps as f64 + PREPARATION), data }
+    fn case(data @ (elements, steps): (usize, usize)) -> Case<(usize, usize)> {
+        Case::new(Refine::label(elements, steps), elements as f64 * (steps as f64 + PREPARATION), data)
     }
 
     /// Errors of each level in each norm; NaN if the case failed, so that it cannot pass.

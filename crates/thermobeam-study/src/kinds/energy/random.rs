@@ -81,7 +81,7 @@ impl Kind for RandomScenes {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
         let label = |batch: usize| format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
-        (0..self.batches).map(|batch| Case { label: label(batch), cost, data: batch }).collect()
+        (0..self.batches).map(|batch| Case::new(label(batch), cost, batch)).collect()
     }
 
     /// Runs the scenes in lanes, each to its end.

@@ -188,7 +188,7 @@ impl Kind for EnergyRuns {
     fn cases(&self) -> Vec<Case<usize>> {
         // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
         let cost = |run: &EnergyRun| run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
-        let case = |(data, run): (usize, &EnergyRun)| Case { label: run.name.clone(), cost: cost(run), data };
+        let case = |(data, run): (usize, &EnergyRun)| Case::new(run.name.clone(), cost(run), data);
         self.runs.iter().enumerate().map(case).collect()
     }
 

@@ -156,7 +156,7 @@ impl Kind for Experiments {
         let run = |Experiment { scene, .. }: &Experiment| (scene.name.clone(), cost(scene));
         let rest = |beta: &f64| (format!("to rest, beta = {beta}"), self.rest.cost());
         let cases = self.experiments.iter().map(run).chain(self.rest.betas.iter().map(rest));
-        cases.enumerate().map(|(data, (label, cost))| Case { label, cost, data }).collect()
+        cases.enumerate().map(|(data, (label, cost))| Case::new(label, cost, data)).collect()
     }
 
     fn run(&self, &case: &usize) -> Result<Found, CaseFailure> {

@@ -167,7 +167,7 @@ impl Kind for RigidStudy {
                 RunOf::Impact => ("impact", &self.impact, 3.0 * self.steps as f64),
             };
             let cost = steps * scene.mesh.elements() as f64;
-            Case { label: format!("{name}, ε = {epsilon:.1e}"), cost, data: (epsilon, run) }
+            Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, run))
         };
         let runs = [RunOf::Bouncing, RunOf::FixedPoint, RunOf::Rest, RunOf::Impact];
         let all = runs.iter().flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));

@@ -168,7 +168,7 @@ impl Kind for SelfConvergence {
         let level = |&(n, steps): &(usize, usize)| (Refine::label(n, steps), n as f64 * steps as f64);
         let reference = |how: &Discretisation| (format!("reference, {}", how.label()), how.cost(self.t_end));
         let runs = self.levels.iter().map(level).chain(self.references.iter().map(reference));
-        runs.enumerate().map(|(data, (label, cost))| Case { label, cost, data }).collect()
+        runs.enumerate().map(|(data, (label, cost))| Case::new(label, cost, data)).collect()
     }
 
     fn run(&self, &run: &usize) -> Result<Traced, CaseFailure> {

@@ -122,7 +122,7 @@ fn positive_numbers(section: &Section<'_>, key: &str) -> Result<Vec<f64>, InputE
 
 /// The part of the study to which a case belongs.
 fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
-    part.as_ref().ok_or_else(|| CaseFailure { reason: "the study has no such part".to_owned() })
+    part.as_ref().ok_or_else(|| CaseFailure::new("the study has no such part"))
 }
 
 impl Kind for Solvers {

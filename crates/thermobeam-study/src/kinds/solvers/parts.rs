@@ -37,7 +37,7 @@ impl Grid {
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let cost = self.elements as f64 * ITERATIONS as f64;
-        let case = |at: [f64; 3]| Case { label: name(at), cost, data: SolverTask::Contraction(at) };
+        let case = |at: [f64; 3]| Case::new(name(at), cost, SolverTask::Contraction(at));
         let of = |zeta: f64, epsilon: f64| self.dt.iter().map(move |&dt| case([dt, epsilon, zeta]));
         let of_zeta = |&zeta: &f64| self.epsilon.iter().flat_map(move |&epsilon| of(zeta, epsilon));
         self.zeta.iter().flat_map(of_zeta).collect()
@@ -150,7 +150,7 @@ impl Comparison {
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         // Some four iterations of 60 ns per step and element; the unit of the runner is 25 ns.
         let cost = (self.elements * self.steps) as f64 * 10.0;
-        let case = |&eta: &f64| Case { label: format!("tolerance {eta:e}"), cost, data: SolverTask::Comparison(eta) };
+        let case = |&eta: &f64| Case::new(format!("tolerance {eta:e}"), cost, SolverTask::Comparison(eta));
         self.tolerances.iter().map(case).collect()
     }
 

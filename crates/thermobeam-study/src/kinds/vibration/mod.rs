@@ -222,12 +222,12 @@ impl Vibration {
     fn tip_figure(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Option<Figure> {
         let (first, last) = (ran.first()?, ran.last()?);
         let (coarsest, finest, modes) = (first.ok()?, last.ok()?, Modes::of_beam(self).ok()?);
-        let exact = finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))).collect();
-        let of_level = |label: &str, found: &Vibrated| plots::Series::new(label, found.tip.clone());
-        let [coarsest, finest] = [of_level(&first.case.label, coarsest), of_level(&last.case.label, finest)];
-        let curves = [plots::Series { label: "exact".to_owned(), points: exact }, coarsest, finest];
+        let exact = plots::Series::new("exact", finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))));
+        let of_level = |level: &Ran<_, _>, found: &Vibrated| plots::Series::new(&level.case.label, found.tip.clone());
+        let [coarsest, finest] = [of_level(first, coarsest), of_level(last, finest)];
         let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
         let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        Some(Figure::new("tip", caption, plots::history(y, &curves).titled("Tip of the vibrating beam").draw()))
+        let figure = plots::history(y, &[exact, coarsest, finest]).titled("Tip of the vibrating beam");
+        Some(Figure::new("tip", caption, figure.draw()))
     }
 }

@@ -217,14 +217,14 @@ impl Kind for WorkPrecision {
             Runs::Dg(degrees) => {
                 let Degrees { p, q, dt } = degrees;
                 let cost = 60.0 * (p * (q + 1)) as f64 * self.family.t_end / dt;
-                Case { label: format!("dg, {degrees}"), cost, data }
+                Case::new(format!("dg, {degrees}"), cost, data)
             }
             Runs::OnMesh(method, scheme, elements) => {
                 let steps: usize = self.steps_on(elements).iter().sum();
                 // The fixed point needs several iterations where Newton's method needs one pass.
                 let passes = if scheme.solver == Solver::FixedPoint { 8.0 } else { 1.0 };
                 let cost = (elements * steps) as f64 * scheme.runs() * passes;
-                Case { label: format!("{}, n = {elements}", method.name), cost, data }
+                Case::new(format!("{}, n = {elements}", method.name), cost, data)
             }
         };
         self.runs().map(case).collect()

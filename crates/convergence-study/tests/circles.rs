@@ -42,7 +42,19 @@ const ORDERS: [(&str, &[&str]); 4] = [
     ),
     (
         "thermobeam-exact",
-        &["nearest", "norm", "quadrature", "expression", "function", "solution", "sources", "errors", "any_order"],
+        &[
+            "nearest",
+            "norm",
+            "quadrature",
+            "expression",
+            "function",
+            "formulas",
+            "defect",
+            "solution",
+            "sources",
+            "errors",
+            "any_order",
+        ],
     ),
     ("thermobeam-study", &["scene", "run", "figures", "error", "predict", "sweep", "kinds", "timing"]),
 ];

@@ -3,20 +3,27 @@
 use thermobeam::dg::{Field, Initial, Level, Load, Space};
 use thermobeam::parameters::{Beam, Obstacles};
 
+use crate::defect::Defect;
 use crate::solution::{Factors, Manufactured, Product};
-use crate::sources::{BoundaryLoads, Sources};
+use crate::sources::Sources;
 
 /// Additional quadrature points per element for errors, beyond the degree p.
 const EXTRA_POINTS: usize = 8;
 
 /// The loads that make `exact` the solution with these coefficients.
-pub fn load(exact: &Manufactured, beam: &Beam, obstacles: Option<Obstacles>, space: &Space) -> Box<Load> {
+///
+/// * `defect`: a mistake in the loads, for a negative control.
+pub fn load(
+    exact: &Manufactured,
+    beam: &Beam,
+    obstacles: Option<Obstacles>,
+    space: &Space,
+    defect: Option<Defect>,
+) -> Box<Load> {
     let (sources, exact, mut factors) = (Sources::any_order(exact, beam, space), exact.clone(), Factors::default());
     Box::new(move |t, load| {
         factors.at(&exact, t);
-        let u = &factors.u.value;
-        let force = obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
-        sources.fill(&factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
+        sources.fill(&factors, sources.forces(&factors.u, obstacles.as_ref(), defect), defect, load);
     })
 }
 

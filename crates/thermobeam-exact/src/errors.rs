@@ -9,12 +9,11 @@
 //! Hence `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1 functions d, p and interpolation errors η, ψ of u,
 //! φ, `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
 
-use crate::norm::{Norm, Norms};
+use crate::norm::{Norm, Norms, TheoremSquares, l2_squared};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, Manufactured, Product};
 use crate::sources::nodal;
 use thermobeam::mesh::Mesh;
-use thermobeam::norms::{TheoremSquares, l2_squared};
 use thermobeam::solve::Level;
 
 /// Interpolation error of one product on a mesh.

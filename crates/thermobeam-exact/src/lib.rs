@@ -11,13 +11,21 @@
 //! * [`errors`]: the errors in each [`norm`].
 //! * [`any_order`]: the same for elements of any degree.
 //! * [`quadrature`]: the rule for loads and errors.
+//! * [`formulas`]: N(u), the contact law and the formulas of the time schemes, not those of the solver.
+//! * [`defect`]: deliberate mistakes in the loads.
+//!
+//! Of the solver this crate uses data types (coefficients, meshes, levels, initial data), the basis of
+//! [`Space`](thermobeam::dg::Space) and [`assembly`](thermobeam::assembly), which no solver calls: what judges shares no
+//! function with what is judged.
 //!
 //! The code that runs in every step of a convergence study is a separate crate, because it is compiled with
 //! optimisation and the code that reads files and reports is not: a clean build takes a fifth less time.
 
 pub mod any_order;
+pub mod defect;
 pub mod errors;
 pub mod expression;
+pub mod formulas;
 pub mod function;
 pub mod nearest;
 pub mod norm;

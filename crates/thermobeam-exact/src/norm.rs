@@ -1,8 +1,8 @@
 //! The norms in which an error is measured, and the values of an error in them.
+//!
+//! The norms of P1 functions are written here a second time: the solver uses its own in the energy and in the fixed point.
 
 use std::ops::{Index, IndexMut};
-
-use thermobeam::norms::max_or_nan;
 
 /// A norm of the error at one time level. A convergence study takes its maximum over the time levels n = 1..N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -92,6 +92,70 @@ impl Index<Norm> for Norms {
 impl IndexMut<Norm> for Norms {
     fn index_mut(&mut self, norm: Norm) -> &mut f64 {
         &mut self.0[norm as usize]
+    }
+}
+
+/// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
+fn max_or_nan(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}
+
+/// `∫ y²` over an element of length h for the linear y with these values at its ends: `h (y0² + y0 y1 + y1²)/3`.
+fn on_element(h: f64, [left, right]: [f64; 2]) -> f64 {
+    h / 6.0 * (left * (2.0 * left + right) + right * (left + 2.0 * right))
+}
+
+/// `‖y‖²` of a P1 function.
+///
+/// * `lengths`: the n element lengths; `y`: the n + 1 nodal values.
+pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
+    lengths.iter().zip(y.windows(2)).map(|(&h, y)| on_element(h, [y[0], y[1]])).sum()
+}
+
+/// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
+fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
+    lengths.iter().zip(y.windows(2)).map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h).sum()
+}
+
+/// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
+fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
+    let on_each = |(&h, (u, phi)): (&f64, (&[f64], &[f64]))| {
+        let slope = (u[1] - u[0]) / h;
+        on_element(h, [slope - phi[0], slope - phi[1]])
+    };
+    lengths.iter().zip(u.windows(2).zip(phi.windows(2))).map(on_each).sum()
+}
+
+/// The five squares on the left-hand side of (3.14), Theorem 3.4, in its order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TheoremSquares {
+    /// ‖û‖².
+    pub velocity: f64,
+    /// ‖u_x - φ‖².
+    pub shear: f64,
+    /// ‖φ̂‖².
+    pub rotation_rate: f64,
+    /// ‖φ_x‖².
+    pub curvature: f64,
+    /// ‖θ‖².
+    pub temperature: f64,
+}
+
+impl TheoremSquares {
+    /// Those of the P1 functions with these nodal values; arguments as in [`l2_squared`].
+    pub fn of(lengths: &[f64], v: &[f64], u: &[f64], w: &[f64], phi: &[f64], theta: &[f64]) -> Self {
+        Self {
+            velocity: l2_squared(lengths, v),
+            shear: shear_squared(lengths, u, phi),
+            rotation_rate: l2_squared(lengths, w),
+            curvature: slope_squared(lengths, phi),
+            temperature: l2_squared(lengths, theta),
+        }
+    }
+
+    /// Root of the sum of the squares: the norm in which (3.14) is stated.
+    pub fn norm(&self) -> f64 {
+        (self.velocity + self.shear + self.rotation_rate + self.curvature + self.temperature).sqrt()
     }
 }
 

@@ -95,7 +95,7 @@ impl Factors {
     /// Sets the factors of the scheme's time-discrete operator for the step from `old` to `new`, and the velocities of
     /// `new`.
     ///
-    /// * `inertia`: that of the [`Scheme`](thermobeam::scheme::Scheme).
+    /// * `inertia`: that of the [scheme](crate::formulas::SchemeFormulas::inertia).
     /// * `dt`: the time step.
     pub fn of_step(&mut self, old: &Factors, new: &mut Factors, inertia: f64, dt: f64) {
         self.u.of_step(&old.u, &mut new.u, inertia, dt);

@@ -9,16 +9,18 @@
 //! ```
 //!
 //! multiplied by the hat functions and integrated, plus the boundary loads at x = 1 from (1.3): `σ(1, t) + g(u(1, t))`
-//! in the first equation and `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, so the two
-//! computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
+//! in the first equation and `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, and N and g are those of
+//! [`formulas`](crate::formulas): the two computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
 //! contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
 
+use crate::defect::{Defect, axial_force_with, contact_with};
+use crate::formulas::{SchemeFormulas, contact_force};
 use crate::quadrature::RULE;
-use crate::solution::{Factors, Manufactured, Product};
+use crate::solution::{Factors, FieldFactors, Manufactured, Product};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Beam;
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::simulation::Initial;
 
 /// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
@@ -42,17 +44,20 @@ impl Term {
         let value = if is_tension { value + n_value } else { value };
         value * of.value[j] + rate * of.rate[j] + acceleration * of.acceleration[j]
     }
+
+    /// Whether this is `a θ_x` in the equation of the rotation.
+    fn is_thermal_moment(&self) -> bool {
+        self.equation == 1 && self.product[0] == 2
+    }
 }
 
-/// The boundary loads at x = 1 that are included. Only a negative control omits one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BoundaryLoads {
-    /// Both.
-    Both,
-    /// Without σ(1, t) + g.
-    WithoutStress,
-    /// Without φ_x + ζ φ_xt.
-    WithoutMoment,
+/// The nonlinear terms of the exact solution, at one time or as a scheme takes them over a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forces {
+    /// The axial force N(u), (2.3).
+    pub axial: f64,
+    /// The contact force g(u(1)), (1.3).
+    pub contact: f64,
 }
 
 /// The space vectors of a manufactured solution on a mesh, with their time coefficients.
@@ -276,8 +281,8 @@ impl Sources {
         Self { beam: *beam, terms, gram, tip, tip_index, boundary }
     }
 
-    /// N(u) of the exact solution with the factors T_j, (2.3).
-    pub fn axial_force(&self, factors: &[f64]) -> f64 {
+    /// `‖u_x‖²` of the exact solution with the factors T_j.
+    fn slope_squared(&self, factors: &[f64]) -> f64 {
         let n = factors.len();
         let mut slope_squared = 0.0;
         for j in 0..n {
@@ -285,7 +290,7 @@ impl Sources {
                 slope_squared += self.gram[j * n + k] * factors[j] * factors[k];
             }
         }
-        self.beam.axial_force(slope_squared)
+        slope_squared
     }
 
     /// u(1) of the exact solution with the factors T_j.
@@ -293,32 +298,68 @@ impl Sources {
         factors.iter().zip(&self.tip).map(|(t, x)| t * x).sum()
     }
 
+    /// N and contact force of the exact solution at one time.
+    ///
+    /// * `u`: the factors of the displacement at that time.
+    /// * `defect`: a mistake in one of them, for a negative control.
+    pub fn forces(&self, u: &FieldFactors, obstacles: Option<&Obstacles>, defect: Option<Defect>) -> Forces {
+        let tip = self.tip(&u.value);
+        Forces {
+            axial: axial_force_with(defect, &self.beam, self.slope_squared(&u.value)),
+            contact: contact_with(defect, obstacles, |obstacles| contact_force(obstacles, tip)),
+        }
+    }
+
+    /// N and contact force as a scheme takes them over a step of the exact solution's time sequence: the mean of N at both levels,
+    /// and the contact force of the scheme.
+    ///
+    /// * `old`, `new`: the factors of the displacement at both levels; `defect` as in [`Self::forces`].
+    pub fn forces_of_step(
+        &self,
+        scheme: SchemeFormulas,
+        [old, new]: [&FieldFactors; 2],
+        obstacles: Option<&Obstacles>,
+        defect: Option<Defect>,
+    ) -> Forces {
+        let axial = |factors: &[f64]| axial_force_with(defect, &self.beam, self.slope_squared(factors));
+        let mean = || old.value.iter().zip(&new.value).map(|(old, new)| 0.5 * (old + new)).collect::<Vec<_>>();
+        let (u, u_old) = (self.tip(&new.value), self.tip(&old.value));
+        let law = |obstacles: &Obstacles| match defect {
+            Some(Defect::ContactAtMiddle) => contact_force(obstacles, 0.5 * (u + u_old)),
+            _ => scheme.contact_force(obstacles, u, u_old),
+        };
+        Forces {
+            axial: match defect {
+                Some(Defect::ForceAtNewLevel) => axial(&new.value),
+                Some(Defect::ForceOfMeanState) => axial(&mean()),
+                _ => 0.5 * (axial(&old.value) + axial(&new.value)),
+            },
+            contact: contact_with(defect, obstacles, law),
+        }
+    }
+
     /// Writes the loads `(F_u, F_φ, F_θ)`.
     ///
     /// * `factors`: the time factors.
-    /// * `n_value`, `contact_force`: axial force N and contact force of the exact solution.
-    /// * `loads`: the boundary loads to include.
+    /// * `forces`: N and contact force of the exact solution.
+    /// * `defect`: a mistake in the loads, for a negative control; mistakes in the forces are in `forces`.
     /// * `load`: overwritten, n + 1 entries.
-    pub fn fill(
-        &self,
-        factors: &Factors,
-        n_value: f64,
-        contact_force: f64,
-        loads: BoundaryLoads,
-        load: &mut [[f64; 3]],
-    ) {
+    pub fn fill(&self, factors: &Factors, forces: Forces, defect: Option<Defect>, load: &mut [[f64; 3]]) {
         load.fill([0.0; 3]);
         for term in &self.terms {
-            let coefficient = term.coefficient(factors, n_value);
+            let mut coefficient = term.coefficient(factors, forces.axial);
+            if defect == Some(Defect::HalfOfCoupling) && term.is_thermal_moment() {
+                coefficient *= 0.5;
+            }
             for (load, entry) in load.iter_mut().zip(&term.vector) {
                 load[term.equation] += coefficient * entry;
             }
         }
         let tip = self.tip_index;
-        if loads != BoundaryLoads::WithoutStress {
-            load[tip][0] += self.tip_stress(factors, n_value) + contact_force;
+        if defect != Some(Defect::StressDropped) {
+            load[tip][0] += self.tip_stress(factors, forces.axial) + forces.contact;
         }
-        if loads != BoundaryLoads::WithoutMoment {
+        if defect != Some(Defect::MomentDropped) {
             load[tip][1] += self.tip_moment(factors);
         }
     }
@@ -401,6 +442,7 @@ mod tests {
         // ∫ (3 π cos πx + 2·2x)² = 9π²/2 + 24π ∫ x cos πx + 16/3, and ∫ x cos πx = -2/π².
         let pi = std::f64::consts::PI;
         let square = 4.5 * pi * pi - 48.0 / pi + 16.0 / 3.0;
-        assert!((sources.axial_force(&[3.0, 2.0]) - (0.5 + 2.0 * square)).abs() < 1e-12);
+        let factors = FieldFactors { value: vec![3.0, 2.0], ..FieldFactors::default() };
+        assert!((sources.forces(&factors, None, None).axial - (0.5 + 2.0 * square)).abs() < 1e-12);
     }
 }

@@ -1,10 +1,13 @@
-//! Loads against the weak form of (1.1) and (1.3), which the solution satisfies for every hat function.
+//! The parts of the loads: the boundary loads, the nodal values, the factors and the forces of a step. `loads.rs` has the loads.
 
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Beam;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::{ContactRule, SCHEMES};
+use thermobeam_exact::defect::Defect;
 use thermobeam_exact::expression::{Expression, Variable};
-use thermobeam_exact::solution::{Factors, Manufactured, Product};
-use thermobeam_exact::sources::{BoundaryLoads, Nodal, Sources};
+use thermobeam_exact::formulas::{SchemeFormulas, axial_force};
+use thermobeam_exact::solution::{Factors, FieldFactors, Manufactured, Product};
+use thermobeam_exact::sources::{Forces, Nodal, Sources};
 
 const TIME: f64 = 0.7;
 const FORCE: f64 = -0.3;
@@ -26,62 +29,6 @@ fn mesh() -> Mesh {
     Mesh::from_nodes(vec![0.0, 0.2, 0.25, 0.4, 0.6, 0.8, 1.0]).unwrap()
 }
 
-/// Value and slope in x of each product of a field.
-type Shape<'a> = dyn Fn(&[Product], usize, f64) -> [f64; 2] + 'a;
-
-/// Value and slope at x of the j-th time derivative of a field.
-fn field(products: &[Product], shape: &Shape<'_>, x: f64, j: usize) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    for (k, product) in products.iter().enumerate() {
-        let rate = product.t.derivatives(TIME)[j];
-        let [value, slope] = shape(products, k, x);
-        sum = [sum[0] + rate * value, sum[1] + rate * slope];
-    }
-    sum
-}
-
-/// The weak form, by the midpoint rule on many panels of each element, and N(u).
-fn weak_form(exact: &Manufactured, mesh: &Mesh, shape: &Shape<'_>) -> (Vec<[f64; 3]>, f64) {
-    const PANELS: usize = 4000;
-    let Beam { zeta, a, .. } = BEAM;
-    let points: Vec<(usize, f64, f64, f64)> = mesh
-        .nodes()
-        .windows(2)
-        .enumerate()
-        .flat_map(|(i, ends)| {
-            let h = ends[1] - ends[0];
-            (0..PANELS).map(move |k| {
-                let s = (k as f64 + 0.5) / PANELS as f64;
-                (i, ends[0] + s * h, s, h)
-            })
-        })
-        .collect();
-    let stretch: f64 =
-        points.iter().map(|&(_, x, _, h)| field(&exact.u, shape, x, 0)[1].powi(2) * h / PANELS as f64).sum();
-    let n_value = BEAM.beta + BEAM.rho * stretch;
-    let mut load = vec![[0.0; 3]; mesh.nodes().len()];
-    for (i, x, s, h) in points {
-        let of = |products: &[Product], j: usize| field(products, shape, x, j);
-        let ([_, u_x], [_, u_xt], [u_tt, _]) = (of(&exact.u, 0), of(&exact.u, 1), of(&exact.u, 2));
-        let ([phi, phi_x], [phi_t, phi_xt], [phi_tt, _]) = (of(&exact.phi, 0), of(&exact.phi, 1), of(&exact.phi, 2));
-        let ([_, theta_x], [theta_t, _]) = (of(&exact.theta, 0), of(&exact.theta, 1));
-        let shear = u_x - phi + zeta * (u_xt - phi_t);
-        for (node, hat, hat_x) in [(i, 1.0 - s, -1.0 / h), (i + 1, s, 1.0 / h)] {
-            let terms = [
-                u_tt * hat + (n_value * u_x + shear) * hat_x,
-                phi_tt * hat + (phi_x + zeta * phi_xt) * hat_x - shear * hat + a * theta_x * hat,
-                theta_t * hat + theta_x * hat_x + a * phi_xt * hat,
-            ];
-            for (load, term) in load[node].iter_mut().zip(terms) {
-                *load += term * h / PANELS as f64;
-            }
-        }
-    }
-    let tip = load.len() - 1;
-    load[tip][0] += FORCE;
-    (load, n_value)
-}
-
 fn factors(exact: &Manufactured) -> Factors {
     let mut factors = Factors::default();
     factors.at(exact, TIME);
@@ -89,10 +36,11 @@ fn factors(exact: &Manufactured) -> Factors {
 }
 
 /// The loads; the equation of the temperature holds only at the inner nodes.
-fn fill(sources: &Sources, loads: BoundaryLoads) -> Vec<[f64; 3]> {
+fn fill(sources: &Sources, defect: Option<Defect>) -> Vec<[f64; 3]> {
     let factors = factors(&exact());
+    let axial = sources.forces(&factors.u, None, None).axial;
     let mut load = vec![[f64::NAN; 3]; mesh().nodes().len()];
-    sources.fill(&factors, sources.axial_force(&factors.u.value), FORCE, loads, &mut load);
+    sources.fill(&factors, Forces { axial, contact: FORCE }, defect, &mut load);
     load
 }
 
@@ -107,53 +55,22 @@ fn near(found: &[[f64; 3]], expected: &[[f64; 3]], tolerance: f64) {
 }
 
 #[test]
-fn sources_from_the_strong_form_are_those_of_the_weak_form() {
-    let (exact, mesh) = (exact(), mesh());
-    let shape = |products: &[Product], k: usize, x: f64| {
-        let [value, slope, _] = products[k].x.derivatives(x);
-        [value, slope]
-    };
-    let (expected, n_value) = weak_form(&exact, &mesh, &shape);
-    let sources = Sources::strong(&exact, &BEAM, &mesh);
-    assert!((sources.axial_force(&factors(&exact).u.value) - n_value).abs() < 1e-6);
-    near(&fill(&sources, BoundaryLoads::Both), &expected, 1e-6);
-}
-
-#[test]
-fn sources_from_the_matrices_are_those_of_the_weak_form_of_the_interpolant() {
-    let (exact, mesh) = (exact(), mesh());
-    let shape = |products: &[Product], k: usize, x: f64| {
-        let nodes = mesh.nodes();
-        let i = (nodes.partition_point(|&node| node <= x) - 1).min(nodes.len() - 2);
-        let [left, right] = [nodes[i], nodes[i + 1]].map(|x| products[k].x.eval(x));
-        let slope = (right - left) / (nodes[i + 1] - nodes[i]);
-        [left + slope * (x - nodes[i]), slope]
-    };
-    let (expected, n_value) = weak_form(&exact, &mesh, &shape);
-    let sources = Sources::discrete(&exact, &BEAM, &mesh);
-    assert!((sources.axial_force(&factors(&exact).u.value) - n_value).abs() < 1e-10);
-    near(&fill(&sources, BoundaryLoads::Both), &expected, 1e-6);
-}
-
-#[test]
 fn omitting_a_boundary_load_removes_the_stress_or_the_moment_at_the_tip() {
     let (exact, mesh) = (exact(), mesh());
     let sources = Sources::strong(&exact, &BEAM, &mesh);
-    let whole = fill(&sources, BoundaryLoads::Both);
+    let whole = fill(&sources, None);
     let at_the_end = |products: &[Product], k: usize, j: usize| -> f64 {
         products.iter().map(|p| p.x.derivatives(1.0)[k] * p.t.derivatives(TIME)[j]).sum()
     };
     let Manufactured { u, phi, .. } = &exact;
-    let n_value = sources.axial_force(&factors(&exact).u.value);
+    let n_value = sources.forces(&factors(&exact).u, None, None).axial;
     let shear = |j| at_the_end(u, 1, j) - at_the_end(phi, 0, j);
     let stress = n_value * at_the_end(u, 1, 0) + shear(0) + BEAM.zeta * shear(1) + FORCE;
     let moment = at_the_end(phi, 1, 0) + BEAM.zeta * at_the_end(phi, 1, 1);
-    for (loads, equation, dropped) in
-        [(BoundaryLoads::WithoutStress, 0, stress), (BoundaryLoads::WithoutMoment, 1, moment)]
-    {
+    for (defect, equation, dropped) in [(Defect::StressDropped, 0, stress), (Defect::MomentDropped, 1, moment)] {
         let mut expected = whole.clone();
         expected[6][equation] -= dropped;
-        near(&fill(&sources, loads), &expected, 1e-12);
+        near(&fill(&sources, Some(defect)), &expected, 1e-12);
     }
     let tip: f64 = at_the_end(u, 0, 0);
     assert!((sources.tip(&factors(&exact).u.value) - tip).abs() < 1e-15);
@@ -198,4 +115,53 @@ fn the_factors_of_a_step_are_those_that_the_scheme_sees() {
     near(middle.u.acceleration[1], (expected - rate) * inertia / dt);
     // The new velocity is 2 V - v_old by the midpoint rule.
     near(new.u.rate[1], 2.0 * expected - rate);
+}
+
+#[test]
+fn the_forces_of_a_step_are_those_of_both_schemes() {
+    let (exact, mesh) = (exact(), mesh());
+    let sources = Sources::strong(&exact, &BEAM, &mesh);
+    let obstacles = Obstacles { epsilon: 0.03, g1: -0.2, g2: 0.3 };
+    let Obstacles { epsilon, g1, g2 } = obstacles;
+    let energy = |u: f64| ((u - g2).max(0.0).powi(2) + (g1 - u).max(0.0).powi(2)) / (2.0 * epsilon);
+    let force = |u: f64| ((u - g2).max(0.0) - (g1 - u).max(0.0)) / epsilon;
+    // With these factors u(1) = T_0 sin 2 + T_1, below, between and above the obstacles.
+    let at = |tip: f64| {
+        let first = 0.7 * tip;
+        FieldFactors { value: vec![first, tip - first * 2.0_f64.sin()], ..FieldFactors::default() }
+    };
+    let tips = [-0.7, -0.25, -0.1, 0.0, 0.2, 0.35, 0.9];
+    for (u0, u) in tips.into_iter().flat_map(|u0| tips.map(|u| (u0, u))) {
+        let (old, new) = (at(u0), at(u));
+        let mean = [&old, &new].map(|factors| sources.forces(factors, None, None).axial).iter().sum::<f64>() / 2.0;
+        let quotient = if u == u0 { force(u) } else { (energy(u) - energy(u0)) / (u - u0) };
+        for (name, expected) in [("euler-crank-nicolson", force(u)), ("midpoint", quotient)] {
+            let scheme = SchemeFormulas::of(name).unwrap();
+            let Forces { axial, contact } = sources.forces_of_step(scheme, [&old, &new], Some(&obstacles), None);
+            assert!((axial - mean).abs() <= 1e-14 * mean.abs(), "{name}, {u0} to {u}: {axial}, not {mean}");
+            assert!((contact - expected).abs() < 1e-12, "{name}, {u0} to {u}: {contact}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_formulas_are_those_of_the_solver_to_the_last_bit() {
+    for scheme in SCHEMES {
+        let formulas = SchemeFormulas::of(scheme.name).unwrap();
+        assert_eq!(formulas.inertia(), scheme.inertia, "{}", scheme.name);
+        let obstacles = Obstacles::default();
+        let positions = (-40..40).map(|k| 0.2 * (f64::from(k) * 0.7).sin()).chain([-0.01, 0.1]).collect::<Vec<_>>();
+        for (&u0, &u) in positions.iter().flat_map(|u0| positions.iter().map(move |u| (u0, u))) {
+            let solver = match scheme.contact {
+                ContactRule::Implicit => obstacles.force(u),
+                ContactRule::DiscreteGradient => obstacles.discrete_gradient(u, u0),
+            };
+            assert_eq!(formulas.contact_force(&obstacles, u, u0), solver, "{}: {u0} to {u}", scheme.name);
+        }
+        assert!(formulas.contact_force(&obstacles, f64::NAN, 0.0).is_nan());
+    }
+    assert_eq!(SchemeFormulas::of("euler"), None);
+    for square in [0.0, 1e-9, 0.37, 12.5] {
+        assert_eq!(axial_force(&BEAM, square), BEAM.axial_force(square));
+    }
 }

@@ -69,11 +69,14 @@ fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
 
 #[test]
 fn every_defect_leaves_a_mark_that_no_refinement_removes() {
-    let study = convergence("theta-a-20-space.toml");
-    let honest = errors(&study, 512, 20, None)[Norm::Superclose];
+    // Two studies, because one heats the clamped end and the other touches the upper obstacle.
+    let studies = ["theta-a-20-space.toml", "theorem-3.4-space.toml"].map(convergence);
     for (defect, name) in Defect::ALL {
-        let found = errors(&study, 512, 20, Some(defect))[Norm::Superclose];
-        assert!(found > 20.0 * honest, "{name}: {found} against {honest}");
+        let marks = studies.each_ref().map(|study| {
+            let honest = errors(study, 512, 20, None)[Norm::Superclose];
+            errors(study, 512, 20, Some(defect))[Norm::Superclose] / honest
+        });
+        assert!(marks.iter().any(|mark| *mark > 20.0), "{name}: {marks:?} times the error without it");
     }
 }
 

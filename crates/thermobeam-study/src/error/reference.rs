@@ -8,9 +8,9 @@
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::norms::TheoremSquares;
 use thermobeam::solve::Level;
 
+use crate::exact::norm::TheoremSquares;
 use crate::run::driver::{map_fields, on_mesh};
 use crate::run::simulate::{Recording, Simulator};
 use crate::scene::{Scene, resampled};

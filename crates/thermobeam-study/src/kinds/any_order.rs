@@ -30,6 +30,7 @@ use thermobeam::dg::Stepping;
 use super::prelude::*;
 use super::tables::{Layout, control, manufactured};
 use crate::exact::any_order::ErrorMeter;
+use crate::exact::defect::Defect;
 use crate::run::dg::DgMotion;
 
 /// The row of the table of kinds.
@@ -97,6 +98,8 @@ pub struct AnyOrder {
     pub(super) theory: Coefficients,
     /// The solver's own coefficients; if they differ, the study must fail.
     pub(super) solver: Coefficients,
+    /// A mistake in the loads; only a study of planted faults has one.
+    pub(super) defect: Option<Defect>,
     exact: Manufactured,
     /// Whether loads keep the exact solution in place; a free vibration needs none.
     loaded: bool,
@@ -129,7 +132,8 @@ impl FromFile for AnyOrder {
         let series = root.tables("series", "", |section| series(&run, over, section))?;
         let elements: Vec<usize> = series.iter().flat_map(|series| &series.runs).map(|run| run.elements).collect();
         let (solver, layout) = (control(root, theory)?, Layout::read(&run, &elements, None)?);
-        Ok(AnyOrder { theory, solver, exact, loaded: vibration.is_none(), layout, t_end, over, series })
+        let loaded = vibration.is_none();
+        Ok(AnyOrder { theory, solver, defect: None, exact, loaded, layout, t_end, over, series })
     }
 }
 
@@ -256,7 +260,7 @@ impl AnyOrder {
         let dt = self.t_end / steps as f64;
         let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
         let (loads, mesh) = (self.loaded.then_some(&self.theory), self.layout.mesh(elements)?);
-        Ok(DgMotion::manufactured(&self.exact, loads, self.solver, mesh, degree, stepping)?)
+        Ok(DgMotion::manufactured(&self.exact, loads, self.defect, self.solver, mesh, degree, stepping)?)
     }
 
     /// Rates over h or dt; one figure shows each degree's errors together.

@@ -12,6 +12,7 @@ use thermobeam::solve::Level;
 
 use super::{Motion, Report, RunError, Sample, Solves};
 use crate::exact::any_order;
+use crate::exact::defect::Defect;
 use crate::exact::solution::Manufactured;
 use crate::scene::{Coefficients, Scene};
 
@@ -44,6 +45,7 @@ impl DgMotion {
     /// A manufactured solution at t = 0.
     ///
     /// * `loads`: the coefficients of the loads that keep it in place; a free vibration of a cold beam needs none.
+    /// * `defect`: a mistake in loads and initial data, for a negative control.
     /// * `solver`: the solver's own coefficients.
     ///
     /// # Errors
@@ -51,21 +53,25 @@ impl DgMotion {
     pub(crate) fn manufactured(
         exact: &Manufactured,
         loads: Option<&Coefficients>,
+        defect: Option<Defect>,
         Coefficients { beam, obstacles }: Coefficients,
         mesh: Mesh,
         degree: usize,
         by: dg::Stepping,
     ) -> Result<Self, SetupError> {
         // A clamped end that is too hot is so from the start: the initial data must match it, or the first step fails.
-        let shift = beam.theta_a - loads.map_or(0.0, |theory| theory.beam.theta_a);
+        let exact_theta_a = loads.map_or(0.0, |theory| theory.beam.theta_a);
+        let shift = beam.theta_a - exact_theta_a;
         let start = any_order::initial(exact);
         let theta = start.theta;
-        let initial = dg::Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x)), ..start };
+        let is_lifted = defect != Some(Defect::StartNotLifted);
+        let missing = move |x: f64| if is_lifted || x == 0.0 { 0.0 } else { exact_theta_a * (1.0 - x) };
+        let initial = dg::Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x) - missing(x)), ..start };
         let problem = dg::Problem { beam, obstacles, mesh, degree, initial };
         let simulation = match loads {
             None => dg::Simulation::new(problem, by),
             Some(theory) => dg::Simulation::with_load(problem, by, |space| {
-                any_order::load(exact, &theory.beam, theory.obstacles, space)
+                any_order::load(exact, &theory.beam, theory.obstacles, space, defect)
             }),
         }?;
         Ok(Self::of(simulation, &beam, obstacles, by))

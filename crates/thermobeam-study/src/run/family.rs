@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::exact::solution::{Factors, Manufactured};
-use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::exact::sources::{Nodal, Sources};
 use crate::run::Motion;
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
@@ -123,7 +123,7 @@ impl Family {
             Start::Exact(exact) => exact,
         };
         let own = Coefficients { beam, obstacles };
-        DgMotion::manufactured(exact, self.loaded.then_some(&own), own, mesh, degree, stepping)
+        DgMotion::manufactured(exact, self.loaded.then_some(&own), None, own, mesh, degree, stepping)
     }
 
     /// The problem on a mesh of `elements` elements, graded like the scene's.
@@ -176,9 +176,7 @@ impl OnMesh<'_> {
         let mut factors = Factors::default();
         Ok(driver.loaded(move |t, load| {
             factors.at(&exact, t);
-            let u = &factors.u.value;
-            let force = obstacles.map_or(0.0, |obstacles| obstacles.force(sources.tip(u)));
-            sources.fill(&factors, sources.axial_force(u), force, BoundaryLoads::Both, load);
+            sources.fill(&factors, sources.forces(&factors.u, obstacles.as_ref(), None), None, load);
         }))
     }
 }

@@ -1,18 +1,19 @@
-//! Faults in the solver of any order: each study named must fail for every perturbed coefficient.
+//! Faults in the solver of any order: each study named must fail for every perturbed coefficient and for every defect.
 //!
-//! The loads are derived with the study's own coefficients; the solver uses a changed value of one of them. The study itself
-//! gives the verdict, on the errors of its own runs.
+//! The loads are derived with the study's own coefficients; the solver uses a changed value of one of them, or a defect is
+//! planted in the loads. The study itself gives the verdict, on the errors of its own runs.
 //!
 //! ```toml
 //! [any-order]
 //! relative = 1e-4
 //! studies = ["any-order-coefficients.toml"]    # of kind any-order, beside this file
 //! coefficients = ["zeta", "a"]                 # names of [beam] and [obstacles]; none may be zero in a study
+//! defects = ["half of rho in N"]               # optional: mistakes in the loads, in the words of the report
 //! ```
 
 use convergence_study::study::run_cases_here;
 
-use super::{Fault, Matrix, RELATIVE, relative};
+use super::{Defect, Fault, Matrix, RELATIVE, relative};
 use crate::kinds::any_order::AnyOrder;
 use crate::kinds::prelude::*;
 
@@ -23,7 +24,7 @@ const TOLERANCE: f64 = 1e-3;
 pub struct AnyOrderControls {
     relative: f64,
     studies: Vec<Described<AnyOrder>>,
-    /// No fault at all, then each coefficient.
+    /// No fault at all, then each coefficient and each defect.
     faults: Vec<Fault>,
 }
 
@@ -38,7 +39,7 @@ pub struct Judged {
 
 impl FromFile for AnyOrderControls {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.table("any-order", &["relative", "studies", "coefficients"])?;
+        let section = root.table("any-order", &["relative", "studies", "coefficients", "defects"])?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind any-order beside this one";
         let read = |file: &Field<'_>| Described::<AnyOrder>::read(file.file(folder)?);
@@ -46,15 +47,29 @@ impl FromFile for AnyOrderControls {
         let names: Vec<(&str, &'static str)> = Coefficients::names().map(|name| (name, name)).collect();
         let allowed = "a list of at least one coefficient";
         let listed = section.list("coefficients", allowed, |item| item.choice(&names), |list| !list.is_empty())?;
+        let mut faults = vec![Fault::None];
+        faults.extend(listed.into_iter().map(Fault::Coefficient));
+        faults.extend(defects(&section)?.into_iter().map(Fault::Defect));
         for study in &studies {
-            if let Some(absent) = listed.iter().find(|key| study.kind.theory.off(key, relative).is_none()) {
-                let found = format!("{absent}, which {} does not have or has zero", study.header.id);
-                return Err(section.refuse("coefficients", found, "coefficients that every study has"));
+            let is_absent = |fault: &&Fault| fault.plant(study.kind.theory, relative).is_none();
+            if let Some(absent) = faults.iter().find(is_absent) {
+                let key = if matches!(absent, Fault::Defect(_)) { "defects" } else { "coefficients" };
+                let found = format!("{}, which {} does not have or has zero", absent.name(), study.header.id);
+                return Err(section.refuse(key, found, format!("{key} that every study has")));
             }
         }
-        let faults = [Fault::None].into_iter().chain(listed.into_iter().map(Fault::Coefficient)).collect();
         Ok(Self { relative, studies, faults })
     }
+}
+
+/// The defects that a section names; none without the key.
+fn defects(section: &Section<'_>) -> Result<Vec<Defect>, InputError> {
+    if section.get("defects").is_none() {
+        return Ok(vec![]);
+    }
+    let of_the_problem = Defect::ALL.iter().filter(|(defect, _)| defect.is_of_the_problem());
+    let names: Vec<(&str, Defect)> = of_the_problem.map(|&(defect, name)| (name, defect)).collect();
+    section.list("defects", "a list of at least one defect", |item| item.choice(&names), |list| !list.is_empty())
 }
 
 impl Kind for AnyOrderControls {
@@ -74,9 +89,9 @@ impl Kind for AnyOrderControls {
 
     fn run(&self, &(study, fault): &(usize, Fault)) -> Result<Judged, CaseFailure> {
         let study = &self.studies[study].kind;
-        let absent = || CaseFailure::new("the coefficient is absent");
+        let absent = || CaseFailure::new("what is wrong is absent");
         let mut planted = study.clone();
-        (planted.solver, _) = fault.plant(study.theory, self.relative).ok_or_else(absent)?;
+        (planted.solver, planted.defect) = fault.plant(study.theory, self.relative).ok_or_else(absent)?;
         let ran = run_cases_here(&planted);
         // A fault that breaks a run down is detected; only runs without a fault must finish.
         if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {
@@ -99,8 +114,7 @@ impl Kind for AnyOrderControls {
                 if fault == Fault::None {
                     honest = max_or_nan(honest, error);
                 } else if error.is_finite() {
-                    let name = format!("error with {} off, {}", fault.name(), study.header.id);
-                    quantities.push(Quantity::new(name, error, TOLERANCE));
+                    quantities.push(Quantity::new(guarded_name(fault, &study.header.id), error, TOLERANCE));
                 }
             }
             let cell = |judged: &Option<&Judged>| match judged {
@@ -110,8 +124,16 @@ impl Kind for AnyOrderControls {
             let verdicts: Vec<_> = judged.iter().map(|judged| judged.map(|judged| judged.verdict)).collect();
             matrix.add(fault, &verdicts, judged.iter().map(cell).collect());
         }
-        let more = format!("each off by {:e}; error without a fault {honest:.1e}", self.relative);
-        let title = "Verdict of each study with one coefficient of the solver off, and the error of its finest run";
-        Outcome { quantities, ..matrix.outcome("wrong coefficients", &more, title, "coefficient") }
+        let more = format!("coefficients being off by {:e}; error without a fault {honest:.1e}", self.relative);
+        let title = "Verdict of each study under each fault, and the error of its finest run";
+        Outcome { quantities, ..matrix.outcome("planted faults", &more, title, "fault") }
+    }
+}
+
+/// The name of the error of a study under a fault.
+fn guarded_name(fault: Fault, study: &str) -> String {
+    match fault {
+        Fault::Defect(defect) => format!("error with {}, {study}", defect.name()),
+        fault => format!("error with {} off, {study}", fault.name()),
     }
 }

@@ -5,12 +5,12 @@
 //! | table | question |
 //! | --- | --- |
 //! | `[controls]` | does some study fail for each coefficient with a given relative error, and for each defect of the sources? |
-//! | `[any-order]` | the same for studies of kind any-order: does each fail for every coefficient named? |
+//! | `[any-order]` | the same for studies of kind any-order: does each fail for every coefficient and defect named? |
 //! | `[sensitivity]` | what is the smallest relative error of each coefficient for which a study fails? |
 //!
 //! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while the sources keep the exact one;
-//! each [`Defect`] in turn is planted in the sources. Without a fault every study must pass, since otherwise its failures would
-//! prove nothing.
+//! each [`Defect`] in turn is planted in the sources. Sources and solver share no function, so it stands for the same mistake in
+//! the solver. Without a fault every study must pass, since otherwise its failures would prove nothing.
 //!
 //! ```toml
 //! [controls]
@@ -70,17 +70,19 @@ impl Fault {
         match self {
             Fault::None => "none",
             Fault::Coefficient(key) => key,
-            Fault::Defect(defect) => Defect::ALL[defect as usize].1,
+            Fault::Defect(defect) => defect.name(),
         }
     }
 
-    /// The solver's coefficients and the defect of the sources; `None` if the study lacks the coefficient or it is zero.
+    /// The solver's coefficients and the defect of the sources; `None` if the study lacks what is wrong, or it is zero.
     ///
     /// * `relative`: relative error of a coefficient.
     fn plant(self, theory: Coefficients, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
         match self {
             Fault::None => Some((theory, None)),
-            Fault::Defect(defect) => Some((theory, Some(defect))),
+            Fault::Defect(defect) => {
+                defect.applies(&theory.beam, theory.obstacles.as_ref()).then_some((theory, Some(defect)))
+            }
             Fault::Coefficient(key) => Some((theory.off(key, relative)?, None)),
         }
     }

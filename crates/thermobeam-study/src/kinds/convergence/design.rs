@@ -10,37 +10,12 @@
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
 use convergence_study::judge::verdict::{Level as Error, judge};
-use thermobeam::scheme::ContactRule;
 
 use super::Convergence;
-use crate::exact::sources::{BoundaryLoads, Nodal, Sources};
+use crate::exact::defect::Defect;
+use crate::exact::formulas::SchemeFormulas;
+use crate::exact::sources::{Nodal, Sources};
 use crate::kinds::prelude::*;
-
-/// A deliberate mistake in the sources, for negative controls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Defect {
-    /// Values at t_n where the scheme uses t_{n-½}.
-    SourceAtNewLevel,
-    /// The load σ(1, t) + g(u(1, t)) is dropped.
-    StressDropped,
-    /// The load φ_x(1, t) + ζ φ_xt(1, t) is dropped.
-    MomentDropped,
-    /// N(u^n) instead of the mean ½(N(u^n) + N(u^{n-1})).
-    ForceAtNewLevel,
-    /// Contact at t_{n-½} where the scheme uses t_n.
-    ContactAtMiddle,
-}
-
-impl Defect {
-    /// All defects, with their effects in words.
-    pub const ALL: [(Defect, &str); 5] = [
-        (Defect::SourceAtNewLevel, "source at t_n instead of the middle"),
-        (Defect::StressDropped, "boundary load of the stress dropped"),
-        (Defect::MomentDropped, "boundary load of the moment dropped"),
-        (Defect::ForceAtNewLevel, "N(u^n) instead of the mean of N"),
-        (Defect::ContactAtMiddle, "contact at the middle instead of t_n"),
-    ];
-}
 
 /// Space vectors and error meter of one mesh, shared by several runs.
 pub struct Prepared<'a> {
@@ -73,59 +48,65 @@ impl<'a> Prepared<'a> {
     /// [`CaseFailure`] with the solver's message.
     pub fn run(&mut self, steps: usize, solver: Coefficients, defect: Option<Defect>) -> Result<Norms, CaseFailure> {
         let Convergence { exact, theory, refine, .. } = self.study;
-        let Coefficients { beam, obstacles } = solver;
+        let (scheme, obstacles) = (formulas_of(refine.scheme)?, theory.obstacles.as_ref());
         let (mut old, dt) = (Factors::default(), refine.dt(steps));
         old.at(exact, 0.0);
-        let initial = self.nodal.initial(&self.mesh, &old, theory.beam.theta_a, beam.theta_a);
-        let stepping = Stepping { scheme: refine.scheme, settings: refine.settings, dt, loaded: true };
-        let mut driver = Driver::new(Problem { beam, obstacles, mesh: self.mesh.clone(), initial }, stepping)?;
-        self.meter.lift(&self.mesh, beam.theta_a);
-        let loads = match defect {
-            Some(Defect::StressDropped) => BoundaryLoads::WithoutStress,
-            Some(Defect::MomentDropped) => BoundaryLoads::WithoutMoment,
-            _ => BoundaryLoads::Both,
-        };
+        let mut driver = self.start(&old, dt, solver, defect)?;
         let (mut new, mut source, mut worst) = (old.clone(), old.clone(), Norms::ZERO);
         for n in 1..=steps {
             new.at(exact, n as f64 * dt);
-            let (n_value, force) = if refine.isolates(Axis::Space) {
-                source.of_step(&old, &mut new, refine.scheme.inertia, dt);
-                self.of_step(&old, &new, &mut source, defect)
+            let forces = if refine.isolates(Axis::Space) {
+                source.of_step(&old, &mut new, scheme.inertia(), dt);
+                if defect == Some(Defect::SourceAtNewLevel) {
+                    source.u.value.clone_from(&new.u.value);
+                }
+                self.sources.forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
             } else {
                 let middle = if defect == Some(Defect::SourceAtNewLevel) { n as f64 } else { n as f64 - 0.5 };
                 source.at(exact, middle * dt);
-                self.of_time(&source)
+                self.sources.forces(&source.u, obstacles, defect)
             };
-            driver.advance(|_, load| self.sources.fill(&source, n_value, force, loads, load))?;
+            driver.advance(|_, load| self.sources.fill(&source, forces, defect, load))?;
             worst = worst.max(&self.meter.measure(driver.level(), &new));
             std::mem::swap(&mut old, &mut new);
         }
         Ok(worst)
     }
 
-    /// N and contact force of the exact solution at the time of its factors.
-    fn of_time(&self, source: &Factors) -> (f64, f64) {
-        let values = &source.u.value;
-        let force = self.study.theory.obstacles.map_or(0.0, |obstacles| obstacles.force(self.sources.tip(values)));
-        (self.sources.axial_force(values), force)
-    }
-
-    /// N and contact force as the scheme evaluates them between two levels of the time sequence.
-    fn of_step(&self, old: &Factors, new: &Factors, source: &mut Factors, defect: Option<Defect>) -> (f64, f64) {
-        if defect == Some(Defect::SourceAtNewLevel) {
-            source.u.value.clone_from(&new.u.value);
+    /// The solver at t = 0, and the lifting of its temperature in the error meter.
+    ///
+    /// * `factors`: those of the exact solution at t = 0; the rest as in [`Self::run`].
+    fn start(
+        &mut self,
+        factors: &Factors,
+        dt: f64,
+        Coefficients { beam, obstacles }: Coefficients,
+        defect: Option<Defect>,
+    ) -> Result<Driver, CaseFailure> {
+        let Convergence { theory, refine, .. } = self.study;
+        let exact_theta_a = theory.beam.theta_a;
+        let mut initial = self.nodal.initial(&self.mesh, factors, exact_theta_a, beam.theta_a);
+        if defect == Some(Defect::StartNotLifted) {
+            // Without the ends: the solver refuses initial data that contradict the boundary conditions.
+            let inner = 1..self.mesh.elements();
+            for (theta, x) in initial.theta[inner.clone()].iter_mut().zip(&self.mesh.nodes()[inner]) {
+                *theta -= exact_theta_a * (1.0 - x);
+            }
         }
-        let [old, new] = [old, new].map(|factors| &factors.u.value);
-        let (n_old, n_new) = (self.sources.axial_force(old), self.sources.axial_force(new));
-        let n_value = if defect == Some(Defect::ForceAtNewLevel) { n_new } else { 0.5 * (n_old + n_new) };
-        let (u_old, u) = (self.sources.tip(old), self.sources.tip(new));
-        let contact = |obstacles: Obstacles| match self.study.refine.scheme.contact {
-            _ if defect == Some(Defect::ContactAtMiddle) => obstacles.force(0.5 * (u + u_old)),
-            ContactRule::Implicit => obstacles.force(u),
-            ContactRule::DiscreteGradient => obstacles.discrete_gradient(u, u_old),
-        };
-        (n_value, self.study.theory.obstacles.map_or(0.0, contact))
+        let stepping = Stepping { scheme: refine.scheme, settings: refine.settings, dt, loaded: true };
+        let driver = Driver::new(Problem { beam, obstacles, mesh: self.mesh.clone(), initial }, stepping)?;
+        self.meter.lift(&self.mesh, beam.theta_a);
+        Ok(driver)
     }
+}
+
+/// The formulas of a scheme on the side of the exact solutions.
+///
+/// # Errors
+/// [`CaseFailure`] if it has none there.
+pub(in crate::kinds) fn formulas_of(scheme: Scheme) -> Result<SchemeFormulas, CaseFailure> {
+    let none = || CaseFailure::new(format!("no formulas of the scheme {} to compare with", scheme.name));
+    SchemeFormulas::of(scheme.name).ok_or_else(none)
 }
 
 /// All levels of a study, prepared once for runs with many faults.

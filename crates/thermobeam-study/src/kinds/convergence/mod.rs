@@ -36,7 +36,8 @@ use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
 use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
-pub use design::{Defect, Prepared};
+pub use crate::exact::defect::Defect;
+pub use design::Prepared;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

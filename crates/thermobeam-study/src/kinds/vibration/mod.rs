@@ -5,6 +5,7 @@
 
 mod modes;
 
+use super::convergence::design::formulas_of;
 use super::prelude::*;
 use super::tables::{Refine, control, expectations, norm_levels, refine};
 use crate::exact::sources::Nodal;
@@ -140,8 +141,9 @@ impl Kind for Vibration {
         let (dt, mesh) = (self.refine.dt(steps), self.refine.layout.mesh(elements)?);
         let of_mesh = self.refine.isolates(Axis::Time);
         let modes = if of_mesh { Modes::of_mesh(self, &mesh)? } else { Modes::of_beam(self)? };
-        let by = self.refine.isolates(Axis::Space).then_some(scheme);
-        let (mut reference, mut closed) = (modes.moved(by, dt), of_mesh.then(|| modes.moved(Some(scheme), dt)));
+        let formulas = formulas_of(scheme)?;
+        let by = self.refine.isolates(Axis::Space).then_some(formulas);
+        let (mut reference, mut closed) = (modes.moved(by, dt), of_mesh.then(|| modes.moved(Some(formulas), dt)));
         let mut factors = Factors::default();
         reference(0, &mut factors);
         let Coefficients { beam, obstacles } = self.solver;

@@ -27,6 +27,7 @@ use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 
 use super::Vibration;
 use crate::error::free_vibration::{self, piecewise_linear};
+use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::prelude::*;
 
 /// Modes, each with the exact motion of its equation in time.
@@ -82,7 +83,7 @@ impl Modes {
 
     /// Sets the time factors to those at a time level: exactly, or by a time scheme, one level after the other. All
     /// schemes treat the temperature by Crank-Nicolson.
-    pub(super) fn moved(&self, by: Option<Scheme>, dt: f64) -> impl FnMut(usize, &mut Factors) {
+    pub(super) fn moved(&self, by: Option<SchemeFormulas>, dt: f64) -> impl FnMut(usize, &mut Factors) {
         let (mut level, mut states): (usize, Vec<[f64; 2]>) = (0, self.vibrations.iter().map(|(_, at)| *at).collect());
         move |n, factors| {
             let Some(scheme) = by else { return factors.at(&self.exact, n as f64 * dt) };
@@ -109,10 +110,10 @@ impl Modes {
 }
 
 /// Position and velocity of a vibration after a step by a scheme.
-fn scheme_step(scheme: Scheme, omega_squared: f64, zeta: f64, dt: f64, [q, v]: [f64; 2]) -> [f64; 2] {
-    let kappa = scheme.inertia / dt;
+fn scheme_step(scheme: SchemeFormulas, omega_squared: f64, zeta: f64, dt: f64, [q, v]: [f64; 2]) -> [f64; 2] {
+    let kappa = scheme.inertia() / dt;
     let carrying = (kappa * v - omega_squared * q) / (kappa + omega_squared * (zeta + 0.5 * dt));
-    [q + dt * carrying, v + scheme.inertia * (carrying - v)]
+    [q + dt * carrying, v + scheme.inertia() * (carrying - v)]
 }
 
 /// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled to U(1) = 1 like the exact ones.
@@ -186,10 +187,11 @@ mod tests {
         let start = [0.5, -1.0];
         let factor = free_vibration::damped(1.7_f64.sqrt(), 0.2, start).expect("a factor");
         for scheme in SCHEMES {
+            let formulas = SchemeFormulas::of(scheme.name).expect("formulas of the scheme");
             let error = |steps: usize| {
                 let dt = 2.0 / steps as f64;
                 let [value, slope, _] = factor.derivatives(steps as f64 * dt);
-                let [q, v] = (0..steps).fold(start, |state, _| scheme_step(scheme, 1.7, 0.2, dt, state));
+                let [q, v] = (0..steps).fold(start, |state, _| scheme_step(formulas, 1.7, 0.2, dt, state));
                 (value - q).hypot(slope - v)
             };
             let rate = (error(500) / error(1000)).log2();

@@ -1,0 +1,328 @@
+//! The loads, derived a second time: the weak form of (1.1) and (1.3), for random solutions, coefficients and meshes.
+//!
+//! The loads are computed from the strong form with automatic derivatives. Here they are those of the weak form, with s = u_x - φ:
+//!
+//! ```text
+//! F_u(y) = (u_tt, y) + (N u_x + s + ζ s_t, y_x) + g(u(1)) y(1)                 for y(0) = 0
+//! F_φ(χ) = (φ_tt, χ) + (φ_x + ζ φ_xt, χ_x) - (s + ζ s_t, χ) - a (θ, χ_x)       for χ(0) = 0
+//! F_θ(η) = (θ_t, η) + (θ_x, η_x) + a (φ_xt, η)                                 for η(0) = η(1) = 0
+//! ```
+//!
+//! The stress and the moment at x = 1 are natural boundary conditions, and `(θ_x, χ) = -(θ, χ_x)` because θ(1) = 0. Derivatives in
+//! closed form, quadrature and basis functions are written here, N and g from their definitions in the paper.
+
+use std::f64::consts::PI;
+
+use thermobeam::dg::{Field, Initial, Problem, Simulation, Space, Stepping};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam_exact::expression::{Expression, Variable};
+use thermobeam_exact::solution::{Factors, Manufactured, Product};
+use thermobeam_exact::sources::{Forces, Sources};
+
+const CASES: u64 = 200;
+
+/// Agreement, relative to the largest load of an equation.
+const AGREEMENT: f64 = 1e-10;
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn count(&mut self, low: usize, high: usize) -> usize {
+        low + self.next() as usize % (high - low + 1)
+    }
+}
+
+/// `(c0 + c1 s + c2 s² + c3 s³) sin(k s + d) exp(m s)`.
+struct Function {
+    polynomial: [f64; 4],
+    wave: [f64; 2],
+    growth: f64,
+}
+
+impl Function {
+    fn random(random: &mut Random, polynomial: [f64; 4]) -> Self {
+        let wave = [random.between(0.5, 7.0), random.between(0.0, 2.0 * PI)];
+        Self { polynomial, wave, growth: random.between(-1.5, 1.5) }
+    }
+
+    fn text(&self, s: &str) -> String {
+        let ([c0, c1, c2, c3], [k, d], m) = (self.polynomial, self.wave, self.growth);
+        format!("(({c0}) + ({c1})*{s} + ({c2})*{s}^2 + ({c3})*{s}^3)*sin({k}*{s} + {d})*exp(({m})*{s})")
+    }
+
+    /// Value, first and second derivative, in closed form.
+    fn derivatives(&self, s: f64) -> [f64; 3] {
+        let ([c0, c1, c2, c3], [k, d], m) = (self.polynomial, self.wave, self.growth);
+        let polynomial =
+            [c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2.0 * c2 + 3.0 * s * c3), 2.0 * c2 + 6.0 * s * c3];
+        let (sin, cos) = (k * s + d).sin_cos();
+        let e = (m * s).exp();
+        product(product(polynomial, [sin, k * cos, -k * k * sin]), [e, m * e, m * m * e])
+    }
+}
+
+/// Value, first and second derivative of a product.
+fn product(f: [f64; 3], g: [f64; 3]) -> [f64; 3] {
+    [f[0] * g[0], f[1] * g[0] + f[0] * g[1], f[2] * g[0] + 2.0 * f[1] * g[1] + f[0] * g[2]]
+}
+
+/// A product X(x) T(t) at the time of its case.
+struct Term {
+    x: Function,
+    t: Function,
+    /// T, T' and T''.
+    factors: [f64; 3],
+}
+
+impl Term {
+    /// A product that meets the boundary conditions: zero at x = 0 for u and φ, at x = 1 for θ.
+    fn random(random: &mut Random, is_heat: bool, t: f64) -> Self {
+        let [b0, b1, b2] = [(); 3].map(|()| random.between(-1.0, 1.0));
+        let polynomial = if is_heat { [b0, b1 - b0, b2 - b1, -b2] } else { [0.0, b0, b1, b2] };
+        let of_time = [(); 4].map(|()| random.between(-1.0, 1.0));
+        let [x, of_time] = [polynomial, of_time].map(|polynomial| Function::random(random, polynomial));
+        Self { x, factors: of_time.derivatives(t), t: of_time }
+    }
+}
+
+/// A random problem with its exact solution.
+struct Case {
+    beam: Beam,
+    obstacles: Obstacles,
+    nodes: Vec<f64>,
+    t: f64,
+    /// The products of u, φ and θ.
+    fields: [Vec<Term>; 3],
+}
+
+impl Case {
+    fn random(seed: u64) -> Self {
+        let random = &mut Random(seed);
+        let beam = Beam {
+            zeta: random.between(0.0, 1.0),
+            a: random.between(-1.0, 1.0),
+            rho: random.between(0.0, 3.0),
+            beta: random.between(-1.0, 3.0),
+            theta_a: 0.0,
+        };
+        let epsilon = 10f64.powf(random.between(-3.0, 0.0));
+        let obstacles = Obstacles { epsilon, g1: random.between(-0.4, 0.0), g2: random.between(0.0, 0.4) };
+        let mut nodes = vec![0.0];
+        for _ in 0..random.count(32, 48) {
+            nodes.push(nodes[nodes.len() - 1] + random.between(0.5, 1.5));
+        }
+        let end = nodes[nodes.len() - 1];
+        nodes.iter_mut().for_each(|x| *x /= end);
+        let t = random.between(0.0, 1.0);
+        let fields = [false, false, true].map(|is_heat| {
+            let count = random.count(1, 2);
+            (0..count).map(|_| Term::random(random, is_heat, t)).collect()
+        });
+        Self { beam, obstacles, nodes, t, fields }
+    }
+
+    fn exact(&self) -> Manufactured {
+        let parse = |text: String, variable| Expression::parse(&text, variable).unwrap().into();
+        let [u, phi, theta] = self.fields.each_ref().map(|products| {
+            let product = |Term { x, t, .. }: &Term| Product {
+                x: parse(x.text("x"), Variable::X),
+                t: parse(t.text("t"), Variable::T),
+            };
+            products.iter().map(product).collect()
+        });
+        Manufactured { u, phi, theta }
+    }
+
+    /// Value and slope at x of the first time derivatives of a field.
+    ///
+    /// * `shape`: value and slope in x of a function X.
+    fn at(&self, field: usize, x: f64, shape: Shape<'_>) -> [[f64; 2]; 3] {
+        let mut sum = [[0.0; 2]; 3];
+        for term in &self.fields[field] {
+            let [value, slope] = shape(&term.x, x);
+            for (sum, factor) in sum.iter_mut().zip(term.factors) {
+                sum[0] += factor * value;
+                sum[1] += factor * slope;
+            }
+        }
+        sum
+    }
+
+    /// N and g from their definitions: `N = β + ρ ∫ u_x²`, `g = ([u(1) - g2]_+ - [g1 - u(1)]_+)/ε`.
+    fn forces(&self, points: &[(f64, f64)], shape: Shape<'_>) -> Forces {
+        let mut square = 0.0;
+        for ends in self.nodes.windows(2) {
+            let half = 0.5 * (ends[1] - ends[0]);
+            for (xi, weight) in points {
+                square += half * weight * self.at(0, ends[0] + half * (1.0 + xi), shape)[0][1].powi(2);
+            }
+        }
+        let Obstacles { epsilon, g1, g2 } = self.obstacles;
+        let tip = self.at(0, 1.0, shape)[0][0];
+        Forces {
+            axial: self.beam.beta + self.beam.rho * square,
+            contact: ((tip - g2).max(0.0) - (g1 - tip).max(0.0)) / epsilon,
+        }
+    }
+
+    /// The weak form for every basis function of degree p; NaN where no function belongs.
+    ///
+    /// * `place`: row and equation of basis function m of an element, in a list of `rows` rows.
+    fn weak_form(&self, degree: usize, shape: Shape<'_>, rows: usize, place: Place<'_>) -> (Vec<[f64; 3]>, Forces) {
+        let Beam { zeta, a, .. } = self.beam;
+        let (points, last) = (gauss(degree + 9), self.nodes.len() - 2);
+        let forces = self.forces(&points, shape);
+        let mut loads = vec![[f64::NAN; 3]; rows];
+        let mut add = |equation: usize, element: usize, m: usize, value: f64| {
+            let vanishes = element == 0 && m == 0 || equation == 2 && element == last && m == 1;
+            if !vanishes {
+                let entry = &mut loads[place(equation, element, m)][equation];
+                *entry = if entry.is_nan() { value } else { *entry + value };
+            }
+        };
+        let bases: Vec<_> = points.iter().map(|(xi, _)| basis(degree, *xi)).collect();
+        for (element, ends) in self.nodes.windows(2).enumerate() {
+            let half = 0.5 * (ends[1] - ends[0]);
+            for (&(xi, weight), basis) in points.iter().zip(&bases) {
+                let x = ends[0] + half * (1.0 + xi);
+                let [[_, u_x], [_, u_xt], [u_tt, _]] = self.at(0, x, shape);
+                let [[phi, phi_x], [phi_t, phi_xt], [phi_tt, _]] = self.at(1, x, shape);
+                let [[theta, theta_x], [theta_t, _], _] = self.at(2, x, shape);
+                let shear = u_x - phi + zeta * (u_xt - phi_t);
+                for (m, [y, y_xi]) in basis.iter().enumerate() {
+                    let (y, y_x) = (half * weight * y, weight * y_xi);
+                    add(0, element, m, u_tt * y + (forces.axial * u_x + shear) * y_x);
+                    add(1, element, m, phi_tt * y + (phi_x + zeta * phi_xt) * y_x - shear * y - a * theta * y_x);
+                    add(2, element, m, theta_t * y + theta_x * y_x + a * phi_xt * y);
+                }
+            }
+        }
+        add(0, last, 1, forces.contact);
+        (loads, forces)
+    }
+}
+
+/// Value and slope in x of a function X at x, itself or its interpolant.
+type Shape<'a> = &'a dyn Fn(&Function, f64) -> [f64; 2];
+
+/// The row of basis function m of an element in an equation.
+type Place<'a> = &'a dyn Fn(usize, usize, usize) -> usize;
+
+/// P_0 ... P_n and their derivatives at ξ.
+fn legendre(n: usize, xi: f64) -> Vec<[f64; 2]> {
+    let mut p = vec![[1.0, 0.0], [xi, 1.0]];
+    for k in 1..n {
+        let (j, [[before, slope_before], [value, _]]) = (k as f64, [p[k - 1], p[k]]);
+        p.push([((2.0 * j + 1.0) * xi * value - j * before) / (j + 1.0), slope_before + (2.0 * j + 1.0) * value]);
+    }
+    p
+}
+
+/// Gauss points and weights on [-1, 1]: the roots of P_n by Newton's method, from Tricomi's first term.
+fn gauss(n: usize) -> Vec<(f64, f64)> {
+    let point = |k: usize| {
+        let mut xi = (PI * (k as f64 + 0.75) / (n as f64 + 0.5)).cos();
+        for _ in 0..8 {
+            let [value, slope] = legendre(n, xi)[n];
+            xi -= value / slope;
+        }
+        (xi, 2.0 / ((1.0 - xi * xi) * legendre(n, xi)[n][1].powi(2)))
+    };
+    (0..n).map(point).collect()
+}
+
+/// Values and slopes at ξ of the basis on [-1, 1]: the hats, and `∫ P_{m-1} √((2m - 1)/2) = (P_m - P_{m-2})/√(2 (2m - 1))`.
+fn basis(degree: usize, xi: f64) -> Vec<[f64; 2]> {
+    let p = legendre(degree, xi);
+    let mut all = vec![[0.5 * (1.0 - xi), -0.5], [0.5 * (1.0 + xi), 0.5]];
+    for m in 2..=degree {
+        let root = (2.0 * (2 * m - 1) as f64).sqrt();
+        all.push([(p[m][0] - p[m - 2][0]) / root, (p[m][1] - p[m - 2][1]) / root]);
+    }
+    all
+}
+
+/// Compares the loads and forces of the library with those of the weak form.
+fn compare(case: &Case, sources: &Sources, (expected, forces): (Vec<[f64; 3]>, Forces), count: usize, what: &str) {
+    let mut factors = Factors::default();
+    factors.at(&case.exact(), case.t);
+    let own = sources.forces(&factors.u, Some(&case.obstacles), None);
+    let near = |found: f64, expected: f64, size: f64| (found - expected).abs() <= AGREEMENT * size;
+    assert!(near(own.axial, forces.axial, 1.0 + forces.axial.abs()), "{what}: {own:?}, not {forces:?}");
+    assert!(near(own.contact, forces.contact, 1.0 + forces.contact.abs()), "{what}: {own:?}, not {forces:?}");
+    let mut load = vec![[f64::NAN; 3]; expected.len()];
+    sources.fill(&factors, own, None, &mut load);
+    let mut compared = 0;
+    for equation in 0..3 {
+        let largest = expected.iter().map(|row| row[equation].abs()).fold(0.0, f64::max);
+        for (row, (found, expected)) in load.iter().zip(&expected).enumerate() {
+            let (found, expected) = (found[equation], expected[equation]);
+            if !expected.is_nan() {
+                compared += 1;
+                assert!(
+                    near(found, expected, largest),
+                    "{what}, equation {equation}, row {row}: {found}, not {expected}"
+                );
+            }
+        }
+    }
+    assert_eq!(compared, count, "{what}: every basis function is compared");
+}
+
+/// The space of the solver of any order.
+fn space(mesh: Mesh, degree: usize) -> Space {
+    let problem = Problem { beam: Beam::default(), obstacles: None, mesh, degree, initial: Initial::at_rest(0.0) };
+    Simulation::new(problem, Stepping::default()).unwrap().space().clone()
+}
+
+#[test]
+fn loads_are_those_of_the_weak_form_for_random_solutions_coefficients_and_meshes() {
+    let mut phases = [0; 3];
+    for seed in 0..CASES {
+        let case = Case::random(seed);
+        let (exact, mesh) = (case.exact(), Mesh::from_nodes(case.nodes.clone()).unwrap());
+        let n = mesh.elements();
+        let itself = |of_x: &Function, x: f64| {
+            let [value, slope, _] = of_x.derivatives(x);
+            [value, slope]
+        };
+        let interpolant = |of_x: &Function, x: f64| {
+            let i = case.nodes.partition_point(|node| *node <= x).clamp(1, n) - 1;
+            let (left, h) = (of_x.derivatives(case.nodes[i])[0], case.nodes[i + 1] - case.nodes[i]);
+            let slope = (of_x.derivatives(case.nodes[i + 1])[0] - left) / h;
+            [left + slope * (x - case.nodes[i]), slope]
+        };
+        let node = |_: usize, element: usize, m: usize| element + m;
+        let hats = case.weak_form(1, &itself, n + 1, &node);
+        phases[usize::from(hats.1.contact > 0.0) + 2 * usize::from(hats.1.contact < 0.0)] += 1;
+        compare(&case, &Sources::strong(&exact, &case.beam, &mesh), hats, 3 * n - 1, &format!("case {seed}, P1"));
+        let interpolated = case.weak_form(1, &interpolant, n + 1, &node);
+        let sources = Sources::discrete(&exact, &case.beam, &mesh);
+        compare(&case, &sources, interpolated, 3 * n - 1, &format!("case {seed}, matrices"));
+        let degree = 2 + seed as usize % 6;
+        let space = space(mesh, degree);
+        let of_degree = |equation: usize, element: usize, m: usize| {
+            let (row, place) = space.place([Field::U, Field::Phi, Field::Theta][equation], element, m);
+            assert_eq!(place, equation);
+            row
+        };
+        let expected = case.weak_form(degree, &itself, space.blocks(), &of_degree);
+        let sources = Sources::any_order(&exact, &case.beam, &space);
+        compare(&case, &sources, expected, 3 * n * degree - 1, &format!("case {seed}, degree {degree}"));
+    }
+    assert!(phases.iter().all(|count| *count > 20), "free, upper and lower contact all occur: {phases:?}");
+}

@@ -37,8 +37,10 @@ pub const fn project(command: &'static str) -> Project {
 const FRONT: Front = Front {
     verified: "Theorem 3.4 of Bernardi and Copetti bounds the error of their scheme by c (h + dt), for solutions that are smooth. Each order is \
                measured with solutions that are known exactly, with the other error isolated, and is judged by the interval of its rate at \
-               h -> 0, not by a fit through coarse levels. A rate agrees only where its whole interval lies in the claim's tolerance, and \
-               every coefficient of the equations that is off by 1e-4 is shown to be noticed.",
+               h -> 0, not by a fit through coarse levels. A rate agrees only where its whole interval lies in the claim's tolerance. \
+               Loads and errors call no formula of the solver. So an error of 1e-4 in any coefficient of the equations makes an order \
+               study fail, and so does each mistake that is planted in a function: half of rho in the axial force, an obstacle that is \
+               missing, a contact force with the other sign, and those in the table of negative-controls.",
     plot: "theorem-3.4-space-rates.svg",
     statements: &[
         ("Theorem 3.4, in h", "theorem-3.4-space", "theorem-3.4"),

@@ -1,4 +1,4 @@
-//! Laws of the matrix of wrong coefficients in the solver of any order.
+//! Laws of the matrix of faults in the solver of any order: wrong coefficients, and mistakes in the loads.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
@@ -11,16 +11,16 @@ use crate::refused::refusal;
 use crate::typed::report;
 
 #[test]
-fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {
+fn every_fault_is_detected_and_one_that_is_not_fails() {
     let study = AnyOrderControls::read(file("any-order-controls.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
-    assert_eq!(sound.len(), 9, "the honest solver and eight coefficients");
+    assert_eq!(sound.len(), 18, "the honest solver, eight coefficients and nine defects");
     assert_eq!(sound[0].case.data.1, Fault::None);
     for (index, ran) in sound.iter().enumerate() {
         let judged = ran.ok().expect("a verdict");
-        // A wrong coefficient gives an error far above round-off; without one the error is round-off.
+        // A fault gives an error far above round-off; without one the error is round-off.
         assert!(if index == 0 { judged.error < 2e-12 } else { judged.error > 1e-8 }, "{}: {judged:?}", ran.case.label);
         let other = if index == 0 { Verdict::Fail } else { Verdict::Pass };
         for wrong in [other, Verdict::Inconclusive] {
@@ -51,6 +51,9 @@ fn files_with_errors_are_refused_with_the_field() {
         // There, theta_a is zero.
         ("\"any-order-coefficients.toml\"", "\"any-order-space.toml\"", "theta_a, which any-order-space"),
         ("\"zeta\", ", "\"zetta\", ", "any-order.coefficients"),
+        ("\"half of rho in N\"", "\"half of rho\"", "any-order.defects"),
+        // It is about the levels of one-step schemes.
+        ("half of rho in N", "N of the mean state instead of the mean of N", "any-order.defects"),
         ("[any-order]", "[controls]\n[any-order]", "one of the tables"),
     ] {
         let error = refusal(&ROW, "any-order-controls.toml", from, to);

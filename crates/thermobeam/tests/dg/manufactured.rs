@@ -48,7 +48,7 @@ fn theta_t(t: f64) -> Jet {
 
 /// `N(u)`, with `∫ cos² Kx = ½ + sin 2K/(4K)`.
 fn axial_force(t: f64) -> f64 {
-    BEAM.axial_force(0.09 * K * K * (0.5 + (2.0 * K).sin() / (4.0 * K)) * u_t(t)[0].powi(2))
+    BEAM.beta + BEAM.rho * 0.09 * K * K * (0.5 + (2.0 * K).sin() / (4.0 * K)) * u_t(t)[0].powi(2)
 }
 
 fn sources(space: &Space) -> Box<Load> {

@@ -281,8 +281,8 @@ impl Sources {
         Self { beam: *beam, terms, gram, tip, tip_index, boundary }
     }
 
-    /// `‖u_x‖²` of the exact solution with the factors T_j.
-    fn slope_squared(&self, factors: &[f64]) -> f64 {
+    /// N(u) of the exact solution with the factors T_j, (2.3).
+    fn axial(&self, factors: &[f64], defect: Option<Defect>) -> f64 {
         let n = factors.len();
         let mut slope_squared = 0.0;
         for j in 0..n {
@@ -290,7 +290,7 @@ impl Sources {
                 slope_squared += self.gram[j * n + k] * factors[j] * factors[k];
             }
         }
-        slope_squared
+        axial_force_with(defect, &self.beam, slope_squared)
     }
 
     /// u(1) of the exact solution with the factors T_j.
@@ -305,7 +305,7 @@ impl Sources {
     pub fn forces(&self, u: &FieldFactors, obstacles: Option<&Obstacles>, defect: Option<Defect>) -> Forces {
         let tip = self.tip(&u.value);
         Forces {
-            axial: axial_force_with(defect, &self.beam, self.slope_squared(&u.value)),
+            axial: self.axial(&u.value, defect),
             contact: contact_with(defect, obstacles, |obstacles| contact_force(obstacles, tip)),
         }
     }
@@ -321,21 +321,21 @@ impl Sources {
         obstacles: Option<&Obstacles>,
         defect: Option<Defect>,
     ) -> Forces {
-        let axial = |factors: &[f64]| axial_force_with(defect, &self.beam, self.slope_squared(factors));
-        let mean = || old.value.iter().zip(&new.value).map(|(old, new)| 0.5 * (old + new)).collect::<Vec<_>>();
-        let (u, u_old) = (self.tip(&new.value), self.tip(&old.value));
-        let law = |obstacles: &Obstacles| match defect {
+        let axial = match defect {
+            Some(Defect::ForceAtNewLevel) => self.axial(&new.value, defect),
+            Some(Defect::ForceOfMeanState) => {
+                let mean: Vec<f64> = old.value.iter().zip(&new.value).map(|(old, new)| 0.5 * (old + new)).collect();
+                self.axial(&mean, defect)
+            }
+            _ => 0.5 * (self.axial(&old.value, defect) + self.axial(&new.value, defect)),
+        };
+        let u_old = self.tip(&old.value);
+        let u = self.tip(&new.value);
+        let contact = contact_with(defect, obstacles, |obstacles| match defect {
             Some(Defect::ContactAtMiddle) => contact_force(obstacles, 0.5 * (u + u_old)),
             _ => scheme.contact_force(obstacles, u, u_old),
-        };
-        Forces {
-            axial: match defect {
-                Some(Defect::ForceAtNewLevel) => axial(&new.value),
-                Some(Defect::ForceOfMeanState) => axial(&mean()),
-                _ => 0.5 * (axial(&old.value) + axial(&new.value)),
-            },
-            contact: contact_with(defect, obstacles, law),
-        }
+        });
+        Forces { axial, contact }
     }
 
     /// Writes the loads `(F_u, F_φ, F_θ)`.

@@ -71,13 +71,14 @@ fn paths(code: &str) -> Vec<String> {
 
 /// The names of the methods in which the solver has its formulas.
 fn methods() -> Vec<String> {
-    let names = FORMULAS.iter().flat_map(|file| {
+    let mut names = vec![];
+    for file in FORMULAS {
         let code = code(&folder("../thermobeam/src").join(file));
-        let name = |after: &str| after.split('(').next().unwrap().to_owned();
-        let methods = code.split("pub fn ").skip(1).filter(|after| after.contains("(&self"));
-        methods.map(name).collect::<Vec<_>>()
-    });
-    names.collect()
+        for method in code.split("pub fn ").skip(1).filter(|after| after.contains("(&self")) {
+            names.extend(method.split('(').next().map(str::to_owned));
+        }
+    }
+    names
 }
 
 /// The formulas of the solver that a code uses: its methods, rows of schemes, norms of P1 functions.

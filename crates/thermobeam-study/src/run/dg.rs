@@ -64,9 +64,10 @@ impl DgMotion {
         let shift = beam.theta_a - exact_theta_a;
         let start = any_order::initial(exact);
         let theta = start.theta;
-        let is_lifted = defect != Some(Defect::StartNotLifted);
-        let missing = move |x: f64| if is_lifted || x == 0.0 { 0.0 } else { exact_theta_a * (1.0 - x) };
-        let initial = dg::Initial { theta: Box::new(move |x| theta(x) + shift * (1.0 - x) - missing(x)), ..start };
+        let missing = if defect == Some(Defect::StartNotLifted) { exact_theta_a } else { 0.0 };
+        // The value at x = 0 stays: the solver refuses initial data that contradict the boundary conditions.
+        let planted = move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
+        let initial = dg::Initial { theta: Box::new(planted), ..start };
         let problem = dg::Problem { beam, obstacles, mesh, degree, initial };
         let simulation = match loads {
             None => dg::Simulation::new(problem, by),

@@ -276,8 +276,9 @@ impl Kind for Scenes {
         checks.push(alike_in_lanes(&found));
         let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
         let strain = answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within).fold(0.0, max_or_nan);
-        let headline =
-            format!("{} scenes, at most {strain:.2} of the distance allowed to an independent answer", found.len());
+        let distance = format!(", at most {strain:.2} of the distance allowed to an independent answer");
+        let any_answer = self.scenes.iter().any(|whole| !whole.answer.is_empty());
+        let headline = format!("{} scenes{}", found.len(), if any_answer { &distance } else { "" });
         let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"];
         let rows: Vec<_> = found.iter().map(|(whole, shown)| (whole.cells(shown), whole.readings(shown))).collect();
         Outcome {
@@ -330,7 +331,7 @@ impl Whole {
     fn check(&self, shown: &Shown) -> Check {
         let (name, distance) = self.farthest(shown);
         let holds = shown.end == self.end && (self.end != End::Answer || distance <= self.within);
-        let evidence = if shown.end == End::Answer {
+        let evidence = if shown.end == End::Answer && !self.answer.is_empty() {
             format!("{name} is {} from its answer, {:e} allowed", short_text(distance), self.within)
         } else {
             format!("{} after {} steps", shown.end.name(), shown.counts[0])

@@ -1,7 +1,7 @@
 //! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and name each?
 //!
 //! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as uniform.
-//! `.cargo/regressions.toml` lists such mistakes, each with the study that must notice it. Each is planted in a copy of the work
+//! `.cargo/regressions.toml` lists such mistakes, each with the study or the test that must notice it. Each is planted in a copy of the work
 //! tree below `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are kept, so an interrupted
 //! run continues where it stopped.
 
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         return Err(Unusable::because(&format!("no regression with {} in its name", arguments.only.join(" or "))));
     }
     if arguments.list {
-        let row = |one: &&Regression| vec![one.name.clone(), one.file.clone(), one.study.clone()];
+        let row = |one: &&Regression| vec![one.name.clone(), one.file.clone(), one.noticed_by().to_owned()];
         let rows = chosen.iter().map(row).collect::<Vec<_>>();
         screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
         return Ok(Verdict::Pass);
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
     let (mut all, mut complaints) = (vec![], vec![]);
     for (regression, text) in chosen.iter().zip(&planted) {
-        match copy.with(&regression.name, &regression.file, text, arguments.recorded) {
+        match copy.with(regression, text, arguments.recorded) {
             Ok(found) => {
                 clock.done(&format!("{}: {}", regression.name, first_words(regression, &found)));
                 all.push((*regression, found));
@@ -79,10 +79,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     complaints.iter().for_each(|complaint| screen::complain(complaint));
     let all = judged::judged(&root, all)?;
-    let named = all.iter().filter(|one| is_named(one.regression, &one.found)).count();
+    let named = all.iter().filter(|one| one.found.is_named_by(one.regression)).count();
     let table = Table::new("", HEAD, all.iter().map(|one| row(one.regression, &one.found)));
     let rest = if all.len() < count { format!(", {} more are not recorded", count - all.len()) } else { String::new() };
-    let sentence = format!("{named} of {} mistakes are noticed by the study named for them{rest}", all.len());
+    let sentence =
+        format!("{named} of {} mistakes are noticed by the study or the test named for them{rest}", all.len());
     let scores = judged::page(&all, passing);
     screen::print(&format!("{}{scores}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
     if arguments.write {
@@ -97,17 +98,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 /// Where later runs of `verify` find the effects of these mistakes.
 const FINGERPRINTS: &str = ".cargo/fingerprints.json";
 
-const HEAD: [&str; 4] = ["mistake", "file", "first words about it", "named by its study"];
-
-/// Whether `verify` fails, and prints the expected words about the study named for the mistake.
-fn is_named(regression: &Regression, found: &Found) -> bool {
-    !found.record.verdict.is_pass() && found.is_named_by(&regression.study, &regression.says)
-}
+const HEAD: [&str; 4] = ["mistake", "file", "first words about it", "named by its study or test"];
 
 fn first_words(regression: &Regression, found: &Found) -> String {
     let said = found.said();
     match said.first() {
-        Some(first) if is_named(regression, found) => first.clone(),
+        Some(first) if found.is_named_by(regression) => first.clone(),
         _ => format!("not noticed:\n{}", said.iter().take(SHOWN).map(|line| format!("  {line}\n")).collect::<String>()),
     }
 }
@@ -116,8 +112,8 @@ fn first_words(regression: &Regression, found: &Found) -> String {
 const SHOWN: usize = 12;
 
 fn row(regression: &Regression, found: &Found) -> Vec<String> {
-    let study = if regression.study.is_empty() { "any" } else { &regression.study };
-    let named = if is_named(regression, found) { study.to_owned() } else { format!("no, not by {study}") };
+    let by = regression.noticed_by();
+    let named = if found.is_named_by(regression) { by.to_owned() } else { format!("no, not by {by}") };
     let first = found.said().first().cloned().unwrap_or_else(|| "nothing".to_owned());
     vec![regression.name.clone(), regression.file.clone(), first, named]
 }
@@ -125,7 +121,7 @@ fn row(regression: &Regression, found: &Found) -> Vec<String> {
 fn page(table: &Table, sentence: &str, ended: &str) -> String {
     format!(
         "# Mistakes of meaning\n\nWritten by `cargo xtask dev regressions --write`. Each mistake of `{}` is planted by itself; the \
-         quick tier of `verify` must notice it, and the study named for it must name what is wrong. {ended}\n\n{sentence}.\n\n{}",
+         quick tier of `verify` must notice it, and the study named for it must name what is wrong; or the test named for it must fail. {ended}\n\n{sentence}.\n\n{}",
         list::FILE,
         report::markdown(table)
     )

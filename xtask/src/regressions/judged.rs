@@ -122,6 +122,7 @@ pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
 }
 
 fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
+    // The diagnosis is that of `verify`; it says nothing of what only a test notices.
     let noticed: Vec<&&Judged<'_>> = all.iter().filter(|one| !one.found.record.verdict.is_pass()).collect();
     let score = |which: usize| {
         let judged: Vec<bool> = noticed.iter().filter_map(|one| one.right[which]).collect();
@@ -159,8 +160,10 @@ fn said(one: &Judged<'_>) -> String {
     let Judged { regression, found, diagnosis, right, .. } = one;
     let is_right = right.map(|right| right.map_or("-", |right| if right { "right" } else { "wrong" }));
     let head = format!("- **{}**, `{}`: ", regression.name, regression.file);
-    if found.record.verdict.is_pass() {
+    if found.is_unnoticed() {
         return head + "not noticed\n";
+    } else if found.record.verdict.is_pass() {
+        return format!("{head}by a test, `cargo test {}`\n", regression.test);
     }
     let head = format!("{head}method {}, term or field {}, module {}\n", is_right[0], is_right[1], is_right[2]);
     let lines = diagnosis.lines().into_iter().filter(|(word, _)| SHOWN.contains(word));

@@ -22,6 +22,9 @@ pub(super) struct Regression {
     /// The study of the quick tier that must notice it; empty for a mutant, which any study may notice.
     #[serde(default)]
     pub(super) study: String,
+    /// The test that must notice it, if no study must: the arguments of `cargo test` that select it alone.
+    #[serde(default)]
+    pub(super) test: String,
     /// Words that must appear in the message about that study and lead to the cause.
     #[serde(default)]
     pub(super) says: String,
@@ -74,6 +77,15 @@ impl Regression {
         format!("{} {name}", self.file)
     }
 
+    /// The study or the test that must notice it, in words.
+    pub(super) fn noticed_by(&self) -> &str {
+        match (self.study.as_str(), self.test.as_str()) {
+            ("", "") => "any",
+            ("", test) => test,
+            (study, _) => study,
+        }
+    }
+
     /// The folder of its file: a module.
     pub(super) fn module(&self) -> &str {
         self.file.rsplit_once('/').map_or("", |(folder, _)| folder)
@@ -107,6 +119,26 @@ mod tests {
     use convergence_study::cli::workspace;
     use convergence_study::study::Tier;
 
+    /// Whether some source of the package has the test that the last argument names.
+    fn has_test(root: &Path, arguments: &str) -> bool {
+        let words: Vec<&str> = arguments.split_whitespace().collect();
+        let ["--package", package, "--lib" | "--test", .., path] = words[..] else { return false };
+        let name = path.rsplit("::").next().unwrap_or(path);
+        let package = root.join("crates").join(package);
+        let sources = ["src", "tests"].into_iter().flat_map(|folder| sources(&package.join(folder)));
+        sources.into_iter().any(|text| text.contains(&format!("fn {name}(")))
+    }
+
+    /// The texts of all files below a folder.
+    fn sources(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).into_iter().flatten().map(|entry| entry.expect("an entry").path());
+        let texts = |path: std::path::PathBuf| match path.is_dir() {
+            true => sources(&path),
+            false => fs::read_to_string(path).into_iter().collect(),
+        };
+        entries.flat_map(texts).collect()
+    }
+
     #[test]
     fn every_regression_can_be_planted_and_names_a_study_of_the_quick_tier() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -127,6 +159,12 @@ mod tests {
                 regression.study
             );
             assert!(!regression.method.is_empty(), "{}", regression.name);
+            assert!(
+                regression.test.is_empty() || regression.study.is_empty(),
+                "{}: a study and a test",
+                regression.name
+            );
+            assert!(regression.test.is_empty() || has_test(&root, &regression.test), "{}", regression.test);
             // Each line about the study begins with its name.
             let head = format!("{}: ", regression.study);
             assert!(regression.study.is_empty() || !head.contains(&regression.says), "{}", regression.name);

@@ -9,9 +9,12 @@ use std::process::Command;
 use std::time::Instant;
 
 use convergence_study::cli::exit::Unusable;
+use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::not_passed;
 use convergence_study::store::{Record, atomic, content_hash, json};
 use serde::{Deserialize, Serialize};
+
+use super::list::Regression;
 
 /// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No run may know in advance what
 /// these mistakes did.
@@ -43,6 +46,9 @@ pub(super) struct Found {
     /// Number of lines that it printed.
     pub(super) lines: usize,
     pub(super) record: Record,
+    /// The line about the failure of the test named for the mistake; `None` if it passed, or if no test is named.
+    #[serde(default)]
+    failed_test: Option<String>,
 }
 
 impl Copy {
@@ -65,29 +71,66 @@ impl Copy {
     /// # Errors
     /// If it does not pass, since it would then seem to notice every mistake.
     pub(super) fn as_it_is(&self, recorded: bool) -> Result<Found, Unusable> {
-        let found = self.kept("as-it-is", self.hash, recorded, |key| self.verify(key))?;
+        let found = self.kept("as-it-is", self.hash, recorded, |key| self.verify(key, ""))?;
         if found.record.verdict.is_pass() {
             return Ok(found);
         }
         Err(Unusable::because(&format!("without a mistake `verify` does not pass:\n{}", found.said().join("\n"))))
     }
 
-    /// Results of `verify` with another text in one file, which is restored afterwards; known results are read.
+    /// Results of `verify`, and of the test named for the mistake, with another text in its file, which is restored afterwards; known
+    /// results are read.
     ///
     /// * `recorded`: use earlier results, whatever the files were then.
     ///
     /// # Errors
-    /// A text that does not compile, and errors of the operating system.
-    pub(super) fn with(&self, name: &str, file: &str, text: &str, recorded: bool) -> Result<Found, Unusable> {
-        let hash = self.hash ^ content_hash(format!("{file}\n{text}").as_bytes());
+    /// A text that does not compile, a test that fails without the mistake, and errors of the operating system.
+    pub(super) fn with(&self, regression: &Regression, text: &str, recorded: bool) -> Result<Found, Unusable> {
+        let Regression { name, file, test, .. } = regression;
+        let hash = self.hash ^ content_hash(format!("{file}\n{text}\n{test}").as_bytes());
         self.kept(name, hash, recorded, |key| {
+            if let Some(failed) = self.failed_test(test)? {
+                return Err(Unusable::because(&format!("without the mistake: {failed}")));
+            }
             let path = self.tree().join(file);
             let honest = fs::read(&path)?;
             fs::write(&path, text)?;
-            let found = self.verify(key);
+            let found = self.verify(key, test);
             fs::write(&path, honest)?;
             found
         })
+    }
+
+    /// Runs a test; returns its line if it fails, and `None` if it passes or is not named.
+    ///
+    /// * `arguments`: of `cargo test`; the last is the whole name of the test.
+    ///
+    /// # Errors
+    /// A test that is not found, that does not compile, or that ends without a result.
+    fn failed_test(&self, arguments: &str) -> Result<Option<String>, Unusable> {
+        let Some((options, name)) = arguments.rsplit_once(' ') else { return Ok(None) };
+        let mut test = self.cargo("test");
+        test.args(options.split(' ')).args(["--", "--exact", name]).current_dir(self.tree());
+        let output = test.output()?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let passed = format!("test {name} ... ok");
+        let result = text.lines().find(|line| line.starts_with(&format!("test {name} ... ")));
+        match result {
+            Some(line) if line == passed && output.status.success() => Ok(None),
+            Some(line) if line.ends_with("FAILED") => Ok(Some(line.to_owned())),
+            _ => {
+                let why = String::from_utf8_lossy(&output.stderr);
+                Err(Unusable::because(&format!("`cargo test {arguments}` has no result:\n{why}")))
+            }
+        }
+    }
+
+    /// Cargo with a command, for the copy.
+    fn cargo(&self, command: &str) -> Command {
+        let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        cargo.args([command, "--quiet", "--profile", PROFILE, "--target-dir"]).arg(self.folder.join("build"));
+        cargo.current_dir(self.tree());
+        cargo
     }
 
     /// Earlier results under this name and hash, or otherwise new ones, which are kept.
@@ -113,11 +156,9 @@ impl Copy {
         Ok(found)
     }
 
-    fn verify(&self, key: String) -> Result<Found, Unusable> {
+    fn verify(&self, key: String, test: &str) -> Result<Found, Unusable> {
         let [build, out] = ["build", "out"].map(|name| self.folder.join(name));
-        let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args(["build", "--quiet", "--profile", PROFILE, "--package", "xtask", "--target-dir"]).arg(&build);
-        let built = cargo.current_dir(self.tree()).output()?;
+        let built = self.cargo("build").args(["--package", "xtask"]).output()?;
         if !built.status.success() {
             let why = String::from_utf8_lossy(&built.stderr);
             return Err(Unusable::because(&format!("it does not compile:\n{why}")));
@@ -129,34 +170,48 @@ impl Copy {
         let started = Instant::now();
         let output = verify.output().map_err(|error| Unusable::file(&program, &error))?;
         let seconds = started.elapsed().as_secs_f64();
-        if output.status.code().is_none_or(|status| status > 1) {
+        let is_judged = output.status.code().is_some_and(|status| status <= 1);
+        if !is_judged && test.is_empty() {
             let why = String::from_utf8_lossy(&output.stderr);
             return Err(Unusable::because(&format!("`verify` itself fails:\n{why}")));
         }
         let lines = output.stdout.iter().filter(|byte| **byte == b'\n').count();
-        let mut record = Record::read(&out.join("results.json"))?;
+        // With a mistake in a reader `verify` may refuse the studies; the test decides.
+        let refused = || Ok(Record::new("quick", "verify", Verdict::Fail, None, vec![]));
+        let mut record = if is_judged { Record::read(&out.join("results.json")) } else { refused() }?;
         for study in &mut record.studies {
             study.outcome.tables.clear();
             study.outcome.figures.clear();
         }
-        Ok(Found { key, seconds, lines, record })
+        Ok(Found { key, seconds, lines, record, failed_test: self.failed_test(test)? })
     }
 }
 
 impl Found {
-    /// The output, with a line for each reason of a study and each changed number; the study comes before a colon.
+    /// Whether `verify` passes, and the test named for the mistake, if one is.
+    pub(super) fn is_unnoticed(&self) -> bool {
+        self.record.verdict.is_pass() && self.failed_test.is_none()
+    }
+
+    /// The output, with a line for each reason of a study and each changed number; the study comes before a colon. The line of the
+    /// test comes first.
     pub(super) fn said(&self) -> Vec<String> {
         let reasons = not_passed(&self.record.studies).into_iter().flat_map(|study| {
             let line = move |reason: String| format!("{}: {reason}", study.id);
             study.reasons.into_iter().map(line).collect::<Vec<_>>()
         });
-        reasons.chain(self.record.baseline_changes.iter().cloned()).collect()
+        self.failed_test.iter().cloned().chain(reasons).chain(self.record.baseline_changes.iter().cloned()).collect()
     }
 
-    /// Whether the output about the study contains these words; about any study if none is named.
-    pub(super) fn is_named_by(&self, study: &str, says: &str) -> bool {
+    /// Whether the test named for the mistake fails; otherwise, whether `verify` fails and its output about the study contains the
+    /// expected words; about any study if none is named.
+    pub(super) fn is_named_by(&self, Regression { study, test, says, .. }: &Regression) -> bool {
+        if !test.is_empty() {
+            return self.failed_test.is_some();
+        }
         let head = if study.is_empty() { String::new() } else { format!("{study}: ") };
-        self.said().iter().any(|line| line.starts_with(&head) && line.contains(says))
+        !self.record.verdict.is_pass()
+            && self.said().iter().any(|line| line.starts_with(&head) && line.contains(says.as_str()))
     }
 }
 

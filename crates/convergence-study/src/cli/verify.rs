@@ -12,7 +12,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
 use crate::run::{Effort, Finished};
-use crate::store::{Change, Record, json};
+use crate::store::{Change, Record, diagnosis::Diagnosis, json};
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
@@ -160,8 +160,11 @@ fn blessed(project: &Project, found: &Verification) -> String {
         Some(Ok(())) => "baseline: blessed, see studies/baseline.json\n".to_owned(),
         Some(Err(refusal)) => format!("baseline: {}\n", visible::lines(&refusal.to_string())),
         None if !found.record.moves().is_empty() && can_be_blessed(&found.record.studies) => {
-            let Record { command, studies, .. } = &found.record;
-            format!("if that is meant: {}\n", blessing(project, command, studies, found.record.moves()))
+            let Record { command, studies, diagnosis, .. } = &found.record;
+            let alike = diagnosis.as_ref().map(Diagnosis::alike).filter(|alike| !alike.is_empty());
+            let alike =
+                alike.map_or(String::new(), |alike| format!("planted mistakes that move them alike: {alike}\n"));
+            format!("{alike}if that is meant: {}\n", blessing(project, command, studies, found.record.moves()))
         }
         None => String::new(),
     }

@@ -248,11 +248,14 @@ fn times(movement: &Movement) -> String {
 
 /// How to accept them, or why that is refused.
 fn acceptance(findings: &Findings<'_>) -> String {
-    let Findings { project, record: Record { command, studies, .. }, .. } = findings;
+    let Findings { project, record: Record { command, studies, diagnosis, .. }, .. } = findings;
     match findings.record.moves() {
         [] => String::new(),
         moves if can_be_blessed(studies) => {
-            format!("If it is meant: `{}`.\n\n", blessing(project, command, studies, moves))
+            let alike = diagnosis.as_ref().map(Diagnosis::alike).filter(|alike| !alike.is_empty());
+            let alike =
+                alike.map_or(String::new(), |alike| format!("Planted mistakes that move them alike: {alike}.\n\n"));
+            format!("{alike}If it is meant: `{}`.\n\n", blessing(project, command, studies, moves))
         }
         _ => "`--bless` refuses until the studies that did not pass are mended.\n\n".to_owned(),
     }

@@ -245,6 +245,12 @@ fn some(mut items: Vec<String>, what: &str) -> String {
 }
 
 impl Diagnosis {
+    /// The planted mistakes with a similar effect, in words; empty if there are none.
+    pub fn alike(&self) -> String {
+        let words = |one: &Resembling| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file);
+        self.resembles.iter().map(words).collect::<Vec<_>>().join(", ")
+    }
+
     /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = self.contrasted();

@@ -13,6 +13,9 @@ use crate::study::header::field;
 /// Logarithm of the ratio that weighs as much as a failure.
 const LARGE: f64 = 2.0;
 
+/// End of an item that stands for a failure; other items are numbers.
+const FAILS: &str = " fails";
+
 /// What fails and moves: study and field, and how much, from -1 to 1.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -26,7 +29,7 @@ impl Fingerprint {
             let rates = outcome.rates.iter().map(|(norm, rate)| (norm, rate.verdict));
             let checks = outcome.checks.iter().map(|check| (&check.claim, check.verdict));
             let failing = rates.chain(checks).filter(|(_, verdict)| !verdict.is_pass());
-            items.extend(failing.map(|(name, _)| (format!("{}: {} fails", header.id, field(name)), 1.0)));
+            items.extend(failing.map(|(name, _)| (format!("{}: {}{FAILS}", header.id, field(name)), 1.0)));
         }
         for Change { study, name, movement } in changes {
             let Movement::Moved { from, to, .. } = movement else { continue };
@@ -38,6 +41,17 @@ impl Fingerprint {
             items.insert(format!("{study}: {}", field(name)), size);
         }
         Self(items)
+    }
+
+    /// Without failures: only the numbers that move.
+    fn numbers(&self) -> Self {
+        Self(
+            self.0
+                .iter()
+                .filter(|(item, _)| !item.ends_with(FAILS))
+                .map(|(item, size)| (item.clone(), *size))
+                .collect(),
+        )
     }
 
     /// Cosine of the angle between two: 1 if they are alike, 0 if they share nothing.
@@ -89,17 +103,47 @@ impl Fingerprints {
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }
 
-    /// The two most alike, if they are alike enough.
+    /// The two most alike, if they are alike enough. Where nothing fails in the run, those that move numbers alike.
     pub fn nearest(&self, run: &Fingerprint) -> Vec<Resembling> {
+        let only_moves = run.numbers() == *run;
+        let likeness = |of: &Fingerprint| if only_moves { of.numbers().likeness(run) } else { of.likeness(run) };
         let like = |known: &Known| Resembling {
             mistake: known.mistake.clone(),
             file: known.file.clone(),
-            likeness: (100.0 * known.items.likeness(run)).round() / 100.0,
+            likeness: (100.0 * likeness(&known.items)).round() / 100.0,
         };
         let mut all: Vec<Resembling> = self.known.iter().map(like).collect();
         all.sort_by(|one, next| next.likeness.total_cmp(&one.likeness));
         all.retain(|one| one.likeness >= self.threshold.max(0.01));
         all.truncate(2);
         all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fingerprint(items: &[(&str, f64)]) -> Fingerprint {
+        Fingerprint(items.iter().map(|(item, size)| ((*item).to_owned(), *size)).collect())
+    }
+
+    /// Most of what the mistake does in the dictionary are failures; a run with only its moved numbers resembles it all the same.
+    #[test]
+    fn moved_numbers_are_compared_with_the_moved_numbers_of_mistakes_that_also_fail() {
+        let moves = [("s: u", 0.5), ("s: phi", -0.2)];
+        let fails = ["a: u fails", "b: u fails", "c: u fails", "d: u fails"].map(|item| (item, 1.0));
+        let known = |mistake: &str, items: Fingerprint| Known { mistake: mistake.into(), file: "f.rs".into(), items };
+        let other = fingerprint(&[("s: u", -0.5), ("t: theta", 1.0)]);
+        let both = fingerprint(&[&moves[..], &fails].concat());
+        let all = Fingerprints { threshold: 0.6, known: vec![known("other", other), known("one", both)] };
+        let names = |run: &[(&str, f64)]| -> Vec<(String, f64)> {
+            all.nearest(&fingerprint(run)).into_iter().map(|one| (one.mistake, one.likeness)).collect()
+        };
+        assert_eq!(names(&moves), [("one".to_owned(), 1.0)]);
+        assert_eq!(names(&[("u: u", 1.0)]), []);
+        // Another failure is no reason to name it.
+        assert_eq!(names(&[&moves[..], &[("e: u fails", 1.0)]].concat()), []);
+        assert_eq!(names(&fails), [("one".to_owned(), 0.97)]);
     }
 }

@@ -19,6 +19,9 @@ const MARKS: [(&str, &str); 9] = [
 /// Types of columns and units, as data frames write them below the names.
 const TYPES: [&str; 8] = ["double", "f64", "i64", "float64", "int64", "float", "int", "str"];
 
+/// A row that is filled has at least one cell in this many columns.
+const FULL: usize = 4;
+
 /// A text without colours, and a line for each of nested lists without names.
 pub(super) fn plain(text: &str) -> String {
     let marked = MARKS.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
@@ -152,6 +155,8 @@ fn is_rule(line: &str) -> bool {
 }
 
 /// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns below which they stand.
+///
+/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many times as long as the text.
 fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
     let span =
         |line: &str, cell: &str| [0, cell.len()].map(|end| cell.as_ptr() as usize - line.as_ptr() as usize + end);
@@ -162,14 +167,16 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
             *all = [all[0].min(start), all[1].max(end)];
         }
     }
-    for (line, cells) in rows.iter_mut().filter(|(_, cells)| cells.len() < width) {
-        let mut filled = vec![&line[line.len()..]; width];
+    for (line, cells) in rows.iter_mut().filter(|(_, cells)| (width..FULL * width).contains(&(FULL * cells.len()))) {
+        // Starts and ends grow from column to column.
         let below = |cell: &&str| {
             let [start, end] = span(line, cell);
-            spans.iter().position(|column| start < column[1] && column[0] < end)
+            let column = spans.partition_point(|column| column[1] <= start);
+            spans.get(column).is_some_and(|column| column[0] < end).then_some(column)
         };
         let places: Vec<usize> = cells.iter().filter_map(below).collect();
         if places.len() == cells.len() && places.is_sorted_by(|a, b| a < b) {
+            let mut filled = vec![&line[line.len()..]; width];
             places.iter().zip(cells.iter()).for_each(|(place, cell)| filled[*place] = cell);
             *cells = filled;
         }

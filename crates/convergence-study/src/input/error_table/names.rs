@@ -109,7 +109,8 @@ fn without_unit(name: &str) -> &str {
 /// Position of the name wanted: as written, or the only such name without its unit, or a nameless column by its number.
 pub(crate) fn position<'n>(names: impl Iterator<Item = &'n str> + Clone, wanted: &str) -> Option<usize> {
     let numbered = format!("column {wanted}");
-    names.clone().position(|name| name == wanted || name == numbered).or_else(|| {
+    let same = |text: &str| names.clone().position(|name| name == text);
+    same(wanted).or_else(|| same(&numbered)).or_else(|| {
         let mut same = names.clone().enumerate().filter(|(_, name)| without_unit(name) == wanted).map(|(k, _)| k);
         same.next().filter(|_| same.next().is_none())
     })

@@ -60,7 +60,16 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     let separator = separator(lines().filter(|line| !is_comment(line)));
     let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
     let (mut heads, mut rows): (Vec<&str>, Vec<(&str, Vec<&str>)>) = Default::default();
-    for line in lines() {
+    let mut quoted_names = None;
+    let mut all = lines().peekable();
+    while let Some(line) = all.next() {
+        if rows.is_empty()
+            && let Some(below) = all.peek()
+            && let Some(names) = names_in_quotes(line, below, separator)
+        {
+            quoted_names = Some(names);
+            continue;
+        }
         // A row without the comment after it.
         let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
         let numbers = cells.iter().filter(|cell| is_number(cell)).count();
@@ -90,7 +99,13 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     let rows: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
     let width = rows.iter().map(Vec::len).max().unwrap_or(0);
     let table = RawTable { decimal_comma: separator != Some(','), ..RawTable::default() };
-    match numbered(&heads, width).or_else(|| names(&heads, &rows, separator, width)) {
+    let quoted_names = quoted_names.and_then(|names| match width.checked_sub(names.len())? {
+        0 => Some(names),
+        // R writes no name above the names of rows.
+        1 => Some([&[&text[..0]], names.as_slice()].concat()),
+        _ => None,
+    });
+    match quoted_names.or_else(|| numbered(&heads, width)).or_else(|| names(&heads, &rows, separator, width)) {
         None if is_turned(&rows) => {
             let named = usize::from(number(rows[0][0], true).is_none());
             let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
@@ -130,6 +145,19 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
 fn cell(text: &str) -> &str {
     let text = text.trim_start().trim_end();
     text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text).trim()
+}
+
+/// The cells of a line in which each number is in quotes, if some stand above a number without: they are names.
+fn names_in_quotes<'t>(line: &'t str, below: &str, separator: Option<char>) -> Option<Vec<&'t str>> {
+    if !line.contains('"') {
+        return None;
+    }
+    let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
+    let is_quoted = |line: &str, cell: &str| line[..cell.as_ptr() as usize - line.as_ptr() as usize].ends_with('"');
+    let (names, cells) = (split(line, separator), split(below, separator));
+    let is_above = |(name, cell): (&&str, &&str)| is_number(name) && is_number(cell) && !is_quoted(below, cell);
+    let is_head = names.iter().filter(|name| is_number(name)).all(|name| is_quoted(line, name));
+    (is_head && names.iter().rev().zip(cells.iter().rev()).any(is_above)).then_some(names)
 }
 
 /// The separator of a table: the first that leaves no two numbers in one cell of its first row; `None` for blanks.

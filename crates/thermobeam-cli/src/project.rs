@@ -56,7 +56,7 @@ const FRONT: Front = Front {
         ("Steady states, in closed form", "equilibria", ""),
         ("Beyond: elements of degree p", "any-order-space", ""),
         ("Beyond: dG(q) in time", "any-order-time", ""),
-        ("Beyond: the experiments to ten digits", "experiments-exact", ""),
+        ("Beyond: the experiments to ten decimals", "experiments-exact", ""),
     ],
 };
 

@@ -118,7 +118,7 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
 fn a_thousand_million_steps_need_consent_or_a_limit() {
     const STEPS: &str = "dt = 1e-9\nt_end = 1.0\n";
     let beam = "[mesh]\nelements = 1\n[initial]\nu_t = \"x\"\n[time]\n";
-    let exact = "[exact]\nu = [{ x = \"x^2\", t = \"t\" }]\nphi = [{ x = \"x\", t = \"t\" }]\ntheta = []\n";
+    let exact = "[exact]\nu = [{ x = \"x^2\", t = \"t\" }]\nphi = [{ x = \"x\", t = \"t\" }]\ntheta = [{ x = \"x*(1-x)\", t = \"t\" }]\n";
     let refine = "[refine]\naxis = \"space\"\nelements = [1, 2, 4]\nsteps = 1000000000\nt_end = 1.0\n";
     let expect = "[[expect]]\nnorm = \"velocity\"\norder = 2.0\ntolerance = 0.1\n";
     let long = study("long", "convergence") + exact + refine + expect;

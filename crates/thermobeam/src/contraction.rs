@@ -1,7 +1,9 @@
 //! Contraction factors of the paper's fixed-point iteration (4.1)-(4.5).
 //!
 //! The paper does not analyse the convergence of its iteration. An error returns to its field by four loops, and each multiplies it by
-//! a factor. The largest of them decides: above 1 the iteration diverges. Write A_u, A_φ and A_θ for the matrices of (4.2).
+//! a factor, which is that of the loop alone. The iteration converges with the spectral radius of their combination. That is near the largest
+//! factor if the others are small; two loops that act on the same fields may add (contact and axial force) or damp each other (rotation and
+//! heat). Write A_u, A_φ and A_θ for the matrices of (4.2).
 //!
 //! | loop | quantity of the previous iterate | factor | for dt ≪ ζ, on fine meshes |
 //! | --- | --- | --- | --- |
@@ -109,7 +111,7 @@ impl Case {
         self.beam.rho * self.dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
     }
 
-    /// The contraction factor of the fixed point: the largest factor of the four loops.
+    /// The largest factor of the four loops: about the contraction factor of the fixed point if the others are small.
     ///
     /// * `u`: the displacement at the nodes, which determines the axial force.
     pub fn contraction(&self, u: &[f64]) -> (f64, Loop) {

@@ -33,10 +33,10 @@ fn the_states_below_the_buckling_force_are_listed() {
 #[test]
 fn a_list_is_called_complete_where_it_is() {
     let folder = Folder::new();
-    let time = "[time]\ndt = 0.1\nt_end = 1\n";
+    let time = "[initial]\ntheta = \"2*(1-x)\"\n[time]\ndt = 0.1\nt_end = 1\n";
     let hot =
         |beta: f64, obstacles: &str| format!("[beam]\nbeta = {beta:?}\na = 0.5\ntheta_a = 2.0\n{obstacles}{time}");
-    let cold = |beta: f64| format!("[beam]\nbeta = {beta:?}\n{time}");
+    let cold = |beta: f64| format!("[beam]\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
     for (name, scene, states, complete, said) in [
         // One state although beta = -1: no beam with a heated end has a slope so small.
         ("one", hot(-1.0, ""), Some(1), true, ""),

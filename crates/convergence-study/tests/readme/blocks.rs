@@ -4,14 +4,14 @@
 const ROUND_OFF: f64 = 1e-12;
 
 /// A block of output and the command line before it.
-pub struct Printed {
-    pub command: Vec<String>,
+pub(crate) struct Printed {
+    pub(crate) command: Vec<String>,
     /// Its lines; `...` stands for any others.
-    pub lines: Vec<String>,
+    pub(crate) lines: Vec<String>,
 }
 
 /// The fenced blocks of a page: language and text.
-pub fn fenced(page: &str) -> Vec<(String, String)> {
+pub(crate) fn fenced(page: &str) -> Vec<(String, String)> {
     let parts: Vec<&str> = page.split("\n```").collect();
     let inside = parts.iter().skip(1).step_by(2);
     let block = |part: &&str| part.split_once('\n').map(|(language, text)| (language.to_owned(), text.to_owned()));
@@ -19,7 +19,7 @@ pub fn fenced(page: &str) -> Vec<(String, String)> {
 }
 
 /// Each block of output, with the last command of the block of commands that stands last before it.
-pub fn printed(page: &str) -> Vec<Printed> {
+pub(crate) fn printed(page: &str) -> Vec<Printed> {
     let mut all = vec![];
     let mut command = None;
     for (language, text) in fenced(page) {
@@ -42,7 +42,7 @@ fn are_alike(one: &str, other: &str) -> bool {
 }
 
 /// The first line of a block that an output does not have in its place.
-pub fn missing(block: &[String], output: &str) -> Option<String> {
+pub(crate) fn missing(block: &[String], output: &str) -> Option<String> {
     let is_line = |line: &str, found: &str| {
         let [line, found] = [line, found].map(|text| text.split(' ').collect::<Vec<_>>());
         line.len() == found.len() && line.iter().zip(&found).all(|(one, other)| are_alike(one, other))

@@ -19,6 +19,7 @@ struct Xtask {
 }
 
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "there is one value of it in a run")]
 enum Command {
     #[command(flatten)]
     Thermobeam(thermobeam_cli::Command),

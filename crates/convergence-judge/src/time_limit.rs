@@ -78,7 +78,6 @@ pub fn granted() -> Option<Duration> {
 /// A loop asks this before each of its rounds whether there is time for it.
 #[derive(Debug, Clone)]
 pub struct Patience {
-    deadline: Option<Deadline>,
     /// Work of a round and work since the last sum, in units of about 10 to 100 ns.
     round: usize,
     since: usize,
@@ -95,7 +94,7 @@ impl Patience {
     /// For rounds that each advance `elements` elements by a step.
     pub fn new(elements: usize) -> Self {
         let round = elements.saturating_add(Self::STEP);
-        Self { deadline: DEADLINE.get(), round, since: 0, begun: false }
+        Self { round, since: 0, begun: false }
     }
 
     /// For rounds of another kind, each long enough to look at the clock.
@@ -125,7 +124,7 @@ impl Patience {
         WORK.set((done, most));
         (self.since, self.begun) = (0, true);
         let work = most.filter(|most| done > *most);
-        let late = self.deadline.filter(|deadline| Instant::now() >= deadline.at);
+        let late = DEADLINE.get().filter(|deadline| Instant::now() >= deadline.at);
         if work.is_none() && late.is_none() {
             return Ok(());
         }
@@ -178,6 +177,14 @@ mod tests {
         assert!(up.work == Some(1_000_000) && done > 1_000_000 && stopped.0 < 10_000, "{up}");
         assert_eq!(run(Some(1_000_000)), (stopped, done));
         assert!(up.to_string().ends_with("t = 0.5") && up.to_string().contains("(work)"), "{up}");
+    }
+
+    #[test]
+    fn a_loop_that_was_set_up_before_the_limit_obeys_it() {
+        let mut patience = Patience::new(100);
+        let limit = Duration::from_millis(1);
+        let (done, up) = within(Some(limit), || (0..usize::MAX).find(|&step| patience.check(step, || 0.5).is_err()));
+        assert!(done.is_some() && up.is_some_and(|up| up.limit == limit), "{done:?} {up:?}");
     }
 
     #[test]

@@ -30,6 +30,8 @@ pub struct Project {
     pub places: &'static [(&'static str, &'static str)],
     /// The file of known mistakes, relative to the project's folder.
     pub fingerprints: Option<&'static str>,
+    /// About how many seconds a unit of the cost of its cases takes on one thread; `None` if that is not known.
+    pub seconds_per_cost: Option<f64>,
 }
 
 impl Project {
@@ -50,6 +52,7 @@ impl Project {
             settings,
             places: &[],
             fingerprints: None,
+            seconds_per_cost: None,
         }
     }
 }
@@ -76,7 +79,7 @@ pub struct Template {
     /// for that name, `PROGRAM` for the project's command, `DIRECTORY` for the folder that it runs in, as seen from the
     /// files, and `BELOW` for their folder as seen from there, such as `studies/`.
     pub files: &'static [(&'static str, &'static str)],
-    /// The text of `.gitignore` next to the files, if there is none yet; may be empty.
+    /// The text of `.gitignore` in the folder that the command runs in, if there is none yet; may be empty.
     pub ignored: &'static str,
     /// Commands that take the first file, as the user's next steps: two at most.
     pub next: &'static [&'static str],

@@ -1,7 +1,5 @@
 //! Tables of steps and errors.
 
-use std::time::{Duration, Instant};
-
 use convergence_study::input::InputError;
 use convergence_study::input::error_table::{Choice, RateTable};
 use convergence_study::judge::claims::Claim;
@@ -51,23 +49,60 @@ fn a_table_that_cannot_be_used_is_refused_with_its_place() {
     }
 }
 
-/// The least of several times for a table with this many columns, because other processes disturb some.
-fn time_of(columns: usize) -> Duration {
-    let row = |cell: &dyn Fn(usize) -> String| (0..columns).map(|i| format!(",{}", cell(i))).collect::<String>();
-    let text = format!("h{}\n0.1{}\n", row(&|i| format!("column-{i}")), row(&|_| "0.5".to_owned()));
-    let timed = |_| {
-        let start = Instant::now();
-        assert_eq!(parsed(&text).unwrap().columns.len(), columns);
-        start.elapsed()
-    };
-    (0..4).map(timed).min().unwrap()
+/// Processor time of this thread.
+#[cfg(unix)]
+fn processor_time() -> std::time::Duration {
+    nix::time::clock_gettime(nix::time::ClockId::CLOCK_THREAD_CPUTIME_ID).expect("a clock").into()
 }
 
+/// The least of several times to read a text, because other processes disturb some.
+#[cfg(unix)]
+fn time_of(text: &str) -> std::time::Duration {
+    let timed = |_| {
+        let start = processor_time();
+        // A refusal takes as long, and repeats the reading for the command that it offers.
+        let _ =
+            RateTable::parse_with(text, "t.csv", &Choice { command: "rates t.csv".to_owned(), ..Choice::default() });
+        processor_time() - start
+    };
+    (0..4).map(timed).min().expect("four times")
+}
+
+/// A text of a given size.
+#[cfg(unix)]
+type Text = fn(usize) -> String;
+
+/// Texts in which one of lines, names and columns grows, and the step with it where there is one.
+#[cfg(unix)]
+const GROWING: [(&str, Text); 9] = [
+    ("columns", |n| {
+        let row = |cell: fn(usize) -> String| (0..n).map(|k| format!(",{}", cell(k))).collect::<String>();
+        format!("h{}\n0.1{}\n", row(|k| format!("column-{k}")), row(|_| "0.5".to_owned()))
+    }),
+    ("columns of four rows", |n| {
+        let row = |factor: f64| (0..n).map(|k| format!(" {}", factor * (1.0 + k as f64))).collect::<String>();
+        let rows: String = [0.4, 0.2, 0.1, 0.05].iter().map(|h| format!("{h}{}\n", row(h * h))).collect();
+        format!("h{}\n{rows}", (0..n).map(|k| format!(" spam{k}")).collect::<String>())
+    }),
+    ("rows", |n| (1..=n).map(|k| format!("{},{}\n", 1.0 / k as f64, 1.0 / (k * k) as f64)).collect()),
+    ("a name on each line", |n| (0..n).map(|k| format!("a{k} {k}\n")).collect()),
+    ("a marked name on each line", |n| (0..n).map(|k| format!("a{k} = {k}\n")).collect()),
+    ("names on one line", |n| (0..n).map(|k| format!("a{k} = {k}, ")).collect()),
+    ("lines of a log", |n| (1..=n).map(|k| format!("h = {}, L2 = {}\n", 1.0 / k as f64, 0.1 / k as f64)).collect()),
+    ("words after names", |n| "x: 1\ny: 2\n".to_owned() + &"k: foo\n".repeat(n)),
+    ("rows that lack a cell", |n| {
+        let cells = "1.5 ".repeat(n);
+        format!("{cells}2.5\n{cells}\n{cells}\n") + &"0.5 3\n".repeat(n)
+    }),
+];
+
+#[cfg(unix)]
 #[test]
-fn twenty_thousand_columns_are_read_in_time_proportional_to_their_number() {
-    let (few, many) = (time_of(2500), time_of(20_000));
-    // Eight times as many columns; comparing each name with all others takes 64 times as long.
-    assert!(many < 24 * few, "{few:?} {many:?}");
+fn a_text_is_read_in_time_proportional_to_its_lines_names_and_columns() {
+    // Eight times as much; comparing each with all others takes 64 times as long.
+    let times = GROWING.map(|(what, text)| (what, [500, 4_000].map(|size| time_of(&text(size)))));
+    let slow: Vec<_> = times.into_iter().filter(|(_, [few, many])| *many >= 24 * *few).collect();
+    assert!(slow.is_empty(), "{slow:?}");
 }
 
 /// The error in a table of one row.

@@ -66,6 +66,7 @@ fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
         let list = || value.split(',').map(str::to_owned).collect::<Vec<_>>();
         match option[0].as_str() {
             "--dim" => choice.dim = Some(value.parse().expect("a dimension")),
+            "--ratio" => choice.ratio = Some(value.parse().expect("a ratio")),
             "--step" => choice.step = Some(value),
             "--columns" => choice.columns = Some(list()),
             "--values" => choice.values = list(),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use thermobeam::equilibrium::{Equilibrium, EquilibriumError, equilibria, lists_all};
+use thermobeam::equilibrium::{Completeness, Equilibrium, EquilibriumError, completeness, equilibria};
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 #[derive(Debug, Serialize)]
 struct Listed {
     equilibria: Vec<ListedState>,
-    /// Whether these are all: below beta = -0.9996 unstable states accumulate, and only some of them are listed.
+    /// Whether these are all. If not, unstable states with -1 < N < -0.9996 may be missing, or are.
     complete: bool,
 }
 
@@ -71,8 +71,12 @@ impl Listed {
             contact_force: state.contact_force,
             unstable_directions: state.unstable_directions,
         };
-        Self { equilibria: states.iter().map(state).collect(), complete: lists_all(&scene.beam) }
+        Self { equilibria: states.iter().map(state).collect(), complete: known(scene) == Completeness::Complete }
     }
+}
+
+fn known(scene: &Scene) -> Completeness {
+    completeness(&scene.beam, scene.obstacles.as_ref())
 }
 
 fn counted(states: usize) -> String {
@@ -109,11 +113,13 @@ fn text(scene: &Scene, states: &[Equilibrium]) -> String {
             state.contact_force,
         );
     }
-    if !lists_all(beam) {
-        text.push_str(
-            "\nNot all: so far below the buckling force infinitely many unstable states accumulate at N = -1.\n\
-             Every stable state is listed.\n",
-        );
+    text + match known(scene) {
+        Completeness::Complete => "",
+        Completeness::Unknown => {
+            "\nPerhaps not all: unstable states with -1 < N < -0.9996 may be missing.\nEvery stable state is listed.\n"
+        }
+        Completeness::Infinite => {
+            "\nNot all: infinitely many unstable states accumulate at N = -1.\nEvery stable state is listed.\n"
+        }
     }
-    text
 }

@@ -31,8 +31,13 @@ pub const fn project(command: &'static str) -> Project {
         settings,
         places: &PLACES,
         fingerprints: Some(".cargo/fingerprints.json"),
+        seconds_per_cost: Some(NODE_STEP),
     }
 }
+
+/// Seconds that a one-step scheme takes for an element and a step: the unit of all costs. Measured: 20 ns (100 000 steps
+/// of 100 elements in 0.2 s).
+pub(crate) const NODE_STEP: f64 = 2e-8;
 
 const FRONT: Front = Front {
     verified: "Theorem 3.4 of Bernardi and Copetti bounds the error of their scheme by c (h + dt), for solutions that are smooth. Each order is \
@@ -53,7 +58,7 @@ const FRONT: Front = Front {
         ("Steady states, in closed form", "equilibria", ""),
         ("Beyond: elements of degree p", "any-order-space", ""),
         ("Beyond: dG(q) in time", "any-order-time", ""),
-        ("Beyond: the experiments to ten digits", "experiments-exact", ""),
+        ("Beyond: the experiments to ten decimals", "experiments-exact", ""),
     ],
 };
 

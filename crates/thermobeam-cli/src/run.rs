@@ -13,6 +13,7 @@ use clap::Args;
 use convergence_study::run::time_limit;
 use convergence_study::store::atomic;
 use serde::Serialize;
+use thermobeam_study::kinds::tables::cost_of_run;
 use thermobeam_study::predict::Unreachable;
 use thermobeam_study::predict::estimate::Budget;
 use thermobeam_study::run::object::Object;
@@ -25,6 +26,7 @@ use convergence_study::cli::running::{self, seconds};
 use convergence_study::cli::screen;
 use convergence_study::judge::verdict::Verdict;
 
+use crate::project::NODE_STEP;
 use accuracy::Planned;
 
 /// Simulate one scene
@@ -50,6 +52,9 @@ pub struct Arguments {
     /// Time limit of the run; the results so far are then shown, and the exit status is 1 [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
+    /// Run also what is expected to take minutes
+    #[arg(long)]
+    yes: bool,
     #[command(flatten)]
     flags: Flags,
 }
@@ -98,6 +103,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
     };
     let scene = planned.as_ref().map_or(&read, Planned::scene);
+    if !arguments.yes && arguments.time_limit.is_none() {
+        running::consent(&arguments.scene.display().to_string(), NODE_STEP * cost_of_run(scene), "--time-limit")?;
+    }
     let simulator = Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let run = simulate(arguments, scene, simulator)?;
     let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| {

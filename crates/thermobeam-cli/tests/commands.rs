@@ -113,3 +113,27 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
     let error = String::from_utf8_lossy(&broken.stderr).into_owned();
     assert!(broken.status.code() == Some(2) && error.contains("results.json: "), "{error}");
 }
+
+#[test]
+fn a_thousand_million_steps_need_consent_or_a_limit() {
+    const STEPS: &str = "dt = 1e-9\nt_end = 1.0\n";
+    let beam = "[mesh]\nelements = 1\n[initial]\nu_t = \"x\"\n[time]\n";
+    let exact = "[exact]\nu = [{ x = \"x^2\", t = \"t\" }]\nphi = [{ x = \"x\", t = \"t\" }]\ntheta = [{ x = \"x*(1-x)\", t = \"t\" }]\n";
+    let refine = "[refine]\naxis = \"space\"\nelements = [1, 2, 4]\nsteps = 1000000000\nt_end = 1.0\n";
+    let expect = "[[expect]]\nnorm = \"velocity\"\norder = 2.0\ntolerance = 0.1\n";
+    let long = study("long", "convergence") + exact + refine + expect;
+    let root = workspace(&[("scenes/s.toml", &(beam.to_owned() + STEPS)), ("long.toml", &long)]);
+    // (1 + 4) elements, 1e9 steps, 20 ns: 100 s. The meshes of the study have 5 + 6 + 8 elements.
+    let words =
+        "found work for about 1.0e2 seconds on one thread; expected at most 60, or --yes, or --time-limit SECONDS";
+    unusable(&root, &["run", "studies/scenes/s.toml"], words);
+    unusable(&root, &["run", "studies/scenes/s.toml", "--out", "reports"], words);
+    let words = "long: found work for about 3.8e2 seconds on one thread; expected at most 60, or --yes, or --case-limit SECONDS";
+    unusable(&root, &["study", "studies/long.toml"], words);
+    unusable(&root, &["verify"], words);
+    // With a limit both run, until it stops them.
+    let ended = |arguments: &[&str]| thermobeam(root.path(), arguments).status.code();
+    assert_eq!(ended(&["run", "studies/scenes/s.toml", "--time-limit", "0.1"]), Some(1));
+    assert_eq!(ended(&["run", "studies/scenes/s.toml", "--time-limit", "0.1", "--yes"]), Some(1));
+    assert_eq!(ended(&["study", "studies/long.toml", "--case-limit", "0.1"]), Some(1));
+}

@@ -63,7 +63,7 @@ impl Obstacles {
     /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε if viscosity is negligible (ζ < ε).
     ///
     /// The penetration is largest at 1.65 t*; contact lasts longer, for every ε. `THEORY.md`, "Penetration of an impact";
-    /// without viscosity the penetration p of the tip obeys `p' = c - p/ε`.
+    /// without viscosity the penetration δ of the tip obeys `δ' = ν - δ/ε`, with the velocity ν of the impact.
     pub fn impact_time(&self, zeta: f64) -> f64 {
         (self.epsilon * zeta.sqrt()).powf(2.0 / 3.0).max(self.epsilon)
     }

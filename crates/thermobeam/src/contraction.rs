@@ -1,16 +1,18 @@
 //! Contraction factors of the paper's fixed-point iteration (4.1)-(4.5).
 //!
 //! The paper does not analyse the convergence of its iteration. An error returns to its field by four loops, and each multiplies it by
-//! a factor. The largest of them decides: above 1 the iteration diverges. Write A_u, A_φ and A_θ for the matrices of (4.2).
+//! a factor, which is that of the loop alone. The iteration converges with the spectral radius of their combination. That is near the largest
+//! factor if the others are small; two loops that act on the same fields may add (contact and axial force) or damp each other (rotation and
+//! heat). Write A_u, A_φ and A_θ for the matrices of (4.2).
 //!
 //! | loop | quantity of the previous iterate | factor | for dt ≪ ζ, on fine meshes |
 //! | --- | --- | --- | --- |
-//! | [`Loop::Contact`] | g(u) in the first equation | [`Case::contact_contraction`] | g' dt^{3/2}/√(cζ) |
-//! | [`Loop::Rotation`] | u and û in the second | [`Case::coupling_contraction`] | ζ dt/(2c) |
-//! | [`Loop::Heat`] | φ̂ in the third | [`Case::heat_contraction`] | a² dt/(√c + √(2ζ))² |
-//! | [`Loop::AxialForce`] | N(u) in the first | [`Case::axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(cζ) |
+//! | [`Loop::Contact`] | g(u) in the first equation | [`Case::contact_contraction`] | g' dt^{3/2}/√(Iζ) |
+//! | [`Loop::Rotation`] | u and û in the second | [`Case::coupling_contraction`] | ζ dt/(2I) |
+//! | [`Loop::Heat`] | φ̂ in the third | [`Case::heat_contraction`] | a² dt/(√I + √(2ζ))² |
+//! | [`Loop::AxialForce`] | N(u) in the first | [`Case::axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(Iζ) |
 //!
-//! c is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's scheme, 2 and 1/(2ε) for
+//! I is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's scheme, 2 and 1/(2ε) for
 //! `midpoint`.
 
 pub use crate::error::Loop;
@@ -24,8 +26,8 @@ const RELATIVE_CHANGE: f64 = 1e-13;
 
 /// In all of these, `n_value` is the mean axial force ½(N(u) + N(u0)) of the step.
 impl Case {
-    /// κ = inertia/dt and s = ζ + dt/2.
-    fn kappa_and_s(&self) -> (f64, f64) {
+    /// κ = inertia/dt and σ = ζ + dt/2.
+    fn kappa_and_sigma(&self) -> (f64, f64) {
         (self.scheme.inertia / self.dt, self.beam.zeta + 0.5 * self.dt)
     }
 
@@ -52,37 +54,37 @@ impl Case {
 
     /// Contraction factor of the fixed point due to the coupling of rotation and displacement.
     ///
-    /// An error of V enters the second equation of (4.2) as `s Cᵀ V`, and the resulting error of W enters the first as
-    /// `s C W`. The factor is therefore the largest eigenvalue of `s² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
+    /// An error of V enters the second equation of (4.2) as `σ Cᵀ V`, and the resulting error of W enters the first as
+    /// `σ C W`. The factor is therefore the largest eigenvalue of `σ² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
     ///
     /// ```text
-    /// A_u = κ M + s' K,   A_φ = (κ + s) M + s K,   κ = inertia/dt,   s = ζ + dt/2,   s' = s + dt N/2.
+    /// A_u = κ M + σ' K,   A_φ = (κ + σ) M + σ K,   κ = inertia/dt,   σ = ζ + dt/2,   σ' = σ + dt N/2.
     /// ```
     ///
-    /// A wave of wavenumber k in the interior has the factor `s²k²/((κ + s' k²)(κ + s (1 + k²)))`, at most about s/(4κ).
-    /// A layer at the free end has a larger one, `s²/(s' (κ + s) + √(s s' κ (κ + s)))` if it is thin, about s/(2κ).
+    /// A wave of wavenumber k in the interior has the factor `σ²k²/((κ + σ' k²)(κ + σ (1 + k²)))`, at most about σ/(4κ).
+    /// A layer at the free end has a larger one, `σ²/(σ' (κ + σ) + √(σ σ' κ (κ + σ)))` if it is thin, about σ/(2κ).
     /// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
     ///
     /// * Returns infinity if A_u is not positive definite.
     pub fn coupling_contraction(&self, n_value: f64) -> f64 {
-        let (n, lengths, (kappa, s)) = (self.lengths.len(), &self.lengths, self.kappa_and_s());
-        let of_u = Operator::new(n, lengths, kappa, s + 0.5 * self.dt * n_value);
-        let of_phi = Operator::new(n, lengths, kappa + s, s);
-        of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, s, &of_u, &of_phi))
+        let (n, lengths, (kappa, sigma)) = (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
+        let of_u = Operator::new(n, lengths, kappa, sigma + 0.5 * self.dt * n_value);
+        let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
+        of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, sigma, &of_u, &of_phi))
     }
 
     /// Contraction factor of the fixed point due to the coupling of rotation and temperature.
     ///
     /// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ enters the second as `a C Θ`.
     /// The factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes
-    /// sign. A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + s (1 + k²)))`, at most about `a² dt/(√c + √(2s))²` with
-    /// the inertia c: larger than that of rotation and displacement where `a² > s (1 + √(2s))²/2` (c = 1), and above 1 for a large a.
+    /// sign. A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + σ (1 + k²)))`, at most about `a² dt/(√I + √(2σ))²` with
+    /// the inertia I: larger than that of rotation and displacement where `a² > σ (1 + √(2σ))²/2` (I = 1), and above 1 for a large a.
     pub fn heat_contraction(&self) -> f64 {
-        let (n, lengths, (kappa, s)) = (self.lengths.len(), &self.lengths, self.kappa_and_s());
+        let (n, lengths, (kappa, sigma)) = (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
         if n == 1 || self.beam.a == 0.0 {
             return 0.0;
         }
-        let of_phi = Operator::new(n, lengths, kappa + s, s);
+        let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
         let of_theta = Operator::new(n - 1, lengths, 2.0 / self.dt, 1.0);
         let factor = |(of_phi, of_theta)| round_trip(lengths, self.beam.a, &of_phi, &of_theta);
         of_phi.zip(of_theta).map_or(f64::INFINITY, factor)
@@ -109,7 +111,7 @@ impl Case {
         self.beam.rho * self.dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
     }
 
-    /// The contraction factor of the fixed point: the largest factor of the four loops.
+    /// The largest factor of the four loops: about the contraction factor of the fixed point if the others are small.
     ///
     /// * `u`: the displacement at the nodes, which determines the axial force.
     pub fn contraction(&self, u: &[f64]) -> (f64, Loop) {
@@ -177,21 +179,21 @@ fn round_trip(lengths: &[f64], b: f64, outer: &Operator, inner: &Operator) -> f6
     factor
 }
 
-/// `w = s Cᵀ v`.
-fn transposed_coupling(s: f64, v: &[f64], w: &mut [f64]) {
+/// `w = σ Cᵀ v`.
+fn transposed_coupling(sigma: f64, v: &[f64], w: &mut [f64]) {
     w.fill(0.0);
     for i in 0..v.len() - 1 {
-        let shear = 0.5 * s * (v[i + 1] - v[i]);
+        let shear = 0.5 * sigma * (v[i + 1] - v[i]);
         w[i] += shear;
         w[i + 1] += shear;
     }
 }
 
-/// `v = s C w`.
-fn coupling(s: f64, w: &[f64], v: &mut [f64]) {
+/// `v = σ C w`.
+fn coupling(sigma: f64, w: &[f64], v: &mut [f64]) {
     v.fill(0.0);
     for i in 0..w.len() - 1 {
-        let stress = 0.5 * s * (w[i] + w[i + 1]);
+        let stress = 0.5 * sigma * (w[i] + w[i + 1]);
         v[i] -= stress;
         v[i + 1] += stress;
     }
@@ -245,9 +247,10 @@ mod tests {
         let beam = Beam { zeta: 0.1, ..Beam::default() };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for (dt, n_value) in [(1e-3, 0.0), (1e-3, 200.0), (1e-2, -0.5)] {
-                let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
-                let stiffness_u = s + 0.5 * dt * n_value;
-                let layer = s * s / (stiffness_u * (kappa + s) + (s * stiffness_u * kappa * (kappa + s)).sqrt());
+                let (kappa, sigma) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
+                let stiffness_u = sigma + 0.5 * dt * n_value;
+                let layer = sigma * sigma
+                    / (stiffness_u * (kappa + sigma) + (sigma * stiffness_u * kappa * (kappa + sigma)).sqrt());
                 let found = Case { scheme, ..case(beam, 1000, dt) }.coupling_contraction(n_value);
                 assert!((found - layer).abs() <= 0.01 * layer, "{found} for {layer}");
             }

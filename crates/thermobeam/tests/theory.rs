@@ -12,13 +12,13 @@ fn workspace() -> Option<PathBuf> {
     root.join("studies").is_dir().then_some(root)
 }
 
-/// The names in back quotes in each paragraph that begins with **Held by**, by section.
+/// The names in back quotes in each paragraph that begins with **Checked by**, by section.
 fn cited(text: &str) -> Vec<(&str, Vec<&str>)> {
     let sections = text.split("\n## ").skip(1);
     sections
         .map(|section| {
             let title = section.lines().next().unwrap_or_default();
-            let held = section.split("\n\n").filter(|paragraph| paragraph.trim_start().starts_with("**Held by**"));
+            let held = section.split("\n\n").filter(|paragraph| paragraph.trim_start().starts_with("**Checked by**"));
             (title, held.flat_map(|paragraph| paragraph.split('`').skip(1).step_by(2)).collect())
         })
         .collect()
@@ -73,7 +73,7 @@ fn missing(text: &str, known: &BTreeSet<String>) -> Vec<String> {
 #[test]
 fn every_result_names_tests_and_studies_that_exist() {
     for (title, names) in cited(THEORY) {
-        assert!(!names.is_empty(), "nothing holds \"{title}\"");
+        assert!(!names.is_empty(), "nothing checks \"{title}\"");
     }
     let Some(root) = workspace() else { return };
     let known = known(&root);

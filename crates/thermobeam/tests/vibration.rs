@@ -161,6 +161,16 @@ fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
 }
 
 #[test]
+fn a_mode_without_frequency_moves_uniformly() {
+    for zeta in [0.0, 0.1] {
+        let uniform = TimeFactor::new(0.0, zeta, 0.3, -2.0).expect("a frequency");
+        for t in [0.0, 0.5, 10.0] {
+            assert_eq!((uniform.value(t), uniform.slope(t)), (0.3 - 2.0 * t, -2.0));
+        }
+    }
+}
+
+#[test]
 fn an_invalid_viscosity_is_rejected() {
     let new = |zeta, velocity| TimeFactor::new(Mode::new(0).omega(), zeta, 1.0, velocity);
     for zeta in [-0.1, f64::NAN, f64::INFINITY] {

@@ -18,8 +18,10 @@
 //!
 //! Divided by `1 - ρ_k^(-s p)`, their s-th roots are A(h_k) for k = 1..m-1, polluted by the same powers as A itself, and by at most 1 + r / (s p) times as
 //! much. [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure, scatter and round-off. With one ratio ρ the divisor
-//! is the same for all k and does not affect the rate; otherwise p is the number for which the rate read is p. The rate read grows with the p assumed, but
-//! slowly: its derivative is at most 1/x - 1/(e^x - 1) < 1/2 with x = s p log ρ. So there is exactly one such number. The same holds over dt for B and q.
+//! is the same for all k and does not affect the rate; otherwise p is the number for which the rate read is p. A pairwise rate grows
+//! with the p assumed, but slowly: its derivative is at most 1/x - 1/(e^x - 1) < 1/2 with x = s p log ρ, and so is that of a mean of pairwise rates with weights
+//! that do not depend on p: for these there is exactly one such number. The rule weighs its candidates by their misfit, and a candidate with pollution can have a
+//! larger derivative: there neither existence nor uniqueness is proven. The same holds over dt for B and q.
 //!
 //! *Where.* At the finest dt, and for q at the finest h: there the other contribution has the least scatter and
 //! round-off, and terms such as `h^i dt^k`, which (a) lacks, are smallest.

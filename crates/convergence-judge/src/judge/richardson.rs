@@ -64,7 +64,8 @@ const HIGHEST_ORDER: f64 = 64.0;
 ///
 /// Sources: ASME V&V 20-2009, section 2; P. J. Roache, *Verification and Validation in Computational Science and Engineering*, Hermosa 1998. W. L. Oberkampf,
 /// C. J. Roy, *Verification and Validation in Scientific Computing*, Cambridge 2010, section 8.6, use the formal order with F = 1.25 where the observed order
-/// confirms it, and `min(max(1/2, observed), order)` with F = 3 otherwise. Here that minimum is used in both cases, which is never less cautious.
+/// confirms it, and `min(max(1/2, observed), order)` with F = 3 otherwise. Here that minimum is used in both cases,
+/// and the observed order confirms the formal one where it is within the tolerance of the claim: a wider tolerance gives F = 1.25 more often.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gci {
     /// Observed order of the three finest values.

@@ -62,7 +62,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         let text = text.replace("NAME", name).replace("PROGRAM", project.command);
         atomic::write(path, text.replace("DIRECTORY", &directory).replace("BELOW", &below))?;
     }
-    let ignored = folder.join(".gitignore");
+    // Reports are written below the folder that the commands run in: the current one, if the files are below it.
+    let ignored = if directory == "." { folder } else { Path::new("") }.join(".gitignore");
     if !template.ignored.is_empty() && fs::symlink_metadata(&ignored).is_err() {
         atomic::write(&ignored, template.ignored)?;
     }

@@ -8,8 +8,10 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use super::exit::Unusable;
 use super::{exit, screen};
 use crate::judge::verdict::Verdict;
+use crate::project::Project;
 use crate::run::{self, Progress, Spent};
 use crate::store::Provenance;
 use crate::study::Study;
@@ -20,6 +22,45 @@ pub struct Limits {
     /// The longest that a case may take; its study fails and the others go on [default: as long as it takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub(super) case_limit: Option<Duration>,
+    /// Run also studies that are expected to take minutes
+    #[arg(long)]
+    yes: bool,
+}
+
+/// Seconds on one thread from which a run needs the user's consent. All studies of a project together take less; a
+/// thousand millions of steps, which is a typing error more often than not, take more on any mesh.
+const LONG: f64 = 60.0;
+
+/// Refuses work that is expected to take long.
+///
+/// * `what`: the file, or the study.
+/// * `seconds`: the expected time on one thread.
+/// * `limit`: the flag that limits the time.
+///
+/// # Errors
+/// More than a minute.
+pub fn consent(what: &str, seconds: f64, limit: &str) -> Result<(), Unusable> {
+    if seconds <= LONG {
+        return Ok(());
+    }
+    let found = format!("found work for about {seconds:.1e} seconds on one thread");
+    Err(Unusable::because(&format!("{what}: {found}; expected at most {LONG}, or --yes, or {limit} SECONDS")))
+}
+
+impl Limits {
+    /// Refuses studies that are expected to take long, unless the user has agreed or limited the time of a case.
+    ///
+    /// # Errors
+    /// The first such study.
+    pub(super) fn consent(&self, project: &Project, studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
+        let Some(unit) = project.seconds_per_cost.filter(|_| !self.yes && self.case_limit.is_none()) else {
+            return Ok(());
+        };
+        studies.iter().try_for_each(|study| {
+            let cost: f64 = study.plan().cases().iter().map(|case| case.cost).sum();
+            consent(&study.header().id, unit * cost, "--case-limit")
+        })
+    }
 }
 
 /// A time limit on the command line.

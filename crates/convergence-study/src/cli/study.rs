@@ -38,6 +38,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let files = StudyFile::read_all(project.kinds, &arguments.files)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let flags = &arguments.flags;
+    arguments.limits.consent(project, &studies)?;
     // A folder that is not writable is reported before the run.
     flags.out.as_deref().map_or(Ok(()), atomic::prepare_folder)?;
     let effort = flags.effort(arguments.limits.case_limit);

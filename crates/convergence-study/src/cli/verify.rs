@@ -76,6 +76,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let mut studies: Vec<Box<dyn Study>> =
         all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
 
+    arguments.limits.consent(project, &studies)?;
     let Arguments { bless, reason, only, .. } = arguments;
     if *bless {
         // Blessed numbers must come from the programs as they are now.

@@ -71,8 +71,10 @@ impl Invocation {
         }
         let held = |_| "a process that it has started holds its standard output open".to_owned();
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object =
-            object.map_err(|reason| failed(format!("answered nothing: {}{words}", with_example(reason, expected))))?;
+        let object = object.map_err(|reason| CaseFailure {
+            advice: example(&reason, expected),
+            ..failed(format!("answered nothing: {reason}{words}"))
+        })?;
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
         let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
         let missing = || expected.iter().find_map(|expected| answer.require(expected).err());
@@ -133,12 +135,20 @@ fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: 
     receive
 }
 
-/// The reason, with an example of an answer, which uses the number at the end of the last line if there is one.
-fn with_example(reason: String, expected: &[Expectation]) -> String {
-    let Some(first) = expected.first() else { return reason };
-    let number = reason.trim_end_matches('`').rsplit([':', '=', ' ']).next().and_then(|word| word.parse().ok());
-    let number = plain_text(number.filter(|number: &f64| number.is_finite()).unwrap_or(1.5e-3));
-    format!("{reason}; expected a last line such as {{\"{}s\": {{\"{}\": {number}}}}}", first.what(), first.name)
+/// An example of an answer, with the number that the last line quoted in `reason` has after the name, if it has one.
+fn example(reason: &str, expected: &[Expectation]) -> String {
+    let Some(first) = expected.first() else { return String::new() };
+    let last = reason.rsplit_once("the last line is `").map_or("", |(_, last)| last);
+    let is_word = |text: Option<char>| text.is_some_and(char::is_alphanumeric);
+    let after = last.match_indices(&first.name).map(|(start, name)| (&last[..start], &last[start + name.len()..]));
+    let mut after =
+        after.filter(|(before, rest)| !is_word(before.chars().next_back()) && !is_word(rest.chars().next()));
+    let number = after.next().and_then(|(_, rest)| {
+        let mut words = rest.split(|c: char| c.is_whitespace() || "`:=,;()[]{}\"'".contains(c));
+        words.find_map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()))
+    });
+    let number = plain_text(number.unwrap_or(1.5e-3));
+    format!("expected a last line such as {{\"{}s\": {{\"{}\": {number}}}}}", first.what(), first.name)
 }
 
 /// Exit status or signal, in words.
@@ -234,5 +244,30 @@ mod tests {
         let told = "found the placeholder {dt}; expected one that `refine` gives a value, {n}, {h}, or {{dt}} for the text {dt}";
         assert_eq!(misread.reason, told);
         assert!(filled("{N}", &KNOWN).unwrap_err().reason.contains("did you mean `n`?"));
+    }
+
+    #[test]
+    fn the_example_of_an_answer_has_the_number_after_the_name() {
+        let claim = crate::study::Claim::new(2.0, 0.1);
+        let expected = |name: &str| {
+            let name = name.to_owned();
+            [Expectation { name, is_value: false, claim, time: 1.0, by_degree: false, exact: None }]
+        };
+        for (name, last, number) in [
+            ("L2", "step 3 of 5: L2 = 1.6e-3, H1 = 4e-2, 0.2 s", "0.0016"),
+            ("H1", "L2 = 1.6e-3, H1: 4e-2 (0.2 s)", "0.04"),
+            ("L2", "aL2 7 L2 error (8 cells): 0.5", "8"),
+            ("max error", "max error: 1e-3", "0.001"),
+            ("L2", "done in 3.5", "0.0015"),
+            ("L2", "L2 is nan", "0.0015"),
+        ] {
+            let told = example(&format!("no line is a JSON object; the last line is `{last}`"), &expected(name));
+            assert_eq!(
+                told,
+                format!("expected a last line such as {{\"errors\": {{\"{name}\": {number}}}}}"),
+                "{last}"
+            );
+        }
+        assert_eq!(example("its standard output is empty", &[]), "");
     }
 }

@@ -181,7 +181,11 @@ pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
 /// The same in Markdown; empty if nothing fails.
 pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     let Some(diagnosis) = diagnosis else { return String::new() };
-    let line = |(word, words): (&str, String)| format!("- **{word}**: {}\n", text(&words)).replace("**** ", "");
+    // A line without a word goes on with the one before.
+    let line = |(word, words): (&str, String)| match word {
+        "" => format!("  - {}\n", text(&words)),
+        word => format!("- **{word}**: {}\n", text(&words)),
+    };
     format!("## {TITLE}\n\n{}\n", diagnosis.lines().into_iter().map(line).collect::<String>())
 }
 
@@ -269,4 +273,20 @@ fn all(changes: &[&Change]) -> String {
     let row = |change: &&Change| vec![cell(&change.study), cell(&change.subject()), cell(&change.movement.to_string())];
     let lines = table(&["study", "what", "change"], changes.iter().map(row).collect());
     folded(&format!("all {} numbers", changes.len()), &lines, false) + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::store::diagnosis::Resembling;
+
+    #[test]
+    fn a_line_of_the_diagnosis_without_a_word_belongs_to_the_one_before() {
+        let resembling =
+            |mistake: &str| Resembling { mistake: mistake.to_owned(), file: "f.rs".to_owned(), likeness: 0.9 };
+        let diagnosis = Diagnosis { resembles: ["one", "two"].map(resembling).to_vec(), ..Diagnosis::default() };
+        let text = diagnosis_in_markdown(Some(&diagnosis));
+        let lines = "- **resembles**: \"one\" (0.90)  f.rs\n  - \"two\" (0.90)  f.rs\n";
+        assert!(text.ends_with(&format!("\n\n{lines}\n")), "{text}");
+    }
 }

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
-use crate::study::kind::plan;
+use crate::study::kind::{plan, reasons};
 use crate::study::outcome::{self, NotFinite};
 use crate::study::{Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Untested};
 use caught::caught;
@@ -288,10 +288,10 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     let mut outcome = match plan {
         Ok(plan) => {
             let cases = plan.cases();
-            let failed = cases.iter().enumerate().filter_map(|(i, case)| {
-                Some(FailedCase { label: case.label.clone(), reason: plan.failure(i)?.reason })
-            });
-            failed_cases.extend(failed);
+            let failures = cases.iter().enumerate().filter_map(|(i, case)| Some((case, plan.failure(i)?)));
+            let (failed, failures): (Vec<_>, Vec<_>) = failures.unzip();
+            let reasons = failed.into_iter().zip(reasons(failures));
+            failed_cases.extend(reasons.map(|(case, reason)| FailedCase { label: case.label.clone(), reason }));
             // Cases end in any order, and their work is listed in the order of the cases.
             let mut done: Vec<&Done> = done.iter().collect();
             done.sort_by_key(|done| done.case);

@@ -26,6 +26,9 @@ const NAMED: usize = 3;
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
+    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is named, and no place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub claims: Vec<String>,
     /// Which settings separate failing from passing items.
     pub contrast: Contrast,
     /// Wrong fields, ordered by how much they moved within their studies.
@@ -76,17 +79,21 @@ pub fn diagnose(
     if wrong.is_empty() {
         return None;
     }
+    let claims = changes.iter().filter(|change| change.movement.needs_a_reason());
+    let claims: Vec<String> = claims.map(Change::words).collect();
     let contrast = contrast(&votes(project, finished, changes));
     let first = first(finished, changes);
     let clearest = clearest(&failing);
     let words = contrast.settings.iter().map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
     let mut look_at: Vec<String> = words
+        .filter(|_| claims.is_empty())
         .filter_map(|word| project.places.iter().find(|(of, _)| names(word, of)).map(|(_, place)| (*place).to_owned()))
         .collect();
     let again = clearest.first().map(String::as_str).or(wrong.first().copied());
     look_at.extend(again.map(|id| format!("`{} verify {id}` repeats the clearest failure", project.command)));
-    let resembles = known.nearest(&Fingerprint::of(finished, changes));
+    let resembles = if claims.is_empty() { known.nearest(&Fingerprint::of(finished, changes)) } else { vec![] };
     Some(Diagnosis {
+        claims,
         contrast,
         first,
         checks: checks(&failing),
@@ -253,7 +260,11 @@ impl Diagnosis {
 
     /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
-        let mut lines = self.contrasted();
+        let mut lines = vec![];
+        if !self.claims.is_empty() {
+            lines.push(("claims", format!("changed: {}", some(self.claims.clone(), ""))));
+        }
+        lines.extend(self.contrasted());
         if !self.first.is_empty() {
             let named: Vec<String> = self.first.iter().take(NAMED).map(Field::words).collect();
             let rest = if self.first.len() > NAMED { ", then the rest" } else { "" };

@@ -45,19 +45,30 @@ impl<D, F> Ran<D, F> {
 pub struct CaseFailure {
     /// In words, with step, time and numbers.
     pub reason: String,
+    /// What to do about it, which a study says once, with its first case that has any; may be empty.
+    pub advice: String,
 }
 
 impl CaseFailure {
     /// * `reason`: in words, with step, time and numbers.
     pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into() }
+        Self { reason: reason.into(), advice: String::new() }
     }
 }
 
 impl<E: std::error::Error> From<E> for CaseFailure {
     fn from(error: E) -> Self {
-        Self { reason: error.to_string() }
+        Self::new(error.to_string())
     }
+}
+
+/// The reasons of failed cases; the first case with advice has it behind its reason.
+pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
+    let advised = failures.iter().position(|failure| !failure.advice.is_empty());
+    let reason = |(k, CaseFailure { reason, advice }): (usize, CaseFailure)| {
+        if Some(k) == advised { format!("{reason}; {advice}") } else { reason }
+    };
+    failures.into_iter().enumerate().map(reason).collect()
 }
 
 /// Cases without a result in words, `label: reason`; those with the same reason share one line, which counts them.
@@ -145,8 +156,10 @@ pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
 ///
 /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
 pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
-    let failed = ran.iter().filter_map(|Ran { case, found }| Some((&*case.label, &*found.as_ref().err()?.reason)));
-    let mut complaints = by_reason(failed);
+    let failed: Vec<_> = ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().err()?))).collect();
+    let reasons = reasons(failed.iter().map(|(_, failure)| (*failure).clone()).collect());
+    let labels = failed.iter().map(|(case, _)| case.label.as_str());
+    let mut complaints = by_reason(labels.zip(reasons.iter().map(String::as_str)));
     for (case, found) in ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?))) {
         complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
     }

@@ -5,6 +5,8 @@ use std::path::Path;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::report::{blessing, sentence};
+use convergence_study::run::Finished;
+use convergence_study::store::diagnosis::{Fingerprint, Fingerprints, Known, diagnose};
 use convergence_study::store::{Baseline, BlessedClaim, Change, junit};
 use convergence_study::study::{Header, Study, Tier};
 use convergence_study::verify::{Request, Scope, Verification, verify};
@@ -173,6 +175,36 @@ fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
             assert!(baseline.compare(&ran(), None).is_empty());
         }
     }
+}
+
+#[test]
+fn a_diagnosis_names_claims_that_changed_and_no_solver() {
+    let baseline = blessed(&[header("a", &CLAIMS), header("b", &CLAIMS)]);
+    let loose = with("expect[0].tolerance", Some("0.49"));
+    let failing = Fake { header: loose.clone(), ..fake("", Does::Stay) }.erased();
+    let known = |ran: &[Finished]| {
+        let items = Fingerprint::of(ran, &baseline.compare(ran, None));
+        let known = vec![Known { mistake: "half of rho".to_owned(), file: "kirchhoff.rs".to_owned(), items }];
+        Fingerprints { threshold: 0.5, known }
+    };
+    let diagnosed = |study: Box<dyn Study>| {
+        let ran = finished(vec![study]);
+        diagnose(&PROJECT, &ran, &baseline.compare(&ran, None), &known(&ran))
+    };
+    let found = diagnosed(failing).expect("a study fails");
+    assert_eq!(
+        (found.claims.as_slice(), found.resembles.len()),
+        (&["a: expect[0].tolerance 0.002, now 0.49".to_owned()][..], 0)
+    );
+    let lines = found.lines();
+    assert!(lines[0] == ("claims", "changed: a: expect[0].tolerance 0.002, now 0.49".to_owned()), "{lines:?}");
+    assert!(!format!("{lines:?}").contains("kirchhoff"), "{lines:?}");
+    // Where nothing fails and no number moved, the list of changed claims says it all.
+    assert_eq!(diagnosed(study(&loose)), None);
+    // Without a changed claim the known mistake is named.
+    let same = Fake { header: header("b", &CLAIMS), ..fake("", Does::Stay) }.erased();
+    let found = diagnosed(same).expect("a study fails");
+    assert!(found.claims.is_empty() && found.resembles[0].file == "kirchhoff.rs", "{found:?}");
 }
 
 fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verification {

@@ -78,7 +78,7 @@ impl Kind for Fake {
         match (self.does, level) {
             (Does::Stay, _) => Ok(self.scale),
             (Does::NotANumber, 1) => Ok(f64::NAN),
-            (Does::Fail, 1) => Err(CaseFailure { reason: "step 3 | t = 0.1: diverged".to_owned() }),
+            (Does::Fail, 1) => Err(CaseFailure::new("step 3 | t = 0.1: diverged")),
             (Does::Panic, 1) => panic!("a pivot of {error} was lost"),
             (Does::Dawdle, 1) => {
                 step_until_stopped();

@@ -31,6 +31,35 @@ fn the_states_below_the_buckling_force_are_listed() {
 }
 
 #[test]
+fn a_list_is_called_complete_where_it_is() {
+    let folder = Folder::new();
+    let time = "[initial]\ntheta = \"2*(1-x)\"\n[time]\ndt = 0.1\nt_end = 1\n";
+    let hot =
+        |beta: f64, obstacles: &str| format!("[beam]\nbeta = {beta:?}\na = 0.5\ntheta_a = 2.0\n{obstacles}{time}");
+    let cold = |beta: f64| format!("[beam]\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
+    for (name, scene, states, complete, said) in [
+        // One state although beta = -1: no beam with a heated end has a slope so small.
+        ("one", hot(-1.0, ""), Some(1), true, ""),
+        // The obstacles exclude the free states near u(1) = -1.
+        ("held", hot(-4.0, "[obstacles]\n"), None, true, ""),
+        // Of 37 states 33 are listed.
+        ("few", cold(-0.9997), Some(33), false, "Perhaps not all"),
+        ("many", hot(-4.0, ""), None, false, "Not all: infinitely many"),
+        ("straight", cold(-1.0), Some(33), false, "Not all: infinitely many"),
+    ] {
+        let path = folder.file(&format!("{name}.toml"), &scene);
+        let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+        assert_eq!(text.contains("ot all"), !complete, "{name}: {text}");
+        assert!(text.contains(said), "{name}: {text}");
+        let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"])).stdout;
+        let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!(value["complete"], complete, "{name}");
+        let count = value["equilibria"].as_array().expect("a list").len();
+        assert_eq!(count, states.unwrap_or(count), "{name}");
+    }
+}
+
+#[test]
 fn a_list_that_is_not_complete_says_so() {
     let folder = Folder::new();
     let path = folder.file("crushed.toml", &scene(-1.5));

@@ -59,7 +59,7 @@ fn a_place_that_cannot_be_written_to_is_told_before_computing() {
     // It would take a year to run.
     let scene = folder.file("scene.toml", &thrown("dt = 1e-10"));
     let taken = folder.file("taken", "");
-    let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&taken));
+    let ended = ended(thermobeam().arg("run").arg(scene).args(["--yes", "--out"]).arg(&taken));
     assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""));
     assert!(ended.stderr.contains("taken"), "{}", ended.stderr);
 }

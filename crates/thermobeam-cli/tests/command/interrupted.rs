@@ -66,7 +66,7 @@ fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
     let folder = Folder::new();
     let root = workspace(&folder, "w", &[("short", quick("short")), ("long", endless("long"))]);
     let before = all(&root);
-    let ended = interrupted(&mut verify(&root, &["--jobs", "2"]), AT_WORK);
+    let ended = interrupted(&mut verify(&root, &["--jobs", "2", "--yes"]), AT_WORK);
     assert_eq!((ended.status, ended.stdout.as_str()), (Some(130), ""));
     assert!(ended.stderr.contains("interrupted: 1 of 2 studies had run: short"), "{}", ended.stderr);
     assert_eq!(all(&root), before);
@@ -78,7 +78,7 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
     let folder = Folder::new();
     let scene = folder.file("long.toml", &thrown("dt = 1e-9"));
     let out = folder.path("out");
-    let run = interrupted(thermobeam().arg("run").arg(&scene).arg("--out").arg(&out), AT_WORK);
+    let run = interrupted(thermobeam().args(["run", "--yes"]).arg(&scene).arg("--out").arg(&out), AT_WORK);
     assert_eq!(run.status, Some(130));
     assert!(run.stderr.contains(" steps were done, 0"), "{}", run.stderr);
     assert!(all(&out).is_empty());

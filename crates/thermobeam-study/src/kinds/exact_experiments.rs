@@ -1,4 +1,4 @@
-//! The experiments of Section 5 by the scheme of any order: values to ten digits, and the error of the paper's own scheme.
+//! The experiments of Section 5 by the scheme of any order: values to ten decimals, and the error of the paper's own scheme.
 //!
 //! Two different discretisations (degree, elements, degree in time, steps) of one scene must agree. What they agree on is
 //! then the reference for the scene's own scheme at its own resolution, over the whole time.
@@ -197,7 +197,7 @@ impl ExactExperiments {
             Figure::new(what, caption, history.with_looks(&looks(scenes.iter().map(|scene| scene.name))).draw())
         };
         let y = plots::Axis::linear("displacement u(1, t) (dimensionless)");
-        let (caption, title) = ("The free end of every experiment, to ten digits.", "Displacement of the free end");
+        let (caption, title) = ("The free end of every experiment, to ten decimals.", "Displacement of the free end");
         let tip = |scene: &OfScene<'_>| scene.any_order[0].map_or(vec![], |shown| shown.tip.clone());
         let mut figures = vec![figure("tip", caption, title, y, tip)];
         if self.compare {

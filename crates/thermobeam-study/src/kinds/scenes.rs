@@ -28,7 +28,7 @@
 use super::energy::{End, named_cases};
 use super::prelude::*;
 use super::steady::exact_states;
-use super::tables::Discretisation;
+use super::tables::{Discretisation, cost_of_run};
 use super::watch::SOLVED;
 use crate::error::reference::distance;
 use crate::predict::Work;
@@ -243,11 +243,10 @@ impl Kind for Scenes {
     type Found = Shown;
 
     fn cases(&self) -> Vec<Case<usize>> {
+        // Each step is observed, which costs three times its solution.
         let cost = |scene: &Scene| match scene.method {
-            Method::OneStep(_) => scene.steps() as f64 * (4.0 * scene.mesh.elements() as f64 + 4.0),
-            Method::Dg(stepping) => {
-                Discretisation { elements: scene.mesh.elements(), degree: scene.degree, stepping }.cost(scene.t_end)
-            }
+            Method::OneStep(_) => 4.0 * cost_of_run(scene),
+            Method::Dg(_) => cost_of_run(scene),
         };
         let case = |(data, whole): (usize, &Whole)| Case::new(whole.name.clone(), cost(&whole.scene), data);
         self.scenes.iter().enumerate().map(case).collect()

@@ -261,7 +261,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Duration of an impact; without obstacles, the longest step.
+/// Time scale t* of the peak of an impact; without obstacles, the longest step.
 pub(super) fn impact(scene: &Scene) -> f64 {
     scene.obstacles.map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }

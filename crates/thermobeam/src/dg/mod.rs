@@ -2,7 +2,7 @@
 //!
 //! # The scheme
 //!
-//! On a step of length h the velocities v, w and the lifted temperature θ~ are polynomials of degree q in time,
+//! On a step of length τ the velocities v, w and the lifted temperature θ~ are polynomials of degree q in time,
 //! discontinuous between steps; the displacements are their integrals, `u = u_0 + ∫ v`, `φ = φ_0 + ∫ w`. For all polynomials of
 //! degree q in time with values in the finite element spaces
 //!
@@ -115,7 +115,7 @@ impl Level {
     }
 }
 
-/// Counts of the work done, which are exact while times are noisy.
+/// Operation counts, which are reproducible, unlike times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
     /// Steps taken.

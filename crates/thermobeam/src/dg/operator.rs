@@ -5,12 +5,12 @@ use super::space::Coupling;
 use super::time::TimeForms;
 use crate::parameters::Beam;
 
-/// The linear part of a step of length h, with a fixed axial force.
+/// The linear part of a step of length τ (`h`), with a fixed axial force.
 ///
 /// ```text
-/// D ⊗ M + E ⊗ [K, -C; -Cᵀ, K + M] + N h² S ⊗ K  on (v, w),   E = hζ T + h² S
-/// D ⊗ M + h T ⊗ K                               on θ~
-/// -a h T ⊗ C  from θ~ to φ,   a h T ⊗ Cᵀ  from w to θ~
+/// D ⊗ M + E ⊗ [K, -C; -Cᵀ, K + M] + N τ² S ⊗ K  on (v, w),   E = τζ T + τ² S
+/// D ⊗ M + τ T ⊗ K                               on θ~
+/// -a τ T ⊗ C  from θ~ to φ,   a τ T ⊗ Cᵀ  from w to θ~
 /// ```
 ///
 /// Its symmetric part is positive definite as long as the elastic energy is, and ζ > 0 or q <= 2, by the argument of the energy

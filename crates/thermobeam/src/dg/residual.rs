@@ -35,7 +35,7 @@ impl<const S: usize> Terms<S> {
     };
 }
 
-/// The mean axial force over a step, as a matrix on polynomials in time: `∫ N(u) L_i L_j`.
+/// Moments of the axial force over a step, a matrix on polynomials in time: `∫ N(u) L_i L_j`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxialForce<const S: usize> {
     /// i, j <= q.
@@ -51,7 +51,7 @@ pub(super) struct Equations<'a> {
     pub(super) obstacles: Option<&'a Obstacles>,
     /// The level at the start of the step.
     pub(super) level: &'a Level,
-    /// The step's length.
+    /// The step's length τ.
     pub(super) h: f64,
     /// The phase of the free end throughout the step.
     pub(super) phase: Phase,

@@ -222,7 +222,7 @@ impl Simulation {
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
-    /// Finds the polynomials of a step of length h in another phase; `None` if the free end leaves that phase too.
+    /// Finds the polynomials of a step of length τ (`h`) in another phase; `None` if the free end leaves that phase too.
     fn stays(&mut self, phase: Phase, h: f64) -> Result<Option<usize>, StepError> {
         let present = std::mem::replace(&mut self.phase, phase);
         let outcome = self.attempt(h);
@@ -328,7 +328,7 @@ impl Simulation {
         StepError { step: self.stages.work().steps + 1, t: self.level.t, dt, failure }
     }
 
-    /// Finds the polynomials of a step of length h in the current phase.
+    /// Finds the polynomials of a step of length τ (`h`) in the current phase.
     fn attempt(&mut self, h: f64) -> Result<usize, StepError> {
         let Self { space, beam, level, phase, .. } = self;
         let equations = Equations { space, beam, obstacles: self.obstacles.as_ref(), level, h, phase: *phase };

@@ -1,4 +1,4 @@
-//! Polynomials in time on a step: the Legendre basis of [0, 1], s = (t - t_0)/h, and the integrals of scheme and loads.
+//! Polynomials in time on a step: the Legendre basis of [0, 1], ξ = (t - t_0)/τ, and the integrals of scheme and loads.
 
 use super::legendre;
 
@@ -66,7 +66,7 @@ impl<const S: usize> TimeForms<S> {
         Self { derivative, derivative_columns, product, integral, start, gauss }
     }
 
-    /// `y_0 + h ∫_0^s Σ_j v_j L_j`.
+    /// `y_0 + τ ∫_0^ξ Σ_j v_j L_j`, with τ = `h`.
     pub(super) fn integrate(y0: f64, h: f64, v: &[f64; S]) -> Path<S> {
         let mut y = [0.0; S];
         y[0] = 0.5_f64.mul_add(h * v[0], y0);
@@ -100,7 +100,7 @@ impl<const S: usize> Forcing<S> {
         Self { moments: vec![zeros.clone(); S], load: zeros, points: gauss_points(S + 8) }
     }
 
-    /// Integrates a load over the step of length h from t.
+    /// Integrates a load over the step of length τ (`h`) from t.
     pub(super) fn integrate(&mut self, load: &mut Load, t: f64, h: f64) {
         self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
         for point in &self.points {

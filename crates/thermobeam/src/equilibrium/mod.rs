@@ -33,7 +33,8 @@
 //!
 //! Their determinant vanishes at the buckling values of the law. Without contact these are the zeros of cos k:
 //! `N_k = -κ²/(1 + κ²)`, κ = (k - 1/2)π. With contact there is one value between N_{k+1} and N_k for each k, and one
-//! more near N = -1 - 1/ε, where the negative stiffness of the beam has the size of the obstacle's.
+//! more below -1, where the negative stiffness of the beam has the size of the obstacle's: near N = -1 - 1/ε for ε ≪ 1, and near
+//! N = -1 - 1/ε² for ε ≫ 1.
 //!
 //! # N is the root of one scalar equation
 //!
@@ -53,13 +54,15 @@
 //! For N < -1 the coefficient of u'' is negative: k² = 1 - q > 1, all functions are hyperbolic, and there is no
 //! buckling value without contact. At N = -1 exactly φ = -c = 0 and u' = -aθ_A, a state that exists for
 //! `ρ(aθ_A)² = -1 - β`. The second variation has infinitely many negative directions at N <= -1: none of these states
-//! is stable. The buckling values N_k accumulate at -1 from above, so for β <= -1 there are infinitely many states:
-//! [`equilibria`] documents which of them it returns.
+//! is stable. The buckling values N_k accumulate at -1 from above. For β > -1 the number of states is finite, because
+//! N >= β. For β <= -1 there are infinitely many if θ_A = 0, or if -1 - β > (3/2) ρ (aθ_A)² and the obstacles admit
+//! u(1) = -aθ_A; otherwise their number may be finite. [`completeness`] decides whether [`equilibria`] lists all.
 //!
 //! Source: the steady form of (1.1) and (1.3); the classification by N follows Sapir and Reiss (reference \[16\] of the
 //! paper) for the beam without contact.
 
 mod branch;
+mod completeness;
 mod law;
 mod polish;
 mod scan;
@@ -67,10 +70,11 @@ mod shape;
 
 use crate::parameters::{Beam, Obstacles, ParameterError};
 use branch::Branch;
-use law::{Law, Support, free_buckling};
+use law::{Law, Support};
 use thiserror::Error;
 
 pub use crate::contact::Phase;
+pub use completeness::{Completeness, completeness};
 pub use shape::Shape;
 
 /// [`equilibria`] returns all states with N above the buckling value N_k of index k = `BUCKLING_VALUES` + 1.
@@ -130,7 +134,7 @@ pub struct Equilibrium {
     pub u_tip: f64,
     /// φ(1).
     pub phi_tip: f64,
-    /// Phase force g(u(1)): positive at the upper obstacle, negative at the lower, zero without contact.
+    /// Contact force g(u(1)): positive at the upper obstacle, negative at the lower, zero without contact.
     pub contact_force: f64,
     /// Whether the second variation of the potential energy is positive definite: a strict minimum.
     ///
@@ -144,18 +148,11 @@ pub struct Equilibrium {
     pub shape: Shape,
 }
 
-/// Whether [`equilibria`] returns every steady state, which holds for β > -0.9996.
-///
-/// Every state has N >= β, so the list is complete if β is at least the lowest buckling value searched.
-pub fn lists_all(beam: &Beam) -> bool {
-    1.0 + beam.beta >= free_buckling(BUCKLING_VALUES + 1)
-}
-
 /// All steady states, sorted by u(1), then N.
 ///
 /// * `obstacles`: `None` leaves the tip free.
-/// * If β is so small that states accumulate at N = -1 (see [`lists_all`]): all states with N above the buckling value
-///   of index [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between are unstable.
+/// * All states with N above the buckling value of index [`BUCKLING_VALUES`] + 1 and all with N <= -1. Those between, if
+///   there are any (see [`completeness`]), are unstable.
 ///
 /// A state that touches an obstacle without pressing it, to round-off, may be missed or found twice. Near a fold the
 /// number of states (none, one or two) is determined to round-off of N.

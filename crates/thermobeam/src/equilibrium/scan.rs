@@ -10,7 +10,8 @@
 //!
 //! * above the largest pole S decreases and f increases to ∞: exactly one root;
 //! * between two poles: none, two, or one double root, decided by the maximum of f;
-//! * in an interval below N = -1: the same, but next to -1, where S stays finite, exactly one root if f(-1⁻) > 0;
+//! * in an interval below N = -1: the same. Next to -1, S stays finite for the free law and for a support at -aθ_A:
+//!   there exactly one root if f(-1⁻) > 0. For any other support S → ∞, and the interval is like the others;
 //! * below β: none, since ρS >= 0.
 //!
 //! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ b bᵀ, so by

@@ -56,8 +56,8 @@ impl TimeFactor {
             let sinc = if angle == 0.0 { 1.0 } else { angle.sin() / angle };
             return (-gamma * t).exp() * (value * angle.cos() + (slope + gamma * value) * t * sinc);
         }
-        // The root of smaller size by Vieta's formula: -γ + √(γ² - ω²) would cancel.
-        let slow = -omega * omega / (gamma + excess.sqrt());
+        // The root of smaller size by Vieta's formula: -γ + √(γ² - ω²) would cancel. For ω = 0 both roots are 0, and T is linear.
+        let slow = if omega == 0.0 { 0.0 } else { -omega * omega / (gamma + excess.sqrt()) };
         let gap = 2.0 * excess.sqrt();
         // (1 - e^{-gap t})/gap, equal to t at critical damping.
         let ramp = if gap == 0.0 { t } else { -(-gap * t).exp_m1() / gap };

@@ -2,7 +2,7 @@
 
 use super::{close, loaded, obstacles, states};
 use std::f64::consts::PI;
-use thermobeam::equilibrium::{BUCKLING_VALUES, EquilibriumError, Phase, equilibria, lists_all};
+use thermobeam::equilibrium::{BUCKLING_VALUES, Completeness, EquilibriumError, Phase, completeness, equilibria};
 use thermobeam::parameters::Obstacles;
 
 /// The buckling value N_k of the beam without support.
@@ -127,7 +127,77 @@ fn undecidable_equilibria_are_errors() {
     assert!(matches!(resonant, Err(EquilibriumError::Resonance { contact: Phase::Free, .. })), "{resonant:?}");
     let bad = equilibria(&loaded(f64::NAN, 1.0, 0.1), None);
     assert!(matches!(bad, Err(EquilibriumError::Parameter(_))), "{bad:?}");
-    assert!(lists_all(&loaded(-0.999, 1.0, 0.0)) && !lists_all(&loaded(-1.0, 1.0, 0.0)));
+}
+
+/// f, u(1) and the contact force of the law at k, for the root function f(N) = N - β - ρ‖u'‖² with 1 + N = 1/(1 + k²), by Simpson's rule.
+///
+/// φ'' + k² φ + d = 0, φ(0) = φ'(1) = 0, u' = q (φ + c), q = 1 + k², d = aθ_A + cq: linear in c, which the support determines.
+fn root_function(beam: [f64; 3], support: Option<[f64; 2]>, k: f64) -> [f64; 3] {
+    let [beta, rho, moment] = beam;
+    let q = 1.0 + k * k;
+    let slope = |x: f64, c: f64| {
+        let phi = (moment + c * q) / (k * k) * ((k * (1.0 - x)).cos() / k.cos() - 1.0);
+        q * (phi + c)
+    };
+    let simpson = |f: &dyn Fn(f64) -> f64| {
+        let n = 40 * (k as usize + 1);
+        let weight = |i: usize| if i == 0 || i == n { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
+        (0..=n).map(|i| weight(i) * f(i as f64 / n as f64)).sum::<f64>() / (3.0 * n as f64)
+    };
+    let tip = |c: f64| simpson(&|x| slope(x, c));
+    // u(1) + ε c = g.
+    let c = support.map_or(0.0, |[epsilon, g]| (g - tip(0.0)) / (tip(1.0) - tip(0.0) + epsilon));
+    [1.0 / q - (1.0 + beta) - rho * simpson(&|x| slope(x, c).powi(2)), tip(c), -c]
+}
+
+/// Whether the law has a state between buckling values: a root of f that the obstacles admit, or a maximum of f above 0.
+fn has_state_beyond_the_list(beam: [f64; 3], gap: Option<Obstacles>, waves: std::ops::Range<usize>) -> bool {
+    let supports = gap.map_or(vec![None], |o| vec![None, Some([o.epsilon, o.g1]), Some([o.epsilon, o.g2])]);
+    supports.into_iter().any(|support| {
+        let is_state = |k: f64| {
+            let [f, tip, force] = root_function(beam, support, k);
+            let admitted = match support {
+                None => gap.is_none_or(|o| (o.g1..=o.g2).contains(&tip)),
+                Some([_, g]) => force * (g - 1e-9) > 0.0,
+            };
+            f >= 0.0 && admitted
+        };
+        let points = waves.clone().flat_map(|wave| (1..40).map(move |i| (wave as f64 - 0.5 + i as f64 / 40.0) * PI));
+        points.into_iter().any(is_state)
+    })
+}
+
+#[test]
+fn a_list_is_complete_where_no_beam_has_another_state() {
+    let hard = |g1, g2| Some(Obstacles { epsilon: 1e-3, g1, g2 });
+    let narrow = hard(-0.1, 0.1);
+    for (beam, gap, expected) in [
+        ([-0.999, 1.0, 0.0], None, Completeness::Complete),
+        ([-0.9997, 1.0, 0.0], None, Completeness::Unknown),
+        ([-1.0, 1.0, 0.0], None, Completeness::Infinite),
+        ([-1.0, 1.0, 0.0], narrow, Completeness::Infinite),
+        ([-1.0, 1.0, 1.0], None, Completeness::Complete),
+        ([-2.49, 1.0, 1.0], None, Completeness::Complete),
+        ([-2.51, 1.0, 1.0], None, Completeness::Infinite),
+        ([-4.0, 1.0, 1.0], None, Completeness::Infinite),
+        ([-4.0, 1.0, 1.0], narrow, Completeness::Complete),
+        ([-4.0, 1.0, -1.0], narrow, Completeness::Complete),
+        ([-4.0, 1.0, 1.0], hard(-2.0, 0.1), Completeness::Infinite),
+        // The free states are admitted or not by a hair.
+        ([-4.0, 1.0, 1.0], hard(-1.0, 0.1), Completeness::Unknown),
+        ([-4.0, 0.0, 1.0], None, Completeness::Complete),
+        ([-1.4, 3.0, 0.3], hard(-0.2, 0.5), Completeness::Complete),
+    ] {
+        let [beta, rho, moment] = beam;
+        let found = completeness(&loaded(beta, rho, moment), gap.as_ref());
+        assert_eq!(found, expected, "{beam:?} {gap:?}");
+        // The formula of the textbook agrees, on intervals that are not searched. (Roots without a load are the N_k.)
+        if rho > 0.0 && moment != 0.0 && expected != Completeness::Unknown {
+            let found = has_state_beyond_the_list(beam, gap, 18..24);
+            assert_eq!(found, expected == Completeness::Infinite, "{beam:?} {gap:?}");
+        }
+    }
     let last = buckling(BUCKLING_VALUES as u32 + 1);
-    assert!(lists_all(&loaded(last + 1e-9, 1.0, 0.0)) && !lists_all(&loaded(last - 1e-9, 1.0, 0.0)));
+    let unloaded = |beta: f64| completeness(&loaded(beta, 1.0, 0.0), None);
+    assert_eq!([last + 1e-9, last - 1e-9].map(unloaded), [Completeness::Complete, Completeness::Unknown]);
 }

@@ -4,7 +4,7 @@ use crate::scenes::{advance, graded, simulate, stepping, uniform};
 use nalgebra::DMatrix;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::error::{Loop, StepFailure};
-use thermobeam::norms::max_or_nan;
+use thermobeam::norms::{max_or_nan, slope_squared};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
@@ -134,4 +134,70 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
         let said = error.to_string();
         assert!(said.contains("rotation and temperature") && !said.contains("epsilon"), "{said}");
     }
+}
+
+/// Spectral radius of a pass (4.1)-(4.5) with all four loops, as a map of the errors of (V, W), and those of the loops of heat, contact and
+/// axial force alone.
+///
+/// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial force, with u as old and new level.
+fn spectral_radii(problem: &Problem, u: &[f64], dt: f64) -> [f64; 4] {
+    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let (Beam { zeta, a, beta, rho, .. }, n) = (problem.beam, m.nrows());
+    let u = DMatrix::from_column_slice(n, 1, &u[1..]);
+    let bent = &k * &u;
+    let (kappa, sigma, mean) = (1.0 / dt, zeta + 0.5 * dt, beta + rho * u.dot(&bent));
+    let of_u = (&m * kappa + &k * (sigma + 0.5 * dt * mean)).lu();
+    let of_phi = (&m * (kappa + sigma) + &k * sigma).lu();
+    let inside = |matrix: &DMatrix<f64>| matrix.view((0, 0), (n - 1, n - 1)).into_owned();
+    let of_theta = (inside(&m) * (2.0 / dt) + inside(&k)).lu();
+    let heat = c.columns(0, n - 1).into_owned();
+    let theta_of_w = of_theta.solve(&(heat.transpose() * -a)).unwrap();
+    let w_of_w = of_phi.solve(&(&heat * theta_of_w * a)).unwrap();
+    let w_of_v = of_phi.solve(&(c.transpose() * sigma)).unwrap();
+    let mut contact = DMatrix::zeros(n, n);
+    contact[(n - 1, n - 1)] = problem.obstacles.map_or(0.0, |obstacles| dt / obstacles.epsilon);
+    let axial = &bent * bent.transpose() * (rho * dt);
+    let v_of_w = of_u.solve(&(&c * sigma)).unwrap();
+    let [by_contact, by_axial] = [&contact, &axial].map(|force| of_u.solve(force).unwrap());
+    let mut pass = DMatrix::zeros(2 * n, 2 * n);
+    pass.view_mut((0, 0), (n, n)).copy_from(&(&v_of_w * &w_of_v - &by_contact - &by_axial));
+    pass.view_mut((0, n), (n, n)).copy_from(&(&v_of_w * &w_of_w));
+    pass.view_mut((n, 0), (n, n)).copy_from(&w_of_v);
+    pass.view_mut((n, n), (n, n)).copy_from(&w_of_w);
+    let radius = |matrix: DMatrix<f64>| matrix.complex_eigenvalues().iter().map(|one| one.norm()).fold(0.0, max_or_nan);
+    [pass, w_of_w, by_contact, by_axial].map(radius)
+}
+
+/// A factor is that of its loop alone: the four together may converge where one of them would not.
+#[test]
+fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
+    let mesh = uniform(50);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
+    let beam = Beam { zeta: 0.1, a: 3.425, rho: 0.0, ..Beam::default() };
+    let problem = Problem { beam, obstacles: None, mesh, initial };
+    let factor = problem.case(EULER_CRANK_NICOLSON, 1.0).heat_contraction();
+    let [together, heat, ..] = spectral_radii(&problem, &[0.0; 51], 1.0);
+    assert!((factor - 1.0035).abs() < 1e-4 && (heat - factor).abs() < 1e-6, "{factor} {heat}");
+    assert!((together - 0.9002).abs() < 1e-4, "{together}");
+    let report = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 1.0, 1e-10).advance().expect("it converges");
+    assert!((report.contraction.expect("a factor") - together).abs() < 0.01, "{:?}", report.contraction);
+}
+
+/// Contact and axial force move the tip in the same way: two factors below 1 add up to more.
+#[test]
+fn two_loops_with_factors_below_one_diverge_if_they_add() {
+    let mesh = uniform(50);
+    let u: Vec<f64> = mesh.nodes().iter().map(|x| 0.1 * x.powi(16)).collect();
+    let obstacles = Some(Obstacles { epsilon: 1e-3, ..Obstacles::default() });
+    let beam = Beam { zeta: 0.1, rho: 1000.0, beta: 0.0, ..Beam::default() };
+    let initial = Initial::at_rest(&mesh, 0.0);
+    let problem = Problem { beam, obstacles, mesh, initial };
+    let case = problem.case(EULER_CRANK_NICOLSON, 4e-3);
+    let n_value = beam.axial_force(slope_squared(&case.lengths, &u));
+    let factors = [case.contact_contraction(n_value), case.axial_contraction(n_value, &u)];
+    let [together, _, contact, axial] = spectral_radii(&problem, &u, 4e-3);
+    assert!((factors[0] - 0.4831).abs() < 1e-4 && (factors[1] - 0.6789).abs() < 1e-4, "{factors:?}");
+    assert!((contact - factors[0]).abs() < 1e-9 && (axial - factors[1]).abs() < 1e-9, "{contact} {axial}");
+    assert!(case.contraction(&u).0 < 1.0 && (together - 1.1002).abs() < 1e-4, "{together}");
 }

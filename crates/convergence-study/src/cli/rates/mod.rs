@@ -28,7 +28,7 @@ pub struct Arguments {
     /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may be repeated. Without one nothing passes
     #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
     order: Vec<Claimed>,
-    /// How far the rate may be from the order, above or below: 0 < T < 0.5, because half an order accepts two whole ones
+    /// How far the rate may be from the order, above or below: 0 < T < 0.5, because bands of half an order around consecutive whole orders would overlap
     #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
     /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors are not above E; 0
@@ -37,7 +37,7 @@ pub struct Arguments {
     /// A level above the floor is kept, and so are all levels coarser than it.
     #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR, allow_negative_numbers = true)]
     floor: f64,
-    /// The column of the step, or of a count: its name, or its number from 1
+    /// The column of the step, of a count or of levels: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
     step: Option<String>,
     /// The columns of errors, by name or number, separated by commas; without it those whose numbers fall
@@ -52,6 +52,9 @@ pub struct Arguments {
     /// The column of the step counts cells, unknowns or steps in D dimensions: h = count^(-1/D)
     #[arg(long, value_name = "D", value_parser = dimension, allow_negative_numbers = true)]
     dim: Option<f64>,
+    /// The column of the step numbers the levels of refinement, each with a step R times as small: h = R^(-level)
+    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
+    ratio: Option<f64>,
     /// Columns without a claim count, too: then nothing passes
     #[arg(long)]
     all: bool,
@@ -82,6 +85,11 @@ fn claimed(text: &str) -> Result<Claimed, String> {
 fn dimension(text: &str) -> Result<f64, String> {
     let dim = text.parse().ok().filter(|dim| *dim > 0.0 && f64::is_finite(*dim));
     dim.ok_or_else(|| "expected a number > 0".to_owned())
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    let ratio = text.parse().ok().filter(|ratio| *ratio > 1.0 && f64::is_finite(*ratio));
+    ratio.ok_or_else(|| "expected a number > 1".to_owned())
 }
 
 /// A column, judged.
@@ -128,6 +136,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         names: arguments.names.clone(),
         claimed: arguments.order.iter().filter_map(|claimed| claimed.name.clone()).collect(),
         dim: arguments.dim,
+        ratio: arguments.ratio,
         command: format!("{} rates {source}{claims}", project.command),
     };
     let table = RateTable::read_with(&arguments.file, &choice)?;

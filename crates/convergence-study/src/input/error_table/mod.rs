@@ -36,7 +36,7 @@ pub use digits::Column;
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateTable {
-    /// The step: the name of its column, or `cells^(-1/2)` if the column counts.
+    /// The step: the name of its column, `cells^(-1/2)` if the column counts, `2^(-level)` if it numbers the levels.
     pub step: String,
     /// The errors.
     pub columns: Vec<Column>,
@@ -55,7 +55,7 @@ pub struct RateTable {
 /// A column is named as in the table, with or without its unit, or by its number from 1.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Choice {
-    /// The column of the step, or of the count that gives it.
+    /// The column of the step, or of the count or level that gives it.
     pub step: Option<String>,
     /// The columns of errors.
     pub columns: Option<Vec<String>>,
@@ -67,7 +67,9 @@ pub struct Choice {
     pub claimed: Vec<String>,
     /// Dimension D > 0 of what a count counts: h = count^(-1/D).
     pub dim: Option<f64>,
-    /// The command that reads the table, for advice; empty if unknown.
+    /// Ratio R > 1 of the steps of consecutive levels: h = R^(-level).
+    pub ratio: Option<f64>,
+    /// The command that reads the table, for advice; empty if unknown. Advice is given only if it reads the table.
     pub command: String,
 }
 
@@ -102,19 +104,20 @@ impl RateTable {
 }
 
 impl Choice {
-    /// The command with this choice, changed, on a line of its own; empty if no command is known.
-    fn command(&self, change: impl FnOnce(&mut Choice)) -> String {
-        let mut choice = self.clone();
-        change(&mut choice);
-        if choice.command.is_empty() {
-            return String::new();
-        }
-        let list = |list: Vec<String>| Some(list.join(",")).filter(|list| !list.is_empty());
-        let [names, columns] = [choice.names, choice.columns].map(|names| names.and_then(list));
-        let (dim, values) = (choice.dim.map(|dim| dim.to_string()), list(choice.values));
-        let options = [("names", names), ("step", choice.step), ("dim", dim), ("columns", columns), ("values", values)];
+    /// The command with this choice.
+    fn line(&self) -> String {
+        let list = |list: &[String]| Some(list.join(",")).filter(|list| !list.is_empty());
+        let [names, columns] = [&self.names, &self.columns].map(|names| names.as_deref().and_then(list));
+        let [dim, ratio] = [self.dim, self.ratio].map(|number| number.map(|number| number.to_string()));
+        let options = [
+            ("names", names),
+            ("step", self.step.clone()),
+            ("dim", dim),
+            ("ratio", ratio),
+            ("columns", columns),
+            ("values", list(&self.values)),
+        ];
         let given = options.into_iter().filter_map(|(name, value)| Some((name, quoted(&value?))));
-        let given: String = given.map(|(name, value)| format!(" --{name} {value}")).collect();
-        format!("\n  {}{given}", choice.command)
+        given.fold(self.command.clone(), |line, (name, value)| format!("{line} --{name} {value}"))
     }
 }

@@ -1,5 +1,8 @@
 //! What the name of a column says, if its numbers do not decide.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 /// What a column holds, by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Word {
@@ -14,22 +17,31 @@ pub(super) enum Word {
     Unknown,
 }
 
-const STEPS: &str = "h dt dx dy dz hmax hmin hk diam diameter cellsize tau τ step stepsize meshsize meshwidth gridsize \
+/// Known words of one kind, each with its place in the list; a table may have a hundred thousand names to look up.
+type Words = LazyLock<HashMap<&'static str, usize>>;
+
+fn ranked(list: &'static str) -> HashMap<&'static str, usize> {
+    list.split(' ').enumerate().map(|(rank, word)| (word, rank)).collect()
+}
+
+static STEPS: Words = LazyLock::new(|| ranked(STEP_WORDS));
+static COUNTS: Words = LazyLock::new(|| ranked(COUNT_WORDS));
+static RATES: Words = LazyLock::new(|| ranked(RATE_WORDS));
+static COSTS: Words = LazyLock::new(|| ranked(COST_WORDS));
+static ERRORS: Words = LazyLock::new(|| ranked(ERROR_WORDS));
+
+const STEP_WORDS: &str = "h dt dx dy dz hmax hmin hk diam diameter cellsize tau τ step stepsize meshsize meshwidth gridsize \
     gridspacing spacing timestep timestepsize deltat deltax deltay δt δx δy ∆t ∆x";
 /// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns, last here, this holds only in the limit.
-const COUNTS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
+const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
     pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof unknowns kdofs \
     mdofs finiteelementunknowns";
-const RATES: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
-const COSTS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters its nit mem memory nnz cond \
+const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
+const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters its nit mem memory nnz cond \
     cfl row index cycle level lvl refinement i k l";
-const ERRORS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
+const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
     displacement temperature stress flux solution gradient";
 const NORMS: [&str; 12] = ["err", "norm", "resid", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv"];
-
-fn is_in(list: &str, word: &str) -> bool {
-    list.split(' ').any(|known| known == word)
-}
 
 impl Word {
     /// The meaning of a name, with or without a unit after it.
@@ -52,16 +64,16 @@ impl Word {
         }
         let joined: String = lower.chars().filter(|c| c.is_alphanumeric() || *c == '∆').collect();
         let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-        let has = |list: &str| words().any(|word| is_in(list, word));
+        let has = |list: &Words| words().any(|word| list.contains_key(word));
         let argument = lower.trim_start_matches('\\').strip_prefix("log").or_else(|| lower.strip_prefix("ln"));
         match () {
             () if argument.is_some_and(|argument| !argument.starts_with(char::is_alphabetic)) => Self::Logarithm,
-            () if has(RATES) || joined.starts_with("eoc") || joined.starts_with("order") => Self::Rate,
+            () if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") => Self::Rate,
             () if NORMS.iter().any(|part| lower.contains(part) || joined.contains(part)) => Self::Error,
-            () if is_in(STEPS, &joined) => Self::Step,
-            () if has(ERRORS) && !has("time") => Self::Error,
-            () if words().all(|word| is_in(COSTS, word)) && words().next().is_some() => Self::Cost,
-            () => count(&joined).map_or(if has(COSTS) { Self::Cost } else { Self::Unknown }, Self::Count),
+            () if STEPS.contains_key(joined.as_str()) => Self::Step,
+            () if has(&ERRORS) && !words().any(|word| word == "time") => Self::Error,
+            () if words().all(|word| COSTS.contains_key(word)) && words().next().is_some() => Self::Cost,
+            () => count(&joined).map_or(if has(&COSTS) { Self::Cost } else { Self::Unknown }, Self::Count),
         }
     }
 
@@ -80,7 +92,7 @@ impl Word {
 
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
-    let rank = |name: &str| COUNTS.split(' ').position(|known| known == name);
+    let rank = |name: &str| COUNTS.get(name).copied();
     let prefixes = ["numberof", "number", "num", "nr", "no", "n", "total"];
     rank(name).or_else(|| prefixes.iter().find_map(|prefix| rank(name.strip_prefix(prefix)?)))
 }
@@ -109,7 +121,8 @@ fn without_unit(name: &str) -> &str {
 /// Position of the name wanted: as written, or the only such name without its unit, or a nameless column by its number.
 pub(crate) fn position<'n>(names: impl Iterator<Item = &'n str> + Clone, wanted: &str) -> Option<usize> {
     let numbered = format!("column {wanted}");
-    names.clone().position(|name| name == wanted || name == numbered).or_else(|| {
+    let same = |text: &str| names.clone().position(|name| name == text);
+    same(wanted).or_else(|| same(&numbered)).or_else(|| {
         let mut same = names.clone().enumerate().filter(|(_, name)| without_unit(name) == wanted).map(|(k, _)| k);
         same.next().filter(|_| same.next().is_none())
     })

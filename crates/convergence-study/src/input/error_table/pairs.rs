@@ -1,5 +1,7 @@
 //! Numbers after their names, on one line or on several: `h = 3.5E-01, E = 1.6E-01`, JSON, lists.
 
+use std::collections::{HashMap, HashSet};
+
 use super::names::Word;
 use super::number::{is_dash, number};
 use crate::text::number::counted;
@@ -15,6 +17,9 @@ pub(super) struct RawTable<'t> {
     /// What is not a column of the table, with the reason.
     pub(super) left_out: Vec<(String, String)>,
 }
+
+/// Longest text in which a name is looked for before its number, in bytes.
+const LONGEST_LABEL: usize = 400;
 
 /// Levels of a log before a name.
 const LEVELS: [&str; 4] = ["INFO ", "DEBUG ", "WARNING ", "ERROR "];
@@ -50,7 +55,7 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
 
 /// The pairs of a text, and how many lines begin with a nameless number.
 fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
-    let mut pairs: Vec<Pair<'_>> = vec![];
+    let (mut pairs, mut known): (Vec<Pair<'_>>, HashSet<&str>) = Default::default();
     let (mut rows, mut is_row, mut depth, mut label, mut position) = (0, false, 0_usize, 0, 0);
     while let Some(start) = text[position..].find(|c| !is_mark(c)).map(|start| position + start) {
         position = text[start..].find(is_mark).map_or(text.len(), |end| start + end);
@@ -60,32 +65,43 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
         let is_marked = before.trim_end_matches(|c| is_mark(c) && !":=".contains(c)).ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
         // After a name that has a number elsewhere, a word means that the number is missing.
-        let is_word = || is_dash(word) || pairs.iter().any(|pair| before.contains(pair.name));
+        let is_word = || is_dash(word) || known.contains(name_before(before));
         if !((begins || is_last) && number(word, false).is_some() || is_marked && is_last && is_word()) {
             continue;
         }
-        let (words, marks) = before.split_at(before.trim_end_matches(is_mark).len());
+        let marks = &before[before.trim_end_matches(is_mark).len()..];
         depth = (depth + marks.matches('[').count()).saturating_sub(before.matches(']').count());
-        let words = words.rsplit('\n').next().unwrap_or_default();
-        // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
-        let cuts = |c: char| matches!(c, ',' | ';' | '{' | '\t') || (c == '(' && !words.contains(')'));
-        let name = words.rsplit(cuts).next().unwrap_or_default();
-        let name = name.trim_matches(is_mark).trim_start_matches(['-', '>', ' ']);
-        let name = name.rsplit([':', ']']).next().unwrap_or_default().trim_matches(is_mark);
-        let name = LEVELS.iter().find_map(|level| name.strip_prefix(level)).unwrap_or(name).trim_start();
+        let name = name_before(before);
         // The first number of a line may have its name on the line above: `"h": [`.
         let is_first = label == 0 || before.contains('\n');
         let is_near = !marks.contains('\n') || marks.contains([':', '=', '[']);
         let has_name = name.contains(char::is_alphabetic) && is_near && !marks.contains(['(', ',', ';', '{']);
         is_row = !has_name && (is_first || is_row);
         match pairs.last_mut() {
-            _ if has_name => pairs.push(Pair { name, values: vec![word], is_marked }),
+            _ if has_name => {
+                pairs.push(Pair { name, values: vec![word], is_marked });
+                known.insert(name);
+            }
             Some(last) if depth > 0 || !is_row => last.values.push(word),
             _ => rows += usize::from(is_first),
         }
         label = position;
     }
     (pairs, rows)
+}
+
+/// The name that a text ends with, before marks.
+fn name_before(text: &str) -> &str {
+    let words = text.trim_end_matches(is_mark);
+    // The search for a name is bounded, because a text may have a hundred thousand words before its next number.
+    let start = (words.len().saturating_sub(LONGEST_LABEL)..).find(|at| words.is_char_boundary(*at));
+    let words = words[start.unwrap_or(0)..].rsplit('\n').next().unwrap_or_default();
+    // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
+    let cuts = |c: char| matches!(c, ',' | ';' | '{' | '\t') || (c == '(' && !words.contains(')'));
+    let name = words.rsplit(cuts).next().unwrap_or_default();
+    let name = name.trim_matches(is_mark).trim_start_matches(['-', '>', ' ']);
+    let name = name.rsplit([':', ']']).next().unwrap_or_default().trim_matches(is_mark);
+    LEVELS.iter().find_map(|level| name.strip_prefix(level)).unwrap_or(name).trim_start()
 }
 
 /// A column for each list; rates, one fewer, begin on the second level.
@@ -108,29 +124,33 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
 
 /// A row for each repetition of the names. Names that a solver prints more often than the step are left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
+    let mut places: HashMap<&str, usize> = HashMap::new();
     let mut counts: Vec<(&'t str, usize)> = vec![];
     for pair in pairs {
-        match counts.iter_mut().find(|(name, _)| *name == pair.name) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((pair.name, 1)),
+        let place = *places.entry(pair.name).or_insert(counts.len());
+        if place == counts.len() {
+            counts.push((pair.name, 0));
         }
+        counts[place].1 += 1;
     }
+    let mut alike: HashMap<usize, usize> = HashMap::new();
+    counts.iter().for_each(|(_, count)| *alike.entry(*count).or_default() += 1);
     let is_step = |(name, count): &&(&str, usize)| *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_));
-    let alike = |count: usize| counts.iter().filter(|(_, other)| *other == count).count();
-    let common = || counts.iter().max_by_key(|(_, count)| (alike(*count), *count));
+    let common = || counts.iter().max_by_key(|(_, count)| (alike[count], *count));
     let levels = counts.iter().find(is_step).or_else(common).map_or(0, |(_, count)| *count);
     let (kept, others): (Vec<_>, Vec<_>) =
         counts.iter().partition(|(_, count)| *count <= levels && 2 * count >= levels);
     let why = |(name, count): (&str, usize)| (name.to_owned(), format!("printed {count} times for {levels} levels"));
     let first = kept.iter().find(|(_, count)| *count == levels).map(|(name, _)| *name);
     let names: Vec<&str> = kept.iter().map(|(name, _)| *name).collect();
+    let columns: HashMap<&str, usize> = names.iter().enumerate().map(|(column, name)| (*name, column)).collect();
     let mut rows: Vec<Vec<&str>> = vec![];
     for pair in pairs {
         if Some(pair.name) == first {
             rows.push(vec![&pair.name[..0]; names.len()]);
         }
-        if let (Some(row), Some(column)) = (rows.last_mut(), names.iter().position(|name| *name == pair.name)) {
-            row[column] = pair.values[0];
+        if let (Some(row), Some(column)) = (rows.last_mut(), columns.get(pair.name)) {
+            row[*column] = pair.values[0];
         }
     }
     RawTable { names, rows, left_out: others.into_iter().map(why).collect(), ..RawTable::default() }

@@ -1,11 +1,13 @@
 //! A table in columns, and complaints about it.
 
+use std::collections::HashSet;
+
 use super::Choice;
 use super::columns::Cells;
 use super::names::{self, Word};
 use super::number::{halves, number};
 use super::pairs::RawTable;
-use super::text;
+use super::text::counts_rows;
 use crate::input::{Complaint, InputError, Source, shorten};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::counted;
@@ -20,8 +22,36 @@ pub(super) struct TableReader<'t> {
     pub(super) text: &'t str,
     file: &'t str,
     pub(super) choice: &'t Choice,
-    pub(super) table: RawTable<'t>,
+    table: &'t RawTable<'t>,
     pub(super) columns: Vec<Cells<'t>>,
+    /// What is not an error, with the reason.
+    pub(super) left_out: Vec<(String, String)>,
+}
+
+/// A table that cannot be used, and choices that may read it.
+pub(super) struct Refusal {
+    pub(super) error: InputError,
+    pub(super) offers: Vec<Offer>,
+}
+
+/// A choice, and a comment that tells it from others.
+pub(super) struct Offer {
+    pub(super) choice: Choice,
+    pub(super) comment: &'static str,
+}
+
+impl From<InputError> for Refusal {
+    fn from(error: InputError) -> Self {
+        Self { error, offers: vec![] }
+    }
+}
+
+impl Refusal {
+    /// The same, with choices that may read the table.
+    pub(super) fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
+        self.offers.extend(offers);
+        self
+    }
 }
 
 /// Names in a message, but not too many.
@@ -31,53 +61,64 @@ pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
 }
 
 impl<'t> TableReader<'t> {
-    /// Splits a text into columns.
-    pub(super) fn new(text: &'t str, file: &'t str, choice: &'t Choice) -> Result<Self, InputError> {
-        let mut reader = Self { text, file, choice, table: text::read(text), columns: vec![] };
+    /// Splits the table of a text into columns.
+    pub(super) fn new(
+        text: &'t str,
+        file: &'t str,
+        choice: &'t Choice,
+        table: &'t RawTable<'t>,
+    ) -> Result<Self, Refusal> {
+        let mut reader = Self { text, file, choice, table, columns: vec![], left_out: table.left_out.clone() };
         reader.columns = reader.filled()?;
         Ok(reader)
     }
 
+    /// The choice of the user, changed.
+    pub(super) fn offer(&self, change: impl FnOnce(&mut Choice)) -> Offer {
+        let mut choice = self.choice.clone();
+        change(&mut choice);
+        Offer { choice, comment: "" }
+    }
+
     /// The columns; refuses a text without a table, and names that do not fit its columns.
-    fn filled(&self) -> Result<Vec<Cells<'t>>, InputError> {
-        let RawTable { names, rows, .. } = &self.table;
+    fn filled(&self) -> Result<Vec<Cells<'t>>, Refusal> {
+        let RawTable { names, rows, .. } = self.table;
         let width = rows.iter().map(Vec::len).max().unwrap_or(0);
         if width == 0 {
             let line = self.text.lines().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
             let found = line.map_or("an empty table".to_owned(), |line| format!("no row of numbers, but `{line}`"));
             let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
-            return Err(self.refuse(expected, &found));
+            return Err(self.refuse(expected, &found).into());
         }
         let shown = || names.iter().map(|name| names::shown(name)).collect();
         let names: Vec<String> = self.choice.names.clone().unwrap_or_else(shown);
         if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
             let example = (1..=width).map(|k| format!("c{k}")).collect();
-            let command = self.choice.command(|choice| choice.names = Some(example));
-            let is_even = rows.iter().all(|row| row.len() == width);
-            let found = counted(row.len(), "cell") + if is_even { &command } else { "" };
+            let offer = self.offer(|choice| choice.names = Some(example));
             let expected = format!("{}, one for each name", counted(names.len(), "cell"));
-            return Err(self.error(row.first().unwrap_or(&self.text), None, &expected, &found));
+            let found = counted(row.len(), "cell");
+            let error = self.error(row.first().unwrap_or(&self.text), None, &expected, &found);
+            return Err(Refusal::from(error).offering([offer]));
         }
         if let Some(k) = names.iter().position(|name| name.contains(char::is_control)) {
             let found = format!("`{}`", shorten(&names[k]));
-            return Err(self.error(self.head(k), None, "a name without control characters", &found));
+            return Err(self.error(self.head(k), None, "a name without control characters", &found).into());
         }
         if width < 2 {
-            return Err(
-                self.refuse("a column of steps and at least one of errors", "one column: write the table as CSV")
-            );
+            let found = "one column: write the table as CSV";
+            return Err(self.refuse("a column of steps and at least one of errors", found).into());
         }
         Ok(self.columns_of(names))
     }
 
     fn columns_of(&self, names: Vec<String>) -> Vec<Cells<'t>> {
-        let RawTable { rows, decimal_comma, .. } = &self.table;
+        let RawTable { rows, decimal_comma, .. } = self.table;
         let numbered = |(k, name): (usize, String)| if name.is_empty() { format!("column {}", k + 1) } else { name };
         let names: Vec<String> = names.into_iter().enumerate().map(numbered).collect();
         let Choice { columns, claimed, values, .. } = self.choice;
         let claimed = columns.iter().flatten().chain(claimed).chain(values);
         let claimed = claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
-        let claimed: Vec<usize> = claimed.collect();
+        let claimed: HashSet<usize> = claimed.collect();
         // With decimal commas, `1.024` may be 1024.
         let is_comma = |cell: &&str| *decimal_comma && cell.contains(',') && number(cell, true).is_some();
         let has_comma = rows.iter().flatten().any(is_comma);
@@ -87,7 +128,7 @@ impl<'t> TableReader<'t> {
             let numbers: Vec<_> = texts.iter().map(value).collect();
             let (name, word) = (name.clone(), Word::of(name));
             let may_count = matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
-            let (is_claimed, is_index) = (claimed.contains(&k), may_count && text::counts_rows(&texts));
+            let (is_claimed, is_index) = (claimed.contains(&k), may_count && counts_rows(&texts));
             let values = numbers.iter().map(|number| number.map_or(f64::NAN, |number| number.value)).collect();
             let is_number = numbers.iter().map(Option::is_some).collect();
             Cells { name, word, texts, values, is_number, halves: halves(&numbers), is_claimed, is_index }

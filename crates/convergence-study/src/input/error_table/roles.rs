@@ -4,10 +4,11 @@ use std::collections::HashSet;
 
 use super::columns::{Cells, Trend};
 use super::names::Word;
-use super::reader::{NEIGHBOURS, TableReader, listed};
-use super::step::Step;
-use super::{Choice, Column, RateTable};
-use crate::input::{InputError, shorten};
+use super::pairs::RawTable;
+use super::reader::{NEIGHBOURS, Refusal, TableReader, listed};
+use super::step::{Measure, Step};
+use super::{Choice, Column, RateTable, names, text};
+use crate::input::{Complaint, InputError, shorten};
 use crate::judge::verdict::Level;
 use crate::text::number::plain_text;
 
@@ -20,21 +21,45 @@ enum Holds {
     Doubtful(String),
 }
 
-/// Reads the step and the chosen errors.
+/// Reads the step and the chosen errors. A refusal has the commands that read the table and find its claimed columns.
 pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
-    let mut reader = TableReader::new(text, file, choice)?;
+    let table = text::read(text);
+    let reads = |choice: &Choice| {
+        let read = attempt(text, file, choice, &table).ok();
+        let has = |read: &RateTable, name: &str| {
+            let names = read.columns.iter().chain(&read.values).map(|column| column.name.as_str());
+            names::position(names, name).is_some()
+        };
+        read.is_some_and(|read| choice.claimed.iter().all(|name| has(&read, name)))
+    };
+    attempt(text, file, choice, &table).map_err(|Refusal { error, offers }| {
+        let offers = offers.iter().filter(|offer| !offer.choice.command.is_empty() && reads(&offer.choice));
+        let comment = |comment: &str| if comment.is_empty() { String::new() } else { format!("  # {comment}") };
+        let commands: String =
+            offers.map(|offer| format!("\n  {}{}", offer.choice.line(), comment(offer.comment))).collect();
+        if commands.is_empty() {
+            return error;
+        }
+        let reason = error.complaint.to_string() + &commands;
+        InputError { complaint: Box::new(Complaint::Invalid { reason }), ..error }
+    })
+}
+
+/// Reads a table with one choice.
+fn attempt(text: &str, file: &str, choice: &Choice, table: &RawTable<'_>) -> Result<RateTable, Refusal> {
+    let mut reader = TableReader::new(text, file, choice, table)?;
     let step = reader.step()?;
     let steps = reader.sort(&step)?;
     let [errors, values] = reader.chosen(step.column)?;
     let (errors, others) = match choice.columns {
         Some(_) => (errors, vec![]),
-        None => (reader.found(&step, &steps, &values)?, std::mem::take(&mut reader.table.left_out)),
+        None => (reader.found(&step, &steps, &values)?, std::mem::take(&mut reader.left_out)),
     };
     let mut seen = HashSet::new();
     if let Some(&twice) = errors.iter().chain(&values).find(|k| !seen.insert(&reader.columns[**k].name)) {
         return Err(reader.twice(twice));
     }
-    let is_exact = step.dim.is_some() || reader.columns[step.column].regular().is_some();
+    let is_exact = step.measure != Measure::Step || reader.columns[step.column].regular().is_some();
     let step_halves = if is_exact { vec![0.0; steps.len()] } else { reader.columns[step.column].halves.clone() };
     let column = |&k: &usize| {
         let Cells { name, halves, .. } = &reader.columns[k];
@@ -62,17 +87,13 @@ fn reasons(others: &[(String, String)]) -> String {
 
 impl TableReader<'_> {
     /// The step of each row; sorts the rows by step, coarsest level first, as the judge requires.
-    fn sort(&mut self, Step { column, dim, .. }: &Step) -> Result<Vec<f64>, InputError> {
-        let what = if dim.is_some() { "a count" } else { "a step" };
+    fn sort(&mut self, Step { column, measure, .. }: &Step) -> Result<Vec<f64>, InputError> {
         let cells = &self.columns[*column];
         let step = |row: usize| {
-            let value = self.must(row, *column)?;
-            let step = dim.map_or(value, |dim| value.powf(-1.0 / dim));
-            let refused = || {
+            measure.step(self.must(row, *column)?).map_err(|expected| {
                 let found = format!("`{}`", shorten(cells.texts[row]));
-                self.error(cells.texts[row], Some(&cells.name), &format!("{what}, a finite number > 0"), &found)
-            };
-            (value > 0.0 && value.is_finite()).then_some(step).ok_or_else(refused)
+                self.error(cells.texts[row], Some(&cells.name), expected, &found)
+            })
         };
         let steps = (0..cells.texts.len()).map(step).collect::<Result<Vec<f64>, _>>()?;
         let mut order: Vec<usize> = (0..steps.len()).collect();
@@ -109,7 +130,7 @@ impl TableReader<'_> {
 
     /// The columns of errors; the others are left out, each with the reason. Refuses to judge without errors, or if a
     /// column may be an error but does not fall and no name says which columns are errors.
-    fn found(&mut self, step: &Step, steps: &[f64], values: &[usize]) -> Result<Vec<usize>, InputError> {
+    fn found(&mut self, step: &Step, steps: &[f64], values: &[usize]) -> Result<Vec<usize>, Refusal> {
         let (mut errors, mut limits, mut doubtful) = (vec![], vec![], vec![]);
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
             let (columns, why) = match self.holds(k, step.column, steps)? {
@@ -119,10 +140,10 @@ impl TableReader<'_> {
                 Holds::Other(why) => (&mut vec![], Some(why)),
             };
             columns.push(k);
-            self.table.left_out.extend(why.map(|why| (self.columns[k].name.clone(), why)));
+            self.left_out.extend(why.map(|why| (self.columns[k].name.clone(), why)));
         }
-        let others = &self.table.left_out;
-        let command = |columns: &[usize]| self.choice.command(|choice| choice.columns = Some(self.names(columns)));
+        let others = &self.left_out;
+        let with_columns = |columns: &[usize]| self.offer(|choice| choice.columns = Some(self.names(columns)));
         let is_sure = |k: &usize| self.columns[*k].word == Word::Error || self.columns[*k].is_claimed;
         match doubtful.first() {
             _ if errors.is_empty() && values.is_empty() => {
@@ -130,19 +151,21 @@ impl TableReader<'_> {
                 if let Some(k) = self.columns.iter().position(is_open) {
                     self.must(0, k)?;
                 }
-                let command = match doubtful.first() {
-                    _ if !limits.is_empty() => self.choice.command(|choice| choice.values = self.names(&limits)),
-                    Some(first) => command(&[*first]),
-                    None => String::new(),
+                let offer = match doubtful.first() {
+                    _ if !limits.is_empty() => Some(self.offer(|choice| choice.values = self.names(&limits))),
+                    Some(first) => Some(with_columns(&[*first])),
+                    None => None,
                 };
-                Err(self.refuse("a column of errors, or --columns LIST", &(reasons(others) + &command)))
+                let refusal = self.refuse("a column of errors, or --columns LIST", &reasons(others));
+                Err(Refusal::from(refusal).offering(offer))
             }
             Some(first) if values.is_empty() && !errors.iter().any(is_sure) => {
                 let name = &self.columns[*first].name;
                 let why = others.iter().find(|(other, _)| other == name).map_or("", |(_, why)| why);
-                let commands = command(&errors) + &command(&[errors.as_slice(), &doubtful].concat());
-                let found = format!("`{name}`, which is {why}{commands}");
-                Err(self.refuse("--columns LIST to say which columns are errors", &found))
+                let found = format!("`{name}`, which is {why}");
+                let refusal = self.refuse("--columns LIST to say which columns are errors", &found);
+                let all = [errors.as_slice(), &doubtful].concat();
+                Err(Refusal::from(refusal).offering([with_columns(&errors), with_columns(&all)]))
             }
             _ => Ok(errors),
         }
@@ -186,13 +209,13 @@ impl TableReader<'_> {
         }
     }
 
-    fn twice(&self, column: usize) -> InputError {
+    fn twice(&self, column: usize) -> Refusal {
         let mut seen = HashSet::new();
         let numbered = self.columns.iter().enumerate().map(|(k, Cells { name, .. })| {
             if seen.insert(name) { name.clone() } else { format!("{name}_{}", k + 1) }.replace(',', ";")
         });
-        let command = self.choice.command(|choice| choice.names = Some(numbered.collect()));
-        let found = format!("`{}` a second time{command}", shorten(&self.columns[column].name));
-        self.error(self.head(column), None, "each name once", &found)
+        let offer = self.offer(|choice| choice.names = Some(numbered.collect()));
+        let found = format!("`{}` a second time", shorten(&self.columns[column].name));
+        Refusal::from(self.error(self.head(column), None, "each name once", &found)).offering([offer])
     }
 }

@@ -19,6 +19,9 @@ const MARKS: [(&str, &str); 9] = [
 /// Types of columns and units, as data frames write them below the names.
 const TYPES: [&str; 8] = ["double", "f64", "i64", "float64", "int64", "float", "int", "str"];
 
+/// A row that is filled has at least one cell in this many columns.
+const FULL: usize = 4;
+
 /// A text without colours, and a line for each of nested lists without names.
 pub(super) fn plain(text: &str) -> String {
     let marked = MARKS.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
@@ -57,7 +60,16 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     let separator = separator(lines().filter(|line| !is_comment(line)));
     let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
     let (mut heads, mut rows): (Vec<&str>, Vec<(&str, Vec<&str>)>) = Default::default();
-    for line in lines() {
+    let mut quoted_names = None;
+    let mut all = lines().peekable();
+    while let Some(line) = all.next() {
+        if rows.is_empty()
+            && let Some(below) = all.peek()
+            && let Some(names) = names_in_quotes(line, below, separator)
+        {
+            quoted_names = Some(names);
+            continue;
+        }
         // A row without the comment after it.
         let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
         let numbers = cells.iter().filter(|cell| is_number(cell)).count();
@@ -87,7 +99,13 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     let rows: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
     let width = rows.iter().map(Vec::len).max().unwrap_or(0);
     let table = RawTable { decimal_comma: separator != Some(','), ..RawTable::default() };
-    match numbered(&heads, width).or_else(|| names(&heads, &rows, separator, width)) {
+    let quoted_names = quoted_names.and_then(|names| match width.checked_sub(names.len())? {
+        0 => Some(names),
+        // R writes no name above the names of rows.
+        1 => Some([&[&text[..0]], names.as_slice()].concat()),
+        _ => None,
+    });
+    match quoted_names.or_else(|| numbered(&heads, width)).or_else(|| names(&heads, &rows, separator, width)) {
         None if is_turned(&rows) => {
             let named = usize::from(number(rows[0][0], true).is_none());
             let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
@@ -129,6 +147,19 @@ fn cell(text: &str) -> &str {
     text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text).trim()
 }
 
+/// The cells of a line in which each number is in quotes, if some stand above a number without: they are names.
+fn names_in_quotes<'t>(line: &'t str, below: &str, separator: Option<char>) -> Option<Vec<&'t str>> {
+    if !line.contains('"') {
+        return None;
+    }
+    let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
+    let is_quoted = |line: &str, cell: &str| line[..cell.as_ptr() as usize - line.as_ptr() as usize].ends_with('"');
+    let (names, cells) = (split(line, separator), split(below, separator));
+    let is_above = |(name, cell): (&&str, &&str)| is_number(name) && is_number(cell) && !is_quoted(below, cell);
+    let is_head = names.iter().filter(|name| is_number(name)).all(|name| is_quoted(line, name));
+    (is_head && names.iter().rev().zip(cells.iter().rev()).any(is_above)).then_some(names)
+}
+
 /// The separator of a table: the first that leaves no two numbers in one cell of its first row; `None` for blanks.
 fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) -> Option<char> {
     let is_number = |text: &str| number(text, true).is_some();
@@ -152,6 +183,8 @@ fn is_rule(line: &str) -> bool {
 }
 
 /// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns below which they stand.
+///
+/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many times as long as the text.
 fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
     let span =
         |line: &str, cell: &str| [0, cell.len()].map(|end| cell.as_ptr() as usize - line.as_ptr() as usize + end);
@@ -162,14 +195,16 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
             *all = [all[0].min(start), all[1].max(end)];
         }
     }
-    for (line, cells) in rows.iter_mut().filter(|(_, cells)| cells.len() < width) {
-        let mut filled = vec![&line[line.len()..]; width];
+    for (line, cells) in rows.iter_mut().filter(|(_, cells)| (width..FULL * width).contains(&(FULL * cells.len()))) {
+        // Starts and ends grow from column to column.
         let below = |cell: &&str| {
             let [start, end] = span(line, cell);
-            spans.iter().position(|column| start < column[1] && column[0] < end)
+            let column = spans.partition_point(|column| column[1] <= start);
+            spans.get(column).is_some_and(|column| column[0] < end).then_some(column)
         };
         let places: Vec<usize> = cells.iter().filter_map(below).collect();
         if places.len() == cells.len() && places.is_sorted_by(|a, b| a < b) {
+            let mut filled = vec![&line[line.len()..]; width];
             places.iter().zip(cells.iter()).for_each(|(place, cell)| filled[*place] = cell);
             *cells = filled;
         }

@@ -154,7 +154,9 @@ impl Convergence {
     }
 
     fn case(data @ (elements, steps): (usize, usize)) -> Case<(usize, usize)> {
-        Case::new(Refine::label(elements, steps), elements as f64 * (steps as f64 + PREPARATION), data)
+        // A step takes as long as four elements in addition to its own.
+        let cost = (elements as f64 + 4.0) * steps as f64 + elements as f64 * PREPARATION;
+        Case::new(Refine::label(elements, steps), cost, data)
     }
 
     /// Errors of each level in each norm; NaN if the case failed, so that it cannot pass.

@@ -2,15 +2,15 @@
 //!
 //! # The time scale of an impact
 //!
-//! When the free end meets an obstacle with velocity v, at first only a layer of width √(ζt) moves: there the beam is a
+//! When the free end meets an obstacle with velocity ν, at first only a layer of width √(ζt) moves: there the beam is a
 //! viscous half-space, and its end resists a change of velocity with the force `√ζ D^½`, a derivative of order one half.
-//! With the penetration p = v t* P(t/t*) and the law F = p/ε,
+//! With the penetration δ = ν t* C(t/t*) and the law F = δ/ε,
 //!
 //! ```text
-//! P' + I^½ P = 1,   P(0) = 0,      t* = (ε √ζ)^(2/3),
+//! C' + J C = 1,     C(0) = 0,      t* = (ε √ζ)^(2/3),
 //! ```
 //!
-//! so the peak of an impact has the time scale t*, its penetration is 0.858 v (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
+//! J being the integral of order one half. So the peak of an impact has the time scale t*, its penetration is 0.858 ν (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
 //!
 //! | quantity | order in ε | why |
 //! | --- | --- | --- |
@@ -266,13 +266,13 @@ fn alpha(scene: &Scene, by: &Stepping) -> f64 {
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.
 ///
-/// The largest value of `P(τ) = Σ (-1)^k τ^(1 + 3k/2) / Γ(2 + 3k/2)`, the inverse transform of `1/(s² + √s)`.
+/// The largest value of `C(ξ) = Σ (-1)^n ξ^(1 + 3n/2) / Γ(2 + 3n/2)`, the inverse transform of `1/(s² + √s)`.
 fn peak_penetration() -> f64 {
     // One smooth maximum at τ = 1.65; a step of 1e-3 misses its height by 1e-7.
     (0..4000).map(|k| penetration(1e-3 * f64::from(k))).fold(0.0, f64::max)
 }
 
-/// P(τ) for 0 <= τ <= 4, where the terms vanish long before the last.
+/// C(ξ) for 0 <= ξ <= 4, where the terms vanish long before the last.
 fn penetration(tau: f64) -> f64 {
     const TERMS: usize = 40;
     // Γ(2 + 3k/2) from Γ(x + 3) = x (x + 1) (x + 2) Γ(x), starting from Γ(2) = 1 and Γ(7/2) = 15 √π / 8.
@@ -299,7 +299,7 @@ mod tests {
 
     #[test]
     fn the_penetration_solves_its_integral_equation() {
-        // P' + (half-integral of P) = 1, with I^½ P(τ) = ∫₀^τ P(s) / √(π (τ - s)) ds; s = τ - r² removes the root.
+        // C' + J C = 1, with J C(ξ) = ∫₀^ξ C(s) / √(π (ξ - s)) ds; s = ξ - r² removes the root.
         let tau = 1.3_f64;
         let n = 2000;
         let dr = tau.sqrt() / n as f64;

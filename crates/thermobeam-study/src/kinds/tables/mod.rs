@@ -172,6 +172,16 @@ pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coeffi
     Ok(solver)
 }
 
+/// The cost of a run of a scene, in element-steps of a one-step scheme, which takes for a step as long as for four elements.
+pub fn cost_of_run(scene: &Scene) -> f64 {
+    match scene.method {
+        Method::OneStep(_) => scene.steps() as f64 * (scene.mesh.elements() as f64 + 4.0),
+        Method::Dg(stepping) => {
+            Discretisation { elements: scene.mesh.elements(), degree: scene.degree, stepping }.cost(scene.t_end)
+        }
+    }
+}
+
 /// The keys of a discretisation.
 pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
 

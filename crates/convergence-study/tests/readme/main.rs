@@ -1,0 +1,106 @@
+//! The README of the harness shows what the program prints: each command before a block of output is run.
+
+mod blocks;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use blocks::{Printed, fenced, missing, printed};
+use convergence_study::judge::verdict::{Verdict, judge_pairs};
+use convergence_study::run::{Finished, Spent};
+use convergence_study::store::{Record, json};
+use convergence_study::study::{Header, LevelErrors, Outcome};
+
+const README: &str = include_str!("../../README.md");
+
+/// A study with errors `L2`, claimed to be of order 2, and `H1`, of order 1, for n = 8, 16, ...; NaN: no such error.
+fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f64) -> Finished {
+    let counts: Vec<f64> = (0..levels).map(|k| 8.0 * f64::powi(2.0, k as i32)).collect();
+    let errors = |n: f64| [("L2", l2(1.0 / n)), ("H1", h1(1.0 / n))].map(|(name, error)| (name.to_owned(), error));
+    let level = |n: &f64| LevelErrors {
+        parameters: vec![("n".to_owned(), *n)],
+        step: Some(1.0 / n),
+        work: None,
+        errors: errors(*n).into_iter().filter(|(_, error)| !error.is_nan()).collect(),
+        without: vec![],
+    };
+    let rate = |k: usize, order: f64| {
+        let pairs = counts.iter().map(|n| (1.0 / n, errors(*n)[k].1)).filter(|(_, error)| !error.is_nan());
+        (["L2", "H1"][k].to_owned(), judge_pairs(pairs, order, 0.1))
+    };
+    let levels = counts.iter().map(level).collect();
+    Finished {
+        header: Header::new(id, "c"),
+        outcome: Outcome { levels, ..Outcome::new("s", vec![rate(0, 2.0), rate(1, 1.0)], vec![]) },
+        failed_cases: vec![],
+        not_finite: vec![],
+        untested: vec![],
+        spent: Spent::default(),
+        work: vec![],
+    }
+}
+
+/// Smooth, with the next power of the step.
+fn smooth(constant: f64, order: f64) -> impl Fn(f64) -> f64 {
+    move |h: f64| constant * h.powf(order) * (1.0 + 0.3 * h)
+}
+
+/// Two records: the new one has a larger error, a lost order, and lacks an error on the finest level.
+fn records() -> [Record; 2] {
+    let coarse = |h: f64| if h < 1.0 / 200.0 { f64::NAN } else { smooth(1.0, 2.0)(h) };
+    let old = vec![
+        study("poisson", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
+        study("heat", 6, smooth(1.0, 2.0), smooth(3.0, 1.0)),
+        study("wave", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
+    ];
+    let new = vec![
+        study("poisson", 5, smooth(1.05, 2.0), smooth(3.0, 0.5)),
+        study("heat", 6, coarse, smooth(3.0, 1.0)),
+        study("wave", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
+    ];
+    [old, new].map(|studies| Record::new("files", "test", Verdict::Pass, None, studies))
+}
+
+/// The files that the commands read: the table is on the page.
+fn fill(folder: &Path) {
+    let (_, table) = fenced(README).into_iter().find(|(language, _)| language == "csv").expect("a table on the page");
+    fs::write(folder.join("errors.csv"), table + "\n").unwrap();
+    for (name, record) in ["old.json", "new.json"].iter().zip(records()) {
+        fs::write(folder.join(name), json(&record).unwrap()).unwrap();
+    }
+}
+
+#[test]
+fn every_block_of_output_is_what_the_program_prints() {
+    let folder = tempfile::tempdir().unwrap();
+    fill(folder.path());
+    let printed = printed(README);
+    assert_eq!(printed.len(), 2);
+    for Printed { command, lines } in printed {
+        assert_eq!(command[0], "convergence-study");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
+        let output = program.args(&command[1..]).current_dir(folder.path()).output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(missing(&lines, &text), None, "{command:?}:\n{text}{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[test]
+fn a_line_that_is_not_printed_is_found() {
+    let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
+    let output = "a 1\nb 3e-15 c\n\nd 2.5\n";
+    for (block, found) in [
+        ("a 1\nb 1e-14 c\nd 2.5", None),
+        ("a 1\n...\nd 2.5", None),
+        ("...\nd 2.5", None),
+        ("a 1\n...", None),
+        ("a 1\nb 3e-15 c", Some("nothing, found d 2.5")),
+        ("a 1\nd 2.5", Some("d 2.5")),
+        ("a 1\n...\nd 2.6", Some("d 2.6")),
+        ("a 1\nb 3e-5 c\n...", Some("b 3e-5 c")),
+        ("a 1\nb 0 c\n...", Some("b 0 c")),
+    ] {
+        assert_eq!(missing(&lines(block), output), found.map(str::to_owned), "{block}");
+    }
+}

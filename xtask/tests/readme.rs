@@ -1,0 +1,92 @@
+//! The README of the project shows what the commands print, and no README shows output that no test compares.
+
+#[path = "../../crates/convergence-study/tests/readme/blocks.rs"]
+mod blocks;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use blocks::{Printed, missing, printed};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// The lines of `verify` that need no clock, as its report has them: verdict, and the key numbers of each study.
+///
+/// * `line`: as printed: study, verdict, seconds, key numbers, or the last sentence.
+fn is_reported(line: &str, report: &str) -> bool {
+    if let Some((verdict, sentence)) = line.split_once(": ") {
+        return verdict == "report" || report.contains(&format!("**{verdict}**: {sentence}\n"));
+    }
+    let cells: Vec<&str> = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    match cells[..] {
+        ["study", "verdict", "seconds", "key numbers"] => true,
+        [id, verdict, _, numbers] => report.lines().any(|row| {
+            let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+            row.starts_with(&format!("| [{id}](")) && cells.contains(&verdict) && cells.contains(&numbers)
+        }),
+        _ => false,
+    }
+}
+
+#[test]
+fn every_block_of_output_is_what_the_command_prints() {
+    let blocks = printed(&read("README.md"));
+    assert_eq!(blocks.len(), 2);
+    for Printed { command, lines } in blocks {
+        assert_eq!(command[..2], ["cargo", "xtask"]);
+        // The studies take seconds when optimised: their report is what `verify` wrote, and each merge writes it anew.
+        if command[2] == "verify" {
+            let report = read("reports/README.md");
+            let wrong: Vec<&String> =
+                lines.iter().filter(|line| *line != "..." && !is_reported(line, &report)).collect();
+            assert!(wrong.is_empty() && lines.len() > 4, "not in reports/README.md: {wrong:#?}");
+            continue;
+        }
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_xtask")).args(&command[2..]).current_dir(root()).output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(missing(&lines, &text), None, "{command:?}:\n{text}");
+    }
+}
+
+#[test]
+fn a_line_that_verify_does_not_report_is_found() {
+    let report = "**pass**: all 2 studies pass\n\n| [a-b](#a-b) | claim | pass | velocity 2.000 (order 2) |\n";
+    for line in ["a-b   pass   1.24  velocity 2.000 (order 2)", "pass: all 2 studies pass", "report: reports/README.md"]
+    {
+        assert!(is_reported(line, report), "{line}");
+    }
+    for line in [
+        "a-b   pass   1.24  velocity 2.001 (order 2)",
+        "a-b  fail  1.24  velocity 2.000 (order 2)",
+        "pass: all 3 studies pass",
+    ] {
+        assert!(!is_reported(line, report), "{line}");
+    }
+}
+
+#[test]
+fn no_other_readme_shows_output() {
+    let mut folders = vec![root()];
+    let mut with_output = vec![];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            // Reports and what is not committed.
+            if path.is_dir() && !matches!(name, "target" | "reports" | ".git" | "mutants.out") {
+                folders.push(path);
+            } else if name == "README.md" && fs::read_to_string(&path).unwrap().contains("\n```text\n") {
+                with_output.push(path.strip_prefix(root()).unwrap().to_owned());
+            }
+        }
+    }
+    with_output.sort();
+    assert_eq!(with_output, ["README.md", "crates/convergence-study/README.md"].map(PathBuf::from));
+}

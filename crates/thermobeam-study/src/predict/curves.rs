@@ -23,7 +23,7 @@ const MOST_LONG_STEPS: f64 = 20_000.0;
 /// Maximum number of times at which a one-step scheme is read.
 const TIMES: usize = 4000;
 
-/// Maximum number of values kept from a run by a one-step scheme.
+/// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest length by dG.
 const MOST_KEPT: usize = 4_000_000;
 
 /// The row of numbers read from a run at one time.
@@ -38,14 +38,23 @@ pub(super) enum Rows {
 }
 
 impl Rows {
-    /// The points for the norm, exact for linear functions on the mesh.
-    pub(super) fn of_norm(mesh: &Mesh) -> Self {
-        let gauss = 0.5 / 3.0_f64.sqrt();
-        let points = mesh.nodes().windows(2).flat_map(|x| {
-            let (middle, h) = (0.5 * (x[0] + x[1]), x[1] - x[0]);
-            [-gauss, gauss].map(|s| (middle + s * h, (0.5 * h).sqrt()))
+    /// The points for the norm: `count` Gauss points in each element.
+    pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
+        let gauss = dg::Space::gauss(count);
+        let points = nodes.windows(2).flat_map(|x| {
+            let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
+            gauss.iter().map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
         });
         Self::Norm(points.collect())
+    }
+
+    /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares of its polynomials' errors of
+    /// degree p + 1, whose zeros are no points.
+    pub(super) fn on(&self, scene: &Scene) -> Self {
+        match self {
+            Self::Norm(_) => Self::of_norm(scene.mesh.nodes(), scene.degree + 2),
+            numbers => numbers.clone(),
+        }
     }
 
     /// Numbers in a row.
@@ -185,7 +194,8 @@ fn by_dg(
     let mut level = motion.simulation().level().clone();
     let (mut passed, mut long, mut solves) = (0, 0_usize, 0);
     let early = stepping.restart_dt / (stepping.growth - 1.0);
-    let stride = (scene.t_end / stepping.dt / MOST_LONG_STEPS).ceil().max(1.0) as usize;
+    let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
+    let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
     while motion.step(scene.t_end).map_err(Reason::of_run)?.is_some() {
         let simulation = motion.simulation();
         let done = simulation.work().solves;
@@ -259,13 +269,15 @@ pub(super) struct Apart {
     pub(super) late: f64,
     /// Time of the largest difference since the last event, or the start.
     pub(super) since: f64,
+    /// Whether there was no event before.
+    pub(super) is_before_events: bool,
 }
 
 impl Apart {
     /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not match.
     pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
-            return Self { early: f64::NAN, late: f64::NAN, since: 0.0 };
+            return Self { early: f64::NAN, late: f64::NAN, ..Self::default() };
         }
         let mut apart = Self::default();
         let pairs = own.values.chunks(own.width).zip(other.values.chunks(own.width));
@@ -273,6 +285,7 @@ impl Apart {
             let difference = rows.distance(one, other, tolerance);
             if !(difference <= apart.most()) {
                 apart.since = instance.since;
+                apart.is_before_events = instance.since == instance.t;
             }
             let part = if instance.early { &mut apart.early } else { &mut apart.late };
             *part = max_or_nan(*part, difference);

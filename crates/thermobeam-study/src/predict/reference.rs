@@ -328,11 +328,11 @@ fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
 
 /// Nodes that are kept, and those others that are not close to them, measured by their distance from x = 1.
 fn with_nodes(kept: &[f64], others: &[f64]) -> Vec<f64> {
-    let mut nodes = if kept.is_empty() { vec![0.0, 1.0] } else { kept.to_vec() };
-    for x in [0.0, 1.0] {
+    let mut nodes = vec![0.0, 1.0];
+    for &x in kept {
         add_node(&mut nodes, x, f64::MIN_POSITIVE);
     }
-    for &x in others {
+    for &x in &others[1..others.len() - 1] {
         add_node(&mut nodes, x, CLOSE * (1.0 - x));
     }
     nodes

@@ -77,10 +77,25 @@ impl Rows {
 
     /// Adds the entries of one point to a row, from u_x, φ, φ_x, v, w and θ there.
     fn push(row: &mut Vec<f64>, weight: f64, [u_x, phi, phi_x, v, w, theta]: [f64; 6]) {
-        row.extend([v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
+        row.extend_from_slice(&[v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
     }
 
-    fn of_dg(&self, simulation: &dg::Simulation, t: f64, level: &mut dg::Level, row: &mut Vec<f64>) {
+    /// The points of the norm in a space.
+    fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
+        match self {
+            Self::Norm(points) => points.iter().map(|(x, _)| space.locate(*x)).collect(),
+            _ => vec![],
+        }
+    }
+
+    fn of_dg(
+        &self,
+        simulation: &dg::Simulation,
+        t: f64,
+        located: &[dg::Point],
+        level: &mut dg::Level,
+        row: &mut Vec<f64>,
+    ) {
         if let Self::Tip = self {
             row.push(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
             return;
@@ -91,9 +106,9 @@ impl Rows {
             row.extend([Field::U, Field::Phi].map(|field| level.value_and_slope(space, field, 1.0).0));
             return row.push(simulation.energy(level).total());
         };
-        for &(x, weight) in points {
-            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] = level.values_and_slopes(space, x);
-            Self::push(row, weight, [u_x, phi, phi_x, v, w, theta]);
+        for ((_, weight), point) in points.iter().zip(located) {
+            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] = level.values_and_slopes_at(space, point);
+            Self::push(row, *weight, [u_x, phi, phi_x, v, w, theta]);
         }
     }
 
@@ -192,6 +207,7 @@ fn by_dg(
     let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
     let mut curves = Curves::new(rows, motion.extremes());
     let mut level = motion.simulation().level().clone();
+    let located = rows.located(motion.simulation().space());
     let (mut passed, mut long, mut solves) = (0, 0_usize, 0);
     let early = stepping.restart_dt / (stepping.growth - 1.0);
     let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
@@ -205,7 +221,7 @@ fn by_dg(
         curves.include(simulation.tip_range());
         if let Some(at) = at {
             while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
-                rows.of_dg(simulation, t, &mut level, &mut curves.values);
+                rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
             continue;
@@ -216,7 +232,7 @@ fn by_dg(
             continue;
         }
         for instance in instances(simulation, early) {
-            rows.of_dg(simulation, instance.t, &mut level, &mut curves.values);
+            rows.of_dg(simulation, instance.t, &located, &mut level, &mut curves.values);
             curves.times.push(instance);
         }
     }

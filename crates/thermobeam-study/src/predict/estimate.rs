@@ -122,16 +122,6 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
     Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
 }
 
-/// The differences of a scene's numbers to those of another run by dG, in the order of [`Budget::quantities`].
-///
-/// # Errors
-/// [`Reason`]: one of the runs did not finish.
-pub fn differences(scene: &Scene, other: &Scene, work: &mut Work<'_>) -> Result<[f64; OBSERVABLES.len()], Reason> {
-    let own = curves(scene, &Rows::Numbers, None, work)?;
-    let other = curves(other, &Rows::Numbers, Some(&own.own_times()), work)?;
-    Ok(OBSERVABLES.map(|(_, kind, k)| measured(kind, k, &own, &other).1))
-}
-
 /// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
 ///
 /// The reference is improved until it qualifies; otherwise the last one is taken if its error does not exceed the scene's.
@@ -211,7 +201,8 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
 
 /// A curve whose error grows much if only space or only steps are refined: single numbers may have small errors by chance.
 fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
-    for &Estimate { name, total, finer_space, finer_steps, .. } in quantities.iter().filter(|of| of.kind == Kind::Curve) {
+    for &Estimate { name, total, finer_space, finer_steps, .. } in quantities.iter().filter(|of| of.kind == Kind::Curve)
+    {
         for (finer, error) in [("a finer space", finer_space), ("finer steps", finer_steps)] {
             match error {
                 Some(difference) if !(difference <= CONTRADICTION * total) => {

@@ -258,3 +258,33 @@ impl fmt::Display for Budget {
         write!(f, "{}", self.advice)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_finer_run_that_contradicts_the_total_of_a_curve_is_refused_with_both_numbers() {
+        let of = |kind, finer_space, finer_steps| Estimate {
+            name: "energy over time",
+            kind,
+            value: 1.0,
+            total: 4.3e-5,
+            reference: 1e-6,
+            finer_space,
+            finer_steps,
+        };
+        let refused = |of| contradiction(&[of]).map(|error| error.to_string());
+        assert_eq!(refused(of(Kind::Curve, Some(4.2e-4), Some(4.2e-4))), None);
+        assert_eq!(refused(of(Kind::Curve, None, None)), None);
+        // A single number may have a small error by chance.
+        assert_eq!(refused(of(Kind::End, Some(0.79), None)), None);
+        for (finer_space, finer_steps, words) in
+            [(Some(0.79), None, "a finer space"), (None, Some(0.79), "finer steps")]
+        {
+            let message = refused(of(Kind::Curve, finer_space, finer_steps)).expect("a contradiction");
+            assert!(message.contains("4.3e-5") && message.contains("7.9e-1") && message.contains(words), "{message}");
+        }
+        assert!(refused(of(Kind::Curve, Some(f64::NAN), None)).is_some());
+    }
+}

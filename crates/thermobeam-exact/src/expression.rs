@@ -110,14 +110,80 @@ impl Expression {
         }
         Ok(())
     }
+
+    /// The points of [0, 1] at which `abs`, `min` or `max` change branch, in increasing order.
+    ///
+    /// A change is a change of sign of the argument of `abs`, or of the difference of the two arguments. It is seen between points
+    /// that are [`BRANCH_SAMPLES`]⁻¹ apart, and next to the other changes: two changes of one function that are closer than that are
+    /// found only if a change of another function is between them, as in a narrow hat `max(0, 1 - abs(x - c)/w)`.
+    pub fn kinks(&self) -> Vec<f64> {
+        let mut kinks = vec![];
+        if self.branches(0.0).is_empty() {
+            return kinks;
+        }
+        let mut points: Vec<f64> = evenly_spaced(1.0, BRANCH_SAMPLES).collect();
+        loop {
+            let changes = self.changes_of_branch(&points);
+            if changes.len() == kinks.len() {
+                return changes;
+            }
+            points.extend(&changes);
+            points.sort_by(f64::total_cmp);
+            kinks = changes;
+        }
+    }
+
+    /// The changes of branch between neighbouring points.
+    fn changes_of_branch(&self, points: &[f64]) -> Vec<f64> {
+        let mut changes = vec![];
+        let mut before = self.branches(points[0]);
+        for pair in points.windows(2) {
+            let after = self.branches(pair[1]);
+            for index in (0..after.len()).filter(|&index| (before[index] < 0.0) != (after[index] < 0.0)) {
+                changes.push(self.change_of_branch(index, [pair[0], pair[1]]));
+            }
+            before = after;
+        }
+        changes.sort_by(f64::total_cmp);
+        changes.dedup_by(|next, x| *next - *x <= 4.0 * f64::EPSILON);
+        changes
+    }
+
+    /// Bisection for the change of sign of a branch, to the last bit.
+    fn change_of_branch(&self, index: usize, [mut low, mut high]: [f64; 2]) -> f64 {
+        let argument = |x: f64| self.branches(x)[index];
+        let is_negative = argument(low) < 0.0;
+        loop {
+            let middle = 0.5 * (low + high);
+            if !(low < middle && middle < high) {
+                return if argument(low).abs() <= argument(high).abs() { low } else { high };
+            }
+            let end = if (argument(middle) < 0.0) == is_negative { &mut low } else { &mut high };
+            *end = middle;
+        }
+    }
+
+    /// The numbers at `x` whose signs select the branches of `abs`, `min` and `max`, in the order of the text.
+    fn branches(&self, x: f64) -> Vec<f64> {
+        let mut branches = vec![];
+        self.root.push_branches(x, &mut branches);
+        branches
+    }
 }
 
 /// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are sampled exactly.
 const SAMPLES: u32 = 2520;
 
+/// The same for changes of branch, which may be 1e-4 apart.
+const BRANCH_SAMPLES: u32 = 4 * SAMPLES;
+
 /// Evenly spaced points of [0, end], including both ends.
 pub(crate) fn samples(end: f64) -> impl Iterator<Item = f64> {
-    (0..=SAMPLES).map(move |i| end * (f64::from(i) / f64::from(SAMPLES)))
+    evenly_spaced(end, SAMPLES)
+}
+
+fn evenly_spaced(end: f64, parts: u32) -> impl Iterator<Item = f64> {
+    (0..=parts).map(move |i| end * (f64::from(i) / f64::from(parts)))
 }
 
 impl fmt::Display for Expression {

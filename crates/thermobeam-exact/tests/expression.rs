@@ -333,3 +333,27 @@ proptest! {
         prop_assert!((second - (2.0 * c[2] + 6.0 * x * c[3])).abs() <= slack);
     }
 }
+
+#[test]
+fn kinks_are_where_the_branch_changes() {
+    for (text, expected) in [
+        ("x^2 + sin(9*x)", &[][..]),
+        ("abs((x-0.5)^2)", &[]),
+        ("max(0,x-0.37)", &[0.37]),
+        ("0.3*min(x,1-x)", &[0.5]),
+        ("1 + -2*abs(x-0.25)^3/exp(x)", &[0.25]),
+        ("min(1, max(0, 1e5*(x-0.6)))", &[0.6, 0.60001]),
+        ("abs(sin(4*pi*x+1))", &[0.170_422_528_45, 0.420_422_528_45, 0.670_422_528_45, 0.920_422_528_45]),
+        // Hats: of the narrowest width that samples see, and one that is seen because its middle is.
+        ("max(0, 1 - abs(x-0.6137)/1e-4)", &[0.6136, 0.6137, 0.6138]),
+        ("max(0, 1 - abs(x-0.6137)/1e-7)", &[0.613_699_9, 0.6137, 0.613_700_1]),
+        ("max(0, exp(-((x-0.61375)/1e-4)^2) - 0.5)", &[0.613_666_744_54, 0.613_833_255_46]),
+    ] {
+        let kinks = function(text).kinks();
+        let is_found = kinks.iter().zip(expected).all(|(kink, expected)| (kink - expected).abs() < 1e-10);
+        assert!(kinks.len() == expected.len() && is_found, "{text}: {kinks:?}, not {expected:?}");
+    }
+    // The point itself, not one of its neighbours.
+    assert_eq!(function("max(0,x-0.37)").kinks(), [0.37]);
+    assert_eq!(function("abs(0.37-x)").kinks(), [0.37]);
+}

@@ -157,6 +157,25 @@ impl Node {
             }
         }
     }
+
+    /// Appends the numbers at `x` whose signs select branches: arguments of `abs`, differences of those of `min` and `max`.
+    pub(super) fn push_branches(&self, x: f64, branches: &mut Vec<f64>) {
+        match self {
+            Node::Constant(_) | Node::Variable => (),
+            Node::Negate(operand) | Node::ConstantPower(operand, _) => operand.push_branches(x, branches),
+            Node::Call1(function, argument) => {
+                if *function == Function::Abs {
+                    branches.push(argument.eval(x));
+                }
+                argument.push_branches(x, branches);
+            }
+            Node::Binary(_, operands) => operands.iter().for_each(|operand| operand.push_branches(x, branches)),
+            Node::Call2(_, arguments) => {
+                branches.push(arguments[0].eval(x) - arguments[1].eval(x));
+                arguments.iter().for_each(|argument| argument.push_branches(x, branches));
+            }
+        }
+    }
 }
 
 fn operate<D: Number>(operator: Operator, left: D, right: D) -> D {

@@ -16,10 +16,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use thermobeam::mesh::Mesh;
-
 use super::curves::{Apart, Curves, Rows, curves};
-use super::estimate::none;
 use super::reference::{Reference, Wanted, finer, impact, reference};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
@@ -71,17 +68,17 @@ impl Quantity {
         }
     }
 
-    fn rows(self, mesh: &Mesh) -> Rows {
+    /// * `nodes`: for the norm, which is exact for linear functions between them.
+    fn rows(self, nodes: &[f64]) -> Rows {
         match self {
             Self::Tip => Rows::Tip,
-            Self::Norm => Rows::of_norm(mesh),
+            Self::Norm => Rows::of_norm(nodes, 2),
         }
     }
 
-    /// The comparison of dG runs: for the norm on a mesh that is graded towards x = 1.
-    fn wanted(self, target: f64) -> Result<Wanted, Unreachable> {
-        let mesh = Mesh::mapped(20, |s| s * (2.0 - s)).map_err(|error| none(target, Reason::of_run(error)))?;
-        Ok(Wanted { rows: self.rows(&mesh), tolerance: [target; 3] })
+    /// The comparison of dG runs, for the norm at points of their own meshes.
+    fn wanted(self, target: f64) -> Wanted {
+        Wanted { rows: self.rows(&[]), tolerance: [target; 3] }
     }
 }
 
@@ -127,10 +124,12 @@ pub struct Choice {
 /// # Errors
 /// [`Unreachable`]: why there is no such run, and the error reached.
 pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_>) -> Result<Choice, Unreachable> {
-    let Reference { scene: chosen, space, time, run, finer_space, .. } =
-        reference(scene, None, &quantity.wanted(target)?, work)?;
-    let law = own_scheme(scene, target, MOST_STEPS).and_then(|coarse| {
-        let own = Own::run(&coarse, quantity, work).ok()?;
+    let Reference { scene: chosen, space, time, run, finer_space, is_narrow, .. } =
+        reference(scene, None, &quantity.wanted(target), work)?;
+    // Coarse levels that miss a narrow feature say nothing about finer ones.
+    let own_scheme = if is_narrow { None } else { own_scheme(scene, target, MOST_STEPS) };
+    let law = own_scheme.and_then(|coarse| {
+        let own = Own::run(&coarse, quantity, chosen.mesh.nodes(), work).ok()?;
         Law::of(&coarse, &own, work).ok()
     });
     Ok(Choice {
@@ -152,7 +151,7 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
     let Some(mut scene) = own_scheme(scene, target, f64::INFINITY) else {
         return choose(scene, quantity, target, work);
     };
-    let reference = reference(&scene, None, &quantity.wanted(TENTH * target)?, work)?;
+    let reference = reference(&scene, None, &quantity.wanted(TENTH * target), work)?;
     let mut best = (f64::INFINITY, [f64::NAN; 2]);
     let (mut law, mut failures) = (None, 0);
     let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| Unreachable::NotReached {
@@ -165,7 +164,7 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
     for _ in 0..ROUNDS {
         let outcome = work
             .leaves(size(&scene).iter().product())
-            .and_then(|()| Own::run(&scene, quantity, work))
+            .and_then(|()| Own::run(&scene, quantity, reference.scene.mesh.nodes(), work))
             .and_then(|own| {
                 let error = own.error(&reference, work)?;
                 // A law for the first run, and after each run that misses the target.
@@ -214,9 +213,11 @@ fn size(scene: &Scene) -> [f64; 2] {
     [scene.mesh.elements() as f64, scene.steps() as f64]
 }
 
-/// The scene with these numbers of elements and steps; `None` if there is no such mesh.
+/// The scene with at least these numbers of elements and steps; `None` if there is no such mesh.
 fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
-    let mesh = resampled(&scene.mesh, elements.ceil() as usize).ok()?;
+    // A multiple of the listed elements keeps their nodes.
+    let listed = scene.listed.len().saturating_sub(1).max(1);
+    let mesh = resampled(&scene.mesh, (elements.ceil() as usize).next_multiple_of(listed)).ok()?;
     Some(scene.with_steps(mesh, steps.ceil() as usize, scene.t_end))
 }
 
@@ -227,9 +228,13 @@ struct Own {
 }
 
 impl Own {
-    fn run(scene: &Scene, quantity: Quantity, work: &mut Work<'_>) -> Result<Self, Reason> {
+    /// * `nodes`: of the reference, whose polynomials may be steep where the scene's mesh is coarse.
+    fn run(scene: &Scene, quantity: Quantity, nodes: &[f64], work: &mut Work<'_>) -> Result<Self, Reason> {
         let finer = resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(Reason::of_run)?;
-        let rows = quantity.rows(&finer);
+        let mut nodes = [finer.nodes(), nodes].concat();
+        nodes.sort_by(f64::total_cmp);
+        nodes.dedup();
+        let rows = quantity.rows(&nodes);
         let curves = curves(scene, &rows, None, work)?;
         Ok(Self { rows, curves })
     }

@@ -23,7 +23,7 @@ const MOST_LONG_STEPS: f64 = 20_000.0;
 /// Maximum number of times at which a one-step scheme is read.
 const TIMES: usize = 4000;
 
-/// Maximum number of values kept from a run by a one-step scheme.
+/// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest length by dG.
 const MOST_KEPT: usize = 4_000_000;
 
 /// The row of numbers read from a run at one time.
@@ -38,14 +38,23 @@ pub(super) enum Rows {
 }
 
 impl Rows {
-    /// The points for the norm, exact for linear functions on the mesh.
-    pub(super) fn of_norm(mesh: &Mesh) -> Self {
-        let gauss = 0.5 / 3.0_f64.sqrt();
-        let points = mesh.nodes().windows(2).flat_map(|x| {
-            let (middle, h) = (0.5 * (x[0] + x[1]), x[1] - x[0]);
-            [-gauss, gauss].map(|s| (middle + s * h, (0.5 * h).sqrt()))
+    /// The points for the norm: `count` Gauss points in each element.
+    pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
+        let gauss = dg::Space::gauss(count);
+        let points = nodes.windows(2).flat_map(|x| {
+            let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
+            gauss.iter().map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
         });
         Self::Norm(points.collect())
+    }
+
+    /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares of its polynomials' errors of
+    /// degree p + 1, whose zeros are no points.
+    pub(super) fn on(&self, scene: &Scene) -> Self {
+        match self {
+            Self::Norm(_) => Self::of_norm(scene.mesh.nodes(), scene.degree + 2),
+            numbers => numbers.clone(),
+        }
     }
 
     /// Numbers in a row.
@@ -68,10 +77,25 @@ impl Rows {
 
     /// Adds the entries of one point to a row, from u_x, φ, φ_x, v, w and θ there.
     fn push(row: &mut Vec<f64>, weight: f64, [u_x, phi, phi_x, v, w, theta]: [f64; 6]) {
-        row.extend([v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
+        row.extend_from_slice(&[v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
     }
 
-    fn of_dg(&self, simulation: &dg::Simulation, t: f64, level: &mut dg::Level, row: &mut Vec<f64>) {
+    /// The points of the norm in a space.
+    fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
+        match self {
+            Self::Norm(points) => points.iter().map(|(x, _)| space.locate(*x)).collect(),
+            _ => vec![],
+        }
+    }
+
+    fn of_dg(
+        &self,
+        simulation: &dg::Simulation,
+        t: f64,
+        located: &[dg::Point],
+        level: &mut dg::Level,
+        row: &mut Vec<f64>,
+    ) {
         if let Self::Tip = self {
             row.push(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
             return;
@@ -82,9 +106,9 @@ impl Rows {
             row.extend([Field::U, Field::Phi].map(|field| level.value_and_slope(space, field, 1.0).0));
             return row.push(simulation.energy(level).total());
         };
-        for &(x, weight) in points {
-            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] = level.values_and_slopes(space, x);
-            Self::push(row, weight, [u_x, phi, phi_x, v, w, theta]);
+        for ((_, weight), point) in points.iter().zip(located) {
+            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] = level.values_and_slopes_at(space, point);
+            Self::push(row, *weight, [u_x, phi, phi_x, v, w, theta]);
         }
     }
 
@@ -183,9 +207,11 @@ fn by_dg(
     let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
     let mut curves = Curves::new(rows, motion.extremes());
     let mut level = motion.simulation().level().clone();
+    let located = rows.located(motion.simulation().space());
     let (mut passed, mut long, mut solves) = (0, 0_usize, 0);
     let early = stepping.restart_dt / (stepping.growth - 1.0);
-    let stride = (scene.t_end / stepping.dt / MOST_LONG_STEPS).ceil().max(1.0) as usize;
+    let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
+    let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
     while motion.step(scene.t_end).map_err(Reason::of_run)?.is_some() {
         let simulation = motion.simulation();
         let done = simulation.work().solves;
@@ -195,7 +221,7 @@ fn by_dg(
         curves.include(simulation.tip_range());
         if let Some(at) = at {
             while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
-                rows.of_dg(simulation, t, &mut level, &mut curves.values);
+                rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
             continue;
@@ -206,7 +232,7 @@ fn by_dg(
             continue;
         }
         for instance in instances(simulation, early) {
-            rows.of_dg(simulation, instance.t, &mut level, &mut curves.values);
+            rows.of_dg(simulation, instance.t, &located, &mut level, &mut curves.values);
             curves.times.push(instance);
         }
     }
@@ -259,13 +285,15 @@ pub(super) struct Apart {
     pub(super) late: f64,
     /// Time of the largest difference since the last event, or the start.
     pub(super) since: f64,
+    /// Whether there was no event before.
+    pub(super) is_before_events: bool,
 }
 
 impl Apart {
     /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not match.
     pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
-            return Self { early: f64::NAN, late: f64::NAN, since: 0.0 };
+            return Self { early: f64::NAN, late: f64::NAN, ..Self::default() };
         }
         let mut apart = Self::default();
         let pairs = own.values.chunks(own.width).zip(other.values.chunks(own.width));
@@ -273,6 +301,7 @@ impl Apart {
             let difference = rows.distance(one, other, tolerance);
             if !(difference <= apart.most()) {
                 apart.since = instance.since;
+                apart.is_before_events = instance.since == instance.t;
             }
             let part = if instance.early { &mut apart.early } else { &mut apart.late };
             *part = max_or_nan(*part, difference);

@@ -9,7 +9,8 @@ use std::fmt;
 use serde::Serialize;
 
 use super::curves::{Curves, Rows, curves};
-use super::reference::{Reference, Wanted, finer, reference};
+use super::data::Data;
+use super::reference::{Reference, Wanted, finer, first, reference};
 use super::{Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::Scene;
@@ -25,6 +26,9 @@ const FLOOR: f64 = 1e-11;
 
 /// Maximum number of references, each at least ten times better than the last.
 const ROUNDS: usize = 8;
+
+/// A finer run whose error is this many times the total contradicts it: less may be due to errors of space and time that cancel.
+const CONTRADICTION: f64 = 10.0;
 
 /// Refinement pays if it removes at least this part of the error.
 const GAIN: f64 = 0.1;
@@ -97,7 +101,7 @@ const OBSERVABLES: [(&str, Kind, usize); 8] = [
 /// Estimates the errors of a scene by any method.
 ///
 /// # Errors
-/// [`Unreachable`]: the scene's own run fails, or no reference is accurate enough.
+/// [`Unreachable`]: the scene's own run fails, no reference is accurate enough, or a finer run contradicts it.
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
     let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
@@ -113,18 +117,9 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
             Estimate { name, kind, value, total: difference + error, reference: error, finer_space, finer_steps }
         })
         .collect();
+    contradiction(&quantities).map_or(Ok(()), Err)?;
     let dominant = dominant(&quantities);
     Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
-}
-
-/// The differences of a scene's numbers to those of another run by dG, in the order of [`Budget::quantities`].
-///
-/// # Errors
-/// [`Reason`]: one of the runs did not finish.
-pub fn differences(scene: &Scene, other: &Scene, work: &mut Work<'_>) -> Result<[f64; OBSERVABLES.len()], Reason> {
-    let own = curves(scene, &Rows::Numbers, None, work)?;
-    let other = curves(other, &Rows::Numbers, Some(&own.own_times()), work)?;
-    Ok(OBSERVABLES.map(|(_, kind, k)| measured(kind, k, &own, &other).1))
 }
 
 /// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
@@ -136,7 +131,7 @@ fn against(
     times: &[f64],
     work: &mut Work<'_>,
 ) -> Result<(Reference, Curves), Unreachable> {
-    let scales: [f64; 3] = std::array::from_fn(|k| largest(&own.column(k)).max(f64::MIN_POSITIVE));
+    let scales = scales(scene, own, times, work)?;
     let mut wanted = Wanted { rows: Rows::Numbers, tolerance: scales.map(|scale| ROUGH * scale) };
     let mut held: Option<(Reference, Curves, [[f64; 2]; 3])> = None;
     let fits = |errors: &[[f64; 2]; 3], part: f64| {
@@ -166,6 +161,22 @@ fn against(
     Err(none(wanted.tolerance[0], Reason::Rounds))
 }
 
+/// The largest value of each curve: that of the scene or, if its mesh may miss narrow features of the initial data, of the first dG run
+/// on a mesh that resolves them.
+fn scales(scene: &Scene, own: &Curves, times: &[f64], work: &mut Work<'_>) -> Result<[f64; 3], Unreachable> {
+    let largest_of = |curves: &Curves| std::array::from_fn(|k| largest(&curves.column(k)).max(f64::MIN_POSITIVE));
+    let of_own: [f64; 3] = largest_of(own);
+    let wanted = Wanted { rows: Rows::Numbers, tolerance: [ROUGH; 3] };
+    let data = Data::of(scene);
+    let (first, is_narrow) = data.resolve(first(scene, &wanted, &data.kept), &wanted)?;
+    if !is_narrow {
+        return Ok(of_own);
+    }
+    let rough = curves(&first, &Rows::Numbers, Some(times), work).map_err(|reason| none(ROUGH, reason))?;
+    let of_rough: [f64; 3] = largest_of(&rough);
+    Ok(std::array::from_fn(|k| of_own[k].max(of_rough[k])))
+}
+
 /// The result if no comparison was made.
 pub(super) fn none(target: f64, reason: Reason) -> Unreachable {
     Unreachable::NotReached { target, reached: f64::INFINITY, space: f64::NAN, time: f64::NAN, reason }
@@ -186,6 +197,22 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
         Kind::End => (last(&curve), last(&truth)),
     };
     (value, (value - truth).abs())
+}
+
+/// A curve whose error grows much if only space or only steps are refined: single numbers may have small errors by chance.
+fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
+    for &Estimate { name, total, finer_space, finer_steps, .. } in quantities.iter().filter(|of| of.kind == Kind::Curve)
+    {
+        for (finer, error) in [("a finer space", finer_space), ("finer steps", finer_steps)] {
+            match error {
+                Some(difference) if !(difference <= CONTRADICTION * total) => {
+                    return Some(Unreachable::Contradicted { name, total, finer, difference });
+                }
+                _ => (),
+            }
+        }
+    }
+    None
 }
 
 /// The refinement that lowers the errors of the curves more; errors of single numbers may be small by chance.
@@ -229,5 +256,35 @@ impl fmt::Display for Budget {
             "The last two columns: the errors with a finer space alone (twice the elements, or p + 4), and with half the steps alone."
         )?;
         write!(f, "{}", self.advice)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_finer_run_that_contradicts_the_total_of_a_curve_is_refused_with_both_numbers() {
+        let of = |kind, finer_space, finer_steps| Estimate {
+            name: "energy over time",
+            kind,
+            value: 1.0,
+            total: 4.3e-5,
+            reference: 1e-6,
+            finer_space,
+            finer_steps,
+        };
+        let refused = |of| contradiction(&[of]).map(|error| error.to_string());
+        assert_eq!(refused(of(Kind::Curve, Some(4.2e-4), Some(4.2e-4))), None);
+        assert_eq!(refused(of(Kind::Curve, None, None)), None);
+        // A single number may have a small error by chance.
+        assert_eq!(refused(of(Kind::End, Some(0.79), None)), None);
+        for (finer_space, finer_steps, words) in
+            [(Some(0.79), None, "a finer space"), (None, Some(0.79), "finer steps")]
+        {
+            let message = refused(of(Kind::Curve, finer_space, finer_steps)).expect("a contradiction");
+            assert!(message.contains("4.3e-5") && message.contains("7.9e-1") && message.contains(words), "{message}");
+        }
+        assert!(refused(of(Kind::Curve, Some(f64::NAN), None)).is_some());
     }
 }

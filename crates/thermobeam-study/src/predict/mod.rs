@@ -1,5 +1,6 @@
 //! Error estimates, and runs that reach a wanted error: both against a run of any order whose own error is known.
 //!
+//! * `data`: nodes where the initial data have features that a mesh would miss.
 //! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough. Its error is the difference to degree
 //!   p + 4 and to halved steps.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
@@ -10,6 +11,7 @@
 
 pub mod choice;
 mod curves;
+mod data;
 pub mod estimate;
 pub mod reference;
 
@@ -136,6 +138,36 @@ pub enum Unreachable {
         time: f64,
         /// The reason for stopping.
         reason: Reason,
+    },
+    /// No mesh of a search resolves the initial data.
+    #[error(
+        "the meshes of a search do not resolve {field} near x = {x:.6}: the difference to its projection is {error:.1e}, expected at \
+         most {allowed:.1e}; a wider feature is resolved, or a larger error"
+    )]
+    Unresolved {
+        /// Name of the field.
+        field: &'static str,
+        /// Where they differ.
+        x: f64,
+        /// The difference, in the measure of the search.
+        error: f64,
+        /// The largest difference allowed.
+        allowed: f64,
+    },
+    /// A finer run is further from the reference than the scene is said to be.
+    #[error(
+        "{name}: an error of {total:.1e} is contradicted by a run with {finer}, which differs by {difference:.1e} from the same \
+         reference; neither number is trustworthy"
+    )]
+    Contradicted {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its error by the reference.
+        total: f64,
+        /// The finer run, in words.
+        finer: &'static str,
+        /// The same error of the finer run.
+        difference: f64,
     },
 }
 

@@ -22,6 +22,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
 use super::curves::{Apart, Curves, Rows, curves};
+use super::data::{Data, add_node};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::{Method, Scene, resampled};
@@ -61,13 +62,16 @@ const HIGHEST_DEGREE: usize = 27;
 const LEAST_GROWTH: f64 = 1.02;
 
 /// Ratio of the distances of neighbouring nodes from x = 1.
-const GRADING: f64 = 6.0;
+pub(super) const GRADING: f64 = 6.0;
+
+/// A node this close to one that is kept, in units of the distance from x = 1, is left out.
+const CLOSE: f64 = 0.2;
 
 /// Elements longer than this part of the longest are halved; shorter ones wait until the lengths are closer.
 const LONG: f64 = 0.25;
 
 /// Maximum number of elements.
-const MOST_ELEMENTS: usize = 64;
+pub(super) const MOST_ELEMENTS: usize = 512;
 
 /// Rounds of refinement: each at least halves something.
 const ROUNDS: usize = 14;
@@ -112,6 +116,8 @@ pub struct Reference {
     pub run: Cost,
     /// The finer space of the last comparison, in words.
     pub finer_space: String,
+    /// Whether the initial data have features so narrow that they took nodes of their own.
+    pub(super) is_narrow: bool,
 }
 
 impl Reference {
@@ -138,8 +144,11 @@ pub(super) fn reference(
     if !(target > 0.0 && target.is_finite()) {
         return Err(Unreachable::Target { target });
     }
-    let mut search = Search { wanted, work, last: 0.0, best: [f64::INFINITY; 2] };
-    let begun = start.cloned().unwrap_or_else(|| search.begin(&first(scene, wanted)));
+    let data = Data::of(scene);
+    let first = start.cloned().unwrap_or_else(|| first(scene, wanted, &data.kept));
+    let (first, is_narrow) = data.resolve(first, wanted)?;
+    let mut search = Search { wanted, data, is_narrow, work, last: 0.0, best: [f64::INFINITY; 2] };
+    let begun = if start.is_some() { first } else { search.begin(&first) };
     search.last = 0.0;
     search.refine(begun).map_err(|reason| {
         let [space, time] = search.best.map(|part| part * target);
@@ -158,6 +167,8 @@ struct Compared {
 /// The state of a search for a discretisation.
 struct Search<'s, 'w> {
     wanted: &'s Wanted,
+    data: Data,
+    is_narrow: bool,
     work: &'s mut Work<'w>,
     /// Work of the last run.
     last: f64,
@@ -177,12 +188,13 @@ impl Search<'_, '_> {
             // Only shorter steps: each step length needs memory, and only these lengths occur.
             let method = Method::Dg(Stepping { dt: t_end.min(dt), ..scene.dg_stepping() });
             let short = Scene { t_end: t_end.min(scene.t_end), method, ..scene.clone() };
-            let compared = self.run(&short, None).and_then(|base| self.compare(&short, &base));
+            let rows = self.wanted.rows.on(&short);
+            let compared = self.run(&short, &rows, None).and_then(|base| self.compare(&short, &rows, &base));
             let Ok(Compared { space, time, .. }) = compared else { return first.clone() };
             if space.most() <= SHARE && time.most() <= SHARE {
                 return scene;
             }
-            match refined(&scene, &space, &time) {
+            match refined(&scene, &space, &time, &self.data.kinks) {
                 Some(next) => scene = next,
                 None => return first.clone(),
             }
@@ -193,14 +205,15 @@ impl Search<'_, '_> {
     /// Refines a discretisation until both differences are small enough.
     fn refine(&mut self, mut scene: Scene) -> Result<Reference, Reason> {
         for _ in 0..ROUNDS {
-            let base = self.run(&scene, None)?;
-            let compared = self.compare(&scene, &base)?;
+            let rows = self.wanted.rows.on(&scene);
+            let base = self.run(&scene, &rows, None)?;
+            let compared = self.compare(&scene, &rows, &base)?;
             let (space, time) = (&compared.space, &compared.time);
             if space.most() <= SHARE && time.most() <= SHARE {
                 return Ok(self.found(scene, &base, &compared));
             }
             self.judge(space.most(), time.most())?;
-            scene = refined(&scene, space, time).ok_or(Reason::Finest)?;
+            scene = refined(&scene, space, time, &self.data.kinks).ok_or(Reason::Finest)?;
         }
         Err(Reason::Rounds)
     }
@@ -213,6 +226,7 @@ impl Search<'_, '_> {
             time: [compared.time.most() * self.wanted.tolerance[0]; 3],
             end: 0.0,
             run: base.cost,
+            is_narrow: self.is_narrow,
         };
         if !matches!(self.wanted.rows, Rows::Norm(_)) {
             for k in 0..base.width {
@@ -228,21 +242,21 @@ impl Search<'_, '_> {
     }
 
     /// The two comparisons of a scene; `base` is its run.
-    fn compare(&mut self, scene: &Scene, base: &Curves) -> Result<Compared, Reason> {
+    fn compare(&mut self, scene: &Scene, rows: &Rows, base: &Curves) -> Result<Compared, Reason> {
         let times = base.own_times();
         let [finer, shorter] = finer(scene);
-        let finer = self.run(&finer?, Some(&times))?;
-        let shorter = self.run(&shorter?, Some(&times))?;
-        let Wanted { rows, tolerance } = self.wanted;
+        let finer = self.run(&finer?, rows, Some(&times))?;
+        let shorter = self.run(&shorter?, rows, Some(&times))?;
+        let tolerance = &self.wanted.tolerance;
         let [space, time] = [&finer, &shorter].map(|finer| Apart::of(rows, base, finer, tolerance));
         Ok(Compared { finer, shorter, space, time })
     }
 
     /// Runs a scene for comparison with the run whose times are `at`.
-    fn run(&mut self, scene: &Scene, at: Option<&[f64]>) -> Result<Curves, Reason> {
+    fn run(&mut self, scene: &Scene, rows: &Rows, at: Option<&[f64]>) -> Result<Curves, Reason> {
         // A run has at most four times the steps of its predecessor; higher degrees cost more on top.
         self.work.leaves(2.0 * self.last)?;
-        let run = curves(scene, &self.wanted.rows, at, self.work)?;
+        let run = curves(scene, rows, at, self.work)?;
         self.last = run.cost.work;
         Ok(run)
     }
@@ -268,7 +282,9 @@ pub(super) fn impact(scene: &Scene) -> f64 {
 
 /// The first discretisation, from experience with the scenes of the paper: two degrees in space for every decimal digit,
 /// half a degree in time, and steps that shrink by two for every four digits.
-fn first(scene: &Scene, wanted: &Wanted) -> Scene {
+///
+/// * `kept`: nodes that the mesh must have.
+pub(super) fn first(scene: &Scene, wanted: &Wanted, kept: &[f64]) -> Scene {
     let digits = (-wanted.tolerance[0].log10()).clamp(1.0, 11.0);
     let shrink = 10.0_f64.powf(-(digits - 5.0).max(0.0) / 11.0);
     let [wave, rise] = short_waves(&scene.beam);
@@ -286,7 +302,7 @@ fn first(scene: &Scene, wanted: &Wanted) -> Scene {
     let nodes = if scene.obstacles.is_some() { graded(layer) } else { vec![0.0, 1.0] };
     // An odd degree has as many unknowns as the even one below it, so only odd degrees are used.
     let degree = (4.0 + 1.2 * digits).round() as usize | 1;
-    let nodes = no_longer(&nodes, 2.0 * degree as f64 * wave);
+    let nodes = with_nodes(kept, &no_longer(&nodes, 2.0 * degree as f64 * wave));
     // Nodes that increase from 0 to 1.
     let mesh = Mesh::from_nodes(nodes).unwrap_or_else(|_| scene.mesh.clone());
     Scene { mesh, degree, method: Method::Dg(stepping), ..scene.clone() }
@@ -310,6 +326,18 @@ fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
     nodes.windows(2).flat_map(between).chain([1.0]).collect()
 }
 
+/// Nodes that are kept, and those others that are not close to them, measured by their distance from x = 1.
+fn with_nodes(kept: &[f64], others: &[f64]) -> Vec<f64> {
+    let mut nodes = vec![0.0, 1.0];
+    for &x in kept {
+        add_node(&mut nodes, x, f64::MIN_POSITIVE);
+    }
+    for &x in &others[1..others.len() - 1] {
+        add_node(&mut nodes, x, CLOSE * (1.0 - x));
+    }
+    nodes
+}
+
 /// Elements towards x = 1 that grow by [`GRADING`] away from it; the last one has the given width.
 fn graded(layer: f64) -> Vec<f64> {
     let widths = std::iter::successors(Some(layer), |width| Some(GRADING * width));
@@ -319,10 +347,12 @@ fn graded(layer: f64) -> Vec<f64> {
 }
 
 /// The scene, refined where a difference exceeds its share; `None` if no finer elements are possible.
-fn refined(scene: &Scene, space: &Apart, time: &Apart) -> Option<Scene> {
+///
+/// * `kinks`: points of the initial data from which layers begin at the start.
+fn refined(scene: &Scene, space: &Apart, time: &Apart, kinks: &[f64]) -> Option<Scene> {
     let (mut next, mut stepping) = (scene.clone(), scene.dg_stepping());
     if !(space.most() <= SHARE) {
-        next = more_space(&next, space, space.most() / SHARE)?;
+        next = more_space(&next, space, space.most() / SHARE, kinks)?;
     }
     if !(time.late <= SHARE) {
         stepping = more_time(stepping, time.late / SHARE);
@@ -370,12 +400,22 @@ fn on(scene: &Scene, nodes: Vec<f64>) -> Option<Scene> {
 }
 
 /// Space refined for an error smaller by `factor`; `apart` is the difference.
-fn more_space(scene: &Scene, apart: &Apart, factor: f64) -> Option<Scene> {
+fn more_space(scene: &Scene, apart: &Apart, factor: f64, kinks: &[f64]) -> Option<Scene> {
     let layer = (scene.beam.zeta * apart.since).sqrt();
-    let last = scene.mesh.lengths().last().unwrap_or(1.0);
-    if layer < RESOLVED * last / (scene.degree * scene.degree) as f64 {
-        let mut nodes = scene.mesh.nodes().to_vec();
-        nodes.insert(nodes.len() - 1, 1.0 - last / GRADING);
+    let kinks = if apart.is_before_events { kinks } else { &[] };
+    let mut nodes = vec![0.0];
+    for x in scene.mesh.nodes().windows(2) {
+        let part = (x[1] - x[0]) / GRADING;
+        let is_coarse = layer < RESOLVED * GRADING * part / (scene.degree * scene.degree) as f64;
+        if is_coarse && kinks.contains(&x[0]) {
+            nodes.push(x[0] + part);
+        }
+        if is_coarse && (x[1] == 1.0 || kinks.contains(&x[1])) {
+            nodes.push(x[1] - part);
+        }
+        nodes.push(x[1]);
+    }
+    if nodes.len() > scene.mesh.nodes().len() {
         return on(scene, nodes);
     }
     let wanted = (factor.ln() / FALL_PER_DEGREE.ln()).ceil();

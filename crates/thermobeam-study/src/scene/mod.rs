@@ -87,6 +87,8 @@ pub struct Scene {
     pub initial: Initial,
     /// The mesh.
     pub mesh: Mesh,
+    /// The nodes that the file lists, if it does: the meshes of a search have them too.
+    pub listed: Vec<f64>,
     /// Degree p of the elements: 1 for one-step schemes.
     pub degree: usize,
     /// How it is stepped.
@@ -130,7 +132,9 @@ impl Scene {
         let mesh = mesh(root, method.default_elements())?;
         let degree = method.degree(root, &mesh)?;
         let initial = initial(root, &beam, &mesh)?;
-        Ok(Self { name, beam, obstacles, initial, mesh, degree, method, t_end })
+        let is_listed = root.section("mesh")?.is_some_and(|section| section.get("nodes").is_some());
+        let listed = if is_listed { mesh.nodes().to_vec() } else { vec![] };
+        Ok(Self { name, beam, obstacles, initial, mesh, listed, degree, method, t_end })
     }
 
     /// The scene of a file named in a field, by a one-step scheme.

@@ -66,7 +66,7 @@ pub use contact_event::ContactEvent;
 pub use element::MAX_DEGREE;
 pub use problem::{Initial, Problem, Stepping};
 pub use simulation::{Simulation, StepReport};
-pub use space::{Field, Space};
+pub use space::{Field, Point, Space};
 pub use time::Load;
 
 /// The highest degree in time.
@@ -96,9 +96,15 @@ impl Level {
 
     /// Values and slopes of all fields at x, in the order of [`Field::ALL`].
     pub fn values_and_slopes(&self, space: &Space, x: f64) -> [(f64, f64); Field::ALL.len()] {
-        let point = space.locate(x);
-        let evaluate = |field| space.evaluate(field, &point, |block, place| self.coefficient(field, block, place));
-        Field::ALL.map(evaluate)
+        self.values_and_slopes_at(space, &space.locate(x))
+    }
+
+    /// The same at a point that [`Space::locate`] has found.
+    pub fn values_and_slopes_at(&self, space: &Space, point: &Point) -> [(f64, f64); Field::ALL.len()] {
+        space.evaluate_all(point, |u, phi| {
+            let (places, rates) = (&self.places, &self.rates);
+            [places[u][0], places[phi][1], rates[u][0], rates[phi][1], rates[u][2]]
+        })
     }
 
     fn coefficient(&self, field: Field, block: usize, place: usize) -> f64 {

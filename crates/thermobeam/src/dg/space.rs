@@ -66,6 +66,12 @@ pub(super) fn degrees(block: usize, degree: usize) -> [Option<usize>; 2] {
     [2 * k + chain, 2 * k + 1 - chain].map(|m| (m <= degree).then_some(m))
 }
 
+/// A point of the beam: its element, and the basis there. Located once, it serves all levels of a space.
+pub struct Point {
+    element: usize,
+    basis: Basis,
+}
+
 /// The space S_h of (3.2), for any degree, with u, φ and θ in one numbering.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Space {
@@ -196,18 +202,18 @@ impl Space {
     }
 
     /// The element that holds x, and its basis there. Points beyond the ends belong to the outermost elements.
-    pub(super) fn locate(&self, x: f64) -> (usize, Basis) {
+    pub fn locate(&self, x: f64) -> Point {
         let nodes = self.mesh.nodes();
         let element = nodes.partition_point(|node| *node <= x).clamp(1, self.lengths.len()) - 1;
         let xi = (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element];
-        (element, Basis::at(xi, self.degree))
+        Point { element, basis: Basis::at(xi, self.degree) }
     }
 
     /// Value and slope of the field with the coefficients `coefficient(block, place)` at a point found by [`Self::locate`].
     pub(super) fn evaluate(
         &self,
         field: Field,
-        (element, basis): &(usize, Basis),
+        Point { element, basis }: &Point,
         coefficient: impl Fn(usize, usize) -> f64,
     ) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
@@ -218,6 +224,25 @@ impl Space {
             slope += coefficient * basis.slopes[m];
         }
         (value, slope * 2.0 / self.lengths[*element])
+    }
+
+    /// The same for all fields, in the order of [`Field::ALL`]: u, v and θ share their blocks, and so do φ and w.
+    ///
+    /// * `coefficients`: in that order, from a block of u and one of φ.
+    pub(super) fn evaluate_all(
+        &self,
+        Point { element, basis }: &Point,
+        coefficients: impl Fn(usize, usize) -> [f64; Field::ALL.len()],
+    ) -> [(f64, f64); Field::ALL.len()] {
+        let mut sums = [(0.0, 0.0); Field::ALL.len()];
+        for m in 0..=self.degree {
+            let [u, phi] = [Field::U, Field::Phi].map(|field| self.place(field, *element, m).0);
+            for ((value, slope), coefficient) in sums.iter_mut().zip(coefficients(u, phi)) {
+                *value += coefficient * basis.values[m];
+                *slope += coefficient * basis.slopes[m];
+            }
+        }
+        sums.map(|(value, slope)| (value, slope * 2.0 / self.lengths[*element]))
     }
 }
 

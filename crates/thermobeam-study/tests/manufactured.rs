@@ -100,7 +100,7 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
             (study.refine.elements, study.refine.steps) = (vec![8, 16, 32], vec![8, 16, 32]);
         }
         let mut ran = run_cases_here(&study);
-        ran[3].found = Err(CaseFailure { reason: "step 7 went astray".to_owned() });
+        ran[3].found = Err(CaseFailure::new("step 7 went astray"));
         let outcome = study.judge(&ran);
         assert_eq!(outcome.verdict, Verdict::Fail);
         let failed = outcome.checks.iter().filter(|check| check.verdict == Verdict::Fail);

@@ -28,7 +28,7 @@
 use super::energy::{End, named_cases};
 use super::prelude::*;
 use super::steady::exact_states;
-use super::tables::{Discretisation, cost_of_run};
+use super::tables::cost_of_run;
 use super::watch::SOLVED;
 use crate::error::reference::distance;
 use crate::predict::Work;

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::page::{page_of, two};
+use super::page::{page_of, two};
 
 const CHROMIUM: &str = "/usr/bin/chromium";
 

@@ -3,8 +3,8 @@
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::workspace::{all, endless, quick, set, verify, workspace};
-use crate::{Ended, Folder, ended, thermobeam, thrown};
+use super::workspace::{all, endless, quick, set, verify, workspace};
+use super::{Ended, Folder, ended, thermobeam, thrown};
 
 /// How long an interrupted program may take to end: twice the promised time, for a busy machine.
 const PROMPT: Duration = Duration::from_secs(2);

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use crate::workspace::{all, quick, set, verify, with_studies, workspace};
-use crate::{Folder, ended};
+use super::workspace::{all, quick, set, verify, with_studies, workspace};
+use super::{Folder, ended};
 
 /// Number of kills; `THERMOBEAM_KILLS` overrides it.
 const KILLS: u32 = 12;

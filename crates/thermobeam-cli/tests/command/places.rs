@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::workspace::{all, quick, set, verify, workspace};
-use crate::{Folder, ended, thermobeam, thrown};
+use super::workspace::{all, quick, set, verify, workspace};
+use super::{Folder, ended, thermobeam, thrown};
 
 #[test]
 fn reports_that_cannot_be_written_are_named_and_the_old_ones_stay() {

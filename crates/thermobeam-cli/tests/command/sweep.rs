@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use crate::{Ended, Folder, ended, thermobeam, thrown};
+use super::{Ended, Folder, ended, thermobeam, thrown};
 
 /// A sweep over its own small scene.
 fn sweep(folder: &Folder, design: &str) -> PathBuf {
@@ -72,7 +72,7 @@ fn a_case_is_what_run_prints_for_the_same_scene() {
     let file = sweep(&folder, "[grid]\nbeam.beta = [0.25]\nmesh.elements = [17]\n");
     let case = lines(&ended(thermobeam().arg("sweep").arg(file)).stdout).remove(0)["result"].take();
     let text = thrown("dt = 1e-2").replace("elements = 20", "elements = 17") + "[beam]\nbeta = 0.25\n";
-    let (_, mut alone) = crate::run_json(&folder.file("base.toml", &text));
+    let (_, mut alone) = super::run_json(&folder.file("base.toml", &text));
     for key in ["schema", "verdict", "wall_seconds"] {
         assert!(alone.as_object_mut().expect("an object").remove(key).is_some(), "{key}");
     }
@@ -132,7 +132,7 @@ fn a_heated_end_takes_its_temperature_along() {
     let ended = ended(thermobeam().arg("sweep").arg(sweep(&folder, &format!("{set}{axis}"))));
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
     assert_eq!(lines(&ended.stdout).len(), 3);
-    let without = crate::ended(thermobeam().arg("sweep").arg(sweep(&folder, axis)));
+    let without = super::ended(thermobeam().arg("sweep").arg(sweep(&folder, axis)));
     assert_eq!(without.status, Some(2));
     assert!(without.stderr.contains("sweep.toml:4:22: grid.beam.theta_a[1]"), "{}", without.stderr);
 }

@@ -5,10 +5,10 @@ use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::any_order::{AnyOrder, NamedErrors, ROW};
 
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::{Runs, changed, passes_but_not_without_each_case, report};
-use crate::{file, text};
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::{Runs, changed, passes_but_not_without_each_case, report};
+use super::{file, text};
 
 fn parse(text: &str) -> AnyOrder {
     AnyOrder::parse(text, &file("changed.toml")).unwrap_or_else(|error| panic!("{error}"))

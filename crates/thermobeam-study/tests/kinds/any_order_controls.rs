@@ -5,10 +5,10 @@ use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::controls::any_order::AnyOrderControls;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 
-use crate::file;
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::report;
+use super::file;
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::report;
 
 #[test]
 fn every_wrong_coefficient_is_detected_and_one_that_is_not_fails() {

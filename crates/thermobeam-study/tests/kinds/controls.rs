@@ -6,9 +6,9 @@ use thermobeam_study::kinds::controls::Controls;
 use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 
-use crate::refused::refusal;
-use crate::typed::{Runs, changed, report};
-use crate::{file, text};
+use super::refused::refusal;
+use super::typed::{Runs, changed, report};
+use super::{file, text};
 use thermobeam_study::exact::norm::Norm;
 
 fn controls() -> Controls {

@@ -1,6 +1,6 @@
 //! Steady states and their stability against a discretisation with P1 elements.
 
-use super::p1_matrices::P1Matrices;
+use crate::p1_matrices::P1Matrices;
 use super::{scenes, states};
 use nalgebra::{DMatrix, DVector};
 use thermobeam::equilibrium::Equilibrium;

@@ -1,7 +1,7 @@
 //! Single steps of both solvers against a dense solution of (3.7)-(3.8), on random small systems.
 
-use crate::dense::{Dense, State};
-use crate::scenes::{relative_difference, simulate};
+use super::dense::{Dense, State};
+use super::scenes::{relative_difference, simulate};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;

@@ -1,0 +1,12 @@
+//! The tests of the solver, in one program.
+
+mod allocation;
+mod citations;
+mod dg;
+mod equilibrium;
+mod lanes;
+mod p1_matrices;
+mod random_scenes;
+mod solver;
+mod theory;
+mod vibration;

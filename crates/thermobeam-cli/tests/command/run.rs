@@ -1,5 +1,7 @@
 use std::process::Stdio;
 
+use convergence_study_tests::finished;
+
 use super::{Folder, ended, keys, run_json, thermobeam, thrown};
 
 #[test]
@@ -102,7 +104,7 @@ fn a_reader_who_leaves_early_is_no_error() {
             .spawn()
             .expect("the program starts");
         drop(child.stdout.take());
-        let output = child.wait_with_output().expect("the program ends");
+        let output = finished(child);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), &b""[..]), "{arguments:?}");
     }
 }

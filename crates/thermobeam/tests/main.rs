@@ -3,6 +3,7 @@
 mod allocation;
 mod citations;
 mod dg;
+mod drawn;
 mod equilibrium;
 mod lanes;
 mod p1_matrices;

@@ -1,7 +1,7 @@
 //! The linear beam: against the matrix exponential of its matrices, and against exact modes.
 
-use crate::p1_matrices::P1Matrices;
 use super::scenes::{advanced, close, equal_steps, simulate};
+use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
 use thermobeam::dg::{Field, Initial, Problem, Stepping};
 use thermobeam::mesh::Mesh;

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use convergence_study_tests::output;
+
 use super::{Folder, ended, thermobeam};
 
 #[test]
@@ -23,11 +25,7 @@ fn a_new_study_passes_as_it_is() {
 fn a_new_scene_of_either_sort_runs_as_it_is() {
     for (what, elements) in [("scene", "mine: 100 elements"), ("any-order-scene", "mine: 1 element")] {
         let folder = Folder::new();
-        let new = thermobeam()
-            .args(["new", what, "mine", "--quiet"])
-            .current_dir(folder.path(""))
-            .output()
-            .expect("it starts");
+        let new = output(thermobeam().args(["new", what, "mine", "--quiet"]).current_dir(folder.path("")));
         assert!(new.status.success() && new.stdout == b"pass: wrote mine.toml\n", "{what}");
         let ended = ended(thermobeam().arg("run").arg(folder.path("mine.toml")));
         assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""), "{what}");

@@ -6,6 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
+use convergence_study_tests::output;
 use tempfile::TempDir;
 
 /// Records its arguments, writes a report and exits with STATUS.
@@ -46,7 +47,7 @@ fn run(tier: &str, ids: &str, status: i32, place: &str) -> Ran {
     command.arg(script.canonicalize().unwrap()).current_dir(folder.path());
     command.envs([("PATH", path.as_str()), ("TIER", tier), ("IDS", ids), ("PLACE", place)]);
     command.env("STATUS", status.to_string()).env("RUNNER_TEMP", folder.path()).env("GITHUB_OUTPUT", at("output"));
-    let status = command.output().unwrap().status.code();
+    let status = output(&mut command).status.code();
     let text = |name: &str| fs::read_to_string(at(name)).unwrap_or_default();
     Ran { status, arguments: text("arguments"), output: text("output"), folder }
 }

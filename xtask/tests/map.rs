@@ -16,6 +16,29 @@ fn modules(folder: &Path) -> Vec<String> {
     names.filter(|name| name != "lib" && name != "main").collect()
 }
 
+/// The files and folders of tests that are no modules of `main`.
+fn lost(main: &str, tests: &[String]) -> Vec<String> {
+    let is_declared = |name: &str| main.lines().any(|line| line == format!("mod {name};"));
+    tests.iter().filter(|name| !is_declared(name)).cloned().collect()
+}
+
+#[test]
+fn every_file_of_tests_is_run() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let crates = fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().path());
+    let mut read = 0;
+    for folder in crates.chain([root.join("xtask")]).map(|path| path.join("tests")) {
+        let Ok(main) = fs::read_to_string(folder.join("main.rs")) else { continue };
+        let mut tests = modules(&folder);
+        tests.retain(|name| [".rs", "/mod.rs"].iter().any(|end| folder.join(format!("{name}{end}")).is_file()));
+        assert!(!tests.is_empty());
+        assert_eq!(lost(&main, &tests), Vec::<String>::new(), "of {}", folder.display());
+        read += 1;
+    }
+    assert!(read >= 7, "{read}");
+    assert_eq!(lost("mod a;\n// mod b;\n", &["a".to_owned(), "b".to_owned()]), ["b"]);
+}
+
 #[test]
 fn every_file_is_on_the_map() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

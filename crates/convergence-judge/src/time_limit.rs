@@ -34,8 +34,12 @@ impl TimeUp {
     }
 }
 
+/// What tells the time: [`Instant::now`], or that of a test.
+pub type Clock = fn() -> Instant;
+
 #[derive(Debug, Clone, Copy)]
 struct Deadline {
+    clock: Clock,
     at: Instant,
     limit: Duration,
 }
@@ -60,9 +64,14 @@ pub fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
 ///
 /// * Returns the result of `case`, and [`TimeUp`] if the limit was reached, even if the case ignored it.
 pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
-    let now = Instant::now();
+    within_by(Instant::now, limit, case)
+}
+
+/// The same by another clock.
+pub fn within_by<T>(clock: Clock, limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
+    let now = clock();
     // A limit that the clock cannot represent is no limit.
-    let deadline = limit.and_then(|limit| Some(Deadline { at: now.checked_add(limit)?, limit }));
+    let deadline = limit.and_then(|limit| Some(Deadline { clock, at: now.checked_add(limit)?, limit }));
     let before = DEADLINE.replace(deadline);
     REACHED.set(None);
     let result = case();
@@ -124,7 +133,7 @@ impl Patience {
         WORK.set((done, most));
         (self.since, self.begun) = (0, true);
         let work = most.filter(|most| done > *most);
-        let late = DEADLINE.get().filter(|deadline| Instant::now() >= deadline.at);
+        let late = DEADLINE.get().filter(|deadline| (deadline.clock)() >= deadline.at);
         if work.is_none() && late.is_none() {
             return Ok(());
         }
@@ -138,13 +147,18 @@ impl Patience {
 mod tests {
     use super::*;
 
+    /// A clock that gains a millisecond each time it is read.
+    fn ticking() -> Instant {
+        thread_local!(static NEXT: Cell<Instant> = Cell::new(Instant::now()));
+        NEXT.replace(NEXT.get() + Duration::from_millis(1))
+    }
+
     /// Rounds done until stopped, at most `most`.
-    fn rounds(limit: Option<Duration>, most: usize, pause: Duration) -> (usize, Option<TimeUp>) {
-        within(limit, || {
+    fn rounds(limit: Option<Duration>, most: usize) -> (usize, Option<TimeUp>) {
+        within_by(ticking, limit, || {
             let mut patience = Patience::new(100);
             let mut done = 0;
             while done < most && patience.check(done, || 0.5).is_ok() {
-                std::thread::sleep(pause);
                 done += 1;
             }
             done
@@ -153,22 +167,23 @@ mod tests {
 
     #[test]
     fn without_a_limit_nothing_is_stopped() {
-        assert_eq!(rounds(None, 1_000_000, Duration::ZERO), (1_000_000, None));
-        assert_eq!(rounds(Some(Duration::MAX), 1_000_000, Duration::ZERO), (1_000_000, None));
+        assert_eq!(rounds(None, 1_000_000), (1_000_000, None));
+        assert_eq!(rounds(Some(Duration::MAX), 1_000_000), (1_000_000, None));
     }
 
     #[test]
     fn a_limit_is_reported_with_step_and_time_and_ends_with_its_case() {
         let limit = Duration::from_millis(20);
-        let (done, up) = rounds(Some(limit), usize::MAX, Duration::from_micros(10));
-        assert_eq!(up, Some(TimeUp { step: done, t: 0.5, limit, work: None }));
+        let (done, up) = rounds(Some(limit), usize::MAX);
+        // The clock is read before the first round, then every 304 of them, and 20 ms after the start the 20th time.
+        assert_eq!((done, up), (19 * 304, Some(TimeUp { step: done, t: 0.5, limit, work: None })));
         assert!(up.unwrap().to_string().starts_with("stopped at the limit of 0.02 s, after step "));
-        assert_eq!(rounds(None, 1000, Duration::ZERO), (1000, None));
+        assert_eq!(rounds(None, 1000), (1000, None));
     }
 
     #[test]
     fn a_limit_on_work_ends_a_case_at_the_same_round_every_time() {
-        let run = |most| counted(most, || rounds(None, 100_000, Duration::ZERO));
+        let run = |most| counted(most, || rounds(None, 100_000));
         let (whole, work) = run(None);
         assert_eq!(whole, (100_000, None));
         assert!((10_700_000..10_800_000).contains(&work), "{work}");
@@ -189,6 +204,6 @@ mod tests {
 
     #[test]
     fn a_limit_of_nothing_stops_before_the_first_round() {
-        assert_eq!(rounds(Some(Duration::ZERO), 10, Duration::ZERO).0, 0);
+        assert_eq!(rounds(Some(Duration::ZERO), 10).0, 0);
     }
 }

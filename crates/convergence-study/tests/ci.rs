@@ -204,8 +204,9 @@ mod script {
         fs::write(at("errors.csv"), "h,L2\n0.4,1.6e-1\n0.2,4e-2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n").unwrap();
         let path = format!("{}:{}", at("bin").display(), std::env::var("PATH").unwrap());
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("ci/run.sh");
-        let mut command = Command::new("bash");
-        command.arg(script).current_dir(folder.path()).env("PATH", path).env("RUN", asked);
+        // A script that hangs is ended.
+        let mut command = Command::new("timeout");
+        command.args(["120", "bash"]).arg(script).current_dir(folder.path()).env("PATH", path).env("RUN", asked);
         command.env("RUNNER_TEMP", at("temporary files")).env("GITHUB_OUTPUT", at("output"));
         let status = command.env_remove("GITHUB_ACTIONS").output().unwrap().status.code();
         let output = fs::read_to_string(at("output")).unwrap_or_default();

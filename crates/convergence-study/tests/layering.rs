@@ -55,9 +55,10 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 6] = [
+const CRATES: [(&str, &[&str]); 7] = [
     ("convergence-judge", &[]),
     ("convergence-study", &["convergence-judge"]),
+    ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["thermobeam"]),
     ("thermobeam-study", &["convergence-study", "thermobeam", "thermobeam-exact"]),

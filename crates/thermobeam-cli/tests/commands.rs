@@ -2,8 +2,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
+use convergence_study_tests::output;
 use tempfile::TempDir;
 
 fn workspace(studies: &[(&str, &str)]) -> TempDir {
@@ -18,7 +19,7 @@ fn workspace(studies: &[(&str, &str)]) -> TempDir {
 fn thermobeam(root: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_thermobeam"));
     command.args(arguments).current_dir(root);
-    command.stdin(Stdio::null()).output().unwrap()
+    output(&mut command)
 }
 
 /// Unusable input: status 2, these words on standard error, nothing on standard output, nothing written.

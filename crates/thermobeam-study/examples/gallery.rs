@@ -1,6 +1,6 @@
 //! Writes one picture of each kind, from made-up data: `cargo run -p thermobeam-study --example gallery -- DIR`.
 
-#[path = "../tests/figures/mod.rs"]
+#[path = "../tests/plots/figures/mod.rs"]
 mod figures;
 
 use std::path::PathBuf;

@@ -99,11 +99,10 @@ fn the_layer_at_the_start_keeps_the_error_asked_for() {
              [time]\nscheme = \"dg\"\nt_end = 1.0\n"
         ));
         let choice = chosen(&scene, target);
+        // The chosen run, with its own steps, continues while the history ends.
+        let own = samples(&run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES));
         for t_end in [2e-4, 4e-3] {
             let begun = |scene: &Scene| Scene { t_end, ..scene.clone() };
-            // The chosen run, with its own steps, continues while the history ends.
-            let own = run(&Scene { t_end: 0.02, ..choice.scene.clone() }, 100 * TIMES);
-            let own = samples(&own);
             let exact = samples(&layered_reference(&begun(&scene)));
             let every = (5e3 * t_end).round() as usize;
             let made = (1..=TIMES).map(|k| (own[k * every].u_tip - exact[k].u_tip).abs()).fold(0.0, f64::max);

@@ -1,9 +1,10 @@
 //! Laws of running a scene.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use convergence_study::run::time_limit::within;
+use convergence_study::run::time_limit::within_by;
 use thermobeam::dg::Phase;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;
@@ -99,23 +100,25 @@ fn what_could_be_done_before_a_failure_is_kept() {
     assert_eq!(run.pictures(&scene).len(), 5);
 }
 
+/// A clock that gains a millisecond each time it is read.
+fn ticking() -> Instant {
+    thread_local!(static NEXT: Cell<Instant> = Cell::new(Instant::now()));
+    NEXT.replace(NEXT.get() + Duration::from_millis(1))
+}
+
 #[test]
 fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
     let scene = thrown("1e-4", "");
-    let limit = Duration::from_millis(1);
-    let (stopped, up) = within(Some(limit), || {
-        let simulator = Simulator::new(&scene).unwrap();
-        // The callback of each step delays the run.
-        simulator.run(Recording::Summary, &mut |_, _| std::thread::sleep(limit))
-    });
+    let limit = Duration::from_millis(3);
+    let (stopped, up) = within_by(ticking, Some(limit), || run(&scene, Recording::Summary));
     let Some(RunError::TimeUp(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
     assert_eq!(Some(told), up);
     assert_eq!((told.step, told.t, told.limit), (stopped.steps, stopped.last.t, limit));
     assert!(0 < stopped.steps && stopped.steps < scene.steps());
     let json = serde_json::to_value(Object::new(&scene, &stopped)).unwrap();
     assert_eq!(json["failure"]["kind"], "time-limit");
-    assert_eq!(json["failure"]["limit_seconds"], 1e-3);
-    let (whole, up) = within(Some(Duration::from_secs(600)), || run(&scene, Recording::Summary));
+    assert_eq!(json["failure"]["limit_seconds"], 3e-3);
+    let (whole, up) = within_by(ticking, Some(Duration::from_secs(600)), || run(&scene, Recording::Summary));
     assert_eq!((whole.steps, whole.failure, up), (scene.steps(), None, None));
 }
 

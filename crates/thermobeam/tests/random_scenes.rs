@@ -4,8 +4,8 @@
 //! 1e-12 of the energy or to the bound on rounding errors. A failing scene is reduced to a small one. The scenes are
 //! the same in every run; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select others.
 
+use crate::drawn::at_least;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use thermobeam::energy::Balance;
 use thermobeam::error::{StepError, StepFailure};
 use thermobeam::kirchhoff::BUCKLING;
@@ -164,14 +164,8 @@ fn definite(beam: &Beam, dt: f64) -> bool {
     beam.beta > -BUCKLING * (1.0 + 2.0 * beam.zeta / dt)
 }
 
-fn config() -> ProptestConfig {
-    let given = ProptestConfig::default();
-    let rng_seed = if given.rng_seed == RngSeed::Random { RngSeed::Fixed(1) } else { given.rng_seed };
-    ProptestConfig { cases: if given.cases == 256 { 300 } else { given.cases }, rng_seed, ..given }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(at_least(300))]
 
     #[test]
     fn every_scene_ends_with_an_answer_or_a_typed_error(problem in problem(), dt in log(-6.0, 1.0)) {

@@ -3,8 +3,7 @@
 use thermobeam::mesh::Mesh;
 use thermobeam::vibration::{Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies};
 
-mod p1_matrices;
-use p1_matrices::P1Matrices;
+use crate::p1_matrices::P1Matrices;
 
 #[track_caller]
 fn close(found: f64, expected: f64, tolerance: f64) {

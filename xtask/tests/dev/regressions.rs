@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::{Ended, ended, program, xtask};
+use super::{Ended, ended, program, xtask};
 
 /// Builds a `verify` that passes if `src/a.rs` holds a 1, and otherwise prints the findings of the study `s`.
 const CARGO: &str = r#"#!/bin/sh

@@ -108,3 +108,22 @@ fn text(finished: &Finished) -> String {
     }
     text + &no_test_of(&finished.untested)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::run::Spent;
+    use crate::study::{Header, erased, levels};
+
+    #[test]
+    fn the_seconds_of_a_study_are_those_that_passed() {
+        let study = erased(Header::new("s", "c"), levels([4, 8, 16], |n| 1.0 / n as f64));
+        let mut finished = run::run(&[study], run::available(), &|_| {}).unwrap();
+        finished[0].spent =
+            Spent { busy: Duration::from_secs(2), wall: Duration::from_millis(410), ..Spent::default() };
+        let text = text(&finished[0]);
+        assert!(text.lines().next().unwrap().ends_with(", 0.41 s"), "{text}");
+    }
+}

@@ -362,7 +362,7 @@ pub(super) fn series(name: &str, points: Option<&[(f64, f64)]>) -> String {
     let mut attributes = format!(" data-series=\"{}\"", escape_attribute(name));
     if let Some(points) = points {
         let finite = || points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
-        let listed = if finite().count() > MOST_POINTS { 0 } else { MOST_POINTS };
+        let listed = if finite().nth(MOST_POINTS).is_some() { 0 } else { MOST_POINTS };
         let pairs: Vec<String> =
             finite().take(listed).map(|&(x, y)| format!("{:e},{:e}", rounded(x), rounded(y))).collect();
         let _ = write!(attributes, " data-points=\"{}\"", pairs.join(" "));

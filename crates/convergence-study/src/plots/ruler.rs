@@ -7,13 +7,15 @@ const LARGEST: f64 = 1e300;
 /// A range narrower than this fraction of its values is widened: its ticks would be the same in print.
 const NARROWEST: f64 = 1e-6;
 
+/// Whether a value has a position on its scale.
+pub fn has_place(scale: Scale, value: f64) -> bool {
+    // NaN fails the comparison.
+    value.abs() <= LARGEST && (scale == Scale::Linear || value > 0.0)
+}
+
 /// Position of a value on its scale: itself, or its decimal logarithm. `None` if it has none.
 pub fn on_scale(scale: Scale, value: f64) -> Option<f64> {
-    match scale {
-        _ if !value.is_finite() || value.abs() > LARGEST => None,
-        Scale::Linear => Some(value),
-        Scale::Log => (value > 0.0).then(|| value.log10()),
-    }
+    has_place(scale, value).then(|| if scale == Scale::Log { value.log10() } else { value })
 }
 
 /// An axis with a range and a place on the page.

@@ -2,7 +2,7 @@
 
 use super::canvas::{self, Anchor, Layer, Point, Rect};
 use super::look::{Look, Marks, look};
-use super::ruler::{Ruler, on_scale};
+use super::ruler::{Ruler, has_place, on_scale};
 use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
 use super::style::TICK_SIZE;
 use super::{Axis, Guide, Phases, Scale, Series, style};
@@ -106,10 +106,31 @@ pub struct Xy {
     pub notes: Vec<String>,
 }
 
+/// The data points of a figure: their numbers, and the ranges of those that both axes can show.
+struct Extent {
+    x: [f64; 2],
+    y: [f64; 2],
+    points: usize,
+    finite: usize,
+    drawable: usize,
+}
+
+/// The range of no values.
+const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 impl Xy {
     /// The horizontal range.
     pub fn x_ruler(&self) -> Ruler {
-        let values = self.drawable().map(|p| p.0).chain(self.show_x.iter().copied());
+        self.x_ruler_of(&self.extent())
+    }
+
+    /// The vertical range.
+    pub fn y_ruler(&self) -> Ruler {
+        self.y_ruler_of(&self.extent())
+    }
+
+    fn x_ruler_of(&self, extent: &Extent) -> Ruler {
+        let values = extent.x.into_iter().chain(self.show_x.iter().copied());
         let phases = self.phases.intervals.iter().flat_map(|&(a, b)| [a, b]);
         // Time runs from edge to edge; chosen parameters need room around them.
         let margin = if self.x.scale == Scale::Log { MARGIN } else { 0.0 };
@@ -119,17 +140,27 @@ impl Xy {
         if starts_at_zero { Ruler::between(self.x.scale, 0.0, ruler.hi) } else { ruler }
     }
 
-    /// The vertical range.
-    pub fn y_ruler(&self) -> Ruler {
+    fn y_ruler_of(&self, extent: &Extent) -> Ruler {
         let guides = self.guides.iter().map(|g| g.value);
-        let values = self.drawable().map(|p| p.1).chain(guides).chain(self.show_y.iter().copied());
+        let values = extent.y.into_iter().chain(guides).chain(self.show_y.iter().copied());
         Ruler::around(self.y.scale, values, MARGIN)
     }
 
-    /// Data points that both axes can show.
-    fn drawable(&self) -> impl Iterator<Item = (f64, f64)> {
-        let data = self.curves.iter().filter(|c| c.is_data).flat_map(|c| c.points.iter().copied());
-        data.filter(|&(x, y)| on_scale(self.x.scale, x).and(on_scale(self.y.scale, y)).is_some())
+    /// One pass over the points, of which a history has many thousands.
+    fn extent(&self) -> Extent {
+        let mut extent = Extent { x: NOWHERE, y: NOWHERE, points: 0, finite: 0, drawable: 0 };
+        for curve in self.curves.iter().filter(|curve| curve.is_data) {
+            extent.points += curve.points.len();
+            for &(x, y) in &curve.points {
+                extent.finite += usize::from(has_place(Scale::Linear, x) && has_place(Scale::Linear, y));
+                if has_place(self.x.scale, x) && has_place(self.y.scale, y) {
+                    extent.drawable += 1;
+                    extent.x = [extent.x[0].min(x), extent.x[1].max(x)];
+                    extent.y = [extent.y[0].min(y), extent.y[1].max(y)];
+                }
+            }
+        }
+        extent
     }
 
     /// Draws the figure.
@@ -144,7 +175,8 @@ impl Xy {
     }
 
     fn plan(&self) -> Layout {
-        let x = self.x_ruler();
+        let extent = self.extent();
+        let (x, y) = (self.x_ruler_of(&extent), self.y_ruler_of(&extent));
         let above = self.beyond.as_ref().and_then(|(from, text)| {
             let from = on_scale(self.x.scale, *from)?.max(x.lo);
             (from < x.hi).then(|| (0.5 * (from + x.hi), text.clone()))
@@ -152,13 +184,13 @@ impl Xy {
         Layout {
             title: self.title.clone(),
             x,
-            y: self.y_ruler(),
+            y,
             x_label: self.x.label.clone(),
             y_label: self.y.label.clone(),
             right: guide_margin(&self.guides),
             above,
             legend: self.entries(),
-            notes: self.notes(),
+            notes: self.notes(&extent, &x, &y),
         }
     }
 
@@ -177,14 +209,10 @@ impl Xy {
         entries
     }
 
-    fn notes(&self) -> Vec<String> {
-        let data = || self.curves.iter().filter(|c| c.is_data).flat_map(|c| &c.points);
-        let is_drawable = |&(x, y): &(f64, f64)| on_scale(Scale::Linear, x).and(on_scale(Scale::Linear, y)).is_some();
-        let non_finite = data().filter(|p| !is_drawable(p)).count();
-        let off_scale = data().count() - non_finite - self.drawable().count();
+    fn notes(&self, extent: &Extent, x: &Ruler, y: &Ruler) -> Vec<String> {
         let mut notes = self.notes.clone();
-        notes.extend(coinciding(&self.curves, &self.x_ruler(), &self.y_ruler()));
-        notes.extend(left_out(non_finite, off_scale));
+        notes.extend(coinciding(&self.curves, x, y));
+        notes.extend(left_out(extent.points - extent.finite, extent.finite - extent.drawable));
         notes
     }
 
@@ -207,9 +235,10 @@ impl Xy {
     }
 
     fn draw_curves(&self, sheet: &mut Page) {
-        let share = ENVELOPE_COLUMNS / self.curves.iter().flat_map(Curve::parts).count().max(1);
+        let parts: Vec<Curve> = self.curves.iter().flat_map(Curve::parts).collect();
+        let share = ENVELOPE_COLUMNS / parts.len().max(1);
         let columns = (sheet.plot.width() as usize).min(share).max(1);
-        for curve in self.curves.iter().flat_map(Curve::parts) {
+        for curve in &parts {
             let positions: Vec<Option<Point>> = curve.points.iter().map(|&p| sheet.px(p)).collect();
             let (alone, lines): (Vec<_>, Vec<_>) = match curve.width {
                 0.0 => Default::default(),

@@ -118,3 +118,20 @@ impl<'p> Counter<'p> {
         (self.report)(*progress);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn the_wall_time_of_a_study_is_the_time_that_passed_and_its_busy_time_the_sum_over_its_cases() {
+        let now = Instant::now();
+        let second = Duration::from_secs;
+        let done = |from, to| Done { case: 0, started: now + second(from), ended: now + second(to), work: 0 };
+        let spent = spent(&[done(3, 7), done(1, 5), done(2, 4)]);
+        assert_eq!((spent.wall, spent.busy, spent.cases), (second(6), second(10), 3));
+        assert_eq!(super::spent(&[]), Spent::default());
+    }
+}

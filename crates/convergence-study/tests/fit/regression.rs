@@ -6,7 +6,7 @@ use convergence_study::judge::fit::{
 };
 use nalgebra::{DMatrix, DVector};
 
-use crate::{HALVED, UNEVEN, levels};
+use super::{HALVED, UNEVEN, levels};
 
 /// The result of ordinary least squares for `y` = X c.
 pub(crate) struct Regression {

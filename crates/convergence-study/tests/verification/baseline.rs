@@ -4,7 +4,7 @@ use convergence_study::run::Finished;
 use convergence_study::store::Baseline;
 use convergence_study::study::Quantity;
 
-use crate::fake::{Does, Fake, fake, finished, ids, study};
+use super::fake::{Does, Fake, fake, finished, ids, study};
 
 fn blessed(studies: Vec<Fake>) -> Baseline {
     let mut baseline = Baseline::default();

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::page::{page_of, two};
+use super::page::{page_of, two};
 
 const CHROMIUM: &str = "/usr/bin/chromium";
 
@@ -79,7 +79,9 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
 
 /// The title set by the page: `RIGHT`, or `WRONG` with the problem; `None` for any other title.
 fn said(file: &Path, profile: &Path) -> Option<String> {
-    let output = Command::new(CHROMIUM)
+    // A browser that hangs is ended.
+    let output = Command::new("timeout")
+        .args(["60", CHROMIUM])
         .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
         .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
         .args(["--window-size=500,800", "--virtual-time-budget=2000", "--dump-dom"])

@@ -11,7 +11,7 @@ use convergence_study::store::{Baseline, BlessedClaim, Change, junit};
 use convergence_study::study::{Header, Study, Tier};
 use convergence_study::verify::{Request, Scope, Verification, verify};
 
-use crate::fake::{Does, Fake, PROJECT, fake, finished, request};
+use super::fake::{Does, Fake, PROJECT, fake, finished, request};
 
 const CLAIMS: [(&str, &str); 3] =
     [("study.tier", "\"quick\""), ("expect[0].order", "1"), ("expect[0].tolerance", "0.002")];

@@ -9,7 +9,7 @@ use convergence_study::store::Record;
 use convergence_study::study::outcome::Figure;
 use roxmltree::{Document, Node};
 
-use crate::fake::{Does, PROJECT, finished, study};
+use super::fake::{Does, PROJECT, finished, study};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
     let see_also = Some("full/index.html");

@@ -5,7 +5,7 @@ use convergence_study::report::Findings;
 use convergence_study::store::{Baseline, Record, json};
 use serde_json::Value;
 
-use crate::fake::{Does, Fake, PROJECT, fake, finished, study};
+use super::fake::{Does, Fake, PROJECT, fake, finished, study};
 
 fn record(does: Does, is_committed: bool) -> Value {
     let exact = Fake { scale: std::f64::consts::PI, ..fake("a", does) };

@@ -6,7 +6,7 @@ use convergence_study::study::levels;
 use convergence_study::study::outcome::{LevelErrors, Table};
 use roxmltree::Document;
 
-use crate::fake::{Does, PROJECT, finished, study};
+use super::fake::{Does, PROJECT, finished, study};
 
 fn several() -> Vec<Finished> {
     let does = [Does::Converge, Does::Panic, Does::TooShort, Does::Nothing, Does::PanicAtTheEnd];

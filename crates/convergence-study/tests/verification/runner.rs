@@ -6,7 +6,7 @@ use convergence_study::run::{self, Effort, RunError};
 use convergence_study::store::Works;
 use convergence_study::study::{Header, Study};
 
-use crate::fake::{Does, finished, jobs, study};
+use super::fake::{Does, finished, jobs, study};
 
 const ALL: [Does; 8] = [
     Does::Converge,

@@ -9,7 +9,7 @@ use convergence_study::project::Project;
 use convergence_study::study::{Study, Tier};
 use convergence_study::verify::{Request, Scope, Verification, verify};
 
-use crate::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
+use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
 
 fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
     verify(&PROJECT, &studies, request, &|_| {}).unwrap()

@@ -1,6 +1,6 @@
 //! `run SCENE --target-error E`.
 
-use crate::{Folder, ended, thermobeam};
+use super::{Folder, ended, thermobeam};
 
 const SWING: &str = "[beam]\na = 0\n[initial]\nu_t = \"0.1*x\"\n[time]\nt_end = 1\ndt = 0.1";
 

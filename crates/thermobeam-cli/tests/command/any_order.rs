@@ -1,6 +1,6 @@
 //! `run` of scenes with `scheme = "dg"`.
 
-use crate::{Folder, ended, keys, run_json, thermobeam};
+use super::{Folder, ended, keys, run_json, thermobeam};
 
 /// The paper's first experiment at β = 0 over [0, 0.5], with the given lines in `[mesh]` and `[time]`.
 pub(crate) fn thrown(mesh: &str, time: &str) -> String {

@@ -1,4 +1,4 @@
-use crate::{Folder, ended, keys, thermobeam};
+use super::{Folder, ended, keys, thermobeam};
 
 /// The paper's beam between its obstacles at β, with the `[time]` table that a scene must have.
 fn scene(beta: f64) -> String {

@@ -1,4 +1,4 @@
-use crate::{Folder, ended, run_json, thermobeam, thrown};
+use super::{Folder, ended, run_json, thermobeam, thrown};
 
 #[test]
 fn unusable_input_is_named_and_nothing_is_written() {

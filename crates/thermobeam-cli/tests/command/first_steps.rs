@@ -1,6 +1,8 @@
 use std::path::Path;
 
-use crate::{Folder, ended, thermobeam};
+use convergence_study_tests::output;
+
+use super::{Folder, ended, thermobeam};
 
 #[test]
 fn a_new_study_passes_as_it_is() {
@@ -8,7 +10,7 @@ fn a_new_study_passes_as_it_is() {
     let ended = ended(thermobeam().args(["new", "study", "my-own.1", "--out"]).arg(folder.path("")));
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
     assert!(ended.stdout.contains("thermobeam study"), "{}", ended.stdout);
-    let study = crate::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
+    let study = super::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
     assert!(study.stdout.starts_with("my-own.1: pass"), "{}", study.stdout);
     let untested = study.stdout.split_once("\nno test of").map(|(_, untested)| untested);
@@ -23,11 +25,7 @@ fn a_new_study_passes_as_it_is() {
 fn a_new_scene_of_either_sort_runs_as_it_is() {
     for (what, elements) in [("scene", "mine: 100 elements"), ("any-order-scene", "mine: 1 element")] {
         let folder = Folder::new();
-        let new = thermobeam()
-            .args(["new", what, "mine", "--quiet"])
-            .current_dir(folder.path(""))
-            .output()
-            .expect("it starts");
+        let new = output(thermobeam().args(["new", what, "mine", "--quiet"]).current_dir(folder.path("")));
         assert!(new.status.success() && new.stdout == b"pass: wrote mine.toml\n", "{what}");
         let ended = ended(thermobeam().arg("run").arg(folder.path("mine.toml")));
         assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""), "{what}");
@@ -98,7 +96,7 @@ fn every_shell_gets_completions_that_know_the_commands() {
 fn nothing_is_coloured_where_nobody_looks() {
     for program in [&mut thermobeam(), thermobeam().env("NO_COLOR", "1"), thermobeam().env("TERM", "dumb")] {
         let ended = ended(program.args(["explain", "magic"]));
-        let help = crate::ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
+        let help = super::ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
         for text in [ended.stdout, ended.stderr, help.stdout] {
             assert!(!text.contains('\u{1b}'), "{text}");
         }

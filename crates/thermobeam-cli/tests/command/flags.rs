@@ -8,8 +8,8 @@ use convergence_study::cli::command_line;
 use serde_json::Value;
 use thermobeam_cli::{GROUPS, Thermobeam, project};
 
-use crate::workspace::{quick, workspace};
-use crate::{Ended, Folder, ended, thermobeam, thrown};
+use super::workspace::{quick, workspace};
+use super::{Ended, Folder, ended, thermobeam, thrown};
 
 /// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` produces.
 const COMMANDS: [(&[&str], i32, &str); 12] = [

@@ -1,64 +1,31 @@
 //! Ctrl-C, and a limit on the time of a case.
 
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::thread;
+use std::time::Duration;
 
-use crate::workspace::{all, endless, quick, set, verify, workspace};
-use crate::{Ended, Folder, ended, thermobeam, thrown};
+use convergence_study_tests::{PATIENCE, finished, interruptible, signal, started};
 
-/// How long an interrupted program may take to end: twice the promised time, for a busy machine.
-const PROMPT: Duration = Duration::from_secs(2);
+use super::workspace::{all, endless, quick, set, verify, workspace};
+use super::{Ended, Folder, ended, thermobeam, thrown};
 
-/// Starts a program, interrupts it like Ctrl-C, and waits for its end.
-fn interrupted(command: &mut Command, after: Duration) -> Ended {
-    let mut command = listening(command);
-    let mut child: Child =
-        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
-    std::thread::sleep(after);
-    let id = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().expect("kill").success());
-    let start = Instant::now();
-    while child.try_wait().expect("a child").is_none() {
-        if start.elapsed() > PROMPT {
-            child.kill().expect("it can be killed");
-            panic!("still there {:?} after the interruption", start.elapsed());
+/// Starts a program, interrupts it like Ctrl-C while it is at work, and waits for its end.
+///
+/// * `command`: the same for every attempt.
+/// * `is_at_work`: whether it had begun when it was interrupted; if not, it is started again and interrupted later.
+fn interrupted(command: impl Fn() -> Command, is_at_work: impl Fn(&Ended) -> bool) -> Ended {
+    let mut after = Duration::from_millis(250);
+    loop {
+        let child = started(&mut interruptible(&command()));
+        thread::sleep(after);
+        signal(child.id(), "-INT");
+        let ended = Ended::from(finished(child));
+        if is_at_work(&ended) || after > PATIENCE {
+            return ended;
         }
-        std::thread::sleep(Duration::from_millis(5));
+        after *= 2;
     }
-    let output = child.wait_with_output().expect("it has ended");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    Ended { status: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
 }
-
-/// The command, in whose process interruption is not ignored. Shells make background jobs ignore it, and processes
-/// inherit that; a program started that way rightly ignores it.
-fn listening(command: &Command) -> Command {
-    let mut listening = Command::new("env");
-    if is_deaf() {
-        listening.arg("--default-signal=INT");
-    }
-    listening.arg(command.get_program()).args(command.get_args());
-    for (name, value) in command.get_envs() {
-        match value {
-            Some(value) => listening.env(name, value),
-            None => listening.env_remove(name),
-        };
-    }
-    if let Some(folder) = command.get_current_dir() {
-        listening.current_dir(folder);
-    }
-    listening
-}
-
-/// Whether this process ignores interruptions: bit 1 of the mask reported by Linux.
-fn is_deaf() -> bool {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 2 != 0)
-}
-
-/// Long enough for the program to be working.
-const AT_WORK: Duration = Duration::from_millis(1500);
 
 #[cfg(unix)]
 #[test]
@@ -66,9 +33,10 @@ fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
     let folder = Folder::new();
     let root = workspace(&folder, "w", &[("short", quick("short")), ("long", endless("long"))]);
     let before = all(&root);
-    let ended = interrupted(&mut verify(&root, &["--jobs", "2", "--yes"]), AT_WORK);
+    let message = "interrupted: 1 of 2 studies had run: short";
+    let ended = interrupted(|| verify(&root, &["--jobs", "2", "--yes"]), |ended| ended.stderr.contains(message));
     assert_eq!((ended.status, ended.stdout.as_str()), (Some(130), ""));
-    assert!(ended.stderr.contains("interrupted: 1 of 2 studies had run: short"), "{}", ended.stderr);
+    assert!(ended.stderr.contains(message), "{}", ended.stderr);
     assert_eq!(all(&root), before);
 }
 
@@ -78,16 +46,29 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
     let folder = Folder::new();
     let scene = folder.file("long.toml", &thrown("dt = 1e-9"));
     let out = folder.path("out");
-    let run = interrupted(thermobeam().args(["run", "--yes"]).arg(&scene).arg("--out").arg(&out), AT_WORK);
+    let command = || {
+        let mut command = thermobeam();
+        command.args(["run", "--yes"]).arg(&scene).arg("--out").arg(&out);
+        command
+    };
+    let message = " steps were done, 0";
+    let run = interrupted(command, |ended| ended.stderr.contains(message));
     assert_eq!(run.status, Some(130));
-    assert!(run.stderr.contains(" steps were done, 0"), "{}", run.stderr);
+    assert!(run.stderr.contains(message), "{}", run.stderr);
     assert!(all(&out).is_empty());
 
     folder.file("base.toml", &thrown("dt = 1e-4"));
     let text = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = { from = 0.0, to = 4.0, count = 4000 }\n";
     let file = folder.file("sweep.toml", text);
     let kept = folder.path("kept");
-    let sweep = interrupted(thermobeam().arg("sweep").arg(&file).arg("--out").arg(&kept), AT_WORK);
+    let command = || {
+        // Of an attempt that was interrupted before the program was at work.
+        let _ = std::fs::remove_dir_all(&kept);
+        let mut command = thermobeam();
+        command.arg("sweep").arg(&file).arg("--out").arg(&kept);
+        command
+    };
+    let sweep = interrupted(command, |ended| ended.status.is_some());
     assert_eq!(sweep.status, Some(130));
     assert!(sweep.stderr.contains(" of 4000 cases are saved in "), "{}", sweep.stderr);
     let journal = std::fs::read_to_string(kept.join("journal.jsonl")).expect("a journal");
@@ -102,14 +83,14 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
 fn a_case_at_its_limit_fails_its_study_and_no_other() {
     let folder = Folder::new();
     let root = workspace(&folder, "w", &[("short", quick("short")), ("long", endless("long"))]);
-    let ended = ended(&mut verify(&root, &["--case-limit", "0.3", "--verbose"]));
+    let ended = ended(&mut verify(&root, &["--case-limit", "1", "--verbose"]));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(1), ""));
     let line =
         |id: &str| ended.stdout.lines().find(|line| line.starts_with(&format!("{id} "))).unwrap_or_default().to_owned();
     assert!(line("short").contains(" pass ") && line("long").contains(" fail "), "{}", ended.stdout);
     let page = std::fs::read_to_string(root.join("reports/README.md")).expect("a report");
     for piece in [
-        "n = 8, 9000000000 steps: stopped at the limit of 0.3 s, after step ",
+        "n = 8, 9000000000 steps: stopped at the limit of 1 s, after step ",
         "| every case completes, with finite numbers | fail",
     ] {
         assert!(page.contains(piece), "{piece}: {page}");

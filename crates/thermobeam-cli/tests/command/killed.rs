@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use crate::workspace::{all, quick, set, verify, with_studies, workspace};
-use crate::{Folder, ended};
+use convergence_study_tests::{finished, started};
+
+use super::workspace::{all, quick, set, verify, with_studies, workspace};
+use super::{Folder, ended};
 
 /// Number of kills; `THERMOBEAM_KILLS` overrides it.
 const KILLS: u32 = 12;
@@ -47,11 +48,11 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         let turn = (kill % 2) as usize;
         with_studies(&root, &both[turn]);
         let mut command = verify(&root, &["--quiet"]);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program starts");
+        let mut child = started(&mut command);
         // Spread over the run and slightly beyond, in an order that does not repeat.
         std::thread::sleep(times[turn] * (1 + kill * 37 % 101) / 80);
         child.kill().expect("it can be killed");
-        child.wait().expect("it ends");
+        finished(child);
         let is_old = |found: &Set| before.as_ref().map_or(found.is_empty(), |before| found == before);
         if is_pending(&root) {
             completed += 1;
@@ -113,11 +114,10 @@ fn several_at_once_leave_one_whole_set() {
     let mut children = vec![];
     for round in 0..6 {
         let arguments = if round % 3 == 2 { &["a-2"][..] } else { &[] };
-        let mut command = verify(&root, arguments);
-        children.push(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts"));
+        children.push(started(&mut verify(&root, arguments)));
     }
     for child in children {
-        let output = child.wait_with_output().expect("it ends");
+        let output = finished(child);
         assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
     }
     assert_eq!(set(&root.join("reports")), sets[0]);

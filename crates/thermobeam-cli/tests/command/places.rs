@@ -4,8 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::workspace::{all, quick, set, verify, workspace};
-use crate::{Folder, ended, thermobeam, thrown};
+use convergence_study_tests::finished;
+
+use super::workspace::{all, quick, set, verify, workspace};
+use super::{Folder, ended, thermobeam, thrown};
 
 #[test]
 fn reports_that_cannot_be_written_are_named_and_the_old_ones_stay() {
@@ -102,14 +104,14 @@ fn output_to_a_full_disk_is_said_and_output_to_nobody_is_no_error() {
         let mut command = thermobeam();
         command.args(arguments).current_dir(&root).stderr(Stdio::piped());
         let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("/dev/full");
-        let output = command.stdout(full).output().expect("it starts");
+        let output = finished(command.stdout(full).spawn().expect("it starts"));
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
         assert!(said.starts_with("error: ") && said.contains("space"), "{arguments:?}: {said}");
 
         let mut child = command.stdout(Stdio::piped()).spawn().expect("it starts");
         drop(child.stdout.take());
-        let output = child.wait_with_output().expect("it ends");
+        let output = finished(child);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!((output.status.code(), said.as_str()), (Some(status), ""), "{arguments:?}");
     }

@@ -1,4 +1,4 @@
-use crate::{Ended, Folder, ended, thermobeam};
+use super::{Ended, Folder, ended, thermobeam};
 
 fn judge(folder: &Folder, table: &str, arguments: &[&str]) -> Ended {
     ended(thermobeam().arg("rates").arg(folder.file("table.csv", table)).args(arguments))

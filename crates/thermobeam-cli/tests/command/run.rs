@@ -1,6 +1,8 @@
 use std::process::Stdio;
 
-use crate::{Folder, ended, keys, run_json, thermobeam, thrown};
+use convergence_study_tests::finished;
+
+use super::{Folder, ended, keys, run_json, thermobeam, thrown};
 
 #[test]
 fn the_reference_is_reached_with_both_solvers() {
@@ -62,7 +64,7 @@ fn the_summary_says_what_was_left_out() {
 #[test]
 fn the_history_and_the_pictures_of_every_scheme_are_written() {
     let folder = Folder::new();
-    let any_order = crate::any_order::thrown("degree = 8", "");
+    let any_order = super::any_order::thrown("degree = 8", "");
     for (scene, lines) in [(thrown("dt = 1e-2"), 102), (any_order, 4002)] {
         let (scene, out) = (folder.file("scene.toml", &scene), folder.path(&format!("deep/results-{lines}")));
         let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&out));
@@ -102,7 +104,7 @@ fn a_reader_who_leaves_early_is_no_error() {
             .spawn()
             .expect("the program starts");
         drop(child.stdout.take());
-        let output = child.wait_with_output().expect("the program ends");
+        let output = finished(child);
         assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), &b""[..]), "{arguments:?}");
     }
 }

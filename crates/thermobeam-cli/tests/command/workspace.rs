@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::{Folder, thermobeam};
+use super::{Folder, thermobeam};
 
 /// A study of a few milliseconds that passes.
 pub(crate) fn quick(id: &str) -> String {

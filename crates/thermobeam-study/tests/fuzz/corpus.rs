@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::readers::Reading;
+use super::readers::Reading;
 
 /// Their folder; the names of files begin with the kind of file.
 pub(crate) fn folder() -> PathBuf {

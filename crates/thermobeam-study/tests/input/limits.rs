@@ -7,7 +7,7 @@ use thermobeam_study::kinds::KINDS;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::sweep::Sweep;
 
-use crate::says;
+use super::says;
 
 /// A study of the project with some lines replaced, read from a folder that contains its scenes.
 #[track_caller]

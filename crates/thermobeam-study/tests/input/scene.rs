@@ -7,7 +7,7 @@ use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver};
 use thermobeam_study::scene::{Initial, Scene};
 
-use crate::says;
+use super::says;
 
 const TIME: &str = "[time]\ndt = 0.1\nt_end = 1\n";
 

@@ -8,7 +8,7 @@ use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::Perturbation;
 use thermobeam_study::scene::Coefficients;
 
-use crate::says;
+use super::says;
 
 const STUDY: &str = "[study]\nid = \"a-1.2\"\nclaim = \"first order\"\ntier = \"quick\"\n";
 const EXACT: &str = "[exact]\nu = [{ x = \"sin(x)\", t = \"cos(t)\" }]\n";

@@ -8,7 +8,7 @@ use thermobeam_study::scene::Scene;
 
 use proptest::prelude::*;
 
-use crate::says;
+use super::says;
 
 /// A file in this test's own folder.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {

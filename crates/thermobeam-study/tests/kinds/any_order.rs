@@ -5,10 +5,10 @@ use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::any_order::{AnyOrder, Errors, ROW};
 
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::{Runs, changed, passes_but_not_without_each_case, report};
-use crate::{file, text};
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::{Runs, changed, passes_but_not_without_each_case, report};
+use super::{file, text};
 
 fn parse(text: &str) -> AnyOrder {
     AnyOrder::parse(text, &file("changed.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -124,7 +124,7 @@ fn the_control_table_makes_a_study_fail() {
 fn a_failed_run_is_told_with_its_reason_and_an_empty_study_does_not_pass() {
     let study = read("any-order-coefficients.toml");
     let mut runs: Runs<AnyOrder> = run_cases_here(&study);
-    runs[0].found = Err(CaseFailure { reason: "the iteration diverged".into() });
+    runs[0].found = Err(CaseFailure::new("the iteration diverged"));
     let outcome = study.judge(&runs);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(report(&outcome).contains("the iteration diverged"));

@@ -5,10 +5,10 @@ use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::controls::any_order::AnyOrderControls;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 
-use crate::file;
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::report;
+use super::file;
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::report;
 
 #[test]
 fn every_fault_is_detected_and_one_that_is_not_fails() {
@@ -27,7 +27,7 @@ fn every_fault_is_detected_and_one_that_is_not_fails() {
             assert_eq!(verdict_with(&study, &sound, index, |found| found.verdict = wrong), Verdict::Fail, "{index}");
         }
         let mut failed = sound.clone();
-        failed[index].found = Err(CaseFailure { reason: "planted".into() });
+        failed[index].found = Err(CaseFailure::new("planted"));
         let outcome = study.judge(&failed);
         assert_eq!(outcome.verdict, Verdict::Fail);
         assert!(report(&outcome).contains("planted"));

@@ -2,10 +2,10 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::FromFile;
 use thermobeam_study::kinds::bifurcation::{AtRest, BifurcationStudy, Diagram, Found, ROW};
 
-use crate::file;
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::passes_but_not_without_each_case;
+use super::file;
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::passes_but_not_without_each_case;
 
 fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {

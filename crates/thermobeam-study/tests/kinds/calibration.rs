@@ -3,9 +3,9 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::calibration::{Calibration, ROW};
 
-use crate::file;
-use crate::refused::refusal;
-use crate::typed::{changed, report};
+use super::file;
+use super::refused::refusal;
+use super::typed::{changed, report};
 
 /// Where the file has an expectation, a check bounds the value of a sheet from the stated side.
 #[test]
@@ -30,7 +30,7 @@ fn each_share_can_be_too_large_or_too_small() {
         assert!(failing(&|found: &mut Vec<Sheet>| found.clear()) > 0);
         for case in 0..sound.len() {
             let mut failed = sound.clone();
-            failed[case].found = Err(CaseFailure { reason: "planted".into() });
+            failed[case].found = Err(CaseFailure::new("planted"));
             assert_eq!(study.judge(&failed).verdict, Verdict::Fail, "{name}: case {case}");
         }
         assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
@@ -44,7 +44,7 @@ fn a_sheet_column_or_row_that_is_not_there_fails() {
         ("column = \"refused\"", "column = \"refuse\""),
         ("row = \"all declared\"", "row = \"all\""),
     ] {
-        let text = crate::text("error-bars.toml").replace(from, to).replace("tables = 150", "tables = 1");
+        let text = super::text("error-bars.toml").replace(from, to).replace("tables = 150", "tables = 1");
         let study = Calibration::parse(&text, &file("error-bars.toml")).unwrap_or_else(|error| panic!("{error}"));
         let judged = study.judge(&run_cases_here(&study));
         let named = judged.checks.iter().any(|check| check.verdict == Verdict::Fail && check.claim.contains(" has "));

@@ -6,9 +6,9 @@ use thermobeam_study::kinds::controls::Controls;
 use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 
-use crate::refused::refusal;
-use crate::typed::{Runs, changed, report};
-use crate::{file, text};
+use super::refused::refusal;
+use super::typed::{Runs, changed, report};
+use super::{file, text};
 use thermobeam_study::exact::norm::Norm;
 
 fn controls() -> Controls {
@@ -51,7 +51,7 @@ fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
     let study = controls();
     for case in 0..SOUND.len() {
         let mut failed = SOUND.clone();
-        failed[case].found = Err(CaseFailure { reason: "planted".into() });
+        failed[case].found = Err(CaseFailure::new("planted"));
         let outcome = study.judge(&failed);
         assert_eq!(outcome.verdict, Verdict::Fail, "case {case}");
         assert!(report(&outcome).contains("planted"));
@@ -93,7 +93,7 @@ fn each_coefficient_must_be_detected() {
     }
     for case in 0..sound.len() {
         let mut failed = sound.clone();
-        failed[case].found = Err(CaseFailure { reason: "planted".into() });
+        failed[case].found = Err(CaseFailure::new("planted"));
         assert_eq!(study.judge(&failed).verdict, Verdict::Fail);
     }
 }

@@ -4,9 +4,9 @@ use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
 use thermobeam_study::kinds::energy::runs::{EnergyRuns, Found};
 use thermobeam_study::kinds::energy::{End, ROW};
 
-use crate::file;
-use crate::refused::refusal;
-use crate::typed::{changed, passes_but_not_without_each_case};
+use super::file;
+use super::refused::refusal;
+use super::typed::{changed, passes_but_not_without_each_case};
 
 fn runs(name: &str) -> EnergyRuns {
     EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))

@@ -1,6 +1,6 @@
-use crate::planted::verdict_with;
-use crate::typed::{Runs, passes_but_not_without_each_case};
-use crate::{file, text};
+use super::planted::verdict_with;
+use super::typed::{Runs, passes_but_not_without_each_case};
+use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, run_cases_here};
 use thermobeam::equilibrium::Phase;

@@ -4,10 +4,10 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind};
 use thermobeam_study::kinds::exact_experiments::{ExactExperiments, ROW, ShownStates};
 
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::{changed, passes_but_not_without_each_case, report};
-use crate::{file, text};
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::{changed, passes_but_not_without_each_case, report};
+use super::{file, text};
 
 /// The first scene alone, over its first second: two contact events and the first moments of a third phase.
 fn study(change: impl Fn(String) -> String) -> ExactExperiments {
@@ -72,7 +72,7 @@ fn the_scenes_own_scheme_is_compared_where_asked_for() {
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
     assert!(outcome.figures.iter().any(|figure| figure.file == "error.svg"));
-    sound[2].found = Err(CaseFailure { reason: "planted".into() });
+    sound[2].found = Err(CaseFailure::new("planted"));
     assert_eq!(study.judge(&sound).verdict, Verdict::Fail);
 }
 

@@ -3,10 +3,10 @@ use convergence_study::study::{FromFile, Kind};
 use thermobeam::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::experiment::{AtRest, Experiments, Found, Measured, Nearest, ROW};
 
-use crate::file;
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::passes_but_not_without_each_case;
+use super::file;
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::passes_but_not_without_each_case;
 
 fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))

@@ -3,7 +3,7 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::Kind;
 
-use crate::typed::Runs;
+use super::typed::Runs;
 
 /// The verdict with the result of one case changed.
 pub(crate) fn verdict_with<K: Kind>(

@@ -3,9 +3,9 @@ use convergence_study::study::kind::run_cases_here;
 use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors};
 
-use crate::refused::refusal;
-use crate::text;
-use crate::typed::{changed, passes_but_not_without_each_case};
+use super::refused::refusal;
+use super::text;
+use super::typed::{changed, passes_but_not_without_each_case};
 
 /// Two scenes of the file and a rough one; for one of them linear elements are compared too.
 fn study() -> RandomErrors {

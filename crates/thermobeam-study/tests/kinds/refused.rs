@@ -3,7 +3,7 @@
 use convergence_study::input;
 use convergence_study::study::{Header, KindRow};
 
-use crate::{file, text};
+use super::{file, text};
 
 /// The message about a study file with `from` replaced by `to`.
 #[track_caller]

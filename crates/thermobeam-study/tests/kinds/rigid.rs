@@ -1,8 +1,8 @@
 //! Obstacles becoming rigid: the study passes, and fails on each of its claims.
 
-use crate::file;
-use crate::planted::verdict_with;
-use crate::typed::passes_but_not_without_each_case;
+use super::file;
+use super::planted::verdict_with;
+use super::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::rigid::{RigidStudy, RunOf, ShownImpact};
@@ -73,7 +73,7 @@ fn a_file_that_makes_no_sense_is_refused() {
         ("scenes/impact", "scenes/paper-1-beta-0", "impact.scene"),
     ] {
         let name = file("rigid-obstacles.toml");
-        let text = crate::text("rigid-obstacles.toml").replacen(from, to, 1);
+        let text = super::text("rigid-obstacles.toml").replacen(from, to, 1);
         let error = RigidStudy::parse(&text, &name).expect_err(to).to_string();
         assert!(error.contains(field), "{error}");
     }

@@ -8,10 +8,10 @@ use thermobeam_study::kinds::energy::End;
 use thermobeam_study::kinds::scenes::{NUMBERS, ROW, Scenes, Shown};
 use thermobeam_study::scene::Scene;
 
-use crate::planted::verdict_with;
-use crate::refused::refusal;
-use crate::typed::passes_but_not_without_each_case;
-use crate::{file, text};
+use super::planted::verdict_with;
+use super::refused::refusal;
+use super::typed::passes_but_not_without_each_case;
+use super::{file, text};
 
 const STUDY: &str = "whole-scenes.toml";
 

@@ -1,5 +1,5 @@
-use crate::typed::{changed, passes_but_not_without_each_case, report};
-use crate::{file, text};
+use super::typed::{changed, passes_but_not_without_each_case, report};
+use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{Described, FromFile, Kind, run_cases_here};

@@ -1,8 +1,8 @@
 //! The two solvers: the studies of each part pass, and fail on each of their claims.
 
-use crate::planted::verdict_with;
-use crate::typed::{Runs, passes_but_not_without_each_case};
-use crate::{file, text};
+use super::planted::verdict_with;
+use super::typed::{Runs, passes_but_not_without_each_case};
+use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind};

@@ -35,7 +35,7 @@ where
     check_shape(&outcome);
     for index in 0..sound.len() {
         let mut failed = sound.clone();
-        failed[index].found = Err(CaseFailure { reason: "planted".into() });
+        failed[index].found = Err(CaseFailure::new("planted"));
         let outcome = study.judge(&failed);
         assert_eq!(outcome.verdict, Verdict::Fail, "case {index} failed");
         assert!(report(&outcome).contains("planted"), "{}", report(&outcome));

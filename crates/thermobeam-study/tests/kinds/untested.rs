@@ -3,7 +3,7 @@
 use convergence_study::study::{FromFile, Kind, Untested};
 use thermobeam_study::kinds::convergence::Convergence;
 
-use crate::{file, text};
+use super::{file, text};
 
 fn untested(text: &str) -> Vec<Untested> {
     Convergence::parse(text, &file("own.toml")).unwrap_or_else(|error| panic!("{error}")).untested()

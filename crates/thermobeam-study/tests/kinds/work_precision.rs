@@ -1,7 +1,7 @@
 //! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them fail.
 
-use crate::file;
-use crate::typed::passes_but_not_without_each_case;
+use super::file;
+use super::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::outcome::Outcome;
@@ -72,7 +72,7 @@ fn planted_defects_fail() {
     };
     assert_eq!(plant("midpoint", &first_order), Verdict::Fail);
     let mut missing = honest.clone();
-    missing[2].found = Err(CaseFailure { reason: "planted".to_owned() });
+    missing[2].found = Err(CaseFailure::new("planted"));
     let outcome = study.judge(&missing);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(outcome.checks[0].evidence.contains("planted"), "{}", outcome.checks[0].evidence);
@@ -80,7 +80,7 @@ fn planted_defects_fail() {
 
 /// dG compared with midpoint along a diagonal, with half of midpoint's runs: the finest take seconds here.
 fn along_a_diagonal() -> (WorkPrecision, Results) {
-    let text = crate::text("any-order-cost.toml").replace(", 500, 1000]", "]").replace(", 4000, 8000]", "]");
+    let text = super::text("any-order-cost.toml").replace(", 500, 1000]", "]").replace(", 4000, 8000]", "]");
     let study = read(&text).unwrap();
     let honest = passes_but_not_without_each_case(&study);
     (study, honest)
@@ -138,7 +138,7 @@ fn dg_is_measured_as_the_others_are() {
 
 #[test]
 fn a_claim_that_is_too_bold_fails() {
-    let text = crate::text("work-precision-manufactured.toml");
+    let text = super::text("work-precision-manufactured.toml");
     let study = read(&text.replace("times = 100", "times = 100000")).unwrap();
     let outcome = run_one(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
@@ -147,7 +147,7 @@ fn a_claim_that_is_too_bold_fails() {
 
 #[test]
 fn references_that_do_not_agree_fail() {
-    let text = crate::text("work-precision-paper.toml")
+    let text = super::text("work-precision-paper.toml")
         .replace("elements = [16, 32, 64, 128]", "elements = [4, 8]")
         .replace("steps = [128, 256, 512, 1024, 2048]", "steps = [128, 256]");
     let reasons = |text: &str| -> Vec<String> {

@@ -1,6 +1,6 @@
 //! Neither a step nor its observation allocates memory.
 
-use crate::scenes::{experiment, simulate};
+use super::scenes::{experiment, simulate};
 use thermobeam::dg::{Field, Level, Stepping};
 
 #[test]

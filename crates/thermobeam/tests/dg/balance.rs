@@ -1,6 +1,6 @@
 //! The energy balance closes to round-off in every step, including contact events.
 
-use crate::scenes::{EXPERIMENTS, experiment, larger, simulate};
+use super::scenes::{EXPERIMENTS, experiment, larger, simulate};
 use thermobeam::dg::{Problem, Simulation, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};

@@ -1,6 +1,6 @@
 //! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and grazing.
 
-use crate::scenes::{advanced, close, experiment, larger, simulate, tip};
+use super::scenes::{advanced, close, experiment, larger, simulate, tip};
 use std::f64::consts::FRAC_PI_2;
 use thermobeam::dg::{ContactEvent, Field, Initial, Phase, Problem, Simulation, Stepping};
 use thermobeam::mesh::Mesh;

@@ -1,6 +1,6 @@
 //! The paper's first experiment, to the digits in which independent discretisations agree.
 
-use crate::scenes::{advanced, close, experiment, tip};
+use super::scenes::{advanced, close, experiment, tip};
 use thermobeam::dg::{ContactEvent, Field, Phase, Simulation, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};

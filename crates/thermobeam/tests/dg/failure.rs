@@ -1,6 +1,6 @@
 //! Bad input and failed steps give errors with names and numbers.
 
-use crate::scenes::{experiment, simulate};
+use super::scenes::{experiment, simulate};
 use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
 use thermobeam::error::{SetupError, StepError, StepFailure};
 use thermobeam::parameters::{Beam, Obstacles};

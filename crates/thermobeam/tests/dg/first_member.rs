@@ -1,6 +1,6 @@
 //! For q = 0 and p = 1 the family begins with (3.7)-(3.8), with three differences.
 
-use crate::scenes::{equal_steps, experiment, simulate};
+use super::scenes::{equal_steps, experiment, simulate};
 use thermobeam::dg::{Field, Problem, Simulation};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;

@@ -1,7 +1,7 @@
 //! The linear beam: against the matrix exponential of its matrices, and against exact modes.
 
+use super::scenes::{advanced, close, equal_steps, simulate};
 use crate::p1_matrices::P1Matrices;
-use crate::scenes::{advanced, close, equal_steps, simulate};
 use nalgebra::{DMatrix, DVector};
 use thermobeam::dg::{Field, Initial, Problem, Stepping};
 use thermobeam::mesh::Mesh;
@@ -119,6 +119,6 @@ fn stiff_modes_are_damped_by_viscosity_alone() {
             Initial { u: Box::new(move |x| mode.u(x)), phi: Box::new(move |x| mode.phi(x)), ..Initial::at_rest(0.0) };
         let problem = Problem { beam, obstacles: None, mesh: Mesh::uniform(1).unwrap(), degree: 10, initial };
         let long = Stepping { degree: 0, dt: 100.0, restart_dt: 100.0, ..Stepping::default() };
-        close(crate::scenes::tip(&advanced(problem, long, 100.0), Field::U), factor * mode.u(1.0), 1e-3);
+        close(super::scenes::tip(&advanced(problem, long, 100.0), Field::U), factor * mode.u(1.0), 1e-3);
     }
 }

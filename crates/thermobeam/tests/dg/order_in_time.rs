@@ -1,6 +1,6 @@
 //! Orders in time: 2q + 1 at the ends of steps, q + 2 for u and q + 1 for its velocity inside.
 
-use crate::scenes::{equal_steps, experiment, larger, simulate};
+use super::scenes::{equal_steps, experiment, larger, simulate};
 use thermobeam::dg::{Field, Level, Problem, Simulation};
 
 const T: f64 = 0.4;

@@ -1,6 +1,6 @@
 //! Beams at rest: their steady states are known in closed form.
 
-use crate::scenes::{advanced, close, experiment, tip};
+use super::scenes::{advanced, close, experiment, tip};
 use thermobeam::dg::{Field, Phase, Stepping};
 use thermobeam::equilibrium::equilibria;
 

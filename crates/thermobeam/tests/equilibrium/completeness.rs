@@ -1,6 +1,7 @@
 //! No state is missed, and none is found twice.
 
 use super::{close, loaded, slope_squared_by_quadrature, states};
+use crate::drawn::at_least;
 use proptest::prelude::*;
 use thermobeam::equilibrium::{Equilibrium, Phase, equilibria};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -94,7 +95,7 @@ fn any_obstacles() -> impl Strategy<Value = Option<Obstacles>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(at_least(1000))]
 
     /// The energy is coercive, so its gradient has degree 1: a state missed or found twice changes the sum.
     /// A missed pair does not; the fine scan covers that case.

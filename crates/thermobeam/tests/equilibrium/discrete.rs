@@ -1,7 +1,7 @@
 //! Steady states and their stability against a discretisation with P1 elements.
 
-use super::p1_matrices::P1Matrices;
 use super::{scenes, states};
+use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
 use thermobeam::equilibrium::Equilibrium;
 use thermobeam::parameters::{Beam, Obstacles};

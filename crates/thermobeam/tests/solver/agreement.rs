@@ -1,6 +1,6 @@
 //! Newton's method and the fixed point, and different initial iterates, give the same solution of a step.
 
-use crate::scenes::{
+use super::scenes::{
     EXPERIMENTS, advance, distance, from_level, paper, relative_difference, schemes_and_meshes, simulate, stepping,
 };
 use thermobeam::simulation::Stepping;

@@ -1,6 +1,6 @@
 //! The energy balance closes to round-off, step by step.
 
-use crate::scenes::{EXPERIMENTS, paper, schemes_and_meshes, simulate, stepping};
+use super::scenes::{EXPERIMENTS, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::norms::max_or_nan;
 use thermobeam::scheme::{Case, MIDPOINT};
 use thermobeam::simulation::{Problem, Stepping};

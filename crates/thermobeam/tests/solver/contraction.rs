@@ -1,6 +1,6 @@
 //! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
-use crate::scenes::{advance, graded, simulate, stepping, uniform};
+use super::scenes::{advance, graded, simulate, stepping, uniform};
 use nalgebra::DMatrix;
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::error::{Loop, StepFailure};

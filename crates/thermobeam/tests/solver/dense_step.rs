@@ -1,7 +1,8 @@
 //! Single steps of both solvers against a dense solution of (3.7)-(3.8), on random small systems.
 
-use crate::dense::{Dense, State};
-use crate::scenes::{relative_difference, simulate};
+use super::dense::{Dense, State};
+use super::scenes::{relative_difference, simulate};
+use crate::drawn::at_least;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -148,8 +149,8 @@ fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
 
 /// Compares on the given number of random cases; each obstacle must be pressed in a tenth of them.
 fn compare_all(range: Range, solver: Solver, cases: u32) {
-    let config =
-        ProptestConfig { cases, failure_persistence: None, max_global_rejects: 10, ..ProptestConfig::default() };
+    let config = ProptestConfig { max_global_rejects: 10, source_file: Some(file!()), ..at_least(cases) };
+    let cases = config.cases;
     let pressed = [Cell::new(0), Cell::new(0)];
     TestRunner::new(config)
         .run(&random(range, solver), |case| {

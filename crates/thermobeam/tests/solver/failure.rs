@@ -1,6 +1,6 @@
 //! A failed step returns an error with step and time and leaves the simulation at its level; invalid input is rejected.
 
-use crate::scenes::{paper, simulate, stepping, uniform};
+use super::scenes::{paper, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
@@ -49,7 +49,7 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                     undisturbed.load_mut().unwrap().fill([0.1; 3]);
                     simulation.advance().unwrap();
                     undisturbed.advance().unwrap();
-                    let difference = crate::scenes::relative_difference(&simulation.level(), &undisturbed.level());
+                    let difference = super::scenes::relative_difference(&simulation.level(), &undisturbed.level());
                     assert!(difference <= 1e-9, "{stepping:?}: {difference:e}");
                 }
             }

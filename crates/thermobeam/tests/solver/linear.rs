@@ -1,6 +1,6 @@
 //! For the linear beam (ρ = 0) one pass of Newton's method solves a step.
 
-use crate::scenes::{EXPERIMENTS, advance, paper, schemes_and_meshes, simulate, stepping};
+use super::scenes::{EXPERIMENTS, advance, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::parameters::Beam;
 use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Settings, Start};
@@ -35,7 +35,7 @@ fn newton_takes_one_pass_per_step_on_a_linear_beam() {
 fn a_nonlinear_beam_needs_more_than_one_pass_from_a_rough_start() {
     let settings = Settings { start: Start::Previous, ..Settings::default() };
     let mut simulation =
-        simulate(&paper(crate::scenes::uniform(20), (0.0, 0.0)), Stepping { settings, ..stepping(1e-3) });
+        simulate(&paper(super::scenes::uniform(20), (0.0, 0.0)), Stepping { settings, ..stepping(1e-3) });
     advance(&mut simulation, 100);
     assert!(simulation.work().passes >= 200);
 }

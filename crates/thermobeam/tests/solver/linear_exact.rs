@@ -1,7 +1,7 @@
 //! The linear beam against the matrix exponential of its semi-discrete system, which is exact in time.
 
-use crate::dense::{Dense, State};
-use crate::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};
+use super::dense::{Dense, State};
+use super::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};
 use nalgebra::{DMatrix, DVector};
 use thermobeam::parameters::Beam;
 use thermobeam::simulation::{Problem, Stepping};

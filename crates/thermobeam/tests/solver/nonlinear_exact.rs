@@ -1,7 +1,7 @@
 //! The nonlinear semi-discrete system, contact included, against an explicit Runge-Kutta method of order 8.
 
-use crate::dense::{Dense, State};
-use crate::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};
+use super::dense::{Dense, State};
+use super::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 use thermobeam::norms::max_or_nan;

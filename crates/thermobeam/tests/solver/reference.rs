@@ -1,6 +1,6 @@
 //! Comparison with numbers from an independent implementation of the scheme.
 
-use crate::scenes::{advance, paper, simulate, stepping, uniform};
+use super::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver};
 

@@ -1,6 +1,6 @@
 //! Newton's method converges on the paper's data for all compliances, time steps and Kirchhoff coefficients.
 
-use crate::scenes::{graded, paper, simulate, stepping, uniform};
+use super::scenes::{graded, paper, simulate, stepping, uniform};
 use thermobeam::error::StepFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::max_or_nan;
@@ -125,7 +125,7 @@ fn the_safeguarded_iteration_stops_when_the_bracket_reaches_round_off() {
                     problem.obstacles = Some(Obstacles { epsilon, g1: -1e-4, g2: 1e-4 });
                     problem.initial.u_t[1] = 2.0;
                     let mut simulation = simulate(&problem, Stepping { scheme, ..stepping(dt) });
-                    crate::scenes::advance(&mut simulation, 100);
+                    super::scenes::advance(&mut simulation, 100);
                 }
             }
         }

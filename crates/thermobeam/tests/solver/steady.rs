@@ -1,6 +1,6 @@
 //! With a heated clamped end the beam converges to its steady state, which is known in closed form.
 
-use crate::scenes::{advance, paper, simulate, stepping, uniform};
+use super::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::equilibrium::{Phase, equilibria};
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::Settings;

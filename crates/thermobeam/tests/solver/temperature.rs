@@ -1,6 +1,6 @@
 //! The solver omits the temperature if nothing heats the beam, and the result is the same.
 
-use crate::scenes::{
+use super::scenes::{
     EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping, uniform,
 };
 use thermobeam::parameters::Beam;

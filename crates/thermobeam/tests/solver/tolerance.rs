@@ -1,6 +1,6 @@
 //! The tolerance bounds the distance of an accepted step to the solution of its equations.
 
-use crate::scenes::{EXPERIMENTS, distance, from_level, paper, schemes_and_meshes, simulate, stepping};
+use super::scenes::{EXPERIMENTS, distance, from_level, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::norms::max_or_nan;
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver, Start};

@@ -1,6 +1,6 @@
 //! Unnecessary work is not done. Counts are tested because, unlike times, they are exact.
 
-use crate::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
+use super::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver, Start};
 

@@ -4,7 +4,9 @@ use std::fs;
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::tests::{Place, project_of, texts};
+use convergence_study_tests::finished;
+
+use super::{Place, SOLVER, project_of, texts};
 
 const CACHED: &str = "files = [\"data\"]\ncache = true";
 
@@ -16,7 +18,8 @@ fn cached(mode: &str) -> Place {
     place
 }
 
-pub(crate) fn kept_results_are_used_until_something_changes() {
+#[test]
+fn kept_results_are_used_until_something_changes() {
     let place = cached("count");
     assert_eq!(place.study(&[]).0, Some(0));
     let first = place.study(&["--format", "json"]);
@@ -38,18 +41,18 @@ pub(crate) fn kept_results_are_used_until_something_changes() {
 }
 
 /// A program that is rebuilt under the same name.
-pub(crate) fn a_kept_result_depends_on_the_program_found_through_path() {
+#[test]
+fn a_kept_result_depends_on_the_program_found_through_path() {
     use std::os::unix::fs::PermissionsExt;
     let place = cached("count");
     let bin = place.folder.path().join("bin");
     fs::create_dir(&bin).unwrap();
-    let exe = std::env::current_exe().unwrap();
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
-    place.write_text(&text.replace(&format!("{:?}", exe.to_str().unwrap()), "\"my-solver\""));
+    place.write_text(&text.replace(&format!("{SOLVER:?}"), "\"my-solver\""));
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
-    let study = || texts(place.command(&["study", "s.toml"]).env("PATH", &path).output().unwrap());
+    let study = || texts(place.command(&["study", "s.toml"]).env("PATH", &path));
     for (version, runs) in [("1", 5), ("1", 5), ("version 2", 10), ("version 2", 10)] {
-        let script = format!("#!/bin/sh\n# {version}\nexec '{}' \"$@\"\n", exe.display());
+        let script = format!("#!/bin/sh\n# {version}\nexec '{SOLVER}' \"$@\"\n");
         let file = bin.join("my-solver");
         if fs::read_to_string(&file).ok() != Some(script.clone()) {
             fs::write(&file, script).unwrap();
@@ -61,11 +64,12 @@ pub(crate) fn a_kept_result_depends_on_the_program_found_through_path() {
 }
 
 /// Kept results show on the terminal and in files of one machine, but in no committed byte.
-pub(crate) fn kept_results_are_counted_and_never_blessed() {
+#[test]
+fn kept_results_are_counted_and_never_blessed() {
     let place = project_of(cached("count"));
     let root = place.folder.path();
     fs::rename(root.join("data"), root.join("studies/data")).unwrap();
-    let verify = |arguments: &[&str]| texts(place.command(&[&["verify"], arguments].concat()).output().unwrap());
+    let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
     let runs = || fs::read_to_string(root.join("studies/runs")).unwrap().lines().count();
     let reports = || ["README.md", "results.json"].map(|name| fs::read(root.join("reports").join(name)).unwrap());
     let (status, out, err) = verify(&["--bless"]);
@@ -81,12 +85,13 @@ pub(crate) fn kept_results_are_counted_and_never_blessed() {
     let (status, out, _) = verify(&["--bless"]);
     assert!(status == Some(0) && runs() == 10 && !out.contains("kept"), "{out}");
     assert_eq!(reports(), computed);
-    let (_, out, _) = texts(place.command(&["study", "studies/s.toml"]).output().unwrap());
+    let (_, out, _) = texts(&mut place.command(&["study", "studies/s.toml"]));
     assert!(out.lines().next().unwrap().ends_with(" s, 5 of 5 cases kept from an earlier run"), "{out}");
 }
 
 /// The word `{n}` of the command is the name of a file.
-pub(crate) fn a_kept_result_depends_on_each_file_that_its_command_names() {
+#[test]
+fn a_kept_result_depends_on_each_file_that_its_command_names() {
     let place = cached("count");
     let mesh = place.folder.path().join("8");
     fs::write(&mesh, "coarse").unwrap();
@@ -97,7 +102,8 @@ pub(crate) fn a_kept_result_depends_on_each_file_that_its_command_names() {
 }
 
 /// Directories may differ in other files even if `files` are the same.
-pub(crate) fn a_kept_result_depends_on_the_directory() {
+#[test]
+fn a_kept_result_depends_on_the_directory() {
     let mut place = cached("count");
     for directory in ["a", "b"] {
         let path = place.folder.path().join(directory);
@@ -111,7 +117,8 @@ pub(crate) fn a_kept_result_depends_on_the_directory() {
     }
 }
 
-pub(crate) fn garbage_among_kept_results_is_computed_anew() {
+#[test]
+fn garbage_among_kept_results_is_computed_anew() {
     let place = cached("count");
     assert_eq!(place.study(&[]).0, Some(0));
     let kept = place.kept();
@@ -129,13 +136,14 @@ pub(crate) fn garbage_among_kept_results_is_computed_anew() {
     assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 9));
 }
 
-pub(crate) fn a_killed_harness_leaves_whole_results() {
+#[test]
+fn a_killed_harness_leaves_whole_results() {
     let place = cached("count");
     for moment in [20, 60, 90, 120] {
         let mut harness = place.start();
         sleep(Duration::from_millis(moment));
         harness.kill().unwrap();
-        harness.wait().unwrap();
+        finished(harness);
         for path in place.kept() {
             let text = fs::read_to_string(&path).unwrap();
             assert!(serde_json::from_str::<serde_json::Value>(&text).is_ok(), "{}: {text}", path.display());
@@ -147,7 +155,8 @@ pub(crate) fn a_killed_harness_leaves_whole_results() {
     assert_eq!((place.kept().len(), place.runs()), (5, before.1 + 5 - before.0));
 }
 
-pub(crate) fn results_that_cannot_be_kept_are_judged() {
+#[test]
+fn results_that_cannot_be_kept_are_judged() {
     let place = cached("count");
     fs::write(place.folder.path().join(".convergence-study"), "a file, not a folder").unwrap();
     let (status, out, _) = place.study(&[]);

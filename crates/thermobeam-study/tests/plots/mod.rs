@@ -1,7 +1,7 @@
 //! Figures of beams: the laws of all figures, and special ones.
 
 mod figures;
-#[path = "../../convergence-study/tests/plots/laws.rs"]
+#[path = "../../../convergence-study/tests/plots/laws.rs"]
 mod laws;
 
 use convergence_study::plots::Series;
@@ -50,7 +50,7 @@ fn the_same_data_give_the_same_bytes() {
 
 #[test]
 fn every_figure_is_in_the_gallery() {
-    let (module, gallery) = (include_str!("../src/figures/mod.rs"), include_str!("figures/mod.rs"));
+    let (module, gallery) = (include_str!("../../src/figures/mod.rs"), include_str!("figures/mod.rs"));
     // The pictures of a run consist of figures that are in a gallery.
     let drawn = module.lines().filter(|line| line.ends_with("-> String {"));
     let drawn = drawn.filter_map(|line| line.strip_prefix("pub fn ")?.split("(").next());

@@ -2,9 +2,6 @@
 
 mod scenes;
 
-#[path = "../p1_matrices/mod.rs"]
-mod p1_matrices;
-
 mod allocation;
 mod balance;
 mod contact;

@@ -1,4 +1,4 @@
-//! The program that the studies of these tests run: a second-order solver that can misbehave in many ways.
+//! A second-order solver that can misbehave in many ways.
 
 use std::fs::OpenOptions;
 use std::io::{self, Read, Write};
@@ -8,12 +8,10 @@ use std::time::Duration;
 
 use nix::sys::signal::{SigSet, Signal};
 
-/// The argument that makes this executable the solver.
-pub(crate) const COMMAND: &str = "solver";
-
 /// `solver TOKEN MODE N [DT]`; the token marks the processes of one test. Only the case n = 16 misbehaves.
-pub(crate) fn main(arguments: &[String]) -> ! {
-    let [token, mode, n, rest @ ..] = arguments else { exit(64) };
+pub(crate) fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [token, mode, n, rest @ ..] = &arguments[..] else { exit(64) };
     let n: u32 = if mode == "stdin" { number_from_stdin() } else { n.parse().unwrap_or(0) };
     if n == 16 {
         misbehave(token, mode, n);
@@ -22,9 +20,6 @@ pub(crate) fn main(arguments: &[String]) -> ! {
         let mut file = OpenOptions::new().append(true).create(true).open("runs").unwrap();
         writeln!(file, "{n}").unwrap();
         sleep(Duration::from_millis(30));
-    }
-    if mode == "sleep" {
-        sleep(Duration::from_millis(400));
     }
     if let [dt] = rest {
         // Second order in space, first in time; they have the same shape.
@@ -53,7 +48,6 @@ pub(crate) fn main(arguments: &[String]) -> ! {
         exit(0)
     }
     println!("{}", answer(n));
-    exit(0)
 }
 
 fn answer(n: u32) -> String {
@@ -79,7 +73,7 @@ fn number_from_stdin() -> u32 {
 /// Standard streams are inherited from this process, so that their reader waits for both.
 fn start(token: &str, mode: &str) -> Command {
     let mut child = Command::new(std::env::current_exe().unwrap());
-    child.args([COMMAND, token, mode, "16"]).stdin(Stdio::null());
+    child.args([token, mode, "16"]).stdin(Stdio::null());
     child
 }
 

@@ -3,9 +3,12 @@
 use std::fs;
 use std::process::Stdio;
 
-use crate::{ORDER, command, run, study, texts, workspace};
+use convergence_study_tests::finished;
 
-pub(crate) fn records_are_compared_with_0_1_or_2() {
+use super::{ORDER, command, run, study, texts, workspace};
+
+#[test]
+fn records_are_compared_with_0_1_or_2() {
     let root = workspace(true);
     let write = |name: &str, files: &[&str]| {
         let (_, out, _) = run(&root, &[&["study", "--format", "json"], files].concat());
@@ -52,7 +55,8 @@ pub(crate) fn records_are_compared_with_0_1_or_2() {
 }
 
 /// The pages of a record equal those of the run, and come only from the record and its pictures.
-pub(crate) fn a_report_is_made_anew_from_its_record() {
+#[test]
+fn a_report_is_made_anew_from_its_record() {
     let root = workspace(true);
     let files = |folder: &str| {
         let names =
@@ -85,7 +89,8 @@ pub(crate) fn a_report_is_made_anew_from_its_record() {
     assert!(status == Some(2) && err.contains("studies/baseline.json: No such file"), "{err}");
 }
 
-pub(crate) fn one_some_or_all_changes_are_blessed_with_a_reason() {
+#[test]
+fn one_some_or_all_changes_are_blessed_with_a_reason() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.01)).unwrap();
@@ -126,10 +131,11 @@ pub(crate) fn one_some_or_all_changes_are_blessed_with_a_reason() {
     assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
 }
 
-pub(crate) fn a_run_fails_where_a_study_does_and_nothing_differs() {
+#[test]
+fn a_run_fails_where_a_study_does_and_nothing_differs() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    let (status, out, _) = texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2").output().unwrap());
+    let (status, out, _) = texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2"));
     assert_eq!(status, Some(1), "{out}");
     let failed =
         "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\ntoo-low: The whole interval";
@@ -137,7 +143,8 @@ pub(crate) fn a_run_fails_where_a_study_does_and_nothing_differs() {
 }
 
 /// They all write the same baseline, wherever their reports go.
-pub(crate) fn blessings_at_once_are_all_kept() {
+#[test]
+fn blessings_at_once_are_all_kept() {
     let root = workspace(false);
     let ids: Vec<String> = (0..8).map(|k| format!("s{k}")).collect();
     for id in &ids {
@@ -145,10 +152,10 @@ pub(crate) fn blessings_at_once_are_all_kept() {
     }
     let bless = |id: &String| {
         let mut command = command(root.path(), &["verify", "--bless", "--quiet", "--out", id, id]);
-        command.stdout(Stdio::null()).spawn().unwrap()
+        command.stdin(Stdio::null()).stdout(Stdio::null()).spawn().unwrap()
     };
-    for mut run in ids.iter().map(bless).collect::<Vec<_>>() {
-        assert_eq!(run.wait().unwrap().code(), Some(0));
+    for run in ids.iter().map(bless).collect::<Vec<_>>() {
+        assert_eq!(finished(run).status.code(), Some(0));
     }
     let text = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
     let baseline: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -162,7 +169,8 @@ pub(crate) fn blessings_at_once_are_all_kept() {
     }
 }
 
-pub(crate) fn a_study_with_a_near_extension_is_named() {
+#[test]
+fn a_study_with_a_near_extension_is_named() {
     let root = workspace(false);
     let write = |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
     write("two.TOML", &study("two", "c", 0.5));

@@ -1,4 +1,4 @@
-//! A project's command line as seen by a shell: this program is the project if `AS_PROJECT` is set, else its tests.
+//! A project's command line.
 
 mod changes;
 mod failing;
@@ -6,104 +6,14 @@ mod tables;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, ExitCode, Output, Stdio};
+use std::process::{Command, Stdio};
 
 use convergence_study::cli;
-use convergence_study::input::{InputError, Section};
-use convergence_study::program;
-use convergence_study::project::Project;
-use convergence_study::study::{Claim, Header, KindRow, Study, erased, levels};
+use convergence_study_tests::{Ended, finished, output};
 use tempfile::TempDir;
 
-use changes::{
-    a_report_is_made_anew_from_its_record, a_run_fails_where_a_study_does_and_nothing_differs,
-    a_study_with_a_near_extension_is_named, blessings_at_once_are_all_kept,
-    one_some_or_all_changes_are_blessed_with_a_reason, records_are_compared_with_0_1_or_2,
-};
-use failing::{
-    a_changed_claim_fails_until_it_is_blessed_with_a_reason, a_deleted_study_is_one_change_and_is_named,
-    claims_of_the_full_tier_are_compared_in_the_quick_one, the_cause_is_printed_first_and_what_passes_is_counted,
-    the_page_links_to_what_is_there_of_the_full_tier, what_failed_is_repeated_alone_and_the_slowest_are_listed,
-};
-
-const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
-
-/// The order claimed instead of 1.
+/// The variable with the order that `powers` claims instead of 1.
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
-
-const PROJECT: Project = Project {
-    kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }, program::ROW],
-    templates: &[program::TEMPLATE],
-    ..Project::new("powers", "powers")
-};
-
-/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no baseline.
-fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
-    root.allow(&["study", "exponent"])?;
-    let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
-    let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
-    let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
-    Ok(erased(header, study.claiming("error", Claim::new(order, 0.05))))
-}
-
-type Test = (&'static str, fn());
-
-const TESTS: [Test; 31] = [
-    (
-        "what_failed_is_repeated_alone_and_the_slowest_are_listed",
-        what_failed_is_repeated_alone_and_the_slowest_are_listed,
-    ),
-    ("verify_ends_with_0_1_or_2", verify_ends_with_0_1_or_2),
-    (
-        "a_changed_claim_fails_until_it_is_blessed_with_a_reason",
-        a_changed_claim_fails_until_it_is_blessed_with_a_reason,
-    ),
-    ("a_study_with_a_near_extension_is_named", a_study_with_a_near_extension_is_named),
-    ("claims_of_the_full_tier_are_compared_in_the_quick_one", claims_of_the_full_tier_are_compared_in_the_quick_one),
-    ("the_cause_is_printed_first_and_what_passes_is_counted", the_cause_is_printed_first_and_what_passes_is_counted),
-    ("a_deleted_study_is_one_change_and_is_named", a_deleted_study_is_one_change_and_is_named),
-    ("the_page_links_to_what_is_there_of_the_full_tier", the_page_links_to_what_is_there_of_the_full_tier),
-    ("an_unwritable_job_summary_keeps_the_exit_status", an_unwritable_job_summary_keeps_the_exit_status),
-    ("annotations_are_commands_and_nothing_else_is", annotations_are_commands_and_nothing_else_is),
-    ("claims_and_ids_with_control_characters_are_refused", claims_and_ids_with_control_characters_are_refused),
-    ("names_of_columns_and_files_are_no_commands", names_of_columns_and_files_are_no_commands),
-    ("pipes_in_place_of_records_do_not_hang", pipes_in_place_of_records_do_not_hang),
-    ("tables_and_studies_come_from_standard_input", tables_and_studies_come_from_standard_input),
-    ("rates_come_in_words_and_as_an_object", rates_come_in_words_and_as_an_object),
-    ("levels_set_aside_are_marked", levels_set_aside_are_marked),
-    ("rates_write_figure_markdown_and_junit", rates_write_figure_markdown_and_junit),
-    ("rates_says_how_it_read_a_table", tables::rates_says_how_it_read_a_table),
-    ("claims_that_contradict_each_other_are_refused", tables::claims_that_contradict_each_other_are_refused),
-    ("study_writes_a_report_that_says_how_to_repeat_it", study_writes_a_report_that_says_how_to_repeat_it),
-    (
-        "a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result",
-        a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result,
-    ),
-    ("json_is_alone_on_standard_output", json_is_alone_on_standard_output),
-    ("a_report_is_made_anew_from_its_record", a_report_is_made_anew_from_its_record),
-    ("records_are_compared_with_0_1_or_2", records_are_compared_with_0_1_or_2),
-    ("one_some_or_all_changes_are_blessed_with_a_reason", one_some_or_all_changes_are_blessed_with_a_reason),
-    ("a_run_fails_where_a_study_does_and_nothing_differs", a_run_fails_where_a_study_does_and_nothing_differs),
-    ("blessings_at_once_are_all_kept", blessings_at_once_are_all_kept),
-    ("every_command_is_in_the_help", every_command_is_in_the_help),
-    ("a_new_study_of_a_program_passes_as_it_is", a_new_study_of_a_program_passes_as_it_is),
-    ("wrong_claims_are_answered_with_what_to_do", tables::wrong_claims_are_answered_with_what_to_do),
-    ("values_and_rounded_numbers_are_told_from_errors", tables::values_and_rounded_numbers_are_told_from_errors),
-];
-
-fn main() -> ExitCode {
-    if std::env::var_os(AS_PROJECT).is_some() {
-        return cli::main(&PROJECT);
-    }
-    let filter = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    let mut failed = 0;
-    for (name, test) in TESTS.iter().filter(|(name, _)| filter.as_ref().is_none_or(|filter| name.contains(filter))) {
-        let passes = std::panic::catch_unwind(test).is_ok();
-        failed += usize::from(!passes);
-        println!("test {name} ... {}", if passes { "ok" } else { "FAILED" });
-    }
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
 
 /// A workspace with the studies `one`, which passes, and `two`, which fails, if wanted.
 fn workspace(with_a_failure: bool) -> TempDir {
@@ -122,19 +32,20 @@ fn study(id: &str, claim: &str, exponent: f64) -> String {
 }
 
 fn command(root: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(std::env::current_exe().unwrap());
-    command.args(arguments).current_dir(root).env(AS_PROJECT, "1");
-    command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY").stdin(Stdio::null());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_powers"));
+    command.args(arguments).current_dir(root);
+    command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
     command
 }
 
 fn run(root: &TempDir, arguments: &[&str]) -> (Option<i32>, String, String) {
-    texts(command(root.path(), arguments).output().unwrap())
+    texts(&mut command(root.path(), arguments))
 }
 
-fn texts(output: Output) -> (Option<i32>, String, String) {
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (output.status.code(), out, err)
+/// Exit status, standard output and standard error.
+fn texts(command: &mut Command) -> (Option<i32>, String, String) {
+    let Ended { status, stdout, stderr } = output(command).into();
+    (status, stdout, stderr)
 }
 
 /// No control characters except line ends, and no line that GitHub Actions would obey.
@@ -144,6 +55,7 @@ fn is_harmless(text: &str) {
     assert!(!text.lines().any(|line| line.trim_start().starts_with("::")), "{text:?}");
 }
 
+#[test]
 fn verify_ends_with_0_1_or_2() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify"]).0, Some(1), "every number is new");
@@ -161,6 +73,7 @@ fn verify_ends_with_0_1_or_2() {
     assert!(status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"), "{err}");
 }
 
+#[test]
 fn an_unwritable_job_summary_keeps_the_exit_status() {
     for (with_a_failure, status) in [(false, 0), (true, 1)] {
         let root = workspace(with_a_failure);
@@ -168,21 +81,22 @@ fn an_unwritable_job_summary_keeps_the_exit_status() {
         let scope = if with_a_failure { "two" } else { "one" };
         for page in ["/nowhere/page", "."] {
             let mut command = command(root.path(), &["verify", scope]);
-            let (found, out, err) = texts(command.env("GITHUB_STEP_SUMMARY", page).output().unwrap());
+            let (found, out, err) = texts(command.env("GITHUB_STEP_SUMMARY", page));
             assert_eq!(found, Some(status), "{out}{err}");
             assert!(err.contains(&format!("GITHUB_STEP_SUMMARY={page}: cannot write the job summary")), "{err}");
         }
         let page = root.path().join("page.md");
-        command(root.path(), &["verify", scope]).env("GITHUB_STEP_SUMMARY", &page).output().unwrap();
+        output(command(root.path(), &["verify", scope]).env("GITHUB_STEP_SUMMARY", &page));
         assert!(fs::read_to_string(page).unwrap().starts_with("## Verification, selection\n"));
     }
 }
 
+#[test]
 fn annotations_are_commands_and_nothing_else_is() {
     let root = workspace(false);
     fs::write(root.path().join("studies/two.toml"), study("two", "::error title=forged::x", 0.5)).unwrap();
     let mut command = command(root.path(), &["verify"]);
-    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true").output().unwrap());
+    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true"));
     assert_eq!(status, Some(1));
     let commands: Vec<&str> = out.lines().filter(|line| line.trim_start().starts_with("::")).collect();
     assert!(commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"), "{commands:?}");
@@ -196,6 +110,7 @@ fn annotations_are_commands_and_nothing_else_is() {
     is_harmless(&run(&root, &["explain", "two"]).1);
 }
 
+#[test]
 fn claims_and_ids_with_control_characters_are_refused() {
     let root = workspace(false);
     for (id, claim, words) in [
@@ -222,6 +137,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
     is_harmless(&err);
 }
 
+#[test]
 fn names_of_columns_and_files_are_no_commands() {
     let root = workspace(false);
     let table = |name: &str| format!("h,{name}\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n");
@@ -253,6 +169,7 @@ fn pipe(path: &Path) {
     assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
 }
 
+#[test]
 fn pipes_in_place_of_records_do_not_hang() {
     #[cfg(unix)]
     for (file, arguments) in [
@@ -270,6 +187,7 @@ fn pipes_in_place_of_records_do_not_hang() {
     }
 }
 
+#[test]
 fn tables_and_studies_come_from_standard_input() {
     #[cfg(unix)]
     for (text, arguments) in [
@@ -283,7 +201,7 @@ fn tables_and_studies_come_from_standard_input() {
         let root = workspace(false);
         let mut child = command(root.path(), arguments).stdin(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
         std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
-        assert_eq!(child.wait().unwrap().code(), Some(0), "{arguments:?}");
+        assert_eq!(finished(child).status.code(), Some(0), "{arguments:?}");
     }
 }
 
@@ -291,6 +209,7 @@ fn tables_and_studies_come_from_standard_input() {
 const RATES: &str = "h L2 H1 max\n0.4 1.6000000e-1 4.0000000e-1 3\n0.2 4.0000000e-2 2.0000000e-1 3\n\
                      0.1 1.0000000e-2 1.0000000e-1 3\n0.05 2.5000000e-3 5.0000000e-2 3\n";
 
+#[test]
 fn rates_come_in_words_and_as_an_object() {
     let root = workspace(false);
     fs::write(root.path().join("t"), RATES).unwrap();
@@ -321,6 +240,7 @@ fn rates_come_in_words_and_as_an_object() {
     assert!(status == Some(2) && err.contains("t:1:1: expected a column for --columns"), "{err}");
 }
 
+#[test]
 fn levels_set_aside_are_marked() {
     let root = workspace(false);
     // The rates 0.3, 2, 2, 2, and a level at the floor.
@@ -344,6 +264,7 @@ fn levels_set_aside_are_marked() {
     assert_eq!(fine, [false, false, false, true, true, true], "{out}");
 }
 
+#[test]
 fn rates_write_figure_markdown_and_junit() {
     let root = workspace(false);
     fs::write(root.path().join("a&b|c"), RATES).unwrap();
@@ -369,6 +290,7 @@ fn rates_write_figure_markdown_and_junit() {
     assert_eq!(run(&root, &["rates", "a&b|c", "--order", "L2=2", "--out", "file"]).0, Some(2));
 }
 
+#[test]
 fn study_writes_a_report_that_says_how_to_repeat_it() {
     let root = workspace(true);
     let (status, out, err) =
@@ -390,6 +312,7 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     assert!(page.contains("Again: `powers verify two` (tier quick") && !root.path().join("reports").exists(), "{page}");
 }
 
+#[test]
 fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() {
     let root = workspace(false);
     let study = |out: &str| run(&root, &["study", "studies/one.toml", "--out", out]);
@@ -414,13 +337,14 @@ fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() 
     assert!(trace.exists());
 }
 
+#[test]
 fn json_is_alone_on_standard_output() {
     let root = workspace(true);
     for arguments in [&["verify"][..], &["study", "studies/two.toml"]] {
         let mut command = command(root.path(), arguments);
         let summary = root.path().join("summary.md");
         command.args(["--format", "json"]).env("GITHUB_ACTIONS", "true").env("GITHUB_STEP_SUMMARY", &summary);
-        let (status, out, err) = texts(command.output().unwrap());
+        let (status, out, err) = texts(&mut command);
         let object: serde_json::Value = serde_json::from_str(&out).unwrap();
         assert_eq!((status, &object["verdict"], &object["schema"]), (Some(1), &"fail".into(), &1.into()));
         assert!(err.starts_with("::error title=two%3A fail::"), "{arguments:?}: {err}");
@@ -429,6 +353,7 @@ fn json_is_alone_on_standard_output() {
     }
 }
 
+#[test]
 fn a_new_study_of_a_program_passes_as_it_is() {
     let root = tempfile::tempdir().unwrap();
     let (status, out, err) = run(&root, &["new", "program", "mine"]);
@@ -479,6 +404,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     assert!(status == Some(2) && err.contains("program"), "{err}");
 }
 
+#[test]
 fn every_command_is_in_the_help() {
     let (status, out, _) = run(&workspace(false), &["--help"]);
     assert_eq!(status, Some(0));

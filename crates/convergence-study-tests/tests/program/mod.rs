@@ -1,94 +1,19 @@
-//! The tests.
+//! Studies of programs: `powers` is the harness, `solver` the program that its studies run.
+
+mod kept;
+mod levels;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, ExitCode, Output, Stdio};
+use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use convergence_study::cli;
-use convergence_study::program;
-use convergence_study::project::Project;
+use convergence_study_tests::{Ended, PATIENCE, finished, interruptible, output, signal, started};
 use tempfile::TempDir;
 
-use crate::kept::{
-    a_kept_result_depends_on_each_file_that_its_command_names, a_kept_result_depends_on_the_directory,
-    a_kept_result_depends_on_the_program_found_through_path, a_killed_harness_leaves_whole_results,
-    garbage_among_kept_results_is_computed_anew, kept_results_are_counted_and_never_blessed,
-    kept_results_are_used_until_something_changes, results_that_cannot_be_kept_are_judged,
-};
-use crate::levels::{
-    a_level_without_a_result_fails_and_the_others_have_a_rate, a_name_that_an_answer_has_twice_is_refused,
-    a_study_of_two_levels_has_the_rate_between_them, an_error_that_falls_by_a_factor_a_degree_has_that_factor,
-    levels_are_added_until_it_is_decided_within_the_budget, other_claims_than_an_order_are_judged,
-    steps_that_only_some_levels_answer_are_refused, the_seconds_of_a_study_are_those_that_passed,
-    the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over, what_is_finite_beside_a_nan_is_kept,
-};
-use crate::solver;
-
-const AS_PROJECT: &str = "CONVERGENCE_STUDY_TESTS_AS_PROJECT";
-
-const PROJECT: Project = Project { kinds: &[program::ROW], ..Project::new("programs", "programs") };
-
-type Test = (&'static str, fn());
-
-/// Each test with its name.
-macro_rules! tests {
-    ($($name:ident),* $(,)?) => { [$((stringify!($name), $name as fn())),*] };
-}
-
-const TESTS: &[Test] = &tests![
-    a_program_is_judged_by_its_errors,
-    a_program_without_placeholders_reads_the_case,
-    a_value_is_judged_by_its_differences,
-    a_grid_finds_both_orders,
-    every_misbehaviour_is_one_line_and_leaves_nothing,
-    a_level_without_a_result_fails_and_the_others_have_a_rate,
-    what_is_finite_beside_a_nan_is_kept,
-    the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over,
-    a_name_that_an_answer_has_twice_is_refused,
-    other_claims_than_an_order_are_judged,
-    an_error_that_falls_by_a_factor_a_degree_has_that_factor,
-    a_study_of_two_levels_has_the_rate_between_them,
-    steps_that_only_some_levels_answer_are_refused,
-    the_seconds_of_a_study_are_those_that_passed,
-    levels_are_added_until_it_is_decided_within_the_budget,
-    a_program_that_hangs_is_stopped_and_leaves_nothing,
-    much_output_takes_little_memory,
-    a_killed_harness_leaves_nothing,
-    an_interrupted_harness_leaves_nothing,
-    kept_results_are_used_until_something_changes,
-    a_kept_result_depends_on_the_program_found_through_path,
-    kept_results_are_counted_and_never_blessed,
-    a_kept_result_depends_on_each_file_that_its_command_names,
-    a_kept_result_depends_on_the_directory,
-    garbage_among_kept_results_is_computed_anew,
-    results_that_cannot_be_kept_are_judged,
-    a_killed_harness_leaves_whole_results,
-    what_a_study_file_may_get_wrong_is_named,
-    a_study_of_a_program_is_guarded_and_explained,
-    an_error_that_only_some_answers_have_is_guarded_there,
-];
-
-pub(crate) fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if arguments.first().is_some_and(|first| first == solver::COMMAND) {
-        solver::main(&arguments[1..]);
-    }
-    if std::env::var_os(AS_PROJECT).is_some() {
-        return cli::main(&PROJECT);
-    }
-    let filter = arguments.iter().find(|argument| !argument.starts_with('-'));
-    let mut failed = 0;
-    for (name, test) in TESTS.iter().filter(|(name, _)| filter.is_none_or(|filter| name.contains(filter.as_str()))) {
-        let start = Instant::now();
-        let passes = std::panic::catch_unwind(test).is_ok();
-        failed += usize::from(!passes);
-        let ending = if passes { "ok" } else { "FAILED" };
-        println!("test {name} ... {ending} ({:.1} s)", start.elapsed().as_secs_f64());
-    }
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
+const HARNESS: &str = env!("CARGO_BIN_EXE_powers");
+const SOLVER: &str = env!("CARGO_BIN_EXE_solver");
 
 /// A folder with the study `s.toml` of the solver in this mode; the path of the folder marks its processes.
 pub(crate) struct Place {
@@ -105,9 +30,7 @@ impl Place {
     }
 
     pub(crate) fn write(&self, mode: &str) {
-        let exe = std::env::current_exe().unwrap();
-        let command =
-            [exe.to_str().unwrap(), solver::COMMAND, self.token(), mode, "{n}"].map(|word| format!("{word:?}"));
+        let command = [SOLVER, self.token(), mode, "{n}"].map(|word| format!("{word:?}"));
         // There is no placeholder if the case is read from standard input.
         let command = command.join(", ").replace("{n}", if mode == "stdin" { "-" } else { "{n}" });
         self.write_text(&format!(
@@ -127,20 +50,19 @@ impl Place {
     }
 
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(std::env::current_exe().unwrap());
-        command.args(arguments).current_dir(self.folder.path()).env(AS_PROJECT, "1").env_remove("CARGO_MANIFEST_DIR");
+        let mut command = Command::new(HARNESS);
+        command.args(arguments).current_dir(self.folder.path()).env_remove("CARGO_MANIFEST_DIR");
         command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
-        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }
 
     /// Exit status, standard output and standard error of `study s.toml` with these arguments.
     pub(crate) fn study(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
-        texts(self.command(&[&["study", "s.toml"], arguments].concat()).output().unwrap())
+        texts(&mut self.command(&[&["study", "s.toml"], arguments].concat()))
     }
 
     pub(crate) fn start(&self) -> Child {
-        self.command(&["study", "s.toml", "--jobs", "2"]).spawn().unwrap()
+        started(&mut self.command(&["study", "s.toml", "--jobs", "2"]))
     }
 
     /// Command lines of the running processes of this test.
@@ -157,7 +79,7 @@ impl Place {
     pub(crate) fn wait_for(&self, so_many: impl Fn(usize) -> bool) {
         let start = Instant::now();
         while !so_many(self.running().len()) {
-            assert!(start.elapsed() < Duration::from_secs(20), "still running: {:#?}", self.running());
+            assert!(start.elapsed() < PATIENCE, "still running: {:#?}", self.running());
             sleep(Duration::from_millis(5));
         }
     }
@@ -173,11 +95,13 @@ impl Place {
     }
 }
 
-pub(crate) fn texts(output: Output) -> (Option<i32>, String, String) {
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (output.status.code(), out, err)
+/// Exit status, standard output and standard error.
+pub(crate) fn texts(command: &mut Command) -> (Option<i32>, String, String) {
+    let Ended { status, stdout, stderr } = output(command).into();
+    (status, stdout, stderr)
 }
 
+#[test]
 fn a_program_is_judged_by_its_errors() {
     let place = Place::new("ok", "");
     let (status, out, err) = place.study(&[]);
@@ -196,6 +120,7 @@ fn a_program_is_judged_by_its_errors() {
     assert!(levels.iter().all(|level| level["work"].is_number() && level["step"].is_number()), "{levels:?}");
 }
 
+#[test]
 fn a_value_is_judged_by_its_differences() {
     let place = Place::new("ok", "");
     let text =
@@ -215,6 +140,7 @@ fn a_value_is_judged_by_its_differences() {
     }
 }
 
+#[test]
 fn a_grid_finds_both_orders() {
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
@@ -242,6 +168,7 @@ fn a_grid_finds_both_orders() {
     }
 }
 
+#[test]
 fn a_program_without_placeholders_reads_the_case() {
     let (status, out, err) = Place::new("stdin", "").study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
@@ -262,6 +189,7 @@ fn complaint(place: &Place) -> String {
     out[at..].lines().next().unwrap().to_owned()
 }
 
+#[test]
 fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     for (mode, told) in [
         ("abort", "ended with signal 6 (SIGABRT)"),
@@ -276,8 +204,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
         ("cut", "it does not end on its line: print it with json.dumps(...) on one line"),
     ] {
         let line = complaint(&Place::new(mode, ""));
-        let program = std::env::current_exe().unwrap();
-        assert!(line.contains(told) && line.contains(program.to_str().unwrap()), "{mode}: {line}");
+        assert!(line.contains(told) && line.contains(SOLVER), "{mode}: {line}");
     }
     // A missing program.
     let place = Place::new("ok", "");
@@ -296,17 +223,20 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     }
 }
 
+#[test]
 fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
+    // Long enough for the programs that do not hang, on a busy machine.
     for mode in ["hang", "ignore-term"] {
-        let line = complaint(&Place::new(mode, "timeout = 0.3"));
-        assert!(line.contains("was stopped at the limit of 0.3 s"), "{line}");
+        let line = complaint(&Place::new(mode, "timeout = 3"));
+        assert!(line.contains("was stopped at the limit of 3 s"), "{line}");
     }
     let place = Place::new("hang", "");
-    let (status, out, _) = place.study(&["--case-limit", "0.3"]);
-    assert!(status == Some(1) && out.contains("was stopped at the limit of 0.3 s"), "{out}");
+    let (status, out, _) = place.study(&["--case-limit", "3"]);
+    assert!(status == Some(1) && out.contains("was stopped at the limit of 3 s"), "{out}");
     assert_eq!(place.running(), [""; 0]);
 }
 
+#[test]
 fn much_output_takes_little_memory() {
     let place = Place::new("flood", "");
     let mut harness = place.start();
@@ -316,48 +246,52 @@ fn much_output_takes_little_memory() {
         line.trim().trim_end_matches(" kB").parse::<u64>().ok()
     };
     let mut kilobytes = 0;
+    let start = Instant::now();
     while harness.try_wait().unwrap().is_none() {
+        assert!(start.elapsed() < PATIENCE, "the harness hangs");
         kilobytes = peak(harness.id()).map_or(kilobytes, |now| now.max(kilobytes));
         sleep(Duration::from_millis(2));
     }
-    assert_eq!(harness.wait().unwrap().code(), Some(0));
+    assert_eq!(finished(harness).status.code(), Some(0));
     assert!((1000..60_000).contains(&kilobytes), "{kilobytes} kB");
 }
 
 /// Processes of every kind end when this signal ends the harness.
-fn nothing_is_left_after(signal: &str) {
+fn nothing_is_left_after(name: &str) {
     for mode in ["hang", "ignore-term", "fork", "leave"] {
         let mut place = Place::new(mode, "");
         // So that a program whose child hangs is still running, too.
         place.more = "timeout = 100".to_owned();
         let hangs = |mode: &str| matches!(mode, "hang" | "ignore-term");
-        let mut harness = place.start();
+        let harness = place.start();
         if hangs(mode) {
             place.wait_for(|running| running > 0);
         }
         sleep(Duration::from_millis(50));
-        let pid = harness.id().to_string();
-        assert!(Command::new("kill").args([signal, &pid]).status().unwrap().success());
-        let status = harness.wait().unwrap();
+        signal(harness.id(), name);
+        let status = finished(harness).status;
         assert!(!hangs(mode) || !status.success(), "{mode}: {status}");
         place.wait_for(|running| running == 0);
     }
 }
 
+#[test]
 fn a_killed_harness_leaves_nothing() {
     nothing_is_left_after("-KILL");
     nothing_is_left_after("-TERM");
 }
 
+#[test]
 fn an_interrupted_harness_leaves_nothing() {
     let place = Place::new("hang", "");
-    let mut harness = place.start();
+    let harness = started(&mut interruptible(&place.command(&["study", "s.toml", "--jobs", "2"])));
     place.wait_for(|running| running > 0);
-    assert!(Command::new("kill").args(["-INT", &harness.id().to_string()]).status().unwrap().success());
-    assert_eq!(harness.wait().unwrap().code(), Some(130));
+    signal(harness.id(), "-INT");
+    assert_eq!(finished(harness).status.code(), Some(130));
     place.wait_for(|running| running == 0);
 }
 
+#[test]
 fn what_a_study_file_may_get_wrong_is_named() {
     let place = Place::new("ok", "timeout = 9");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
@@ -365,7 +299,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "\"{n}\"",
             "\"--dt={dt}\"",
-            "program.command[4]: found the placeholder {dt}; expected one that `refine` gives",
+            "program.command[3]: found the placeholder {dt}; expected one that `refine` gives",
         ),
         ("command = [", "command = [] # [", "program.command: found the list []; expected a list of the program"),
         ("timeout = 9", "timeout = 0", "s.toml:8:11: program.timeout: found 0; expected a number of seconds > 0"),
@@ -376,7 +310,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         ("n = [4, ", "n = [8, ", "refine.n[1]: found 8; expected a number > 8, the level before"),
         ("error = \"L2\"", "norm = \"L2\"", "expect[0].norm: unknown key `norm`"),
         ("tolerance = 0.05", "tolerance = 0.5", "expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5"),
-        ("kind = \"program\"", "", "s.toml:1:1: study.kind: missing; expected \"program\""),
+        ("kind = \"program\"", "", "s.toml:1:1: study.kind: missing; expected \"power\", \"program\""),
         ("[[expect]]", "[[expct]]", "unknown key `expct`, did you mean `expect`?"),
     ] {
         assert!(text.contains(old), "{old}");
@@ -400,10 +334,11 @@ pub(crate) fn project_of(place: Place) -> Place {
     place
 }
 
+#[test]
 fn an_error_that_only_some_answers_have_is_guarded_there() {
     let place = project("optional");
     let studies = place.folder.path().join("studies");
-    let verify = |arguments: &[&str]| texts(place.command(&[&["verify"], arguments].concat()).output().unwrap());
+    let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
     fs::write(studies.join("all"), "").unwrap();
     let (status, out, err) = verify(&["--bless"]);
     assert_eq!(status, Some(0), "{out}{err}");
@@ -424,10 +359,11 @@ fn an_error_that_only_some_answers_have_is_guarded_there() {
     assert!(status == Some(1) && out.contains("error max, n = 16"), "{out}");
 }
 
+#[test]
 fn a_study_of_a_program_is_guarded_and_explained() {
     let place = project("ok");
     let root = place.folder.path();
-    let run = |arguments: &[&str]| texts(place.command(arguments).output().unwrap());
+    let run = |arguments: &[&str]| texts(&mut place.command(arguments));
     assert_eq!(run(&["verify", "--bless"]).0, Some(0));
     assert_eq!(run(&["verify"]).0, Some(0));
     let baseline = fs::read_to_string(root.join("studies/baseline.json")).unwrap();

@@ -19,7 +19,8 @@ fn told(root: &TempDir, table: &str, options: &[&str]) -> (Option<i32>, String) 
     (status, (out + &err).split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
-pub(super) fn rates_says_how_it_read_a_table() {
+#[test]
+fn rates_says_how_it_read_a_table() {
     let root = workspace(false);
     let text = "spam,L2,other\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
     fs::write(root.path().join("t"), text).unwrap();
@@ -48,7 +49,8 @@ pub(super) fn rates_says_how_it_read_a_table() {
     assert!(rates(&[]).2.contains("found UTF-16; expected UTF-8 text: save the file as UTF-8"));
 }
 
-pub(super) fn claims_that_contradict_each_other_are_refused() {
+#[test]
+fn claims_that_contradict_each_other_are_refused() {
     let root = workspace(false);
     let rows = "0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n";
     fs::write(root.path().join("t"), format!("h [m],L2 [Pa],H1 (Pa)\n{rows}")).unwrap();
@@ -73,7 +75,8 @@ pub(super) fn claims_that_contradict_each_other_are_refused() {
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }
 
-pub(super) fn wrong_claims_are_answered_with_what_to_do() {
+#[test]
+fn wrong_claims_are_answered_with_what_to_do() {
     let root = workspace(false);
     let first = [0.0412, 0.0203, 0.010075, 0.0050188, 0.0025047];
     let second = [0.00412, 0.001015, 0.00025188, 6.2734e-05, 1.5654e-05];
@@ -138,7 +141,8 @@ pub(super) fn wrong_claims_are_answered_with_what_to_do() {
     assert!(status == Some(1) && told.contains("p: fail: -1.0") && told.contains("L2_u: pass"), "{told}");
 }
 
-pub(super) fn values_and_rounded_numbers_are_told_from_errors() {
+#[test]
+fn values_and_rounded_numbers_are_told_from_errors() {
     let root = workspace(false);
     let drag = "h, drag\n0.1, 5.577\n0.05, 5.5718\n0.025, 5.5704\n";
     let (status, text) = told(&root, drag, &["--order", "2"]);

@@ -9,6 +9,9 @@ mod damage;
 mod readers;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use damage::{Dice, damaged};
@@ -17,8 +20,23 @@ use readers::{Bench, Reading, seeds};
 /// Inputs of a test run: about a second.
 const INPUTS: u64 = 1_500;
 
-/// An input that takes longer to read counts as a hang; the largest allowed mesh takes about a second.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// An input that takes longer to read has hung its reader: the largest allowed mesh takes about a second.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Reads an input, and ends this program if that hangs: a thread cannot be stopped otherwise.
+fn watched<T>(bytes: &[u8], read: impl FnOnce() -> T) -> T {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(500)]).into_owned();
+    let (sender, receiver) = mpsc::channel::<()>();
+    thread::spawn(move || {
+        if receiver.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+            eprintln!("a reader hangs on the input that begins with\n{start}");
+            process::abort();
+        }
+    });
+    let outcome = read();
+    drop(sender);
+    outcome
+}
 
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|text| text.parse().expect("a whole number"))
@@ -29,12 +47,7 @@ fn number(name: &str) -> Option<u64> {
 /// # Errors
 /// A description of the failure.
 fn tried(bench: &Bench, reading: Reading, bytes: &[u8]) -> Result<bool, String> {
-    let start = Instant::now();
-    let outcome = catch_unwind(AssertUnwindSafe(|| bench.read(reading, bytes)));
-    if start.elapsed() > PATIENCE {
-        return Err(format!("took {:?}", start.elapsed()));
-    }
-    match outcome {
+    match watched(bytes, || catch_unwind(AssertUnwindSafe(|| bench.read(reading, bytes)))) {
         Err(_) => Err("panicked".to_owned()),
         Ok(Ok(())) => Ok(true),
         Ok(Err(message)) => bench.is_located(&message).map(|()| false),

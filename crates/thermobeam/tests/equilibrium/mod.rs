@@ -3,8 +3,6 @@
 mod buckling;
 mod completeness;
 mod discrete;
-#[path = "../p1_matrices/mod.rs"]
-mod p1_matrices;
 
 use thermobeam::equilibrium::{Equilibrium, Phase, equilibria};
 use thermobeam::norms::max_or_nan;

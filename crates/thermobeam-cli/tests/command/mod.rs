@@ -2,7 +2,6 @@
 
 mod accuracy;
 mod any_order;
-mod ended;
 mod equilibria;
 mod failure;
 mod first_steps;
@@ -20,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ended::{Ended, ended};
+use convergence_study_tests::{Ended, ended};
 
 /// A folder for one test, removed at its end.
 struct Folder(PathBuf);

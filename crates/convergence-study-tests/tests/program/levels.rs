@@ -1,11 +1,11 @@
 //! Levels without a result or without their step; few levels.
 
 use std::fs;
-use std::time::Instant;
 
-use crate::tests::Place;
+use super::Place;
 
-pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
+#[test]
+fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     let place = Place::new("abort", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     for levels in ["[4, 8, 16, 32, 64]", "[1, 2, 4, 8, 16]", "[16, 32, 64, 128, 256]"] {
@@ -44,7 +44,8 @@ pub(crate) fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     );
 }
 
-pub(crate) fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over() {
+#[test]
+fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over() {
     let place = Place::new("cells", "");
     let (status, out, err) = place.study(&[]);
     assert!(status == Some(0) && out.contains("2.0000 ± 0.00005"), "{out}{err}");
@@ -54,7 +55,8 @@ pub(crate) fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_jud
     assert!(status == Some(1) && out.contains("too high"), "the error is 1/n: over 1/n its order would be 1\n{out}");
 }
 
-pub(crate) fn other_claims_than_an_order_are_judged() {
+#[test]
+fn other_claims_than_an_order_are_judged() {
     let place = Place::new("plain", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     let study = |from: &str, to: &str| {
@@ -99,7 +101,8 @@ pub(crate) fn other_claims_than_an_order_are_judged() {
     assert!(found == Some(2) && err.contains("one of the two in all of a study"), "{err}");
 }
 
-pub(crate) fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
+#[test]
+fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
     let place = Place::new("degrees", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     let text = text.replace("[4, 8, 16, 32, 64]", "[1, 2, 3, 4, 5]");
@@ -115,13 +118,15 @@ pub(crate) fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
     }
 }
 
-pub(crate) fn a_name_that_an_answer_has_twice_is_refused() {
+#[test]
+fn a_name_that_an_answer_has_twice_is_refused() {
     let place = Place::new("twice", "");
     let (status, out, err) = place.study(&[]);
     assert!(status == Some(1) && (out.clone() + &err).contains("`L2` occurs twice"), "{out}{err}");
 }
 
-pub(crate) fn what_is_finite_beside_a_nan_is_kept() {
+#[test]
+fn what_is_finite_beside_a_nan_is_kept() {
     let place = Place::new("half", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&(text + "[[expect]]\nerror = \"H1\"\norder = 1.0\ntolerance = 0.05\n"));
@@ -135,7 +140,8 @@ pub(crate) fn what_is_finite_beside_a_nan_is_kept() {
     assert!(rates.contains("pass") && rates.contains("1-5 of 5"), "{out}");
 }
 
-pub(crate) fn a_study_of_two_levels_has_the_rate_between_them() {
+#[test]
+fn a_study_of_two_levels_has_the_rate_between_them() {
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
@@ -147,24 +153,16 @@ pub(crate) fn a_study_of_two_levels_has_the_rate_between_them() {
     assert!(status == Some(1) && rates.contains(" 2.000 ") && rates.contains("finest pair"), "{out}");
 }
 
-pub(crate) fn steps_that_only_some_levels_answer_are_refused() {
+#[test]
+fn steps_that_only_some_levels_answer_are_refused() {
     let (status, out, err) = Place::new("own-step", "").study(&[]);
     assert_eq!(status, Some(1), "{out}{err}");
     let told = "expected h in the answers of all levels or of none; found it in those of n = 16, not in those of n = 4; n = 8; n = 32; n = 64";
     assert!(out.contains(told) && !out.contains("Rates"), "{out}");
 }
 
-pub(crate) fn the_seconds_of_a_study_are_those_that_passed() {
-    let place = Place::new("sleep", "");
-    let start = Instant::now();
-    let (status, out, _) = place.study(&["--jobs", "5"]);
-    let passed = start.elapsed().as_secs_f64();
-    let seconds: f64 = out.lines().next().unwrap().split(' ').rev().nth(1).unwrap().parse().unwrap();
-    // Each of the five cases takes 0.4 s.
-    assert!(status == Some(0) && (0.4..passed + 0.01).contains(&seconds), "{passed}: {out}");
-}
-
-pub(crate) fn levels_are_added_until_it_is_decided_within_the_budget() {
+#[test]
+fn levels_are_added_until_it_is_decided_within_the_budget() {
     let place = Place::new("late", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     let second = "[[expect]]\nerror = \"L1\"\norder = 2.0\ntolerance = 0.05\n";

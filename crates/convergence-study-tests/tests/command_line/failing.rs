@@ -2,9 +2,10 @@
 
 use std::fs;
 
-use crate::{command, run, study, texts, workspace};
+use super::{command, run, study, texts, workspace};
 
-pub(crate) fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
+#[test]
+fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
     let root = workspace(false);
     let file = root.path().join("studies/one.toml");
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
@@ -13,7 +14,7 @@ pub(crate) fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     fs::write(&file, study("one", "another claim", 1.0)).unwrap();
     let change = r#"one: claim study.claim: was "c", is "another claim""#;
-    let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true").output().unwrap());
+    let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true"));
     assert_eq!(status, Some(1));
     assert!(
         out.contains(
@@ -33,7 +34,8 @@ pub(crate) fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
     assert_eq!(run(&root, &["verify"]).0, Some(0));
 }
 
-pub(crate) fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
+#[test]
+fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     let root = workspace(true);
     let file = root.path().join("studies/two.toml");
     let full = |exponent| study("two", "c", exponent).replace("\"quick\"", "\"full\"");
@@ -54,7 +56,8 @@ pub(crate) fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
 }
 
 /// All of it fits on a screen.
-pub(crate) fn the_cause_is_printed_first_and_what_passes_is_counted() {
+#[test]
+fn the_cause_is_printed_first_and_what_passes_is_counted() {
     let root = workspace(true);
     fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
     assert_eq!(run(&root, &["verify", "one", "three", "--bless"]).0, Some(0));
@@ -72,7 +75,8 @@ pub(crate) fn the_cause_is_printed_first_and_what_passes_is_counted() {
     assert!(out.contains("\none    pass") && out.contains("\nthree  pass") && !out.contains("--verbose"), "{out}");
 }
 
-pub(crate) fn what_failed_is_repeated_alone_and_the_slowest_are_listed() {
+#[test]
+fn what_failed_is_repeated_alone_and_the_slowest_are_listed() {
     let root = workspace(true);
     let (status, out, err) = run(&root, &["verify", "--failed"]);
     assert!(status == Some(2) && out.is_empty() && err.contains("found no record of a run"), "{err}");
@@ -89,7 +93,8 @@ pub(crate) fn what_failed_is_repeated_alone_and_the_slowest_are_listed() {
     assert!(status == Some(1) && out.contains(": 1 of 1 fail (two); "), "{out}");
 }
 
-pub(crate) fn a_deleted_study_is_one_change_and_is_named() {
+#[test]
+fn a_deleted_study_is_one_change_and_is_named() {
     let root = workspace(false);
     fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
@@ -112,7 +117,8 @@ pub(crate) fn a_deleted_study_is_one_change_and_is_named() {
     assert!(baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(), "{baseline}");
 }
 
-pub(crate) fn the_page_links_to_what_is_there_of_the_full_tier() {
+#[test]
+fn the_page_links_to_what_is_there_of_the_full_tier() {
     let root = workspace(false);
     let page = || {
         run(&root, &["verify", "--bless"]);

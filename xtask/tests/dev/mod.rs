@@ -1,15 +1,13 @@
 //! The developers' tools as used by scripts, with fake programs.
 #![cfg(unix)]
 
-#[path = "../../../crates/thermobeam-cli/tests/command/ended.rs"]
-mod ended;
 mod regressions;
 
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;
 
-use ended::{Ended, ended};
+use convergence_study_tests::{Ended, ended};
 
 /// Writes a program for the test.
 fn program(path: &Path, text: &str) {

@@ -1,0 +1,10 @@
+//! The program that the studies of these tests run.
+
+#[cfg(unix)]
+mod misbehaving;
+
+/// Process groups exist only on Unix.
+fn main() {
+    #[cfg(unix)]
+    misbehaving::main();
+}

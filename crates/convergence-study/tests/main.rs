@@ -1,0 +1,25 @@
+//! The tests of the harness, in one program.
+
+mod asserted;
+mod calibration;
+#[cfg(feature = "command-line")]
+mod ci;
+mod circles;
+#[cfg(feature = "reports")]
+mod compare;
+#[cfg(feature = "files")]
+mod error_table;
+#[cfg(feature = "command-line")]
+mod explain;
+mod fit;
+mod grid;
+mod layering;
+#[cfg(feature = "reports")]
+mod plots;
+mod richardson;
+#[cfg(feature = "files")]
+mod tables;
+mod verdict_laws;
+mod verdict_rule;
+#[cfg(feature = "reports")]
+mod verification;

@@ -1,0 +1,10 @@
+//! The tests of the beam's studies, in one program.
+
+mod fuzz;
+mod input;
+mod kinds;
+mod manufactured;
+mod plots;
+mod predict;
+mod simulate;
+mod sweep;

@@ -1,0 +1,8 @@
+//! The tests of the tools, the map, the links and the workflow, in one program.
+
+mod action;
+mod dev;
+mod links;
+mod map;
+mod quick_tier;
+mod workflow;

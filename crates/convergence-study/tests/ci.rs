@@ -161,7 +161,7 @@ mod key {
         let folder = tempfile::tempdir().unwrap();
         let workspace = workspace();
         let crates = made_of("convergence-study", &workspace);
-        assert!(crates.contains("crates/convergence-judge") && !crates.contains("crates/thermobeam"), "{crates:?}");
+        assert!(crates.contains("crates/convergence-judge") && crates.len() < workspace.len(), "{crates:?}");
         let others = workspace.iter().map(|(_, folder)| folder).filter(|folder| !crates.contains(*folder));
         let manifests = ["Cargo.toml", "Cargo.lock"].map(str::to_owned);
         let source = |crate_folder: &String| format!("{crate_folder}/src/lib.rs");

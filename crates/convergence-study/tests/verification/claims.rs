@@ -184,7 +184,7 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     let failing = Fake { header: loose.clone(), ..fake("", Does::Stay) }.erased();
     let known = |ran: &[Finished]| {
         let items = Fingerprint::of(ran, &baseline.compare(ran, None));
-        let known = vec![Known { mistake: "half of rho".to_owned(), file: "kirchhoff.rs".to_owned(), items }];
+        let known = vec![Known { mistake: "half of rho".to_owned(), file: "force.rs".to_owned(), items }];
         Fingerprints { threshold: 0.5, known }
     };
     let diagnosed = |study: Box<dyn Study>| {
@@ -198,13 +198,13 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     );
     let lines = found.lines();
     assert!(lines[0] == ("claims", "changed: a: expect[0].tolerance 0.002, now 0.49".to_owned()), "{lines:?}");
-    assert!(!format!("{lines:?}").contains("kirchhoff"), "{lines:?}");
+    assert!(!format!("{lines:?}").contains("force"), "{lines:?}");
     // Where nothing fails and no number moved, the list of changed claims says it all.
     assert_eq!(diagnosed(study(&loose)), None);
     // Without a changed claim the known mistake is named.
     let same = Fake { header: header("b", &CLAIMS), ..fake("", Does::Stay) }.erased();
     let found = diagnosed(same).expect("a study fails");
-    assert!(found.claims.is_empty() && found.resembles[0].file == "kirchhoff.rs", "{found:?}");
+    assert!(found.claims.is_empty() && found.resembles[0].file == "force.rs", "{found:?}");
 }
 
 fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verification {

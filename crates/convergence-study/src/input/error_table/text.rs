@@ -55,38 +55,7 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     if let Some(table) = pairs::read(text, true) {
         return table;
     }
-    let is_comment = |line: &&str| line.trim_start().starts_with(['#', '%', '!']);
-    let lines = || text.lines().filter(|line| !line.trim().is_empty() && !is_rule(line));
-    let separator = separator(lines().filter(|line| !is_comment(line)));
-    let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
-    let (mut heads, mut rows): (Vec<&str>, Vec<(&str, Vec<&str>)>) = Default::default();
-    let mut quoted_names = None;
-    let mut all = lines().peekable();
-    while let Some(line) = all.next() {
-        if rows.is_empty()
-            && let Some(below) = all.peek()
-            && let Some(names) = names_in_quotes(line, below, separator)
-        {
-            quoted_names = Some(names);
-            continue;
-        }
-        // A row without the comment after it.
-        let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
-        let numbers = cells.iter().filter(|cell| is_number(cell)).count();
-        let is_row = match separator {
-            _ if cells.first().is_some_and(is_number) => true,
-            None => numbers > 1 && numbers + 1 >= cells.len(),
-            Some(_) => numbers > 0 && cells.len() > 1,
-        };
-        let begins = cells.iter().filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit())).count();
-        match rows.is_empty() {
-            _ if is_row && !is_comment(&line) => rows.push((line, cells)),
-            // A row with a word in place of a number is one, so that the word is refused.
-            false if begins > 0 && 2 * begins >= cells.len() && !is_comment(&line) => rows.push((line, cells)),
-            true => heads.push(line),
-            false => {}
-        }
-    }
+    let Lines { mut heads, mut rows, quoted_names, separator } = sorted(text);
     // A comment has the names only if no other line does.
     heads.sort_by_key(|line| !is_comment(line));
     heads.iter_mut().for_each(|line| *line = line.trim_start_matches(['#', '%', '!']));
@@ -119,6 +88,57 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
             RawTable { names, rows, ..table }
         }
     }
+}
+
+/// The lines of a text by what they hold.
+struct Lines<'t> {
+    /// Possibly names.
+    heads: Vec<&'t str>,
+    /// Rows of numbers, each with its cells.
+    rows: Vec<(&'t str, Vec<&'t str>)>,
+    /// Names that are numbers in quotes.
+    quoted_names: Option<Vec<&'t str>>,
+    /// Of cells; `None` for blanks.
+    separator: Option<char>,
+}
+
+fn is_comment(line: &&str) -> bool {
+    line.trim_start().starts_with(['#', '%', '!'])
+}
+
+/// Tells rows of numbers from lines above them.
+fn sorted(text: &str) -> Lines<'_> {
+    let lines = || text.lines().filter(|line| !line.trim().is_empty() && !is_rule(line));
+    let separator = separator(lines().filter(|line| !is_comment(line)));
+    let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
+    let (mut heads, mut rows, mut quoted_names) = (vec![], vec![], None);
+    let mut all = lines().peekable();
+    while let Some(line) = all.next() {
+        if rows.is_empty()
+            && let Some(below) = all.peek()
+            && let Some(names) = names_in_quotes(line, below, separator)
+        {
+            quoted_names = Some(names);
+            continue;
+        }
+        // A row without the comment after it.
+        let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
+        let numbers = cells.iter().filter(|cell| is_number(cell)).count();
+        let is_row = match separator {
+            _ if cells.first().is_some_and(is_number) => true,
+            None => numbers > 1 && numbers + 1 >= cells.len(),
+            Some(_) => numbers > 0 && cells.len() > 1,
+        };
+        let begins = cells.iter().filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit())).count();
+        match rows.is_empty() {
+            _ if is_row && !is_comment(&line) => rows.push((line, cells)),
+            // A row with a word in place of a number is one, so that the word is refused.
+            false if begins > 0 && 2 * begins >= cells.len() && !is_comment(&line) => rows.push((line, cells)),
+            true => heads.push(line),
+            false => {}
+        }
+    }
+    Lines { heads, rows, quoted_names, separator }
 }
 
 /// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two cells.

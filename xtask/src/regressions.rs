@@ -52,10 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         return Err(Unusable::because(&format!("no regression with {} in its name", arguments.only.join(" or "))));
     }
     if arguments.list {
-        let row = |one: &&Regression| vec![one.name.clone(), one.file.clone(), one.noticed_by().to_owned()];
-        let rows = chosen.iter().map(row).collect::<Vec<_>>();
-        screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
-        return Ok(Verdict::Pass);
+        return print_list(&chosen);
     }
     // All of them are checked before the first is compiled.
     let planted = chosen.iter().map(|regression| regression.planted(&root)).collect::<Result<Vec<_>, _>>()?;
@@ -93,6 +90,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         screen::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
     }
     Ok(if named == count { Verdict::Pass } else { Verdict::Fail })
+}
+
+fn print_list(chosen: &[&Regression]) -> Outcome {
+    let row = |one: &&Regression| vec![one.name.clone(), one.file.clone(), one.noticed_by().to_owned()];
+    let rows = chosen.iter().map(row).collect::<Vec<_>>();
+    screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
+    Ok(Verdict::Pass)
 }
 
 /// Where later runs of `verify` find the effects of these mistakes.

@@ -314,7 +314,7 @@ mod tests {
         let gone = Change::new("study", "gone", Movement::Vanished { value: 2.0 });
         let kept = Change::new("study", "kept", Movement::Vanished { value: 1.0 });
         let found = Quantity::new("kept", 1.0, 1e-3);
-        assert_eq!(of_numbers("study", &expected, &[found]), [gone.clone()]);
-        assert_eq!(of_numbers("study", &expected, &[]), [gone, kept]);
+        assert_eq!(of_numbers("study", &expected, &[]), [gone.clone(), kept]);
+        assert_eq!(of_numbers("study", &expected, &[found]), [gone]);
     }
 }

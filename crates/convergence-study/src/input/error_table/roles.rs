@@ -1,6 +1,7 @@
 //! Which columns are errors, values and rates: decided by their numbers, and by their names if the numbers do not decide.
 
 use std::collections::HashSet;
+use std::hash::Hash;
 
 use super::columns::{Cells, Trend};
 use super::names::Word;
@@ -19,6 +20,12 @@ enum Holds {
     Other(String),
     /// Possibly an error that does not fall.
     Doubtful(String),
+}
+
+/// The first key whose name an earlier key has. Tables may have many thousand columns: no name is compared with all others.
+fn repeated<K: Copy, N: Eq + Hash>(mut keys: impl Iterator<Item = K>, name: impl Fn(K) -> N) -> Option<K> {
+    let mut seen = HashSet::new();
+    keys.find(|key| !seen.insert(name(*key)))
 }
 
 /// Reads the step and the chosen errors. A refusal has the commands that read the table and find its claimed columns.
@@ -55,8 +62,7 @@ fn attempt(text: &str, file: &str, choice: &Choice, table: &RawTable<'_>) -> Res
         Some(_) => (errors, vec![]),
         None => (reader.found(&step, &steps, &values)?, std::mem::take(&mut reader.left_out)),
     };
-    let mut seen = HashSet::new();
-    if let Some(&twice) = errors.iter().chain(&values).find(|k| !seen.insert(&reader.columns[**k].name)) {
+    if let Some(&twice) = repeated(errors.iter().chain(&values), |k| &reader.columns[*k].name) {
         return Err(reader.twice(twice));
     }
     let is_exact = step.measure != Measure::Step || reader.columns[step.column].regular().is_some();
@@ -217,5 +223,41 @@ impl TableReader<'_> {
         let offer = self.offer(|choice| choice.names = Some(numbered.collect()));
         let found = format!("`{}` a second time", shorten(&self.columns[column].name));
         Refusal::from(self.error(self.head(column), None, "each name once", &found)).offering([offer])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::hash::Hasher;
+
+    use super::*;
+
+    /// A name that counts how often it is compared.
+    struct Counted<'c>(usize, &'c Cell<usize>);
+
+    impl PartialEq for Counted<'_> {
+        fn eq(&self, other: &Self) -> bool {
+            self.1.set(self.1.get() + 1);
+            self.0 == other.0
+        }
+    }
+
+    impl Eq for Counted<'_> {}
+
+    impl Hash for Counted<'_> {
+        fn hash<H: Hasher>(&self, state: &mut H) {
+            self.0.hash(state);
+        }
+    }
+
+    #[test]
+    fn a_name_is_not_compared_with_all_others() {
+        let compared = Cell::new(0);
+        let name = |k| Counted(k, &compared);
+        assert_eq!(repeated([3, 1, 3, 1].into_iter(), name), Some(3));
+        assert_eq!(repeated(0..20_000, name), None);
+        // Each with all others: 2e8.
+        assert!(compared.get() < 20_000, "{} comparisons", compared.get());
     }
 }

@@ -125,7 +125,7 @@ impl Case {
 }
 
 /// `mass M + stiffness K`, with its factorisation.
-struct Operator {
+pub(crate) struct Operator {
     mass: f64,
     stiffness: f64,
     factor: TridiagonalFactor,
@@ -133,13 +133,13 @@ struct Operator {
 
 impl Operator {
     /// For the nodes 1..=last; `None` if it is not positive definite.
-    fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
+    pub(crate) fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
         let mut factor = TridiagonalFactor::new(last);
         factor.factorize(lengths, mass, stiffness, 0.0).ok().map(|()| Self { mass, stiffness, factor })
     }
 
     /// Solves for the nodes, zero where the value is prescribed.
-    fn solve(&self, x: &mut [f64]) {
+    pub(crate) fn solve(&self, x: &mut [f64]) {
         x[0] = 0.0;
         let last = x.len() - 1;
         self.factor.solve_in_place(x);
@@ -178,7 +178,7 @@ fn round_trip(lengths: &[f64], b: f64, outer: &Operator, inner: &Operator) -> f6
 }
 
 /// `w = s Cᵀ v`.
-fn transposed_coupling(s: f64, v: &[f64], w: &mut [f64]) {
+pub(crate) fn transposed_coupling(s: f64, v: &[f64], w: &mut [f64]) {
     w.fill(0.0);
     for i in 0..v.len() - 1 {
         let shear = 0.5 * s * (v[i + 1] - v[i]);
@@ -188,7 +188,7 @@ fn transposed_coupling(s: f64, v: &[f64], w: &mut [f64]) {
 }
 
 /// `v = s C w`.
-fn coupling(s: f64, w: &[f64], v: &mut [f64]) {
+pub(crate) fn coupling(s: f64, w: &[f64], v: &mut [f64]) {
     v.fill(0.0);
     for i in 0..w.len() - 1 {
         let stress = 0.5 * s * (w[i] + w[i + 1]);

@@ -1,17 +1,21 @@
 //! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
 use crate::scenes::{advance, graded, simulate, stepping, uniform};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> Simulation {
-    let settings = Settings { solver: Solver::FixedPoint, tolerance, max_iterations: 1000, ..Settings::default() };
+    let settings = Settings {
+        solver: Solver::FixedPoint,
+        stopping: Stopping::Converged { tolerance, max_iterations: 1000 },
+        ..Settings::default()
+    };
     simulate(problem, Stepping { scheme, settings, ..stepping(dt) })
 }
 
@@ -133,5 +137,95 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
         assert!((contraction - factor).abs() <= 0.03 * factor, "{contraction} for {factor}");
         let said = error.to_string();
         assert!(said.contains("rotation and temperature") && !said.contains("epsilon"), "{said}");
+    }
+}
+
+/// The matrix of the linearised iteration over (δV, δW), from dense matrices of (4.2).
+fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DMatrix<f64> {
+    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let Problem { beam, obstacles, initial, .. } = problem;
+    let n = m.nrows();
+    let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
+    let u = DVector::from_column_slice(&initial.u[1..]);
+    let bent = &k * &u;
+    let axial_force = beam.beta + beam.rho * u.dot(&bent);
+    // θ vanishes at the free end too.
+    let of_theta = (&m * (2.0 / dt) + &k).view((0, 0), (n - 1, n - 1)).into_owned();
+    let of_phi = &m * (kappa + s) + &k * s;
+    let of_u = &m * kappa + &k * (s + 0.5 * dt * axial_force);
+    let heat = of_theta.lu().solve(&(c.transpose().rows(0, n - 1) * -beam.a)).unwrap();
+    let solve_phi = of_phi.lu();
+    let phi_of_v = solve_phi.solve(&(c.transpose() * s)).unwrap();
+    let phi_of_w = solve_phi.solve(&(c.columns(0, n - 1) * heat * beam.a)).unwrap();
+    let touches = |obstacles: &Obstacles| u[n - 1] > obstacles.g2 || u[n - 1] < obstacles.g1;
+    let slope = obstacles.filter(touches).map_or(0.0, |obstacles| 1.0 / (scheme.inertia * obstacles.epsilon));
+    let mut lagged = &bent * bent.transpose() * (beam.rho * dt);
+    lagged[(n - 1, n - 1)] += dt * slope;
+    let solve_u = of_u.lu();
+    let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+    matrix.view_mut((0, 0), (n, n)).copy_from(&solve_u.solve(&(&c * &phi_of_v * s - lagged)).unwrap());
+    matrix.view_mut((0, n), (n, n)).copy_from(&solve_u.solve(&(&c * &phi_of_w * s)).unwrap());
+    matrix.view_mut((n, 0), (n, n)).copy_from(&phi_of_v);
+    matrix.view_mut((n, n), (n, n)).copy_from(&phi_of_w);
+    matrix
+}
+
+/// All loops at once, on a graded mesh: contact, rotation, heat and axial force.
+fn coupled(scheme: &Scheme) -> Problem {
+    let mesh = graded(10);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u = mesh.nodes().iter().map(|x| 0.15 * x * x).collect();
+    let beam = Beam { a: 3.0, rho: 500.0, beta: 0.3, ..Beam::default() };
+    let epsilon = 2e-3 / scheme.inertia;
+    Problem { beam, obstacles: Some(Obstacles { epsilon, ..Obstacles::default() }), mesh, initial }
+}
+
+#[test]
+fn the_linearised_iteration_is_the_dense_matrix() {
+    for scheme in SCHEMES {
+        let (problem, dt) = (coupled(&scheme), 3e-3);
+        let expected = dense_iteration(&problem, &scheme, dt);
+        let mut map = problem.case(scheme, dt).linearized_iteration(&problem.initial.u).unwrap();
+        let n = map.elements();
+        for column in 0..2 * n {
+            let mut errors = [vec![0.0; n + 1], vec![0.0; n + 1]];
+            errors[column / n][1 + column % n] = 1.0;
+            let [v, w] = &mut errors;
+            map.apply(v, w);
+            for row in 0..2 * n {
+                let found = errors[row / n][1 + row % n];
+                let difference = (found - expected[(row, column)]).abs();
+                assert!(difference <= 1e-12 * expected.amax(), "{}: {row}, {column}: {found}", scheme.name);
+            }
+        }
+    }
+}
+
+/// The spectral radius of the linearised iteration, from its dense matrix.
+fn radius(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
+    let values = dense_iteration(problem, scheme, dt).complex_eigenvalues();
+    values.iter().map(|value| value.norm()).fold(0.0, max_or_nan)
+}
+
+/// A single factor above 1 does not show divergence, and factors below 1 do not show convergence: the loops act on the same
+/// fields, and cancel or add.
+#[test]
+fn the_spectral_radius_decides_and_not_the_largest_factor() {
+    let mesh = uniform(50);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
+    let hot = Problem { beam: Beam { a: 3.425, ..Beam::default() }, obstacles: None, mesh: mesh.clone(), initial };
+    let mut bent = Initial::at_rest(&mesh, 0.0);
+    bent.u = mesh.nodes().iter().map(|x| 0.10001 * x.powi(16)).collect();
+    let beam = Beam { rho: 1000.0, ..Beam::default() };
+    let stiff = Problem { beam, obstacles: Some(Obstacles::default()), mesh, initial: bent };
+    for (problem, dt, factors, expected) in [(hot, 1.0, 1.0..1.01, 0.900), (stiff, 4e-3, 0.6..0.7, 1.100)] {
+        let (factor, _) = problem.case(EULER_CRANK_NICOLSON, dt).contraction(&problem.initial.u);
+        let found = radius(&problem, &EULER_CRANK_NICOLSON, dt);
+        assert!(factors.contains(&factor), "{factor}");
+        assert!((found - expected).abs() <= 2e-3, "{found} for {expected}");
+        if found < 1.0 {
+            assert!(by_fixed_point(&problem, EULER_CRANK_NICOLSON, dt, 1e-10).advance().is_ok());
+        }
     }
 }

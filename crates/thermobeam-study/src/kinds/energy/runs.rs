@@ -131,7 +131,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let steps = section.count("steps", 1..=limits::STEPS)?;
     let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
     let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
-    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    let settings = Settings { stopping: Stopping::below(SOLVED), ..Settings::default() };
     let by_scheme = |name: String, is_scene: bool, problem: Problem| {
         schemes.iter().enumerate().map(move |(k, &scheme)| EnergyRun {
             name: format!("{name}, {}", scheme.name),
@@ -166,7 +166,8 @@ fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
     let stepping = scene.one_step().map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
     let newton = stepping.settings.solver == Solver::Newton;
     // The balance holds for the exact solution of a step only.
-    let settings = if newton { Settings { tolerance: SOLVED, ..stepping.settings } } else { stepping.settings };
+    let settings =
+        if newton { Settings { stopping: Stopping::below(SOLVED), ..stepping.settings } } else { stepping.settings };
     Ok(EnergyRun {
         name,
         claim: section.require("claim", "a text")?.text()?.to_owned(),

@@ -72,6 +72,55 @@ impl<'a> ErrorMeter<'a> {
     /// in L2, and those of the derivatives with respect to x.
     pub fn errors(&mut self, level: &Level) -> [[f64; 5]; 2] {
         self.factors.at(self.exact, level.t);
+        let mut squares = [[0.0_f64; 2]; Field::ALL.len()];
+        for (k, (_, weight)) in self.points.iter().enumerate() {
+            for (square, [value, slope]) in squares.iter_mut().zip(self.errors_at(k, level, self.theta_a)) {
+                square[0] += weight * value * value;
+                square[1] += weight * slope * slope;
+            }
+        }
+        [squares.map(|square| square[0].sqrt()), squares.map(|square| square[1].sqrt())]
+    }
+
+    /// The largest `|∫ e_x P_k(ξ) dξ|` over fields, elements and degrees k < p: e is the error of a level, P_k Legendre's polynomial
+    /// on ξ in [-1, 1]. The slopes of the space are these polynomials, so it is zero for the projection (3.6), and for no other level.
+    ///
+    /// * `theta_a`: temperature of the clamped end in the initial data.
+    pub fn slope_moments(&mut self, level: &Level, theta_a: f64) -> f64 {
+        self.factors.at(self.exact, level.t);
+        let (degree, nodes, mut largest) = (self.space.degree(), self.space.mesh().nodes(), 0.0);
+        let of_element = degree + EXTRA_POINTS;
+        let mut moments = vec![[0.0; Field::ALL.len()]; degree];
+        for (element, ends) in nodes.windows(2).enumerate() {
+            let h = ends[1] - ends[0];
+            moments.fill([0.0; Field::ALL.len()]);
+            for k in element * of_element..(element + 1) * of_element {
+                let (x, weight) = self.points[k];
+                let xi = (2.0 * x - ends[0] - ends[1]) / h;
+                let errors = self.errors_at(k, level, theta_a);
+                let (mut polynomial, mut before) = (1.0, 0.0);
+                for (m, sums) in moments.iter_mut().enumerate() {
+                    for (sum, [_, slope]) in sums.iter_mut().zip(errors) {
+                        *sum += 2.0 / h * weight * slope * polynomial;
+                    }
+                    // (m + 1) P_{m+1} = (2m + 1) ξ P_m - m P_{m-1}.
+                    let m = m as f64;
+                    let next = ((2.0 * m + 1.0) * xi * polynomial - m * before) / (m + 1.0);
+                    (before, polynomial) = (polynomial, next);
+                }
+            }
+            for moment in moments.as_flattened() {
+                // A comparison that keeps NaN.
+                if !(moment.abs() <= largest) {
+                    largest = moment.abs();
+                }
+            }
+        }
+        largest
+    }
+
+    /// Errors of value and slope of all fields at the k-th point, for the current factors.
+    fn errors_at(&self, k: usize, level: &Level, theta_a: f64) -> [[f64; 2]; 5] {
         let Factors { u, phi, theta } = &self.factors;
         let [shapes_u, shapes_phi, shapes_theta] = &self.shapes;
         // In the order of `Field::ALL`.
@@ -82,21 +131,18 @@ impl<'a> ErrorMeter<'a> {
             (shapes_phi, &phi.rate),
             (shapes_theta, &theta.value),
         ];
-        let mut squares = [[0.0_f64; 2]; Field::ALL.len()];
-        for (k, (x, weight)) in self.points.iter().enumerate() {
-            let mut found = level.values_and_slopes(&self.space, *x);
-            let (temperature, its_slope) = &mut found[4];
-            *temperature += self.theta_a * (1.0 - x);
-            *its_slope -= self.theta_a;
-            for ((square, (mut value, mut slope)), (shapes, factors)) in squares.iter_mut().zip(found).zip(exact) {
-                for (shape, factor) in shapes.iter().zip(factors) {
-                    value -= factor * shape[k][0];
-                    slope -= factor * shape[k][1];
-                }
-                square[0] += weight * value * value;
-                square[1] += weight * slope * slope;
+        let x = self.points[k].0;
+        let mut found = level.values_and_slopes(&self.space, x);
+        let (temperature, its_slope) = &mut found[4];
+        *temperature += theta_a * (1.0 - x);
+        *its_slope -= theta_a;
+        let mut errors = found.map(|(value, slope)| [value, slope]);
+        for ([value, slope], (shapes, factors)) in errors.iter_mut().zip(exact) {
+            for (shape, factor) in shapes.iter().zip(factors) {
+                *value -= factor * shape[k][0];
+                *slope -= factor * shape[k][1];
             }
         }
-        [squares.map(|square| square[0].sqrt()), squares.map(|square| square[1].sqrt())]
+        errors
     }
 }

@@ -78,6 +78,9 @@ fn headline(scene: &Scene, run: &Run) -> String {
     if let Some(failure) = &run.failure {
         let _ = writeln!(text, "\nFAILED after {}, at t = {}: {failure}", counted(run.steps, "step"), run.last.t);
     }
+    if let Some(note) = run.note(scene.method.tolerance()) {
+        let _ = writeln!(text, "\nNote: {note}");
+    }
     text
 }
 

@@ -78,8 +78,17 @@ pub struct Resolution {
     pub steps: usize,
 }
 
-/// The judged errors of one run, each with its name; errors in the fields at the end come first.
-pub type NamedErrors = Vec<(&'static str, f64)>;
+/// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the initial data.
+const PROJECTED: f64 = 1e-12;
+
+/// The judged errors of one run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// Each with its name; errors in the fields at the end come first.
+    pub named: Vec<(&'static str, f64)>,
+    /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the projection (3.6).
+    pub start: f64,
+}
 
 /// Runs that are judged together.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,7 +196,7 @@ fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOf
 
 impl Kind for AnyOrder {
     type Data = Resolution;
-    type Found = NamedErrors;
+    type Found = Errors;
 
     fn cases(&self) -> Vec<Case<Resolution>> {
         let case = |&data: &Resolution| {
@@ -205,13 +214,15 @@ impl Kind for AnyOrder {
 
     /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes. A study over time has the
     /// largest L2 errors of u and u_t inside steps instead of the slopes.
-    fn run(&self, resolution: &Resolution) -> Result<NamedErrors, CaseFailure> {
+    fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
         let mut motion = self.motion(*resolution)?;
         // The solver's temperature: its unknown is lifted by the solver's own θ_A.
         let theta_a = self.solver.beam.theta_a;
         let mut level = motion.simulation().level().clone();
         let (mut inside_u, mut inside_u_t) = (0.0, 0.0);
         let mut meter = ErrorMeter::new(&self.exact, theta_a, motion.simulation().space());
+        // The initial data have the θ_A of the loads, whatever the solver's is.
+        let start = meter.slope_moments(motion.simulation().level(), self.theory.beam.theta_a);
         while motion.step(self.t_end)?.is_some() {
             let simulation = motion.simulation();
             // Only a study over time judges these.
@@ -228,14 +239,16 @@ impl Kind for AnyOrder {
         }
         let [values, slopes] = meter.errors(motion.simulation().level());
         let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
-        Ok(match self.over {
+        let named = match self.over {
             Over::Time => vec![("ends", together(values)), ("u inside", inside_u), ("u_t inside", inside_u_t)],
             _ => vec![("fields", together(values)), ("slopes", together(slopes))],
-        })
+        };
+        Ok(Errors { named, start })
     }
 
-    fn judge(&self, ran: &[Ran<Resolution, NamedErrors>]) -> Outcome {
-        let completion = completion(ran, |errors| not_finite(errors.iter().copied()));
+    fn judge(&self, ran: &[Ran<Resolution, Errors>]) -> Outcome {
+        let completion = completion(ran, |errors| not_finite(errors.named.iter().copied()));
+        let checks = vec![completion, projected(ran)];
         let (mut rest, mut runs) = (ran, vec![]);
         for series in &self.series {
             // Fewer if some are missing.
@@ -244,8 +257,8 @@ impl Kind for AnyOrder {
             runs.push((series, mine));
         }
         match self.over {
-            Over::Degree => self.over_degrees(&runs, completion),
-            Over::Space | Over::Time => self.over_steps(&runs, completion),
+            Over::Degree => self.over_degrees(&runs, checks),
+            Over::Space | Over::Time => self.over_steps(&runs, checks),
         }
     }
 }
@@ -260,8 +273,8 @@ impl AnyOrder {
     }
 
     /// Rates over h or dt; one figure shows each degree's errors together.
-    fn over_steps(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, NamedErrors>])], completion: Check) -> Outcome {
-        let mut all = Outcome::new("", vec![], vec![completion]);
+    fn over_steps(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])], checks: Vec<Check>) -> Outcome {
+        let mut all = Outcome::new("", vec![], checks);
         for (series, runs) in runs {
             let Resolution { degree, time_degree, .. } = series.runs[0];
             let (letter, degree) = if self.over == Over::Time { ("q", time_degree) } else { ("p", degree) };
@@ -273,7 +286,7 @@ impl AnyOrder {
         Outcome { summary: summary(&all.rates), ..all }
     }
 
-    fn levels(&self, series: &RunsOfDegree, ran: &[Ran<Resolution, NamedErrors>]) -> Levels {
+    fn levels(&self, series: &RunsOfDegree, ran: &[Ran<Resolution, Errors>]) -> Levels {
         let (name, orders) = match (self.over, &series.runs[0]) {
             (Over::Time, Resolution { time_degree: q, .. }) => {
                 let orders = vec![("ends", 2 * q + 1), ("u inside", (q + 2).min(2 * q + 1)), ("u_t inside", q + 1)];
@@ -283,10 +296,10 @@ impl AnyOrder {
         };
         let claim = |(name, order): (&'static str, usize)| (name, Claim::new(order as f64, series.tolerance));
         let claims: Vec<(&str, Claim)> = orders.into_iter().map(claim).collect();
-        let errors: Vec<_> = ran.iter().map(|ran| ran.ok().map(Vec::as_slice)).collect();
+        let errors: Vec<_> = ran.iter().map(|ran| ran.ok().map(|errors| errors.named.as_slice())).collect();
         let mut columns = ErrorColumn::of(&claims, &errors);
         columns.iter_mut().for_each(|column| column.name = format!("{name}, {}", column.name));
-        let refinement = |ran: &Ran<Resolution, NamedErrors>| {
+        let refinement = |ran: &Ran<Resolution, Errors>| {
             let Resolution { degree, elements, time_degree, steps } = ran.case.data;
             let numbers = [("degree", degree), ("elements", elements), ("time degree", time_degree), ("steps", steps)];
             let step = match self.over {
@@ -300,11 +313,11 @@ impl AnyOrder {
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
-    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, NamedErrors>])], completion: Check) -> Outcome {
-        let mut checks = vec![completion];
+    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])], mut checks: Vec<Check>) -> Outcome {
+        let common = checks.len();
         let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
         for (series, runs) in runs {
-            let error = |run: &Ran<Resolution, NamedErrors>| run.ok().map_or(f64::NAN, |errors| errors[0].1);
+            let error = |run: &Ran<Resolution, Errors>| run.ok().map_or(f64::NAN, |errors| errors.named[0].1);
             let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
             checks.extend(exponential(&points, series.tolerance));
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));
@@ -318,7 +331,7 @@ impl AnyOrder {
         let drawing = Xy { x: plots::Axis::linear("degree p"), ..history };
         let svg = drawing.titled("Error over the degree of the elements").draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
-        let summary = checks.iter().skip(1).map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
+        let summary = checks.iter().skip(common).map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
         let (title, head) = ("Error of all fields at the end over the degree", ["mesh", "degree p", "error"]);
         Outcome {
             headline: summary.clone(),
@@ -328,6 +341,14 @@ impl AnyOrder {
             ..Outcome::new(summary, vec![], checks)
         }
     }
+}
+
+/// Whether every run starts from the projection (3.6) of its initial data; with none, completion fails.
+fn projected(ran: &[Ran<Resolution, Errors>]) -> Check {
+    let largest = ran.iter().filter_map(Ran::ok).map(|errors| errors.start).fold(0.0, max_or_nan);
+    let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";
+    let evidence = format!("largest moment on an element {largest:.1e}, allowed {PROJECTED:e}");
+    Check::that(largest <= PROJECTED, claim, evidence)
 }
 
 fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {

@@ -16,6 +16,9 @@
 //! steady = [[-0.01, 0]]        # u(1) and the number of unstable directions of each steady state, in the order of u(1)
 //! estimated_error = 1e-3       # what `--estimate-error` says of u(1) at the end
 //! chosen_u_tip = -0.040865     # u(1) at the end of the run that `--target-error` chooses for an error of `within`
+//! [case.most]                  # with `ends = "answer"`, beside an answer or in place of it: bounds
+//! iterations_per_step = 5.0    # mean number of iterations
+//! unsolved = 1.0               # distance of a step to the same step solved to round-off, over the tolerance; one-step schemes
 //! # and the tables of a scene, by any scheme
 //! [case.time]
 //! dt = 0.005
@@ -26,6 +29,8 @@ use super::energy::{End, named_cases};
 use super::prelude::*;
 use super::steady::exact_states;
 use super::tables::Discretisation;
+use super::watch::SOLVED;
+use crate::error::reference::distance;
 use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};
 use crate::predict::estimate::estimate;
@@ -40,8 +45,9 @@ pub const ROW: KindRow = KindRow {
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
           order those of a converged solution.",
-    judged: "Each number of an answer must be met within the bound of its case, and each run must end as the case says. The \
-             baseline guards all numbers of a run and its counts: steps, iterations, factorisations.",
+    judged: "Each number of an answer must be met within the bound of its case, and each run must end as the case says. Where a \
+             case bounds iterations or the distance to solved steps, they must stay below. The baseline guards all numbers of a \
+             run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
 };
@@ -72,6 +78,16 @@ struct Whole {
     answer: Expected,
     /// Bound on the distance to each number of the answer.
     within: f64,
+    most: Most,
+}
+
+/// Upper bounds on the cost of steps and on what their iterations leave unsolved.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Most {
+    /// On the mean number of iterations of a step.
+    iterations: Option<f64>,
+    /// On the distance of a step to the same step solved to round-off, in the norm of (3.14) and in units of the tolerance.
+    unsolved: Option<f64>,
 }
 
 /// Numbers by their names: some of [`NUMBERS`] and of [`PREDICTED`], and those of lists of pairs.
@@ -115,6 +131,8 @@ pub struct Shown {
     pub contact: Vec<(f64, f64)>,
     /// Predictions and steady states, where the answer has them.
     others: Expected,
+    /// Distance of the least solved step to its solution over the tolerance, where the case bounds it.
+    pub unsolved: Option<f64>,
 }
 
 /// Names of numbers, as in the object of `run --format json`.
@@ -132,24 +150,64 @@ impl FromFile for Scenes {
 }
 
 fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
-    section.allow(&[&["name", "claim", "ends", "answer"], &scene::TABLES[..]].concat())?;
+    section.allow(&[&["name", "claim", "ends", "answer", "most"], &scene::TABLES[..]].concat())?;
     let end = section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?;
+    let most = section.section("most")?;
     let (answer, within) = match (section.section("answer")?, end) {
         (Some(answer), End::Answer) => numbers_of(&answer)?,
-        (None, End::Answer) => {
+        (None, End::Answer) if most.is_none() => {
             return Err(section.missing("answer", "a table with numbers, where a case ends with its answer"));
         }
         (Some(_), _) => return Err(section.refuse("answer", "an answer", "none, where a case ends with an error")),
         (None, _) => (vec![], 0.0),
     };
+    if most.is_some() && end != End::Answer {
+        return Err(section.refuse("most", "bounds", "none, where a case ends with an error"));
+    }
+    let scene = Scene::from_tables(section, name.clone())?;
     Ok(Whole {
         claim: section.require("claim", "a text")?.text()?.to_owned(),
-        scene: Scene::from_tables(section, name.clone())?,
+        most: most.map_or(Ok(Most::default()), |section| Most::read(&section, &scene))?,
+        scene,
         name,
         end,
         answer,
         within,
     })
+}
+
+impl Most {
+    fn read(section: &Section<'_>, scene: &Scene) -> Result<Self, InputError> {
+        let [iterations, unsolved] = ["iterations_per_step", "unsolved"];
+        section.allow(&[iterations, unsolved])?;
+        let bound = |key: &str| section.get(key).map(|field| field.positive()).transpose();
+        let most = Self { iterations: bound(iterations)?, unsolved: bound(unsolved)? };
+        if most == Self::default() {
+            return Err(section.missing(iterations, "at least one bound"));
+        }
+        if most.unsolved.is_some() {
+            scene.one_step().map_err(|error| section.refuse(unsolved, "a bound for dg", error.to_string()))?;
+        }
+        Ok(most)
+    }
+
+    /// The claims of a case, each as a check.
+    fn checks(self, name: &str, shown: &Shown) -> Vec<Check> {
+        let [steps, iterations, ..] = shown.counts;
+        let mean = iterations as f64 / steps as f64;
+        let of_iterations = self.iterations.map(|most| {
+            let claim = format!("{name}: a step takes at most {most} iterations on average");
+            Check::that(mean <= most, claim, format!("{mean:.2} in {steps} steps"))
+        });
+        let of_solution = self.unsolved.map(|most| {
+            let share = shown.unsolved.unwrap_or(f64::NAN);
+            let claim = format!(
+                "{name}: each step is at most {most} times the tolerance from the same step solved to round-off"
+            );
+            Check::that(share <= most, claim, format!("{} times", short_text(share)))
+        });
+        of_iterations.into_iter().chain(of_solution).collect()
+    }
 }
 
 /// The numbers of an answer, and the bound.
@@ -200,7 +258,9 @@ impl Kind for Scenes {
         let scene = &whole.scene;
         let shown = Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
         let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::of).transpose()?;
-        Ok(Shown { alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)), others: whole.others()?, ..shown })
+        let alike_in_lanes = lane.map(|lane| lane.has_the_bits_of(&shown));
+        let unsolved = whole.most.unsolved.map(|_| unsolved(scene)).transpose()?;
+        Ok(Shown { alike_in_lanes, others: whole.others()?, unsolved, ..shown })
     }
 
     fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
@@ -212,6 +272,7 @@ impl Kind for Scenes {
             not_finite(NUMBERS.into_iter().zip(shown.numbers).take(count))
         })];
         checks.extend(found.iter().map(|(whole, shown)| whole.check(shown)));
+        checks.extend(found.iter().flat_map(|(whole, shown)| whole.most.checks(&whole.name, shown)));
         checks.push(alike_in_lanes(&found));
         let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
         let strain = answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within).fold(0.0, max_or_nan);
@@ -295,6 +356,27 @@ impl Whole {
     }
 }
 
+/// The largest distance of a step to the same step solved to round-off from the same level, in the norm of (3.14), over the
+/// tolerance of the scene.
+fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
+    let stepping = scene.one_step()?;
+    let Settings { tolerance, .. } = stepping.settings;
+    let solved = Stepping { settings: Settings { tolerance: SOLVED, ..stepping.settings }, ..stepping };
+    let mut problem = simulate::problem(scene);
+    let lifting: Vec<f64> = scene.mesh.nodes().iter().map(|x| scene.beam.theta_a * (1.0 - x)).collect();
+    let lengths: Vec<f64> = scene.mesh.lengths().collect();
+    let (mut driver, mut farthest) = (Driver::new(problem.clone(), stepping)?, 0.0);
+    for _ in 0..scene.steps() {
+        let Step { old, new, .. } = driver.stepped()?;
+        let theta = old.theta.iter().zip(&lifting).map(|(theta, lifting)| theta + lifting).collect();
+        let [u, u_t, phi, phi_t] = [&old.u, &old.v, &old.phi, &old.w].map(Clone::clone);
+        problem.initial = Initial { u, u_t, phi, phi_t, theta };
+        let mut same = Driver::new(problem.clone(), solved)?;
+        farthest = max_or_nan(farthest, distance(&lengths, new, same.stepped()?.new));
+    }
+    Ok(farthest / tolerance)
+}
+
 fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
     let compared = found.iter().filter(|(_, shown)| shown.alike_in_lanes.is_some()).count();
     let apart = found.iter().filter(|(_, shown)| shown.alike_in_lanes == Some(false));
@@ -335,6 +417,7 @@ impl Shown {
             tip: run.tip(),
             contact: run.contact_phases(),
             others: vec![],
+            unsolved: None,
         })
     }
 }

@@ -10,6 +10,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Level;
 
+use super::tally::EnergySize;
 use super::{Motion, Report, RunError, Sample, Solves};
 use crate::exact::any_order;
 use crate::exact::solution::Manufactured;
@@ -158,6 +159,11 @@ impl Motion for DgMotion {
 
     fn balance(&self) -> Balance {
         self.simulation.balance()
+    }
+
+    fn energy_size(&self) -> EnergySize {
+        let [terms, rounding] = [self.simulation.energy_scale(), self.simulation.rounding()];
+        EnergySize { terms, rounding }
     }
 
     fn solves(&self) -> Solves {

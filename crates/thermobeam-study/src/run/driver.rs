@@ -10,7 +10,7 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 
-use super::tally::EnergySummary;
+use super::tally::{EnergySize, EnergySummary};
 use super::{Motion, Report, RunError, Sample, Solves};
 
 /// A completed step.
@@ -28,6 +28,9 @@ pub(crate) struct Step<'s> {
 /// Steps between checks of the energy in [`Driver::stepped`]: one evaluation costs a fifth of a step, one in sixteen steps a hundredth.
 const CHECKED: usize = 16;
 
+/// Rounding errors of an energy, relative to it: of sums over at most millions of elements, whose errors mostly cancel.
+const ROUNDED: f64 = 1e-12;
+
 /// A running simulation.
 pub(crate) struct Driver {
     simulation: Simulation,
@@ -35,8 +38,9 @@ pub(crate) struct Driver {
     old: Level,
     /// The last observed level.
     new: Level,
-    /// The energy at t = 0.
+    /// The energy at t = 0, and its size.
     initial: f64,
+    size: f64,
     patience: Patience,
     wall: Duration,
     is_timed: bool,
@@ -56,12 +60,13 @@ impl Driver {
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
-        let initial = simulation.energy(&old).total();
+        let (initial, size) = (simulation.energy(&old).total(), simulation.energy_scale(&old));
         Ok(Self {
             simulation,
             old,
             new,
             initial,
+            size,
             patience,
             wall: Duration::ZERO,
             is_timed: false,
@@ -134,11 +139,14 @@ impl Driver {
 
     /// Refuses an energy that is not finite or has risen.
     fn check(&self) -> Result<(), RunError> {
-        let initial = self.initial;
+        let Self { initial, size, .. } = *self;
         let last = self.simulation.energy(&self.new).total();
-        let energy = EnergySummary { initial, last, largest_increase: last - initial, largest_balance_residual: 0.0 };
+        let largest_increase = last - initial;
+        let energy = EnergySummary { initial, last, largest_increase, largest_balance_residual: 0.0, size };
         let (step, t, dt) = (self.simulation.step(), self.simulation.t(), self.simulation.dt());
-        energy.sound().map_err(|unsound| RunError::unsound(step, t, dt, unsound))
+        // Both energies are rounded, and contain the constant of Kirchhoff's term.
+        let rounded = |now: EnergySize| EnergySize { rounding: now.rounding + ROUNDED * initial.abs(), ..now };
+        energy.sound(|| rounded(self.energy_size())).map_err(|unsound| RunError::unsound(step, t, dt, unsound))
     }
 
     /// Does a step, and reads the level at its end.
@@ -244,6 +252,11 @@ impl Motion for Driver {
         self.simulation.balance(&self.old, &self.new)
     }
 
+    fn energy_size(&self) -> EnergySize {
+        let rounding = self.simulation.rounding(&self.old, &self.new).total();
+        EnergySize { terms: self.simulation.energy_scale(&self.new), rounding }
+    }
+
     fn solves(&self) -> Solves {
         self.simulation.work().into()
     }
@@ -293,7 +306,7 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::simulate::driver;
+    use crate::run::simulate::{Recording, Simulator, driver};
     use crate::scene::Scene;
 
     #[test]
@@ -319,6 +332,28 @@ mod tests {
         let RunError::Unsound { step, t, dt, .. } = ended else { panic!("{ended:?}") };
         assert!(step <= risen.saturating_add(CHECKED), "{step}, risen at {risen}");
         assert!((t + dt - 0.1 * step as f64).abs() < 1e-9, "{step} {t} {dt}");
+    }
+
+    /// For ρ s² = 5000 a motion of size s is s times that of size 1, exactly: powers of 2 change no rounding.
+    #[test]
+    fn a_small_motion_ends_at_the_same_step_as_a_large_one() {
+        let ended = |exponent: i32| {
+            let size = 2f64.powi(exponent);
+            let text = format!(
+                "[beam]\nrho = {:?}\n[initial]\nu_t = \"{size:?}*x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\n\
+                 t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n",
+                5000.0 / size / size
+            );
+            let run = Simulator::new(&Scene::parse(&text, "loose.toml").expect("a scene")).expect("a simulator");
+            match run.run(Recording::Summary, &mut |_, _| ()).failure {
+                Some(RunError::Unsound { step, .. }) => step,
+                other => panic!("{size}: {other:?}"),
+            }
+        };
+        let step = ended(0);
+        for exponent in [-40, -20, 20] {
+            assert_eq!(ended(exponent), step, "2^{exponent}");
+        }
     }
 
     #[test]

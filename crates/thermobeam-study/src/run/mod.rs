@@ -13,6 +13,8 @@ pub mod together;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use tally::EnergySize;
+
 use convergence_study::run::time_limit::TimeUp;
 use serde::Serialize;
 use thermobeam::dg::{ContactEvent, Phase};
@@ -166,6 +168,9 @@ pub trait Motion {
 
     /// The energy's balance over the last step.
     fn balance(&self) -> Balance;
+
+    /// The size of the current level's energy, with which errors of the balance are compared.
+    fn energy_size(&self) -> EnergySize;
 
     /// Counts of the work done so far.
     fn solves(&self) -> Solves;

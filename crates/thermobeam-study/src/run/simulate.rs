@@ -149,7 +149,7 @@ impl Simulator {
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.at(0.0);
-        let mut sums = Run::start(first);
+        let mut sums = Run::start(first, motion.energy_size().terms);
         let mut history = match recording {
             Recording::Summary => None,
             Recording::Curve(rows) => Some(RunHistory::new(&*motion, t_end, Some(rows), first)),

@@ -41,20 +41,41 @@ pub struct EnergySummary {
     pub largest_increase: f64,
     /// Largest defect of the exact discrete balance, over all steps.
     pub largest_balance_residual: f64,
+    /// Size of the energy at t = 0, see [`Motion::energy_size`].
+    #[serde(skip)]
+    pub size: f64,
 }
 
-/// Neither round-off nor a loose tolerance explains an error of the energy above this share of its values at start and end (of
-/// 1 if both are less): every step of every scheme keeps or lowers the energy, and balances its loss. Without a term in ρ the
-/// energy of a buckled beam falls without bound, and rounding errors grow with it.
+/// A loose tolerance does not explain an error of the energy above this share of its size: every step of every scheme keeps or
+/// lowers the energy, and balances its loss. Without a term in ρ the energy of a buckled beam falls without bound, and errors grow
+/// with it.
 const UNEXPLAINED: f64 = 1e-3;
+
+/// Size of a motion, in units of the tolerance, below which fewer than three digits are sure.
+const RESOLVED: f64 = 1e3;
+
+/// What may explain an error of the energy at one level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergySize {
+    /// Sum of the absolute values of the energy's terms, without the constant β²/(4ρ).
+    pub terms: f64,
+    /// Bound on the rounding errors of a balance at this level.
+    pub rounding: f64,
+}
 
 impl EnergySummary {
     /// Checks that the energy is finite, does not rise, and keeps its balance, allowing for rounding and tolerance.
     ///
+    /// * `now`: the size of the current level's energy; evaluated only if the size at t = 0 and the change since do not explain an error.
+    ///
     /// # Errors
     /// [`Unsound`], with the number.
-    pub fn sound(&self) -> Result<(), Unsound> {
-        let most = UNEXPLAINED * self.initial.abs().max(self.last.abs()).max(1.0);
+    pub fn sound(&self, now: impl FnOnce() -> EnergySize) -> Result<(), Unsound> {
+        let mut most = UNEXPLAINED * max_or_nan(self.size, (self.last - self.initial).abs());
+        if !(self.largest_increase <= most && self.largest_balance_residual <= most) {
+            let EnergySize { terms, rounding } = now();
+            most = max_or_nan(most, UNEXPLAINED * terms) + rounding;
+        }
         match (self.largest_increase, self.largest_balance_residual) {
             _ if !self.initial.is_finite() => Err(Unsound::NotFinite(self.initial)),
             _ if !self.last.is_finite() => Err(Unsound::NotFinite(self.last)),
@@ -107,7 +128,9 @@ pub struct Contact {
 
 impl Run {
     /// A run before its first step.
-    pub(super) fn start(first: Sample) -> Self {
+    ///
+    /// * `size`: of the energy at t = 0.
+    pub(super) fn start(first: Sample, size: f64) -> Self {
         let (initial, u_tip) = (first.energy, first.u_tip);
         let (largest_increase, largest_balance_residual) = (f64::NAN, 0.0);
         Self {
@@ -118,7 +141,7 @@ impl Run {
             last: first,
             extremes: Extremes { u_tip_min: u_tip, u_tip_max: u_tip },
             contact_steps: 0,
-            energy: EnergySummary { initial, last: initial, largest_increase, largest_balance_residual },
+            energy: EnergySummary { initial, last: initial, largest_increase, largest_balance_residual, size },
             work: Solves::default(),
             is_heated: true,
             contact: None,
@@ -129,9 +152,17 @@ impl Run {
 
     /// Adds a step: its report, its balance, and the range of u(1).
     ///
+    /// * `now`: the size of the energy after it, see [`EnergySummary::sound`].
+    ///
     /// # Errors
     /// [`Unsound`] if it raised the energy, violated its balance, or made it infinite or NaN.
-    pub(super) fn add(&mut self, report: &Report, balance: &Balance, [low, high]: [f64; 2]) -> Result<(), Unsound> {
+    pub(super) fn add(
+        &mut self,
+        report: &Report,
+        balance: &Balance,
+        [low, high]: [f64; 2],
+        now: impl FnOnce() -> EnergySize,
+    ) -> Result<(), Unsound> {
         self.iterations.total += report.iterations;
         self.iterations.max = self.iterations.max.max(report.iterations);
         self.contact_steps += usize::from(report.in_contact);
@@ -143,13 +174,30 @@ impl Run {
         energy.largest_balance_residual = max_or_nan(energy.largest_balance_residual, residual);
         energy.last += change;
         self.steps += 1;
-        EnergySummary { largest_increase: change, largest_balance_residual: residual, ..*energy }.sound()
+        EnergySummary { largest_increase: change, largest_balance_residual: residual, ..*energy }.sound(now)
     }
 
     /// Ends the run at its last level.
     pub(super) fn end(&mut self, last: Sample, work: Solves, is_heated: bool) {
         (self.last, self.work, self.is_heated) = (last, work, is_heated);
         self.energy.last = last.energy;
+    }
+
+    /// What to tell a user whose motion is hardly larger than the tolerance, in words.
+    ///
+    /// Iterations stop at an increment below the tolerance in the norm of (3.14), whose square is at most twice the energy's size.
+    ///
+    /// * `tolerance`: of the iterations.
+    pub fn note(&self, tolerance: f64) -> Option<String> {
+        let EnergySummary { initial, last, size, .. } = self.energy;
+        let motion = (2.0 * max_or_nan(size, (last - initial).abs())).sqrt();
+        (motion > 0.0 && motion < RESOLVED * tolerance).then(|| {
+            let [motion, advice] = [motion, tolerance * motion].map(|value| format!("{value:.1e}"));
+            format!(
+                "the motion has a size of {motion} in the norm of Theorem 3.4, and iterations may leave errors of the tolerance, \
+                 {tolerance:e}, in that norm: fewer than three digits are sure; expected a tolerance of {advice}"
+            )
+        })
     }
 
     /// Why the results of the run cannot be used, in words.
@@ -203,7 +251,7 @@ impl Watch for Run {
     fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());
         let unsound = |unsound| RunError::unsound(motion.steps(), motion.t(), report.dt, unsound);
-        self.add(report, &balance, extremes).map_err(unsound)?;
+        self.add(report, &balance, extremes, || motion.energy_size()).map_err(unsound)?;
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -211,19 +259,69 @@ impl Watch for Run {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::simulate::{Recording, Simulator};
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_motion_hardly_larger_than_the_tolerance_is_noted() {
+        let note = |speed: f64, solver: &str| {
+            let text = format!(
+                "[beam]\nrho = 0.0\na = 0.5\n[initial]\nu_t = \"{speed:e}*x\"\n[mesh]\nelements = 20\n[time]\ndt = 0.01\n\
+                 t_end = 1.0\n{solver}"
+            );
+            let scene = Scene::parse(&text, "small.toml").expect("a scene");
+            let run = Simulator::new(&scene).expect("a simulator").run(Recording::Summary, &mut |_, _| ());
+            assert_eq!(run.failure, None);
+            (run.note(scene.method.tolerance()), run.last.theta_mid)
+        };
+        let fixed_point = "solver = \"fixed-point\"\n";
+        let (words, theta) = note(1e-9, fixed_point);
+        let words = words.expect("a note");
+        // ‖1e-9 x‖ = 5.8e-10.
+        assert!(
+            words.contains("a size of 5.8e-10 ") && words.contains("1e-10,") && words.contains("5.8e-20"),
+            "{words}"
+        );
+        let (_, exact) = note(1.0, "tolerance = 1e-14\n");
+        assert!((theta / (1e-9 * exact) - 1.0).abs() > 0.02, "{theta} {exact}");
+        let (none, theta) = note(1e-9, &format!("{fixed_point}tolerance = 5.8e-20\n"));
+        assert!(none.is_none() && (theta / (1e-9 * exact) - 1.0).abs() < 1e-6, "{none:?} {theta} {exact}");
+        assert_eq!(note(1e-6, fixed_point).0, None);
+    }
+
+    #[test]
+    fn the_current_size_and_rounding_errors_explain_an_error() {
+        let summary = |largest_balance_residual| EnergySummary {
+            initial: 0.0,
+            last: 0.0,
+            largest_increase: 0.0,
+            largest_balance_residual,
+            size: 0.0,
+        };
+        let with = |terms, rounding| move || EnergySize { terms, rounding };
+        assert_eq!(summary(0.0).sound(with(0.0, 0.0)), Ok(()));
+        assert_eq!(summary(1e-9).sound(with(0.0, 0.0)), Err(Unsound::Imbalance(1e-9)));
+        assert_eq!(summary(1e-9).sound(with(2e-6, 0.0)), Ok(()));
+        assert_eq!(summary(1e-9).sound(with(0.0, 2e-9)), Ok(()));
+        assert_eq!(summary(1e-9).sound(with(0.5e-6, 0.4e-9)), Err(Unsound::Imbalance(1e-9)));
+    }
 
     #[test]
     fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_what_is_not_finite() {
-        let sound = |initial, last, largest_increase, largest_balance_residual| {
-            EnergySummary { initial, last, largest_increase, largest_balance_residual }.sound()
+        let sound = |initial: f64, last, largest_increase, largest_balance_residual| {
+            let now = || EnergySize { terms: 0.0, rounding: 0.0 };
+            EnergySummary { initial, last, largest_increase, largest_balance_residual, size: initial.abs() }.sound(now)
         };
-        for rise in [-1.0, 0.0, 1e-12, 9e-4] {
-            assert_eq!(sound(0.5, 0.0, rise, 9e-4), Ok(()), "{rise}");
+        // The energy's own size counts, however small it is.
+        for size in [1e-30, 1e-9, 1.0, 1e9] {
+            for rise in [-1.0, 0.0, 1e-12, 9e-4] {
+                assert_eq!(sound(size, 0.0, rise * size, 9e-4 * size), Ok(()), "{rise}");
+            }
+            assert_eq!(sound(size, 0.0, 2e-3 * size, 0.0), Err(Unsound::Rise(2e-3 * size)));
+            assert_eq!(sound(size, 0.0, -size, 2e-3 * size), Err(Unsound::Imbalance(2e-3 * size)));
         }
-        assert_eq!(sound(0.5, 0.0, 2e-3, 0.0), Err(Unsound::Rise(2e-3)));
         assert_eq!(sound(100.0, 0.0, 2e-3, 2e-3), Ok(()));
         assert_eq!(sound(0.5, 0.0, 1e264, 0.0), Err(Unsound::Rise(1e264)));
-        assert_eq!(sound(0.5, 0.0, -1.0, 2e-3), Err(Unsound::Imbalance(2e-3)));
         assert!(matches!(sound(0.5, 0.0, f64::NAN, 0.0), Err(Unsound::Rise(rise)) if rise.is_nan()));
         assert!(matches!(sound(0.5, 0.0, 0.0, f64::NAN), Err(Unsound::Imbalance(residual)) if residual.is_nan()));
         assert_eq!(sound(1.0, -1e21, -1.0, 1e6), Ok(()));

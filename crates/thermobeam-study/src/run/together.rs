@@ -11,6 +11,7 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::simulate::{Run, problem};
+use super::tally::EnergySize;
 use super::{Report, RunError, Sample};
 use crate::scene::Scene;
 
@@ -75,7 +76,7 @@ struct LaneRun<'s> {
 impl<'s> LaneRun<'s> {
     fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut Level) -> Self {
         let first = sample(k, scene, ensemble, level, 0).at_the_start(scene.obstacles);
-        Self { k, scene, run: Run::start(first) }
+        Self { k, scene, run: Run::start(first, ensemble.cases()[k].energy_scale(level)) }
     }
 
     /// Adds a step; the run ends if it fails or violates the law of the energy.
@@ -88,7 +89,12 @@ impl<'s> LaneRun<'s> {
             let in_contact = ensemble.contact_force(k) != 0.0;
             let report = Report { dt, iterations: done.iterations, in_contact };
             let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
-            self.run.add(&report, balance, [ensemble.tip(k); 2]).map_err(unsound)
+            let now = || {
+                ensemble.observe(k, level);
+                let case = &ensemble.cases()[k];
+                EnergySize { terms: case.energy_scale(level), rounding: case.rounding(level, level).total() }
+            };
+            self.run.add(&report, balance, [ensemble.tip(k); 2], now).map_err(unsound)
         });
         if let Err(failure) = outcome {
             self.end(ensemble, level);

@@ -3,7 +3,7 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::any_order::{AnyOrder, NamedErrors, ROW};
+use thermobeam_study::kinds::any_order::{AnyOrder, Errors, ROW};
 
 use crate::planted::verdict_with;
 use crate::refused::refusal;
@@ -35,16 +35,16 @@ fn orders_in_time_pass_and_planted_errors_fail() {
     let sound = passes_but_not_without_each_case(&study);
     // A floor, a wrong order, a lucky run and numbers that are not finite, in each error separately.
     for k in 0..3 {
-        let floor = changed::<AnyOrder>(&sound, |_, found| found[k].1 += 1e-4);
+        let floor = changed::<AnyOrder>(&sound, |_, found| found.named[k].1 += 1e-4);
         assert_eq!(study.judge(&floor).verdict, Verdict::Fail, "a floor under error {k}");
         let slow = changed::<AnyOrder>(&sound, |index, found| {
             let coarser = sound[index].case.data.steps as f64 / 10.0;
-            found[k].1 *= coarser;
+            found.named[k].1 *= coarser;
         });
         assert_eq!(study.judge(&slow).verdict, Verdict::Fail, "one order less in error {k}");
         for index in 0..sound.len() {
             for wrong in [f64::NAN, f64::INFINITY] {
-                assert_eq!(verdict_with(&study, &sound, index, |found| found[k].1 = wrong), Verdict::Fail);
+                assert_eq!(verdict_with(&study, &sound, index, |found| found.named[k].1 = wrong), Verdict::Fail);
             }
         }
     }
@@ -60,14 +60,20 @@ fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
     for k in 0..2 {
         for power in [-1.0, 1.0] {
             let wrong = changed::<AnyOrder>(&sound, |index, found| {
-                found[k].1 *= (sound[index].case.data.elements as f64).powf(power);
+                found.named[k].1 *= (sound[index].case.data.elements as f64).powf(power);
             });
             assert_eq!(study.judge(&wrong).verdict, Verdict::Fail, "error {k} by an order {power}");
         }
     }
     // Errors inside steps are time errors and are not measured here.
     assert!(
-        sound.iter().all(|ran| ran.found.as_ref().expect("errors").iter().all(|(name, _)| !name.contains("inside")))
+        sound.iter().all(|ran| ran
+            .found
+            .as_ref()
+            .expect("errors")
+            .named
+            .iter()
+            .all(|(name, _)| !name.contains("inside")))
     );
 }
 
@@ -75,17 +81,31 @@ fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
 fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off() {
     let study = read("any-order-degree.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let with = |change: &dyn Fn(usize, &mut NamedErrors)| {
+    let with = |change: &dyn Fn(usize, &mut Errors)| {
         let runs = changed::<AnyOrder>(&sound, |index, found| change(index, found));
         study.judge(&runs).verdict
     };
     assert_eq!(with(&|_, _| ()), Verdict::Pass);
-    assert_eq!(with(&|_, found| found[0].1 += 1e-11), Verdict::Fail, "a floor above round-off");
-    assert_eq!(with(&|index, found| found[0].1 *= if index == 3 { 1e4 } else { 1.0 }), Verdict::Fail, "a bump");
-    let algebraic = |index: usize, found: &mut NamedErrors| found[0].1 = ((index + 1) as f64).powi(-6);
+    assert_eq!(with(&|_, found| found.named[0].1 += 1e-11), Verdict::Fail, "a floor above round-off");
+    assert_eq!(with(&|index, found| found.named[0].1 *= if index == 3 { 1e4 } else { 1.0 }), Verdict::Fail, "a bump");
+    let algebraic = |index: usize, found: &mut Errors| found.named[0].1 = ((index + 1) as f64).powi(-6);
     assert_eq!(with(&algebraic), Verdict::Fail, "an algebraic fall");
     let last = sound.len() - 1;
-    assert_eq!(with(&|index, found| found[0].1 *= if index == last { 1e4 } else { 1.0 }), Verdict::Fail, "the end");
+    assert_eq!(
+        with(&|index, found| found.named[0].1 *= if index == last { 1e4 } else { 1.0 }),
+        Verdict::Fail,
+        "the end"
+    );
+}
+
+#[test]
+fn initial_fields_that_are_not_the_projections_fail() {
+    let study = read("any-order-degree.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    for start in [2e-12, f64::NAN] {
+        let wrong = changed::<AnyOrder>(&sound, |index, found| found.start = if index == 3 { start } else { 0.0 });
+        assert_eq!(study.judge(&wrong).verdict, Verdict::Fail, "{start}");
+    }
 }
 
 #[test]

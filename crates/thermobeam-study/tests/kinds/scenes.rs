@@ -5,7 +5,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Outcome, Quantity};
 use thermobeam_study::kinds::energy::End;
-use thermobeam_study::kinds::scenes::{NUMBERS, ROW, Scenes};
+use thermobeam_study::kinds::scenes::{NUMBERS, ROW, Scenes, Shown};
 use thermobeam_study::scene::Scene;
 
 use crate::planted::verdict_with;
@@ -103,6 +103,44 @@ fn every_key_of_a_scene_is_at_work_in_some_case() {
             let notices = |text: &String| parsed(text).map_or(true, |study| differs(&sound, &run_one(&study)));
             assert!(only_value || left_out.iter().any(notices), "{table}.{key} by {scheme} changes nothing");
         }
+    }
+}
+
+const BOUNDS: &str = "iterations.toml";
+
+#[test]
+fn bounds_on_iterations_and_on_the_distance_to_solved_steps_hold_and_can_fail() {
+    let study = parsed(&text(BOUNDS)).unwrap_or_else(|error| panic!("{error}"));
+    let sound = passes_but_not_without_each_case(&study);
+    let mut bounded = 0;
+    for index in 0..sound.len() {
+        let unsolved = sound[index].found.as_ref().expect("a run").unsolved;
+        bounded += usize::from(unsolved.is_some());
+        // Numbers without a bound may be anything.
+        let more = |found: &mut Shown| found.counts[1] *= 2;
+        let expected = if unsolved.is_none() { Verdict::Fail } else { Verdict::Pass };
+        assert_eq!(verdict_with(&study, &sound, index, more), expected, "twice the iterations in case {index}");
+        for share in [Some(1.01), Some(f64::NAN), None] {
+            let expected = if unsolved.is_some() { Verdict::Fail } else { Verdict::Pass };
+            let verdict = verdict_with(&study, &sound, index, |found| found.unsolved = share);
+            assert_eq!(verdict, expected, "{share:?} in case {index}");
+        }
+    }
+    assert_eq!((bounded, sound.len()), (1, 5));
+}
+
+#[test]
+fn bounds_that_cannot_be_are_refused() {
+    for (from, to, words) in [
+        ("iterations_per_step = 4.3", "iterations = 4.3", "case[0].most.iterations: unknown key"),
+        ("iterations_per_step = 4.3", "iterations_per_step = 0", "case[0].most.iterations_per_step: found 0"),
+        ("iterations_per_step = 4.3\n", "", "case[0].most.iterations_per_step: missing"),
+        ("iterations_per_step = 2.0", "unsolved = 1.0", "case[3].most.unsolved: found a bound for dg"),
+        ("[case.most]\niterations_per_step = 4.3\n", "", "case[0].answer: missing"),
+        ("ends = \"answer\"", "ends = \"indefinite\"", "case[0].most: found bounds"),
+    ] {
+        let message = refusal(&ROW, BOUNDS, from, to);
+        assert!(message.contains(words), "{message}");
     }
 }
 

@@ -9,10 +9,14 @@
 //!
 //! with the energy of [`crate::energy`]. The balance also holds for a step that ends on an obstacle, to round-off.
 
-use super::simulation::Simulation;
+use super::simulation::{Simulation, TIP_SLACK};
 use super::{Field, Level};
 use crate::energy::{Balance, Energy};
 use crate::norms::max_or_nan;
+
+/// Rounding errors of a balance, in units of ε and of the energy's size: some ten terms, each a sum over at most 40 degrees and a
+/// few elements.
+const BALANCE_TERMS: f64 = 4096.0;
 
 impl Simulation {
     /// The s of a time in the last step; `None` outside.
@@ -83,6 +87,25 @@ impl Simulation {
             contact: self.obstacles.map_or(0.0, |obstacles| obstacles.potential(tip)),
             lifting: -beam.a * beam.theta_a * self.turned(|b| places[b][1]),
         }
+    }
+
+    /// The size of the current level's energy: the sum of the absolute values of its terms, Kirchhoff's without its constant.
+    pub fn energy_scale(&self) -> f64 {
+        let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = self.energy(&self.level);
+        let places = |b: usize| self.level.places[b][0];
+        let stretch = self.space.stiffness(places, places);
+        let kirchhoff = 0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
+        kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
+    }
+
+    /// Bound on the rounding errors of a balance at the current level: of its terms, and of the contact energy at a rounded position.
+    pub fn rounding(&self) -> f64 {
+        let contact = self.obstacles.map_or(0.0, |obstacles| {
+            let u = self.level.places[self.space.tip()][0];
+            let delta = TIP_SLACK * (u.abs() + obstacles.g1.abs().max(obstacles.g2));
+            2.0 * (obstacles.force(u).abs() * delta + delta * delta / obstacles.epsilon)
+        });
+        BALANCE_TERMS * f64::EPSILON * self.energy_scale() + contact
     }
 
     /// The balance of the last step; at the start, of an empty step.

@@ -100,8 +100,8 @@ impl Equations<'_> {
     ///
     /// * `forcing`: the loads, integrated over the step.
     ///
-    /// Returns the mean contact force over the step, as the first equation at the free end requires it. Unlike g(u(1)) it contains
-    /// no rounding errors of u(1) divided by ε.
+    /// Returns the contact force as the first equation at the free end requires it: the coefficients of L_0..L_q of its projection on
+    /// polynomials in time, of which the first is its mean. Unlike g(u(1)) it contains no rounding errors of u(1) divided by ε.
     pub(super) fn residual<const S: usize>(
         &self,
         forms: &TimeForms<S>,
@@ -110,7 +110,7 @@ impl Equations<'_> {
         terms: &mut [Terms<S>],
         axial: &AxialForce<S>,
         residual: &mut [Block<S>],
-    ) -> f64 {
+    ) -> [f64; S] {
         for ((terms, x), start) in terms.iter_mut().zip(x).zip(&self.level.rates) {
             self.combine(forms, x, start, axial, terms);
         }
@@ -134,8 +134,8 @@ impl Equations<'_> {
             }
         }
         let tip = self.space.tip();
-        let load = forcing.map_or(0.0, |forcing| forcing.moments[0][tip][0]);
-        let force = (load - residual[tip][0][0]) / self.h;
+        let load = |i: usize| forcing.map_or(0.0, |forcing| forcing.moments[i][tip][0]);
+        let force = std::array::from_fn(|i| (load(i) - residual[tip][0][i]) / (self.h * forms.product[i]));
         self.add_forces(forms, forcing, terms, residual);
         residual[0] = [[0.0; S]; 3];
         residual[tip][2] = [0.0; S];

@@ -13,13 +13,18 @@ use crate::error::{SetupError, StepError, StepFailure};
 use crate::parameters::{Beam, Obstacles};
 
 /// Rounding errors of the free end's position, relative to the numbers from which it is computed.
-const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
+pub(super) const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
 
 /// Rounding errors of the free end's position, in units of its slack, below which a length cannot be improved.
 const COLLAPSED: f64 = 64.0;
 
-/// Force of the wrong sign at which contact contradicts the motion, for an axial force of at most 1.
+/// Force of the wrong sign at which contact contradicts the motion, for an axial force of at most 1. If rounding errors of the free
+/// end's position are a larger force, the balance of momentum decides instead ([`Simulation::is_blurred`]).
 const WRONG_FORCE: f64 = 1e-2;
+
+/// Force of the wrong sign, for an axial force of at most 1, at which contact ends by the balance of momentum: it exceeds the error
+/// of the iteration, and moves the end of contact by less than a millionth.
+const WRONG_BALANCE: f64 = 1e-6;
 
 /// Attempts to end a step on an obstacle: the method is safeguarded by bisection and never needs them all.
 const ATTEMPTS: usize = 100;
@@ -42,6 +47,17 @@ pub struct StepReport {
     pub iterations: usize,
     /// The contact event at its end, if any.
     pub event: Option<ContactEvent>,
+}
+
+/// A bound of the phase in a step.
+#[derive(Debug, Clone, Copy)]
+struct PhaseBound {
+    /// What is positive in the phase: the distance of the free end from the bound, or the force that keeps it on the obstacle.
+    distance: Polynomial,
+    /// Its rounding errors.
+    slack: f64,
+    /// The phase beyond the bound.
+    next: Phase,
 }
 
 /// A running simulation at one level, with the step that led there.
@@ -178,7 +194,7 @@ impl Simulation {
         let mut event = None;
         let mut iterations = self.attempt(h)?;
         for _ in 0..CUTS {
-            let Some((fall, next)) = self.first_fall() else {
+            let Some((fall, next)) = self.first_fall(h) else {
                 return self.finish(h, limit, iterations, event).map(Some);
             };
             if fall.crossing * h > self.shortest() {
@@ -202,7 +218,7 @@ impl Simulation {
             self.stages.guess_constant(&self.level);
             iterations = self.attempt(h)?;
         }
-        let miss = self.first_fall().map_or(0.0, |(_, next)| self.distance(next).0.at(1.0));
+        let miss = self.first_fall(h).map_or(0.0, |(_, next)| self.distance(next, h).distance.at(1.0));
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
@@ -210,7 +226,7 @@ impl Simulation {
     fn stays(&mut self, phase: Phase, h: f64) -> Result<Option<usize>, StepError> {
         let present = std::mem::replace(&mut self.phase, phase);
         let outcome = self.attempt(h);
-        let fall = self.first_fall();
+        let fall = self.first_fall(h);
         self.phase = present;
         outcome.map(|iterations| fall.is_none().then_some(iterations))
     }
@@ -252,21 +268,49 @@ impl Simulation {
         let tip = self.stages.tip(&self.space);
         let slack = self.slack(&tip);
         let noise = slack / obstacles.epsilon;
-        let [mean, n_value] = self.stages.forces();
-        let least = WRONG_FORCE * n_value.abs().max(1.0);
         let force = match self.phase {
             Phase::Free => {
                 let end = tip.at(1.0);
                 let depth = (end - obstacles.g2).max(obstacles.g1 - end);
                 if depth > slack { depth / obstacles.epsilon } else { 0.0 }
             }
-            _ if noise <= least => 0.0,
-            Phase::Upper => -mean,
-            Phase::Lower => mean,
+            _ if self.is_blurred(slack) => -self.pressure().coefficients[0],
+            _ => 0.0,
         };
-        // Rounding errors of the velocity, converted to a force over the step.
-        let rounding = TIP_SLACK * self.level.rates[self.space.tip()][0].abs() / h;
-        if force > least + rounding { Err(StepFailure::WrongContact { force, noise }) } else { Ok(()) }
+        let least = match self.phase {
+            Phase::Free => WRONG_FORCE * self.stages.axial_force().abs().max(1.0) + self.rounding_of_velocity(h),
+            _ => self.rounding_of_force(h),
+        };
+        if force > least { Err(StepFailure::WrongContact { force, noise }) } else { Ok(()) }
+    }
+
+    /// Whether rounding errors of the free end's position are so large a force that its position does not show when contact ends.
+    fn is_blurred(&self, slack: f64) -> bool {
+        let least = WRONG_FORCE * self.stages.axial_force().abs().max(1.0);
+        self.phase != Phase::Free && self.obstacles.is_some_and(|obstacles| slack / obstacles.epsilon > least)
+    }
+
+    /// The force of the obstacle over the step just found, by the balance of momentum, positive where it pushes.
+    fn pressure(&self) -> Polynomial {
+        let mut force = self.stages.contact_force();
+        if self.phase == Phase::Lower {
+            force.coefficients.iter_mut().for_each(|c| *c = -*c);
+        }
+        force
+    }
+
+    /// Rounding errors of the free end's velocity, converted to a force over the step.
+    fn rounding_of_velocity(&self, h: f64) -> f64 {
+        TIP_SLACK * self.level.rates[self.space.tip()][0].abs() / h
+    }
+
+    /// Errors of the contact force by the balance of momentum: of the iteration, and rounding errors of the free end's velocity and
+    /// position over the step.
+    fn rounding_of_force(&self, h: f64) -> f64 {
+        let position = self.level.places[self.space.tip()][0].abs();
+        WRONG_BALANCE * self.stages.axial_force().abs().max(1.0)
+            + self.rounding_of_velocity(h)
+            + TIP_SLACK * position / (h * h)
     }
 
     /// The length of the next step, cut or stretched by a rounding error to end at the limit.
@@ -299,13 +343,29 @@ impl Simulation {
         TIP_SLACK * (obstacles + size)
     }
 
-    /// Where the step just found first leaves its phase, and the phase that it enters.
-    fn first_fall(&self) -> Option<(Fall, Phase)> {
-        let obstacles = self.obstacles.as_ref()?;
+    /// The bounds of the phase in the step just found, of length h: of the free end's position, or of its contact force where
+    /// rounding errors blur the position.
+    fn phase_bounds(&self, h: f64) -> [Option<PhaseBound>; 2] {
+        let Some(obstacles) = &self.obstacles else { return [None; 2] };
         let tip = self.stages.tip(&self.space);
         let slack = self.slack(&tip);
-        let falls = bounds(self.phase, &tip, obstacles).into_iter().flatten();
-        let falls = falls.filter_map(|(distance, next)| distance.first_fall(slack).map(|fall| (fall, next)));
+        let of_position = bounds(self.phase, &tip, obstacles);
+        if !self.is_blurred(slack) {
+            return of_position.map(|bound| bound.map(|(distance, next)| PhaseBound { distance, slack, next }));
+        }
+        // The first step of a contact holds the impulse of the impact, whose projection oscillates; `check_contact` sees its mean.
+        if self.last_phase != self.phase || self.last_dt == 0.0 {
+            return [None; 2];
+        }
+        let of_force = |(_, next)| PhaseBound { distance: self.pressure(), slack: self.rounding_of_force(h), next };
+        of_position.map(|bound| bound.map(of_force))
+    }
+
+    /// Where the step just found, of length h, first leaves its phase, and the phase that it enters.
+    fn first_fall(&self, h: f64) -> Option<(Fall, Phase)> {
+        let falls = self.phase_bounds(h).into_iter().flatten();
+        let falls = falls
+            .filter_map(|PhaseBound { distance, slack, next }| distance.first_fall(slack).map(|fall| (fall, next)));
         falls.min_by(|(one, _), (other, _)| one.crossing.total_cmp(&other.crossing))
     }
 
@@ -323,7 +383,7 @@ impl Simulation {
             self.stages.restrict(h / solved);
             solved = h;
             let iterations = self.attempt(h)?;
-            let (distance, slack) = self.distance(next);
+            let PhaseBound { distance, slack, .. } = self.distance(next, h);
             miss = distance.at(1.0);
             if miss.abs() <= slack {
                 return Ok((h, iterations, Some(next)));
@@ -359,12 +419,11 @@ impl Simulation {
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
-    /// The distance from the bound beyond which `next` begins, and its rounding errors.
-    fn distance(&self, next: Phase) -> (Polynomial, f64) {
+    /// The bound beyond which `next` begins, in the step just found, of length h.
+    fn distance(&self, next: Phase, h: f64) -> PhaseBound {
         let tip = self.stages.tip(&self.space);
-        let obstacles = self.obstacles.unwrap_or_default();
-        let bound = bounds(self.phase, &tip, &obstacles).into_iter().flatten().find(|(_, to)| *to == next);
-        (bound.map_or(tip, |(distance, _)| distance), self.slack(&tip))
+        let bound = self.phase_bounds(h).into_iter().flatten().find(|bound| bound.next == next);
+        bound.unwrap_or_else(|| PhaseBound { distance: tip, slack: self.slack(&tip), next })
     }
 
     /// Enters another phase at time t.

@@ -40,8 +40,10 @@ pub(super) trait Stages: Send {
     fn solve(&mut self, task: &Equations<'_>, by: &Stepping, load: Option<&mut Load>) -> Result<usize, StepFailure>;
     /// u(1, t).
     fn tip(&self, space: &Space) -> Polynomial;
-    /// The mean contact force over the step from the balance of momentum, and the corresponding axial force.
-    fn forces(&self) -> [f64; 2];
+    /// The contact force over the step from the balance of momentum, positive at the upper obstacle.
+    fn contact_force(&self) -> Polynomial;
+    /// The mean axial force over the step.
+    fn axial_force(&self) -> f64;
     /// Accepts the solution as the last step, from the given level.
     fn accept(&mut self, start: &Level);
     /// The level at s of the last step, 0 < s <= 1, from the level at its start.
@@ -81,8 +83,10 @@ pub(super) struct DgStepper<const S: usize> {
     weights: Vec<[f64; 3]>,
     slots: Vec<Slot<S>>,
     forcing: Option<Forcing<S>>,
-    /// Contact force and axial force of the last iteration.
-    forces: [f64; 2],
+    /// Contact force of the last iteration.
+    contact_force: [f64; S],
+    /// Mean axial force of the last iteration.
+    axial_force: f64,
     work: Work,
     clock: usize,
 }
@@ -104,7 +108,8 @@ impl<const S: usize> DgStepper<S> {
             weights: space.diagonal_mass(),
             slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
             forcing: loaded.then(|| Forcing::new(blocks)),
-            forces: [0.0; 2],
+            contact_force: [0.0; S],
+            axial_force: 0.0,
             work: Work::default(),
             clock: 0,
         }
@@ -132,9 +137,9 @@ impl<const S: usize> DgStepper<S> {
         let Polynomials { x, terms } = &mut self.trial;
         task.displace(x, terms);
         let axial = task.axial_force(&self.forms, terms);
-        let force = task.residual(&self.forms, self.forcing.as_ref(), x, terms, &axial, &mut self.residual);
-        self.forces = [force, axial.low[0][0]];
-        self.forces[1]
+        self.contact_force = task.residual(&self.forms, self.forcing.as_ref(), x, terms, &axial, &mut self.residual);
+        self.axial_force = axial.low[0][0];
+        self.axial_force
     }
 
     fn factorize(&mut self, index: usize, task: &Equations<'_>, n_value: f64) -> Result<(), StepFailure> {
@@ -275,8 +280,12 @@ impl<const S: usize> Stages for DgStepper<S> {
         polynomial(&self.trial.terms[space.tip()].places[0])
     }
 
-    fn forces(&self) -> [f64; 2] {
-        self.forces
+    fn contact_force(&self) -> Polynomial {
+        of_degree_q(&self.contact_force)
+    }
+
+    fn axial_force(&self) -> f64 {
+        self.axial_force
     }
 
     fn accept(&mut self, start: &Level) {
@@ -304,11 +313,7 @@ impl<const S: usize> Stages for DgStepper<S> {
     fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial {
         match field {
             Field::U | Field::Phi => polynomial(&self.accepted.terms[block].places[place]),
-            Field::V | Field::W | Field::Theta => {
-                let mut coefficients = [0.0; MAX_STAGES + 1];
-                coefficients[..S].copy_from_slice(&self.accepted.x[block][place]);
-                Polynomial { coefficients, degree: S - 1 }
-            }
+            Field::V | Field::W | Field::Theta => of_degree_q(&self.accepted.x[block][place]),
         }
     }
 
@@ -336,6 +341,12 @@ impl<const S: usize> Stages for DgStepper<S> {
     fn work(&self) -> Work {
         self.work
     }
+}
+
+fn of_degree_q<const S: usize>(low: &[f64; S]) -> Polynomial {
+    let mut coefficients = [0.0; MAX_STAGES + 1];
+    coefficients[..S].copy_from_slice(low);
+    Polynomial { coefficients, degree: S - 1 }
 }
 
 fn polynomial<const S: usize>(path: &Path<S>) -> Polynomial {

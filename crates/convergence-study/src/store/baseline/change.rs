@@ -290,3 +290,31 @@ fn standing(blessed: Option<&Claims>) -> Vec<(&str, &str)> {
     let claims = blessed.into_iter().flatten();
     claims.filter_map(|(path, claim)| Some((path.as_str(), claim.value.as_deref()?))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tolerance_is_relative_to_a_number_of_any_size() {
+        for size in [1e-12, 1e-3, 1.0, 1e6] {
+            for from in [size, -size] {
+                assert!(meets(from, 1.0009 * from, 1e-3), "{from:e}");
+                assert!(!meets(from, 1.0011 * from, 1e-3), "{from:e}");
+                assert!(!meets(from, -from, 1e-3), "{from:e}");
+            }
+        }
+        assert!(meets(0.0, 0.0, 1e-3) && !meets(0.0, 1e-300, 1e-3));
+    }
+
+    #[test]
+    fn a_number_that_vanishes_is_a_change_whatever_else_the_run_has() {
+        let guarded = |value| Guarded { value, tolerance: 1e-3, reason: None };
+        let expected = BTreeMap::from([("kept".to_owned(), guarded(1.0)), ("gone".to_owned(), guarded(2.0))]);
+        let gone = Change::new("study", "gone", Movement::Vanished { value: 2.0 });
+        let kept = Change::new("study", "kept", Movement::Vanished { value: 1.0 });
+        let found = Quantity::new("kept", 1.0, 1e-3);
+        assert_eq!(of_numbers("study", &expected, &[found]), [gone.clone()]);
+        assert_eq!(of_numbers("study", &expected, &[]), [gone, kept]);
+    }
+}

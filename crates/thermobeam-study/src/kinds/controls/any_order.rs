@@ -82,7 +82,7 @@ impl Kind for AnyOrderControls {
         if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {
             return Err(failure.clone());
         }
-        let error = ran.last().and_then(Ran::ok).map_or(f64::NAN, |errors| errors[0].1);
+        let error = ran.last().and_then(Ran::ok).map_or(f64::NAN, |errors| errors.named[0].1);
         Ok(Judged { verdict: planted.judge(&ran).verdict, error })
     }
 

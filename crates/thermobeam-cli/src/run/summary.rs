@@ -78,7 +78,7 @@ fn headline(scene: &Scene, run: &Run) -> String {
     if let Some(failure) = &run.failure {
         let _ = writeln!(text, "\nFAILED after {}, at t = {}: {failure}", counted(run.steps, "step"), run.last.t);
     }
-    if let Some(note) = run.note(scene.method.tolerance()) {
+    if let Some(note) = run.note(scene.method.stopping()) {
         let _ = writeln!(text, "\nNote: {note}");
     }
     text

@@ -229,3 +229,26 @@ fn the_spectral_radius_decides_and_not_the_largest_factor() {
         }
     }
 }
+
+/// Whether a linear beam in lasting contact stays bounded with this number of iterations in each step; both obstacles stand at 0.
+fn is_stable(iterations: usize, dt: f64) -> bool {
+    let mesh = uniform(20);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u = mesh.nodes().iter().map(|x| 0.01 * x * x).collect();
+    let beam = Beam { rho: 0.0, a: 0.5, ..Beam::default() };
+    let obstacles = Some(Obstacles { epsilon: 1e-3, g1: 0.0, g2: 0.0 });
+    let problem = Problem { beam, obstacles, mesh, initial };
+    let stopping = Stopping::Iterations(iterations);
+    let settings = Settings { solver: Solver::FixedPoint, stopping, ..Settings::default() };
+    let mut simulation = simulate(&problem, Stepping { settings, ..stepping(dt) });
+    (0..4000).all(|_| simulation.advance().is_ok()) && simulation.level().u[20].abs() < 1.0
+}
+
+/// α = 1 is at dt = 5.22e-3 here. The limits are those of the table in THEORY.md, ζ = 0.1, with 2 % on either side.
+#[test]
+fn a_single_iteration_is_stable_for_twice_the_step_of_convergence() {
+    for (iterations, limit) in [(1, 1.039e-2), (2, 5.224e-3), (3, 7.016e-3), (4, 5.224e-3)] {
+        assert!(is_stable(iterations, 0.98 * limit), "L = {iterations} below {limit}");
+        assert!(!is_stable(iterations, 1.02 * limit), "L = {iterations} above {limit}");
+    }
+}

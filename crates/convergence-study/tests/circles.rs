@@ -32,6 +32,7 @@ const ORDERS: [(&str, &[&str]); 4] = [
             "tridiagonal",
             "equilibrium",
             "contraction",
+            "linearized",
             "solve",
             "energy",
             "dg",

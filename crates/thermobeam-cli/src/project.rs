@@ -53,7 +53,7 @@ const FRONT: Front = Front {
         ("Theorem 3.4, over a grid, in h", "theorem-3.4-grid", "theorem-3.4 in h"),
         ("Theorem 3.4, over a grid, in dt", "theorem-3.4-grid", "theorem-3.4 in dt"),
         ("Proposition 3.1: the energy never rises, its balance closes", "energy-decay", ""),
-        ("Section 4: the fixed point contracts by alpha", "fixed-point", ""),
+        ("Section 4: the fixed point contracts as its linearisation does", "fixed-point", ""),
         ("Section 5: the experiments", "section-5", ""),
         ("Steady states, in closed form", "equilibria", ""),
         ("Beyond: elements of degree p", "any-order-space", ""),

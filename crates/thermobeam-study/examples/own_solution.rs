@@ -8,7 +8,7 @@ use convergence_study::run::run_one;
 use convergence_study::study::{Axis, Claim, FromFile as _};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::Settings;
+use thermobeam::solve::{Settings, Stopping};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::exact::solution::{Manufactured, Product};
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
@@ -41,7 +41,7 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         t_end: 1.0,
         layout: Layout::default(),
         scheme: EULER_CRANK_NICOLSON,
-        settings: Settings { tolerance: 1e-13, ..Settings::default() },
+        settings: Settings { stopping: Stopping::below(1e-13), ..Settings::default() },
     };
     let theory = Coefficients { beam: Beam::default(), obstacles: None };
     Ok(Convergence { theory, solver: theory, exact, refine, expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))] })

@@ -127,7 +127,7 @@ impl Case {
 }
 
 /// `mass M + stiffness K`, with its factorisation.
-struct Operator {
+pub(crate) struct Operator {
     mass: f64,
     stiffness: f64,
     factor: TridiagonalFactor,
@@ -135,13 +135,13 @@ struct Operator {
 
 impl Operator {
     /// For the nodes 1..=last; `None` if it is not positive definite.
-    fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
+    pub(crate) fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
         let mut factor = TridiagonalFactor::new(last);
         factor.factorize(lengths, mass, stiffness, 0.0).ok().map(|()| Self { mass, stiffness, factor })
     }
 
     /// Solves for the nodes, zero where the value is prescribed.
-    fn solve(&self, x: &mut [f64]) {
+    pub(crate) fn solve(&self, x: &mut [f64]) {
         x[0] = 0.0;
         let last = x.len() - 1;
         self.factor.solve_in_place(x);
@@ -180,7 +180,7 @@ fn round_trip(lengths: &[f64], b: f64, outer: &Operator, inner: &Operator) -> f6
 }
 
 /// `w = σ Cᵀ v`.
-fn transposed_coupling(sigma: f64, v: &[f64], w: &mut [f64]) {
+pub(crate) fn transposed_coupling(sigma: f64, v: &[f64], w: &mut [f64]) {
     w.fill(0.0);
     for i in 0..v.len() - 1 {
         let shear = 0.5 * sigma * (v[i + 1] - v[i]);
@@ -190,7 +190,7 @@ fn transposed_coupling(sigma: f64, v: &[f64], w: &mut [f64]) {
 }
 
 /// `v = σ C w`.
-fn coupling(sigma: f64, w: &[f64], v: &mut [f64]) {
+pub(crate) fn coupling(sigma: f64, w: &[f64], v: &mut [f64]) {
     v.fill(0.0);
     for i in 0..w.len() - 1 {
         let stress = 0.5 * sigma * (w[i] + w[i + 1]);

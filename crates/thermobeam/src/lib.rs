@@ -37,7 +37,7 @@
 //! | (3.7), (3.8) | the scheme, solved by Newton's method | [`scheme`], `solve/sweeps.rs`, `solve/newton.rs` |
 //! | (3.9) | discrete energy, and its exact balance | [`energy`] |
 //! | (3.14) | the norm of Theorem 3.4 | [`norms`] |
-//! | (4.1)-(4.3), (4.5) | the fixed-point iteration, and its contraction factors | `solve/fixed_point.rs`, [`contraction`] |
+//! | (4.1)-(4.3), (4.5) | the fixed-point iteration, and its contraction factors | `solve/fixed_point.rs`, [`contraction`], [`linearized`] |
 //!
 //! # From data to levels
 //!
@@ -85,6 +85,7 @@ pub mod equilibrium;
 pub mod error;
 pub mod kirchhoff;
 pub mod lanes;
+pub mod linearized;
 pub mod mesh;
 pub mod norms;
 pub mod parameters;
@@ -97,6 +98,7 @@ pub mod vibration;
 
 /// [energy]: crate::energy
 /// [contraction]: crate::contraction
+/// [linearized]: crate::linearized
 /// [equilibrium]: crate::equilibrium
 /// [vibration]: crate::vibration
 /// [dg]: crate::dg

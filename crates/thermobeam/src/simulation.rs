@@ -8,7 +8,7 @@ use crate::scheme::{Case, Scheme};
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, Solver, StepReport, Work};
+use crate::solve::{Level, Settings, Solver, StepReport, Stopping, Work};
 
 /// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is
 /// 1e-16, 20 cos(5πx/2) there is 6e-15.
@@ -230,10 +230,18 @@ fn choose(case: Case, settings: Settings, level: &Level, heated: bool) -> Result
 fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupError> {
     problem.beam.validate()?;
     problem.obstacles.as_ref().map_or(Ok(()), Obstacles::validate)?;
-    let Settings { tolerance, max_iterations, .. } = stepping.settings;
     check_positive("dt", stepping.dt)?;
-    check_positive("tolerance", tolerance)?;
-    check("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1")?;
+    match stepping.settings.stopping {
+        Stopping::Converged { tolerance, max_iterations } => {
+            check_positive("tolerance", tolerance)?;
+            check("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1")?;
+        }
+        Stopping::Iterations(iterations) => {
+            let is_fixed_point = stepping.settings.solver == Solver::FixedPoint;
+            let allowed = if is_fixed_point { "an integer >= 1" } else { "no such setting for Newton's method" };
+            check("iterations", iterations as f64, is_fixed_point && iterations > 0, allowed)?;
+        }
+    }
     Ok(())
 }
 

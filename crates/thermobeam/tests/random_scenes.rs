@@ -14,7 +14,7 @@ use thermobeam::norms::{max_or_nan, slope_squared};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
-use thermobeam::solve::{Level, Settings, Solver};
+use thermobeam::solve::{Level, Settings, Solver, Stopping};
 
 const STEPS: usize = 20;
 /// Tolerance of the balance relative to the energy, unless the bound on rounding errors is larger.
@@ -131,7 +131,7 @@ fn check(balance: &Balance, scale: f64, allowed: f64) -> Result<(), TestCaseErro
 
 /// Runs a scene to its end or to its first error, which is returned.
 fn run(problem: &Problem, scheme: Scheme, solver: Solver, dt: f64) -> Result<Option<StepError>, TestCaseError> {
-    let settings = Settings { solver, tolerance: tolerance(solver), ..Settings::default() };
+    let settings = Settings { solver, stopping: Stopping::below(tolerance(solver)), ..Settings::default() };
     let stepping = Stepping { scheme, settings, dt, loaded: false };
     let mut simulation = Simulation::new(problem.clone(), stepping).expect("a valid scene");
     let mut old = simulation.level();
@@ -144,7 +144,7 @@ fn run(problem: &Problem, scheme: Scheme, solver: Solver, dt: f64) -> Result<Opt
                 return Ok(Some(error));
             }
         };
-        prop_assert!(report.iterations <= settings.max_iterations);
+        prop_assert!(report.iterations <= settings.stopping.max_iterations());
         let new = simulation.level();
         let fields = [&new.u, &new.v, &new.phi, &new.w, &new.theta];
         prop_assert!(fields.iter().all(|field| field.iter().all(|value| value.is_finite())));

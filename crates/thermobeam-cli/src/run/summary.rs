@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use thermobeam::dg::ContactEvent;
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::solve::Stopping;
 use thermobeam_study::figures::energy_at_rest;
 use thermobeam_study::run::Sample;
 use thermobeam_study::run::object::phase_name;
@@ -69,11 +70,15 @@ fn section(text: &mut String, title: &str, lines: Vec<Line>) {
 }
 
 fn headline(scene: &Scene, run: &Run) -> String {
-    let mut text = format!("{}: {}, tolerance {:?}\n", scene.name, scene.discretised(), scene.method.tolerance());
+    let iteration = match scene.method.stopping() {
+        Stopping::Converged { tolerance, .. } => format!("tolerance {tolerance:?}"),
+        Stopping::Iterations(iterations) => format!("{} in each step", counted(iterations, "iteration")),
+    };
+    let mut text = format!("{}: {}, {iteration}\n", scene.name, scene.discretised());
     if let Some(failure) = &run.failure {
         let _ = writeln!(text, "\nFAILED after {}, at t = {}: {failure}", counted(run.steps, "step"), run.last.t);
     }
-    if let Some(note) = run.note(scene.method.tolerance()) {
+    if let Some(note) = run.note(scene.method.stopping()) {
         let _ = writeln!(text, "\nNote: {note}");
     }
     text

@@ -138,22 +138,22 @@ fn branch_curve(branch: &Branch, look: Look) -> Curve {
     Curve { look: Look { dash, marker: Marker::Circle, ..look }, width: 2.6, marks, ..Curve::line(0, &series) }
 }
 
-/// Draws measured over predicted contraction, log-log, with the identity up to where it is claimed, and the region
-/// without convergence. Markers there are open: they show a ratio of successive increments that no longer falls.
+/// Draws measured over predicted contraction, log-log, with the identity and the region where the iteration diverges. Markers
+/// there are open.
 ///
 /// * `series`: `(predicted, measured)`, one for each kind of case.
 pub fn contraction(series: &[Series]) -> String {
     let mut xy = Xy {
-        x: Axis::log("predicted contraction α"),
-        y: Axis::log("measured contraction"),
+        x: Axis::log("spectral radius of the linearised iteration"),
+        y: Axis::log("measured factor per iteration"),
         curves: series.iter().enumerate().flat_map(sides).collect(),
-        beyond: Some((1.0, "no convergence (α ≥ 1)".into())),
+        beyond: Some((1.0, "divergence (radius ≥ 1)".into())),
         ..Xy::default()
     };
     let is_split =
         |series: &Series| [false, true].iter().all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above));
     if series.iter().any(is_split) {
-        xy.notes.push("open markers: no convergence".to_owned());
+        xy.notes.push("open markers: divergence".to_owned());
     }
     // Up to 100, so that the text fits above its region.
     xy.show_x = vec![1.0, 100.0];
@@ -162,7 +162,7 @@ pub fn contraction(series: &[Series]) -> String {
     xy.draw()
 }
 
-/// A series on both sides of α = 1, under one legend entry, whose marker is open if all points are.
+/// A series on both sides of 1, under one legend entry, whose marker is open if all points are.
 fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
     let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
     let side = |(points, marks)| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
@@ -170,9 +170,10 @@ fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
     sides.into_iter().filter(|side| !side.points.is_empty()).collect()
 }
 
-/// The line on which prediction and measurement agree, up to α = 1.
+/// The line on which prediction and measurement agree.
 fn identity(xy: &Xy) -> Curve {
-    let points = [xy.x_ruler().lo, 0.0].map(|v| (10f64.powf(v), 10f64.powf(v)));
+    let ruler = xy.x_ruler();
+    let points = [ruler.lo, ruler.hi].map(|v| (10f64.powf(v), 10f64.powf(v)));
     let line = Curve::line(0, &Series::new("measured = predicted", points));
     let look = Look { colour: style::MUTED, dash: style::LONG, ..line.look };
     Curve { look, width: 1.6, is_data: false, ..line }

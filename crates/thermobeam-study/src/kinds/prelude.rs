@@ -24,7 +24,7 @@ pub(crate) use thermobeam::mesh::{Mesh, MeshError};
 pub(crate) use thermobeam::parameters::{Beam, Obstacles};
 pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 pub(crate) use thermobeam::simulation::{Initial, Problem, Stepping};
-pub(crate) use thermobeam::solve::{Level, Settings, Solver};
+pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam::vibration::Mode;
 
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};

@@ -360,8 +360,10 @@ impl Whole {
 /// tolerance of the scene.
 fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
     let stepping = scene.one_step()?;
-    let Settings { tolerance, .. } = stepping.settings;
-    let solved = Stepping { settings: Settings { tolerance: SOLVED, ..stepping.settings }, ..stepping };
+    let tolerance = stepping.settings.stopping.tolerance();
+    let tolerance = tolerance.ok_or_else(|| CaseFailure::new("a fixed number of iterations has no tolerance"))?;
+    let solved = Settings { stopping: Stopping::below(SOLVED), ..stepping.settings };
+    let solved = Stepping { settings: solved, ..stepping };
     let mut problem = simulate::problem(scene);
     let lifting: Vec<f64> = scene.mesh.nodes().iter().map(|x| scene.beam.theta_a * (1.0 - x)).collect();
     let lengths: Vec<f64> = scene.mesh.lengths().collect();

@@ -144,7 +144,7 @@ pub(super) fn watched(
     steps: usize,
     mut see: impl FnMut(usize, usize, &Level),
 ) -> Result<Vec<Watched>, CaseFailure> {
-    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    let settings = Settings { stopping: Stopping::below(SOLVED), ..Settings::default() };
     let mut new = Level::new(problems.first().map_or(0, |problem| problem.mesh.nodes().len()));
     let mut driver = EnsembleDriver::new(problems, dts, scheme, settings)?;
     let start = |k: usize| {

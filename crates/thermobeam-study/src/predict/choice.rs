@@ -16,6 +16,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use thermobeam::solve::Stopping;
+
 use super::curves::{Apart, Curves, Rows, curves};
 use super::reference::{Reference, Wanted, finer, impact, reference};
 use super::{Cost, Reason, Unreachable, Work};
@@ -204,7 +206,9 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
 /// The scene with its own one-step scheme on coarse levels; `None` for a scene by dG.
 fn own_scheme(scene: &Scene, target: f64, most_steps: f64) -> Option<Scene> {
     let Method::OneStep(mut stepping) = scene.method else { return None };
-    stepping.settings.tolerance = stepping.settings.tolerance.min((1e-4 * target).clamp(1e-13, 1e-9));
+    if let Stopping::Converged { tolerance, .. } = &mut stepping.settings.stopping {
+        *tolerance = tolerance.min((1e-4 * target).clamp(1e-13, 1e-9));
+    }
     let steps = (2.0 * scene.t_end / impact(scene)).clamp(8.0, most_steps);
     resized(&Scene { method: Method::OneStep(stepping), ..scene.clone() }, [ELEMENTS, steps])
 }

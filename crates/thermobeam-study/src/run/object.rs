@@ -97,7 +97,7 @@ impl Serialize for Object<'_> {
             let event = |by: &ContactEvent| Event { t: by.t, from: phase_name(by.from), to: phase_name(by.to) };
             map.serialize_entry("events", &contact.events.iter().map(event).collect::<Vec<_>>())?;
         }
-        if let Some(note) = run.note(scene.method.tolerance()) {
+        if let Some(note) = run.note(scene.method.stopping()) {
             map.serialize_entry("note", &note)?;
         }
         if let Some(ended) = &run.failure {

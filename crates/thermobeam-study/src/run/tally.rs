@@ -7,6 +7,7 @@ use convergence_study::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;
+use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
 use super::{Motion, Report, RunError, Sample, Solves, Unsound, Watch};
@@ -187,8 +188,9 @@ impl Run {
     ///
     /// Iterations stop at an increment below the tolerance in the norm of (3.14), whose square is at most twice the energy's size.
     ///
-    /// * `tolerance`: of the iterations.
-    pub fn note(&self, tolerance: f64) -> Option<String> {
+    /// * `stopping`: of the iterations; a fixed number of them has no tolerance.
+    pub fn note(&self, stopping: Stopping) -> Option<String> {
+        let tolerance = stopping.tolerance()?;
         let EnergySummary { initial, last, size, .. } = self.energy;
         let motion = (2.0 * max_or_nan(size, (last - initial).abs())).sqrt();
         (motion > 0.0 && motion < RESOLVED * tolerance).then(|| {
@@ -272,7 +274,7 @@ mod tests {
             let scene = Scene::parse(&text, "small.toml").expect("a scene");
             let run = Simulator::new(&scene).expect("a simulator").run(Recording::Summary, &mut |_, _| ());
             assert_eq!(run.failure, None);
-            (run.note(scene.method.tolerance()), run.last.theta_mid)
+            (run.note(scene.method.stopping()), run.last.theta_mid)
         };
         let fixed_point = "solver = \"fixed-point\"\n";
         let (words, theta) = note(1e-9, fixed_point);

@@ -6,7 +6,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::SCHEMES;
 use thermobeam::simulation::Stepping;
-use thermobeam::solve::Solver;
+use thermobeam::solve::{Solver, Stopping};
 
 use super::{limits, tables};
 
@@ -80,11 +80,13 @@ impl Method {
         }
     }
 
-    /// Bound on the last increment of a step's iteration.
-    pub fn tolerance(&self) -> f64 {
+    /// When the iteration of a step ends.
+    pub fn stopping(&self) -> Stopping {
         match self {
-            Self::OneStep(stepping) => stepping.settings.tolerance,
-            Self::Dg(stepping) => stepping.tolerance,
+            Self::OneStep(stepping) => stepping.settings.stopping,
+            Self::Dg(dg::Stepping { tolerance, max_iterations, .. }) => {
+                Stopping::Converged { tolerance: *tolerance, max_iterations: *max_iterations }
+            }
         }
     }
 

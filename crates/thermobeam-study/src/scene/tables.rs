@@ -3,7 +3,7 @@
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{self, Scheme};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
@@ -86,7 +86,7 @@ impl Coefficients {
 }
 
 /// The keys of [`scheme()`] and [`settings`].
-pub(crate) const STEPPING_KEYS: [&str; 4] = ["scheme", "solver", "tolerance", "max_iterations"];
+pub(crate) const STEPPING_KEYS: [&str; 5] = ["scheme", "solver", "tolerance", "max_iterations", "iterations"];
 
 /// The key `scheme`.
 pub(crate) fn scheme(section: &Section<'_>) -> Result<Scheme, InputError> {
@@ -94,17 +94,32 @@ pub(crate) fn scheme(section: &Section<'_>) -> Result<Scheme, InputError> {
     section.get("scheme").map_or(Ok(scheme::EULER_CRANK_NICOLSON), |field| field.choice(&schemes))
 }
 
-/// The keys `solver`, `tolerance` and `max_iterations`.
+/// The keys `solver`, `tolerance` and `max_iterations`, or `iterations`, which excludes both.
 pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
     let mut settings = Settings::default();
     if let Some(field) = section.get("solver") {
         settings.solver = field.choice(&Solver::ALL.map(|solver| (solver.name(), solver)))?;
     }
-    if let Some(field) = section.get("tolerance") {
-        settings.tolerance = field.positive()?;
+    if let Some(field) = section.get("iterations") {
+        let tested = ["tolerance", "max_iterations"].into_iter().find(|key| section.get(key).is_some());
+        if let Some(key) = tested {
+            return Err(section.refuse(key, "a second rule for the end of the iteration", "`iterations` alone"));
+        }
+        if settings.solver != Solver::FixedPoint {
+            return Err(
+                field.refuse(format!("solver \"{}\"", settings.solver.name()), "the solver \"fixed-point\" beside it")
+            );
+        }
+        settings.stopping = Stopping::Iterations(field.count(1..=usize::MAX)?);
+        return Ok(settings);
     }
-    if let Some(field) = section.get("max_iterations") {
-        settings.max_iterations = field.count(1..=usize::MAX)?;
+    if let Stopping::Converged { tolerance, max_iterations } = &mut settings.stopping {
+        if let Some(field) = section.get("tolerance") {
+            *tolerance = field.positive()?;
+        }
+        if let Some(field) = section.get("max_iterations") {
+            *max_iterations = field.count(1..=usize::MAX)?;
+        }
     }
     Ok(settings)
 }

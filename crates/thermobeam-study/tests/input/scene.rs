@@ -4,7 +4,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::simulation::Stepping;
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 use thermobeam_study::scene::{Initial, Scene};
 
 use super::says;
@@ -74,7 +74,11 @@ fn every_key_arrives() {
     assert_eq!((scene.steps(), one_step(&scene).scheme), (8, MIDPOINT));
     assert_eq!(
         one_step(&scene).settings,
-        Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 7, ..Settings::default() }
+        Settings {
+            solver: Solver::FixedPoint,
+            stopping: Stopping::Converged { tolerance: 1e-9, max_iterations: 7 },
+            ..Settings::default()
+        }
     );
 }
 
@@ -167,6 +171,12 @@ fn a_wrong_time_table_is_named() {
         ("solver = 1", &["time.solver: found 1; expected \"newton\", \"fixed-point\""]),
         ("tolerance = 0.0", &["time.tolerance: found 0.0; expected a finite number > 0"]),
         ("max_iterations = 0", &["time.max_iterations: found 0; expected a whole number >= 1"]),
+        ("iterations = 2", &["time.iterations: found solver \"newton\"", "\"fixed-point\""]),
+        ("solver = \"fixed-point\"\niterations = 0", &["time.iterations: found 0; expected a whole number >= 1"]),
+        (
+            "solver = \"fixed-point\"\niterations = 2\ntolerance = 1e-9",
+            &["time.tolerance: found a second rule", "`iterations` alone"],
+        ),
     ] {
         says(&refusal(&format!("[time]\ndt = 0.1\nt_end = 1\n{line}")), pieces);
     }

@@ -2,7 +2,7 @@ use convergence_study::input;
 use convergence_study::study::{Axis, Described, FromFile as _, Header, Kind as _, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::tables::Perturbation;
@@ -85,7 +85,11 @@ fn the_contracts_example_is_a_study() {
     assert_eq!((spec.refine.axis, spec.refine.isolate, spec.refine.scheme), (Axis::Space, true, MIDPOINT));
     assert_eq!(
         spec.refine.settings,
-        Settings { solver: Solver::FixedPoint, tolerance: 1e-9, max_iterations: 9, ..Settings::default() }
+        Settings {
+            solver: Solver::FixedPoint,
+            stopping: Stopping::Converged { tolerance: 1e-9, max_iterations: 9 },
+            ..Settings::default()
+        }
     );
     assert!(spec.details()[0].1.contains("differs from the sources in zeta, g2:"));
     assert_eq!(spec.solver.beam, Beam { zeta: 0.101, ..spec.theory.beam });

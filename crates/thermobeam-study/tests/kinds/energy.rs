@@ -80,6 +80,27 @@ fn each_claim_of_a_case_can_fail() {
     }
 }
 
+/// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam reaches nearly the same share of it.
+#[test]
+fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
+    let study = runs("corollary-3.2.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    for wrong in [1.01, f64::NAN] {
+        let runs = changed::<EnergyRuns>(&sound, |index, found| {
+            if index == 1 {
+                found.of_bound = Some(wrong);
+            }
+        });
+        assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{wrong}");
+    }
+    let beams = sound.len() / 4;
+    let share = |index: usize| sound[index].found.as_ref().expect("a run").of_bound.expect("a share");
+    for index in beams..sound.len() {
+        let (coarse, here) = (share(index % beams), share(index));
+        assert!((here / coarse - 1.0).abs() < 0.05, "{}: {here}, {coarse}", sound[index].case.label);
+    }
+}
+
 #[test]
 fn each_claim_of_the_random_scenes_can_fail() {
     let study = RandomScenes::read(file("random-scenes-quick.toml")).unwrap_or_else(|error| panic!("{error}"));
@@ -123,6 +144,8 @@ fn files_with_errors_are_refused() {
         ("extremes.toml", "ends = \"indefinite\"", "ends = \"well\"", "ends"),
         ("extremes.toml", "drift = 1e-11", "drift = 0", "drift"),
         ("extremes.toml", "zeta = 0.0", "zeta = -1.0", "beam.zeta"),
+        ("corollary-3.2.toml", "beta = 0.0", "theta_a = 1.0", "states nothing"),
+        ("corollary-3.2.toml", "beta = -0.5\nrho = 0.0", "beta = -0.72\nrho = 0.0", "beta > -0.7116"),
         ("random-scenes-quick.toml", "batches = 2", "batches = 0", "random.batches"),
         ("random-scenes-quick.toml", "[random]", "[[random-scenes]]", "random-scenes"),
         ("random-scenes-quick.toml", "[random]", "[energy]\n[random]", "one of the tables"),

@@ -6,7 +6,7 @@ use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::solvers::{Agreement, Boundary, FixedPointStep, Found, Point, Solvers};
+use thermobeam_study::kinds::solvers::{Agreement, Boundary, Contraction, FixedPointStep, Found, Point, Solvers};
 
 fn map() -> Solvers {
     Solvers::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -24,7 +24,7 @@ fn boundary(found: &mut Found) -> &mut Boundary {
     if let Found::Boundary(line) = found { line } else { panic!("no boundary: {found:?}") }
 }
 
-fn contraction(found: &mut Found) -> &mut FixedPointStep {
+fn contraction(found: &mut Found) -> &mut Contraction {
     if let Found::Contraction(contraction) = found { contraction } else { panic!("no contraction: {found:?}") }
 }
 
@@ -87,7 +87,8 @@ fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
 fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
     let study = fixed_point();
     let mut sound = passes_but_not_without_each_case(&study);
-    let (mut as_predicted, mut divergent, mut compared) = (0, 0, 0);
+    let mut settled = 0;
+    let mut compared = 0;
     for index in 0..sound.len() {
         let found = sound[index].found.as_mut().expect("a result");
         if let Found::Comparison(_) = found {
@@ -98,25 +99,25 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             }
             continue;
         }
-        let FixedPointStep { alpha, gamma, .. } = *contraction(found);
-        let with = |change: &dyn Fn(&mut FixedPointStep)| {
-            verdict_with(&study, &sound, index, |found| change(contraction(found)))
-        };
+        let Contraction { iterations, measured, radius, .. } = *contraction(found);
+        let with =
+            |change: &dyn Fn(&mut Contraction)| verdict_with(&study, &sound, index, |found| change(contraction(found)));
         assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
         assert_eq!(with(&|found| found.gamma = f64::NAN), Verdict::Fail);
-        // A factor is judged only where contact dominates, and not where α is within 3 % of 1.
-        if alpha < 0.97 && alpha >= 100.0 * gamma {
-            as_predicted += 1;
-            assert_eq!(with(&|found| found.converged = false), Verdict::Fail);
-            for wrong in [Some(1.04 * alpha), Some(0.96 * alpha), Some(f64::NAN), None] {
-                assert_eq!(with(&|found| found.contraction = wrong), Verdict::Fail, "case {index}, {wrong:?}");
-            }
-        } else if alpha > 1.03 {
-            divergent += 1;
-            assert_eq!(with(&|found| found.converged = true), Verdict::Fail, "case {index}");
+        for wrong in [1.1e-3, f64::NAN] {
+            assert_eq!(with(&|found| found.deviation = wrong), Verdict::Fail, "case {index}, {wrong}");
         }
+        // With fewer iterations other eigenvalues still take part.
+        let expected = if iterations >= 5 { Verdict::Fail } else { Verdict::Pass };
+        settled += usize::from(iterations >= 5);
+        for wrong in [1.02, 0.98] {
+            assert_eq!(with(&|found| found.measured = wrong * measured), expected, "case {index}, {wrong}");
+            assert_eq!(with(&|found| found.radius = wrong * radius), expected, "case {index}, {wrong}");
+        }
+        assert_eq!(with(&|found| found.measured = f64::NAN), Verdict::Fail);
+        assert_eq!(with(&|found| found.radius = f64::NAN), Verdict::Fail);
     }
-    assert_eq!((as_predicted, divergent, compared), (25, 10, 4));
+    assert_eq!((settled, compared), (39, 4));
 }
 
 #[test]
@@ -139,7 +140,7 @@ fn a_study_may_have_several_parts() {
     let study = Solvers::parse(&parts, "both.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
     let outcome = run_one(&study);
     assert_eq!((study.cases().len(), outcome.tables.len(), outcome.figures.len()), (5, 2, 5));
-    assert!(outcome.summary.contains("of alpha; 9 points"), "{}", outcome.summary);
+    assert!(outcome.summary.contains("to 0.0 % at 1; 9 points"), "{}", outcome.summary);
 }
 
 #[test]

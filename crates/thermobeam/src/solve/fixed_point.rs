@@ -16,7 +16,7 @@ use crate::norms::{TheoremSquares, slope_squared};
 use crate::parameters::Obstacles;
 use crate::scheme::{Case, ContactRule};
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, StepReport, Work};
+use crate::solve::{Level, Settings, StepReport, Stopping, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for example between both
@@ -26,7 +26,7 @@ const STALLED: f64 = 1.0 - 1e-6;
 /// The fixed-point iteration for one case.
 pub(crate) struct FixedPoint {
     case: Case,
-    settings: Settings,
+    stopping: Stopping,
     old: Level,
     /// V, W, Θ of the current and of the previous iterate.
     now: Iterate,
@@ -66,7 +66,7 @@ impl FixedPoint {
         factor_theta.factorize(&case.lengths, 2.0 / case.dt, 1.0, 0.0)?;
         let iterate = Iterate { v: level.v.clone(), w: level.w.clone(), theta: level.theta.clone() };
         Ok(Self {
-            settings,
+            stopping: settings.stopping,
             old: level.clone(),
             now: iterate.clone(),
             before: iterate,
@@ -86,7 +86,8 @@ impl FixedPoint {
     fn step(&mut self) -> Result<StepReport, StepFailure> {
         self.start();
         let (mut increment, mut contraction) = (f64::NAN, f64::NAN);
-        for iteration in 1..=self.settings.max_iterations {
+        let iterations = self.stopping.max_iterations();
+        for iteration in 1..=iterations {
             self.iterate()?;
             let previous = increment;
             increment = self.increment();
@@ -94,14 +95,17 @@ impl FixedPoint {
                 return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
             }
             contraction = increment / previous;
-            if increment <= self.settings.tolerance {
+            let ends = match self.stopping {
+                Stopping::Converged { tolerance, .. } => increment <= tolerance,
+                Stopping::Iterations(last) => iteration == last,
+            };
+            if ends {
                 self.commit();
                 let contraction = contraction.is_finite().then_some(contraction);
                 return Ok(StepReport { iterations: iteration, increment, contraction });
             }
             self.remember();
         }
-        let iterations = self.settings.max_iterations;
         // NaN, after a single iteration, does not indicate divergence.
         if contraction >= STALLED {
             Err(StepFailure::Diverged { iterations, increment, contraction, of: Some(self.largest_loop()) })

@@ -36,17 +36,68 @@ impl Solver {
 pub struct Settings {
     /// The method.
     pub solver: Solver,
-    /// η*, the bound on the increment of the last iteration in the norm of (3.14); see [`StepReport::increment`].
-    pub tolerance: f64,
-    /// Largest number of iterations of a step.
-    pub max_iterations: usize,
+    /// When its iteration ends.
+    pub stopping: Stopping,
     /// Initial iterate of Newton's method. The fixed point always starts from (4.1).
     pub start: Start,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { solver: Solver::Newton, tolerance: 1e-10, max_iterations: 100, start: Start::Extrapolated }
+        Self { solver: Solver::Newton, stopping: Stopping::default(), start: Start::Extrapolated }
+    }
+}
+
+/// When the iteration of a step ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stopping {
+    /// As soon as the increment is small; a step that needs too many iterations fails.
+    Converged {
+        /// η* > 0, the bound on the last increment in the norm of (3.14); see [`StepReport::increment`].
+        tolerance: f64,
+        /// Largest number of iterations of a step, at least 1.
+        max_iterations: usize,
+    },
+    /// After exactly this number of iterations, at least 1, without a test: the paper's "L times" (Section 4, before (4.5)).
+    /// Only the fixed point can stop in this way. Its steps are then not solved, so the energy balance has a defect.
+    Iterations(usize),
+}
+
+impl Default for Stopping {
+    fn default() -> Self {
+        Self::below(1e-10)
+    }
+}
+
+impl Stopping {
+    /// Until the increment is at most `tolerance`, with at most 100 iterations.
+    pub fn below(tolerance: f64) -> Self {
+        Self::Converged { tolerance, max_iterations: 100 }
+    }
+
+    /// The same criterion with another largest number of iterations; without a test the number stays.
+    #[must_use]
+    pub fn with_limit(self, max_iterations: usize) -> Self {
+        match self {
+            Self::Converged { tolerance, .. } => Self::Converged { tolerance, max_iterations },
+            Self::Iterations(_) => self,
+        }
+    }
+
+    /// The bound on the increment; `None` if nothing is tested.
+    pub fn tolerance(self) -> Option<f64> {
+        match self {
+            Self::Converged { tolerance, .. } => Some(tolerance),
+            Self::Iterations(_) => None,
+        }
+    }
+
+    /// Largest number of iterations of a step.
+    pub fn max_iterations(self) -> usize {
+        match self {
+            Self::Converged { max_iterations, .. } => max_iterations,
+            Self::Iterations(iterations) => iterations,
+        }
     }
 }
 

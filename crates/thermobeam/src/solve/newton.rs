@@ -52,7 +52,10 @@ pub(crate) fn newton<T: Lane + 'static>(
 /// Newton's method for one case (`T = f64`) or several in lanes; B = 2 without, B = 3 with the temperature.
 pub(crate) struct Newton<T, const B: usize> {
     pub(super) cases: Vec<Case>,
-    pub(super) settings: Settings,
+    /// Bound on the increment of one more iteration.
+    pub(super) tolerance: f64,
+    pub(super) max_iterations: usize,
+    first_iterate: Start,
     pub(super) scalars: Scalars<T>,
     pub(super) elements: Vec<Element<T>>,
     /// The factorisation.
@@ -132,7 +135,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             controls,
             failed_levels: vec![None; cases.len()],
             scalars: scalars(&cases),
-            settings,
+            // An iteration without a test is refused for Newton's method.
+            tolerance: settings.stopping.tolerance().unwrap_or(0.0),
+            max_iterations: settings.stopping.max_iterations(),
+            first_iterate: settings.start,
             cases,
             passes: 0,
         }
@@ -160,7 +166,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
     /// Weights of the last three levels in the initial iterate.
     pub(super) fn weights(&self) -> [f64; 3] {
-        match self.settings.start {
+        match self.first_iterate {
             Start::Previous => [1.0, 0.0, 0.0],
             Start::Extrapolated => [3.0, -3.0, 1.0],
         }
@@ -235,7 +241,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let bound = self.bound(k);
         let control = &mut self.controls[k];
         control.increment = bound.increment;
-        if bound.remaining <= self.settings.tolerance {
+        if bound.remaining <= self.tolerance {
             control.state = Progress::Accepted;
         } else if bound.contraction <= CONTRACTION {
             control.m = bound.m;
@@ -301,7 +307,7 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
             }
         }
         let mut first = true;
-        for _ in 0..KEPT_PASSES.min(self.settings.max_iterations) {
+        for _ in 0..KEPT_PASSES.min(self.max_iterations) {
             if !self.any(Progress::Iterating) {
                 break;
             }

@@ -37,7 +37,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let mut high = f64::INFINITY;
         let mut m = n0;
         let mut previous = f64::NAN;
-        for _ in self.controls[k].iterations..self.settings.max_iterations {
+        for _ in self.controls[k].iterations..self.max_iterations {
             self.controls[k].m = m;
             self.factorize(k, m)?;
             self.pass(Progress::Safeguarded, false);
@@ -50,7 +50,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 return Err(StepFailure::NonFinite { iterations: control.iterations, increment: previous });
             }
             let rounding = rounding([m, n0, self.cases[k].beam.beta]);
-            if bound.remaining <= self.settings.tolerance || f.abs() <= rounding {
+            if bound.remaining <= self.tolerance || f.abs() <= rounding {
                 return Ok(());
             }
             if f < 0.0 {

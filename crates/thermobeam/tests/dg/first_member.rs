@@ -6,7 +6,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::simulation as p1;
-use thermobeam::solve::{Level, Settings};
+use thermobeam::solve::{Level, Settings, Stopping};
 
 fn graded() -> Mesh {
     Mesh::mapped(9, |s| 0.4 * s + 0.6 * s * s).unwrap()
@@ -25,7 +25,7 @@ fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
         initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
         initial.theta[i] = if i == last { 0.0 } else { (std::f64::consts::PI * x).sin() };
     }
-    let settings = Settings { tolerance: 1e-14, ..Settings::default() };
+    let settings = Settings { stopping: Stopping::below(1e-14), ..Settings::default() };
     let stepping = p1::Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
     let problem = p1::Problem { beam, obstacles: None, mesh, initial };
     let mut paper = p1::Simulation::new(problem, stepping).unwrap();

@@ -2,9 +2,10 @@
 
 use super::scenes::{
     EXPERIMENTS, advance, distance, from_level, paper, relative_difference, schemes_and_meshes, simulate, stepping,
+    uniform,
 };
 use thermobeam::simulation::Stepping;
-use thermobeam::solve::{Settings, Solver, Start};
+use thermobeam::solve::{Settings, Solver, Start, Stopping};
 
 /// Runs all experiments twice in parallel, and compares every nodal value at every step.
 #[track_caller]
@@ -27,7 +28,7 @@ fn agree(one: Settings, other: Settings, dt: f64, steps: usize, allowed: f64) {
 }
 
 fn tight() -> Settings {
-    Settings { tolerance: 1e-13, ..Settings::default() }
+    Settings { stopping: Stopping::below(1e-13), ..Settings::default() }
 }
 
 #[test]
@@ -80,7 +81,7 @@ fn newton_and_the_fixed_point_agree_under_loads() {
 fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
     for (scheme, mesh) in schemes_and_meshes(20) {
         let problem = paper(mesh, EXPERIMENTS[3]);
-        let settings = Settings { solver: Solver::FixedPoint, tolerance: 1e9, ..Settings::default() };
+        let settings = Settings { solver: Solver::FixedPoint, stopping: Stopping::below(1e9), ..Settings::default() };
         let mut simulation = simulate(&problem, Stepping { scheme, settings, ..stepping(1e-3) });
         for _ in 0..3 {
             let old = simulation.level();
@@ -97,4 +98,26 @@ fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
 fn the_start_of_the_iteration_does_not_change_the_answer() {
     agree(tight(), Settings { start: Start::Previous, ..tight() }, 1e-3, 1000, 1e-10);
     agree(tight(), Settings { start: Start::Previous, ..tight() }, 2e-2, 200, 1e-10);
+}
+
+/// "L times": every step ends after L solves of (4.2), whatever its increment; the distance to the solved step falls with L.
+#[test]
+fn a_fixed_number_of_iterations_is_done_in_every_step() {
+    let problem = paper(uniform(20), EXPERIMENTS[3]);
+    let run = |stopping| {
+        let settings = Settings { solver: Solver::FixedPoint, stopping, ..Settings::default() };
+        let mut simulation = simulate(&problem, Stepping { settings, ..stepping(1e-3) });
+        let reports: Vec<_> = (0..300).map(|_| simulation.advance().unwrap()).collect();
+        (reports, simulation.level())
+    };
+    let (_, solved) = run(Stopping::below(1e-13));
+    let mut last = f64::INFINITY;
+    for iterations in 1..=4 {
+        let (reports, level) = run(Stopping::Iterations(iterations));
+        assert!(reports.iter().all(|report| report.iterations == iterations));
+        let apart = distance(&problem.mesh, &level, &solved);
+        assert!(apart < 0.2 * last, "{iterations}: {apart}, {last} with one less");
+        last = apart;
+    }
+    assert!(last > 0.0 && last < 1e-5, "{last}");
 }

@@ -4,14 +4,14 @@ use super::scenes::{EXPERIMENTS, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::norms::max_or_nan;
 use thermobeam::scheme::{Case, MIDPOINT};
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Level, Settings, Start};
+use thermobeam::solve::{Level, Settings, Start, Stopping};
 
 /// The largest residual relative to the initial energy, over 1000 steps of every experiment, both schemes, both meshes.
 fn largest_residual(tolerance: f64, dt: f64) -> f64 {
     let mut worst = 0.0;
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(100) {
-            let settings = Settings { tolerance, ..Settings::default() };
+            let settings = Settings { stopping: Stopping::below(tolerance), ..Settings::default() };
             let mut simulation = simulate(&paper(mesh, experiment), Stepping { scheme, settings, ..stepping(dt) });
             let mut old = simulation.level();
             let mut new = Level::new(101);
@@ -46,9 +46,9 @@ fn the_energy_falls_and_its_balance_closes_to_round_off() {
 
 #[test]
 fn the_default_tolerance_is_enough_for_the_balance() {
-    assert!(Settings::default().tolerance == 1e-10 && Settings::default().start == Start::Extrapolated);
+    assert!(Settings::default().stopping == Stopping::below(1e-10) && Settings::default().start == Start::Extrapolated);
     for dt in [1e-4, 1e-3] {
-        let residual = largest_residual(Settings::default().tolerance, dt);
+        let residual = largest_residual(1e-10, dt);
         assert!(residual <= 1e-12, "{residual:e} with dt = {dt}");
     }
 }

@@ -1,17 +1,21 @@
 //! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
 use super::scenes::{advance, graded, simulate, stepping, uniform};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::norms::{max_or_nan, slope_squared};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> Simulation {
-    let settings = Settings { solver: Solver::FixedPoint, tolerance, max_iterations: 1000, ..Settings::default() };
+    let settings = Settings {
+        solver: Solver::FixedPoint,
+        stopping: Stopping::Converged { tolerance, max_iterations: 1000 },
+        ..Settings::default()
+    };
     simulate(problem, Stepping { scheme, settings, ..stepping(dt) })
 }
 
@@ -200,4 +204,88 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
     assert!((factors[0] - 0.4831).abs() < 1e-4 && (factors[1] - 0.6789).abs() < 1e-4, "{factors:?}");
     assert!((contact - factors[0]).abs() < 1e-9 && (axial - factors[1]).abs() < 1e-9, "{contact} {axial}");
     assert!(case.contraction(&u).0 < 1.0 && (together - 1.1002).abs() < 1e-4, "{together}");
+}
+
+/// The matrix of the linearised iteration over (δV, δW), from dense matrices of (4.2).
+fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DMatrix<f64> {
+    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let Problem { beam, obstacles, initial, .. } = problem;
+    let n = m.nrows();
+    let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
+    let u = DVector::from_column_slice(&initial.u[1..]);
+    let bent = &k * &u;
+    let axial_force = beam.beta + beam.rho * u.dot(&bent);
+    // θ vanishes at the free end too.
+    let of_theta = (&m * (2.0 / dt) + &k).view((0, 0), (n - 1, n - 1)).into_owned();
+    let of_phi = &m * (kappa + s) + &k * s;
+    let of_u = &m * kappa + &k * (s + 0.5 * dt * axial_force);
+    let heat = of_theta.lu().solve(&(c.transpose().rows(0, n - 1) * -beam.a)).unwrap();
+    let solve_phi = of_phi.lu();
+    let phi_of_v = solve_phi.solve(&(c.transpose() * s)).unwrap();
+    let phi_of_w = solve_phi.solve(&(c.columns(0, n - 1) * heat * beam.a)).unwrap();
+    let touches = |obstacles: &Obstacles| u[n - 1] > obstacles.g2 || u[n - 1] < obstacles.g1;
+    let slope = obstacles.filter(touches).map_or(0.0, |obstacles| 1.0 / (scheme.inertia * obstacles.epsilon));
+    let mut lagged = &bent * bent.transpose() * (beam.rho * dt);
+    lagged[(n - 1, n - 1)] += dt * slope;
+    let solve_u = of_u.lu();
+    let mut matrix = DMatrix::zeros(2 * n, 2 * n);
+    matrix.view_mut((0, 0), (n, n)).copy_from(&solve_u.solve(&(&c * &phi_of_v * s - lagged)).unwrap());
+    matrix.view_mut((0, n), (n, n)).copy_from(&solve_u.solve(&(&c * &phi_of_w * s)).unwrap());
+    matrix.view_mut((n, 0), (n, n)).copy_from(&phi_of_v);
+    matrix.view_mut((n, n), (n, n)).copy_from(&phi_of_w);
+    matrix
+}
+
+/// All loops at once, on a graded mesh: contact, rotation, heat and axial force.
+fn coupled(scheme: &Scheme) -> Problem {
+    let mesh = graded(10);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u = mesh.nodes().iter().map(|x| 0.15 * x * x).collect();
+    let beam = Beam { a: 3.0, rho: 500.0, beta: 0.3, ..Beam::default() };
+    let epsilon = 2e-3 / scheme.inertia;
+    Problem { beam, obstacles: Some(Obstacles { epsilon, ..Obstacles::default() }), mesh, initial }
+}
+
+#[test]
+fn the_linearised_iteration_is_the_dense_matrix() {
+    for scheme in SCHEMES {
+        let (problem, dt) = (coupled(&scheme), 3e-3);
+        let expected = dense_iteration(&problem, &scheme, dt);
+        let mut map = problem.case(scheme, dt).linearized_iteration(&problem.initial.u).unwrap();
+        let n = map.elements();
+        for column in 0..2 * n {
+            let mut errors = [vec![0.0; n + 1], vec![0.0; n + 1]];
+            errors[column / n][1 + column % n] = 1.0;
+            let [v, w] = &mut errors;
+            map.apply(v, w);
+            for row in 0..2 * n {
+                let found = errors[row / n][1 + row % n];
+                let difference = (found - expected[(row, column)]).abs();
+                assert!(difference <= 1e-12 * expected.amax(), "{}: {row}, {column}: {found}", scheme.name);
+            }
+        }
+    }
+}
+
+/// Whether a linear beam in lasting contact stays bounded with this number of iterations in each step; both obstacles stand at 0.
+fn is_stable(iterations: usize, dt: f64) -> bool {
+    let mesh = uniform(20);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u = mesh.nodes().iter().map(|x| 0.01 * x * x).collect();
+    let beam = Beam { rho: 0.0, a: 0.5, ..Beam::default() };
+    let obstacles = Some(Obstacles { epsilon: 1e-3, g1: 0.0, g2: 0.0 });
+    let problem = Problem { beam, obstacles, mesh, initial };
+    let stopping = Stopping::Iterations(iterations);
+    let settings = Settings { solver: Solver::FixedPoint, stopping, ..Settings::default() };
+    let mut simulation = simulate(&problem, Stepping { settings, ..stepping(dt) });
+    (0..4000).all(|_| simulation.advance().is_ok()) && simulation.level().u[20].abs() < 1.0
+}
+
+/// α = 1 is at dt = 5.22e-3 here. The limits are those of the table in THEORY.md, ζ = 0.1, with 2 % on either side.
+#[test]
+fn a_single_iteration_is_stable_for_twice_the_step_of_convergence() {
+    for (iterations, limit) in [(1, 1.039e-2), (2, 5.224e-3), (3, 7.016e-3), (4, 5.224e-3)] {
+        assert!(is_stable(iterations, 0.98 * limit), "L = {iterations} below {limit}");
+        assert!(!is_stable(iterations, 1.02 * limit), "L = {iterations} above {limit}");
+    }
 }

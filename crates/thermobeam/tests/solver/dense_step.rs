@@ -11,7 +11,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, SCHEMES, Scheme};
 use thermobeam::simulation::{Initial, Problem, Stepping};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 const STEPS: usize = 3;
 const MAX_ELEMENTS: usize = 8;
@@ -111,7 +111,7 @@ prop_compose! {
             phi_t: integrate(&fields[3], &mesh),
             theta,
         };
-        let settings = Settings { solver, tolerance: 1e-13, max_iterations: 200, ..Settings::default() };
+        let settings = Settings { solver, stopping: Stopping::Converged { tolerance: 1e-13, max_iterations: 200 }, ..Settings::default() };
         let scheme = SCHEMES.get(row).copied().unwrap_or(BETWEEN);
         let stepping = Stepping { scheme, settings, dt: 10f64.powf(log_dt), loaded };
         let loads = loads.into_iter().map(|load| load[..=n].to_vec()).collect();

@@ -6,7 +6,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thermobeam::scheme::SCHEMES;
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 fn all_steppings() -> impl Iterator<Item = Stepping> {
     SCHEMES.into_iter().flat_map(|scheme| {
@@ -74,7 +74,8 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
         let mut problem = paper(uniform(10), (0.0, 0.0));
         problem.beam.rho = 1e4;
         let failed_at = |max_iterations: usize| {
-            let settings = Settings { tolerance: 1e-300, max_iterations, ..stepping.settings };
+            let settings =
+                Settings { stopping: Stopping::Converged { tolerance: 1e-300, max_iterations }, ..stepping.settings };
             let error = simulate(&problem, Stepping { settings, dt: 0.1, ..stepping }).advance().unwrap_err();
             let (StepFailure::IterationLimit { iterations, increment, contraction }
             | StepFailure::Diverged { iterations, increment, contraction, .. }) = error.failure
@@ -156,11 +157,17 @@ fn invalid_settings_are_rejected() {
     }
     assert!(is_named(&rejection(|_, stepping| stepping.dt = f64::NAN), "dt"));
     for tolerance in [0.0, -1e-10, f64::NAN, f64::INFINITY] {
-        let error = rejection(|_, stepping| stepping.settings.tolerance = tolerance);
+        let error = rejection(|_, stepping| stepping.settings.stopping = Stopping::below(tolerance));
         assert!(is_named(&error, "tolerance"), "{error}");
     }
-    let error = rejection(|_, stepping| stepping.settings.max_iterations = 0);
+    let error = rejection(|_, stepping| stepping.settings.stopping = Stopping::default().with_limit(0));
     assert!(is_named(&error, "max_iterations"), "{error}");
+    // Newton's method cannot stop without a test, and the fixed point needs one iteration.
+    for (solver, iterations) in [(Solver::Newton, 2), (Solver::FixedPoint, 0)] {
+        let stopping = Stopping::Iterations(iterations);
+        let error = rejection(|_, stepping| stepping.settings = Settings { solver, stopping, ..Settings::default() });
+        assert!(is_named(&error, "iterations"), "{error}");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::scenes::{EXPERIMENTS, advance, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::parameters::Beam;
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Settings, Start};
+use thermobeam::solve::{Settings, Start, Stopping};
 
 #[test]
 fn newton_takes_one_pass_per_step_on_a_linear_beam() {
@@ -20,7 +20,7 @@ fn newton_takes_one_pass_per_step_on_a_linear_beam() {
                 if free {
                     problem.obstacles = None;
                 }
-                let settings = Settings { tolerance: 1e-300, start, ..Settings::default() };
+                let settings = Settings { stopping: Stopping::below(1e-300), start, ..Settings::default() };
                 let mut simulation = simulate(&problem, Stepping { scheme, settings, ..stepping(1e-3) });
                 advance(&mut simulation, 500);
                 let work = simulation.work();

@@ -7,7 +7,7 @@ use ode_solvers::{DVector, Dop853, System};
 use thermobeam::norms::max_or_nan;
 use thermobeam::scheme::Scheme;
 use thermobeam::simulation::{Problem, Stepping};
-use thermobeam::solve::{Level, Settings};
+use thermobeam::solve::{Level, Settings, Stopping};
 
 struct SemiDiscrete<F> {
     n: usize,
@@ -40,7 +40,7 @@ fn errors(problem: &Problem, scheme: Scheme, t: f64, steps: &[usize]) -> (Vec<(f
         .iter()
         .map(|&steps| {
             let dt = t / steps as f64;
-            let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+            let settings = Settings { stopping: Stopping::below(1e-12), ..Settings::default() };
             let mut simulation = simulate(problem, Stepping { scheme, settings, ..stepping(dt) });
             let mut level = simulation.level();
             for _ in 0..steps {

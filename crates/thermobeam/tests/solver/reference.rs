@@ -2,7 +2,7 @@
 
 use super::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::simulation::Stepping;
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 #[test]
 fn both_solvers_agree_with_the_reference_to_nine_digits() {
@@ -12,7 +12,7 @@ fn both_solvers_agree_with_the_reference_to_nine_digits() {
     ];
     for (experiment, expected) in rows {
         for solver in Solver::ALL {
-            let settings = Settings { solver, tolerance: 1e-12, ..Settings::default() };
+            let settings = Settings { solver, stopping: Stopping::below(1e-12), ..Settings::default() };
             let mut simulation = simulate(&paper(uniform(20), experiment), Stepping { settings, ..stepping(1e-3) });
             advance(&mut simulation, 1000);
             let level = simulation.level();

@@ -3,7 +3,7 @@
 use super::scenes::{advance, paper, simulate, stepping, uniform};
 use thermobeam::equilibrium::{Phase, equilibria};
 use thermobeam::simulation::Stepping;
-use thermobeam::solve::Settings;
+use thermobeam::solve::{Settings, Stopping};
 
 /// Errors of u(1), φ(1) and the contact force in the steady state with the given number of elements.
 fn errors(beta: f64, contact: Phase, elements: usize) -> [f64; 3] {
@@ -11,7 +11,7 @@ fn errors(beta: f64, contact: Phase, elements: usize) -> [f64; 3] {
     let states = equilibria(&problem.beam, problem.obstacles.as_ref()).unwrap();
     let [state] = states.as_slice() else { panic!("{states:?}") };
     assert_eq!(state.contact, contact);
-    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let settings = Settings { stopping: Stopping::below(1e-12), ..Settings::default() };
     let mut simulation = simulate(&problem, Stepping { settings, ..stepping(0.05) });
     // Backward Euler damps every mode; the slowest thermal mode decays by 13 digits until t = 3.
     advance(&mut simulation, 4000);

@@ -5,7 +5,7 @@ use super::scenes::{
 };
 use thermobeam::parameters::Beam;
 use thermobeam::simulation::{Initial, Problem, Stepping};
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::{Settings, Solver, Stopping};
 
 /// The paper's data without temperature.
 fn cold(problem: Problem) -> Problem {
@@ -24,7 +24,7 @@ fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
                     problem.beam.rho = 0.0;
                     problem.obstacles = None;
                 }
-                let settings = Settings { tolerance: 1e-13, ..Settings::default() };
+                let settings = Settings { stopping: Stopping::below(1e-13), ..Settings::default() };
                 let stepping = Stepping { scheme, settings, ..stepping(1e-3) };
                 let mut without = simulate(&problem, stepping);
                 let mut with = simulate(&problem, Stepping { loaded: true, ..stepping });

@@ -19,6 +19,7 @@
 //! claim = "..."                # in words
 //! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
 //! drift = 1e-10                # optional: bound of the sum of all residuals, in units of the energy
+//! stability = true             # optional: every level keeps the bound of Corollary 3.2; needs theta_a = 0
 //! # and the tables of a scene
 //! [case.time]
 //! dt = 10.0
@@ -26,6 +27,7 @@
 //! ```
 
 use thermobeam::energy::Energy;
+use thermobeam::norms::slope_squared;
 
 use super::{End, Worst, named_cases};
 use crate::kinds::prelude::*;
@@ -63,6 +65,8 @@ struct EnergyRun {
     share: Option<f64>,
     /// Bound of the sum of all residuals, in units of the energy.
     drift: Option<f64>,
+    /// Whether every level must keep the bound of Corollary 3.2.
+    is_bounded: bool,
     is_drawn: bool,
 }
 
@@ -83,6 +87,8 @@ pub struct Found {
     pub worst: Worst,
     /// Sum of all residuals with their signs, in units of the energy.
     pub drift: f64,
+    /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is claimed.
+    pub of_bound: Option<f64>,
     /// The term of the balance that does not close, and the factor of it that is left over.
     pub open_term: Option<(&'static str, f64)>,
     /// Samples for the figures.
@@ -131,7 +137,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let steps = section.count("steps", 1..=limits::STEPS)?;
     let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
     let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
-    let settings = Settings { tolerance: SOLVED, ..Settings::default() };
+    let settings = Settings { stopping: Stopping::below(SOLVED), ..Settings::default() };
     let by_scheme = |name: String, is_scene: bool, problem: Problem| {
         schemes.iter().enumerate().map(move |(k, &scheme)| EnergyRun {
             name: format!("{name}, {}", scheme.name),
@@ -144,6 +150,7 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
             end: End::Answer,
             share: Some(tolerance),
             drift: None,
+            is_bounded: false,
         })
     };
     let of_scene = |scene: Scene| by_scheme(scene.name.clone(), true, simulate::problem(&scene));
@@ -156,19 +163,26 @@ fn cases(root: &Section<'_>) -> Result<Vec<EnergyRun>, InputError> {
     let mut runs = named_cases(root, case)?;
     let bounded = runs.iter().any(|run| run.drift.is_some());
     // The drift of cases that claim a bound; of all where none does.
-    runs.iter_mut().for_each(|run| run.is_drawn = run.drift.is_some() || !bounded);
+    runs.iter_mut().for_each(|run| run.is_drawn = !run.is_bounded && (run.drift.is_some() || !bounded));
     Ok(runs)
 }
 
 fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
-    section.allow(&[&["name", "claim", "ends", "drift"], &scene::TABLES[..]].concat())?;
+    section.allow(&[&["name", "claim", "ends", "drift", "stability"], &scene::TABLES[..]].concat())?;
     let scene = Scene::from_tables(section, name.clone())?;
     let stepping = scene.one_step().map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
     let newton = stepping.settings.solver == Solver::Newton;
     // The balance holds for the exact solution of a step only.
-    let settings = if newton { Settings { tolerance: SOLVED, ..stepping.settings } } else { stepping.settings };
+    let settings =
+        if newton { Settings { stopping: Stopping::below(SOLVED), ..stepping.settings } } else { stepping.settings };
+    let is_bounded = section.get("stability").map_or(Ok(false), |field| field.boolean())?;
+    if is_bounded && stability(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
+        let allowed = "theta_a = 0, and rho > 0 or beta > -0.7116";
+        return Err(section.refuse("stability", "a beam for which Corollary 3.2 states nothing", allowed));
+    }
     Ok(EnergyRun {
         name,
+        is_bounded,
         claim: section.require("claim", "a text")?.text()?.to_owned(),
         end: section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?,
         drift: section.get("drift").map(|field| field.positive()).transpose()?,
@@ -231,6 +245,10 @@ impl EnergyRun {
         let initial_energy = kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs();
         let start = EnergyAt { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
         let mut found = Found { initial_energy, samples: vec![start], ..Found::default() };
+        let bound = self.bound(energy.total());
+        let lengths = simulation.lengths().to_vec();
+        let share = |level: &Level, energy: &Energy| bound.map(|bound| self.size(&lengths, level, energy) / bound);
+        found.of_bound = share(level, &energy);
         let (every, mut residual) = (self.steps.div_ceil(SAMPLES), 0.0);
         for step in 1..=self.steps {
             let Step { report, old, new, simulation } = match driver.stepped() {
@@ -248,12 +266,29 @@ impl EnergyRun {
             let balance = simulation.balance(old, new);
             watch.step(&balance, scale, || simulation.rounding(old, new));
             residual = max_or_nan(residual, balance.residual.abs() / initial_energy);
+            if let Some(of_bound) = &mut found.of_bound {
+                let reached = share(new, &simulation.energy(new)).unwrap_or(f64::NAN);
+                *of_bound = max_or_nan(*of_bound, reached);
+            }
             if step % every == 0 || step == self.steps {
                 let (t, energy, drift) = (simulation.t(), simulation.energy(new).total(), watch.drift);
                 found.samples.push(EnergyAt { step, t, energy, residual, drift });
             }
         }
         Ok(Found { worst: watch.worst, drift: watch.drift, open_term: watch.open_term(), ..found })
+    }
+
+    /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
+    fn bound(&self, initial_energy: f64) -> Option<f64> {
+        let Problem { beam, obstacles, .. } = &self.problem;
+        if self.is_bounded { stability(beam, obstacles.as_ref(), initial_energy) } else { None }
+    }
+
+    /// The left side of (3.12): norms of a level, and its penetration.
+    fn size(&self, lengths: &[f64], level: &Level, energy: &Energy) -> f64 {
+        let penetration = self.problem.obstacles.map_or(0.0, |obstacles| 2.0 * obstacles.epsilon * energy.contact);
+        let Energy { kinetic, shear, bending, thermal, .. } = energy;
+        2.0 * (kinetic + shear + bending + thermal) + slope_squared(lengths, &level.u) + penetration
     }
 
     /// Largest rise or residual of a run in units of its bound.
@@ -280,7 +315,12 @@ impl EnergyRun {
         if let (false, Some((term, left))) = (closes, found.open_term) {
             evidence += &format!("; in every step the residual is {left:.3} times {term}");
         }
-        let holds = ended && closes && drifted;
+        let mut is_bounded = true;
+        if let Some(of_bound) = found.of_bound {
+            evidence += &format!("; left side of (3.12) at most {of_bound:.3} of its bound");
+            is_bounded = of_bound <= 1.0;
+        }
+        let holds = ended && closes && drifted && is_bounded;
         Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
     }
 
@@ -298,6 +338,9 @@ impl EnergyRun {
             of_steps("residual", found.worst.residual),
             of_steps("sum of residuals", found.drift.abs()),
         ]
+        .into_iter()
+        .chain(found.of_bound.map(|share| Reading::new("of the bound (3.12)", share).fixed(3)))
+        .collect()
     }
 
     /// The name without that of its scheme.
@@ -309,15 +352,31 @@ impl EnergyRun {
 impl Found {
     /// A run without a step has no rise.
     fn not_finite(&self) -> Vec<String> {
-        let numbers = [("initial energy", self.initial_energy), ("sum of residuals", self.drift)];
+        let bound = self.of_bound.map(|share| ("left side of (3.12)", share));
+        let numbers =
+            [("initial energy", self.initial_energy), ("sum of residuals", self.drift)].into_iter().chain(bound);
         let named = self.worst.named().into_iter().filter(|(name, _)| self.steps > 0 || *name != "rise");
-        not_finite(numbers.into_iter().chain(named))
+        not_finite(numbers.chain(named))
     }
+}
+
+/// The constant c of Corollary 3.2, by the energy E^0 at t = 0 (THEORY.md derives it); `None` where nothing is stated.
+fn stability(beam: &Beam, obstacles: Option<&Obstacles>, initial_energy: f64) -> Option<f64> {
+    let Beam { beta, rho, theta_a, .. } = *beam;
+    // Share of ½ (‖u_x - φ‖² + ‖φ_x‖²) that the term of the axial force leaves.
+    let left = if rho > 0.0 { 1.0 } else { 1.0 + beta.min(0.0) / BUCKLING };
+    let constant = if rho > 0.0 && beta > 0.0 { beta * beta / (4.0 * rho) } else { 0.0 };
+    let epsilon = obstacles.map_or(0.0, |obstacles| obstacles.epsilon);
+    let largest = max_or_nan((1.0 + 1.0 / BUCKLING) / left, epsilon);
+    (theta_a == 0.0 && left > 0.0).then_some(2.0 * largest * (initial_energy - constant))
 }
 
 impl EnergyRuns {
     fn figures(&self, found: &[(&EnergyRun, &Found)]) -> Vec<Figure> {
         let drawn: Vec<&(&EnergyRun, &Found)> = found.iter().filter(|(run, _)| run.is_drawn).collect();
+        if drawn.is_empty() {
+            return vec![];
+        }
         let series = |point: fn(&Found, &EnergyAt) -> (f64, f64)| -> Vec<plots::Series> {
             let curve = |(run, found): &&(&EnergyRun, &Found)| {
                 plots::Series::new(run.scene(), found.samples.iter().map(|sample| point(found, sample)))

@@ -221,7 +221,8 @@ fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
 /// The fixed point up to its last step or the one that fails.
 fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, CaseFailure> {
     let stepping = scene.one_step()?;
-    let settings = Settings { solver: Solver::FixedPoint, max_iterations, ..stepping.settings };
+    let stopping = stepping.settings.stopping.with_limit(max_iterations);
+    let settings = Settings { solver: Solver::FixedPoint, stopping, ..stepping.settings };
     let method = Method::OneStep(Stepping { settings, ..stepping });
     let mut driver = driver(&Scene { method, ..scene.clone() })?;
     let (mut contraction, mut iterations, mut failed_at) = (None, 0, None);

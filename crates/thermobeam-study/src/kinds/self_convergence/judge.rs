@@ -27,7 +27,7 @@ pub(super) struct Observable {
     of: fn(&Traced, &Traced) -> f64,
 }
 
-static OBSERVABLES: [Observable; 6] = [
+static OBSERVABLES: [Observable; 7] = [
     TIP,
     Observable {
         name: "rotation",
@@ -38,6 +38,8 @@ static OBSERVABLES: [Observable; 6] = [
     Observable { name: "energy", in_space: 2.0, of: |a, b| distance_of_curves(&a.energies, &b.energies) },
     // The largest u(1) over all time levels.
     Observable { name: "tip-max", in_space: 2.0, of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs() },
+    // The largest defect of the energy balance in a step; of a fixed number of iterations it has an order of its own.
+    Observable { name: "balance", in_space: 2.0, of: |a, b| (a.balance_residual - b.balance_residual).abs() },
     // The solutions as functions.
     Observable { name: "theorem-3.4", in_space: 1.0, of: |coarse, fine| functions(coarse, fine)[0] },
     // The same norm of their values at the nodes of the coarser mesh.
@@ -63,9 +65,13 @@ fn last(values: &[f64]) -> f64 {
 
 impl Observable {
     /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
-    /// 3.4 are the same.
-    pub(super) fn all(axis: Axis) -> impl Iterator<Item = &'static Self> {
-        OBSERVABLES.iter().filter(move |observable| axis != Axis::Time || observable.name != "superclose")
+    /// 3.4 are the same, and the balance of solved steps closes to round-off.
+    pub(super) fn all(axis: Axis, stopping: Stopping) -> impl Iterator<Item = &'static Self> {
+        OBSERVABLES.iter().filter(move |observable| match observable.name {
+            "superclose" => axis != Axis::Time,
+            "balance" => stopping.tolerance().is_none(),
+            _ => true,
+        })
     }
 
     /// The order for a smooth solution in the step that is refined, in which the scheme has the order `in_time`.
@@ -177,7 +183,11 @@ fn differences(
         })
     };
     let refinement = |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step(k));
-    Levels::new(study.axis, (0..count).map(refinement), Observable::all(study.axis).enumerate().filter_map(column))
+    Levels::new(
+        study.axis,
+        (0..count).map(refinement),
+        Observable::all(study.axis, study.scene.method.stopping()).enumerate().filter_map(column),
+    )
 }
 
 /// The result of a run: the levels, then the references.

@@ -25,6 +25,8 @@
 //! elements = [10, 20, 40]
 //! steps = [200, 800, 3200]
 //! samples = 10                       # times of comparison
+//! solver = "fixed-point"             # optional, as are scheme, tolerance, max_iterations and iterations: else those of the scene
+//! iterations = 2
 //!
 //! [[reference]]                      # two of them, that share nothing; with axis = "time" elements of degree 1 on the mesh
 //! elements = 1
@@ -88,17 +90,21 @@ impl FromFile for SelfConvergence {
         let scene = Scene::read(file.file(folder)?)?;
         let mut stepping =
             scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
-        let keys = ["axis", "elements", "steps", "t_end", "samples", "scheme", "contact"];
-        let section = root.table("refine", &keys)?;
+        let keys = ["axis", "elements", "steps", "t_end", "samples", "contact"];
+        let section = root.table("refine", &[&keys[..], &tables::STEPPING_KEYS].concat())?;
         let axes = [("time", Axis::Time), ("both", Axis::Both)];
         let axis = section.require("axis", "\"time\", \"both\"")?.choice(&axes)?;
         let samples = section.count("samples", 1..=1000)?;
         let (levels, power) = levels(&section, axis, samples)?;
         let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
-        let observables: Vec<_> = Observable::all(axis).map(|observable| (observable.name, observable)).collect();
         if section.get("scheme").is_some() {
             stepping.scheme = tables::scheme(&section)?;
         }
+        if ["solver", "tolerance", "max_iterations", "iterations"].iter().any(|key| section.get(key).is_some()) {
+            stepping.settings = tables::settings(&section)?;
+        }
+        let observables = Observable::all(axis, stepping.settings.stopping);
+        let observables: Vec<_> = observables.map(|observable| (observable.name, observable)).collect();
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
             axis,

@@ -1,11 +1,12 @@
 //! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always converges.
 //!
-//! The paper does not treat the convergence of its iteration. In contact an error shrinks by `α = (dt/ε) [A_u⁻¹]_nn` per
-//! iteration, without contact by a factor γ < 1 ([`contraction`](thermobeam::contraction)); past α = 1 the iteration
-//! diverges. A study asks one or more of three questions, one table of its file each:
+//! The paper does not treat the convergence of its iteration. Near a state it multiplies errors by a linear map
+//! ([`linearized`](thermobeam::linearized)), and converges if the spectral radius of that map is below 1. Where contact dominates,
+//! the radius is `α = (dt/ε) [A_u⁻¹]_nn`; without contact it is a factor γ < 1 ([`contraction`](thermobeam::contraction)). A study
+//! asks one or more of three questions, one table of its file each:
 //!
 //! ```toml
-//! [contraction]              # the factor of one step in contact against α, for all combinations
+//! [contraction]              # the factor of one step in contact against the spectral radius, for all combinations
 //! elements = 100
 //! dt = [1e-4, 1e-3]
 //! epsilon = [1e-4, 1e-3]
@@ -31,21 +32,22 @@
 mod judge;
 mod map;
 mod parts;
+mod spectrum;
 
 use super::prelude::*;
 
 pub use map::{Boundary, NewtonSteps, Point};
-pub use parts::Agreement;
+pub use parts::{Agreement, Contraction};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "solvers",
     read: reader::<Solvers>,
-    why: "In contact, the paper's fixed point (4.2) reduces its error by a factor alpha per iteration that is known beforehand from \
-          dt, epsilon, zeta and the mesh; past alpha = 1 it diverges. Newton's method solves the same step wherever its operator \
-          is definite.",
-    judged: "The measured factor against alpha, for all combinations of dt, epsilon and zeta; the difference between both solvers \
-             against the fixed point's tolerance; over two parameters at a time, the boundary of convergence against alpha = 1, \
+    why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
+          it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \
+          Newton's method solves the same step wherever its operator is definite.",
+    judged: "The increments against those of the linearised iteration, and their ratio against its spectral radius, for all \
+             combinations of dt, epsilon and zeta; the difference between both solvers against the fixed point's tolerance; over two parameters at a time, the boundary of convergence against alpha = 1, \
              and for Newton's method convergence, energy and balance at every point.",
     failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
@@ -76,7 +78,7 @@ pub enum SolverTask {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// Predicted and measured factor of the step.
-    Contraction(FixedPointStep),
+    Contraction(Contraction),
     /// Difference between the two solvers.
     Comparison(Agreement),
     /// A row of the map, one point for each time step, ascending.
@@ -89,7 +91,13 @@ impl Found {
     /// Names of the numbers that are NaN, or infinite although only a finite value makes sense.
     fn not_finite(&self) -> Vec<String> {
         match self {
-            Found::Contraction(found) => not_finite([("alpha", found.alpha), ("gamma", found.gamma)]),
+            Found::Contraction(found) => not_finite([
+                ("alpha", found.alpha),
+                ("gamma", found.gamma),
+                ("the spectral radius", found.radius),
+                ("the measured factor", found.measured),
+                ("the deviation", found.deviation),
+            ]),
             Found::Comparison(Agreement { distance, mean_iterations, .. }) => {
                 not_finite([("the distance", *distance), ("the mean number of iterations", *mean_iterations)])
             }
@@ -194,7 +202,8 @@ impl FixedPointStep {
     /// # Errors
     /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
     fn run(problem: &Problem, dt: f64, n_value: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
-        let newton = Settings { tolerance, max_iterations: iterations, ..Settings::default() };
+        let newton =
+            Settings { stopping: Stopping::Converged { tolerance, max_iterations: iterations }, ..Settings::default() };
         let settings = Settings { solver: Solver::FixedPoint, ..newton };
         let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
         let outcome = Driver::new(problem.clone(), stepping)?.advance(|_, _| ());

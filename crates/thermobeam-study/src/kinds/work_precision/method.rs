@@ -81,7 +81,11 @@ impl OneStep {
         [steps, observations]: [usize; 2],
         tolerance: f64,
     ) -> Result<Measurement, CaseFailure> {
-        let settings = Settings { solver: self.solver, tolerance, max_iterations: 1000, ..Settings::default() };
+        let settings = Settings {
+            solver: self.solver,
+            stopping: Stopping::Converged { tolerance, max_iterations: 1000 },
+            ..Settings::default()
+        };
         let mut run = on.start(self.scheme, settings, steps)?;
         let mut half = if self.extrapolated { Some(on.start(self.scheme, settings, 2 * steps)?) } else { None };
         let mut errors = [0.0_f64; 3];

@@ -24,8 +24,7 @@ fn tip(t: f64) -> f64 {
 pub(crate) fn contraction_factors() -> Vec<Series> {
     let dt = |k: i32| 10f64.powf(-4.0 + 0.25 * f64::from(k));
     let alpha = |eps: f64, k: i32| dt(k).powf(1.5) / (eps * 0.1_f64.sqrt());
-    let family =
-        |eps: f64, ks: std::ops::Range<i32>| ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k).min(1.0))).collect();
+    let family = |eps: f64, ks: std::ops::Range<i32>| ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k))).collect();
     vec![
         series("ε = 10⁻²", family(1e-2, 0..9)),
         series("ε = 10⁻³", family(1e-3, 0..7)),

@@ -301,8 +301,8 @@ impl Kind for RandomErrors {
             ),
             Check::that(refused.is_empty(), "every search of smooth data ends with a run", refused.join("; ")),
             Check::that(
-                rough.iter().all(|reason| reason.contains(UNRESOLVED)),
-                "a search of rough data is refused only where no mesh resolves them",
+                rough.iter().all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
+                "a search of rough data is refused only where no mesh resolves them, or because a finer run contradicts it",
                 format!("{} searches refused: {}", rough.len(), rough.join("; ")),
             ),
         ];
@@ -343,8 +343,8 @@ impl Found {
     }
 }
 
-/// Words of the refusal of data that no mesh resolves.
-const UNRESOLVED: &str = "do not resolve";
+/// Words of the refusals of rough data.
+const REFUSALS: [&str; 2] = ["do not resolve", "is contradicted by"];
 
 /// Why searches of smooth, or of rough, data were refused.
 fn refusals(found: &[(&Ran<Drawn, Found>, &Found)], is_rough: bool) -> Vec<String> {

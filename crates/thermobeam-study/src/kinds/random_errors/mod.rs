@@ -245,43 +245,13 @@ impl RandomErrors {
         Ok(found)
     }
 
-    fn figure(&self, found: &[(&Ran<Drawn, Found>, &Found)]) -> Figure {
-        let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let work = "work of a scene's searches (unknowns times solves)";
-        let series = [plots::Series::new("random scenes", points)];
-        let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
-        let caption =
-            "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
-        Figure::new("errors", caption, drawn.titled("Errors of the runs chosen").draw())
-    }
-}
-
-impl Kind for RandomErrors {
-    type Data = Drawn;
-    type Found = Found;
-
-    fn cases(&self) -> Vec<Case<Drawn>> {
-        let smooth = (0..self.scenes).map(|number| (format!("scene {number}"), Drawn::Smooth(number)));
-        let rough = (0..self.rough).map(|number| (format!("rough scene {number}"), Drawn::Rough(number)));
-        let given = self.given.iter().enumerate().map(|(number, scene)| (scene.name.clone(), Drawn::Given(number)));
-        smooth.chain(rough).chain(given).map(|(label, data)| Case::new(label, 3e7, data)).collect()
-    }
-
-    fn run(&self, &drawn: &Drawn) -> Result<Found, CaseFailure> {
-        self.measure(drawn)
-    }
-
-    fn judge(&self, ran: &[Ran<Drawn, Found>]) -> Outcome {
-        let found: Vec<(&Ran<Drawn, Found>, &Found)> = ran.iter().filter_map(|ran| Some((ran, ran.ok()?))).collect();
-        let worst = |of: fn(&Found) -> f64| found.iter().map(|(_, found)| of(found)).fold(0.0, max_or_nan);
-        let (over_estimate, over_target) = (worst(|found| found.over_estimate), worst(|found| found.over_target));
-        let over_norm_target = worst(|found| found.over_norm_target);
+    fn checks(&self, ran: &[Ran<Drawn, Found>], found: &[(&Ran<Drawn, Found>, &Found)]) -> Vec<Check> {
+        let [over_estimate, over_target, over_norm_target] = worst(found);
         let falls: Vec<f64> =
             found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
         let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
         let fall = format!("their error falls {FALL} times or more");
-        let [refused, rough] = [false, true].map(|is_rough| refusals(&found, is_rough));
+        let [refused, rough] = [false, true].map(|is_rough| refusals(found, is_rough));
         let mut checks = vec![
             completion(ran, |found| readings::not_finite(&found.readings())),
             Check::that(
@@ -313,19 +283,50 @@ impl Kind for RandomErrors {
                 format!("with four times of both it falls at least {least:.1} times, of {} scenes", falls.len()),
             ));
         }
+        checks
+    }
+
+    fn figure(&self, found: &[(&Ran<Drawn, Found>, &Found)]) -> Figure {
+        let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let work = "work of a scene's searches (unknowns times solves)";
+        let series = [plots::Series::new("random scenes", points)];
+        let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
+        let caption =
+            "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
+        Figure::new("errors", caption, drawn.titled("Errors of the runs chosen").draw())
+    }
+}
+
+impl Kind for RandomErrors {
+    type Data = Drawn;
+    type Found = Found;
+
+    fn cases(&self) -> Vec<Case<Drawn>> {
+        let smooth = (0..self.scenes).map(|number| (format!("scene {number}"), Drawn::Smooth(number)));
+        let rough = (0..self.rough).map(|number| (format!("rough scene {number}"), Drawn::Rough(number)));
+        let given = self.given.iter().enumerate().map(|(number, scene)| (scene.name.clone(), Drawn::Given(number)));
+        smooth.chain(rough).chain(given).map(|(label, data)| Case::new(label, 3e7, data)).collect()
+    }
+
+    fn run(&self, &drawn: &Drawn) -> Result<Found, CaseFailure> {
+        self.measure(drawn)
+    }
+
+    fn judge(&self, ran: &[Ran<Drawn, Found>]) -> Outcome {
+        let found: Vec<(&Ran<Drawn, Found>, &Found)> = ran.iter().filter_map(|ran| Some((ran, ran.ok()?))).collect();
+        let [over_estimate, over_target, over_norm_target] = worst(&found);
         let rows: Vec<_> = found.iter().map(|(ran, found)| (vec![ran.case.label.clone()], found.readings())).collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
-        let errors = format!(
-            "{over_estimate:.2} of their estimates and {:.2} of the target error",
-            over_target.max(over_norm_target)
-        );
+        let most = max_or_nan(over_target, over_norm_target);
+        let errors = format!("{over_estimate:.2} of their estimates and {most:.2} of the target error");
         let headline = format!("{} scenes: errors at most {errors}", found.len());
         Outcome {
             tables: vec![readings::table("Errors relative to the estimates and targets", &["scene"], &rows)],
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
             headline: headline.clone(),
-            ..Outcome::new(headline, vec![], checks)
+            ..Outcome::new(headline, vec![], self.checks(ran, &found))
         }
     }
 }
@@ -341,6 +342,13 @@ impl Found {
             Reading::new("work", self.work).scientific(1),
         ]
     }
+}
+
+/// The largest errors in units of their estimates, of the targets, and of those in the norm.
+fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> [f64; 3] {
+    let of: [fn(&Found) -> f64; 3] =
+        [|found| found.over_estimate, |found| found.over_target, |found| found.over_norm_target];
+    of.map(|of| found.iter().map(|(_, found)| of(found)).fold(0.0, max_or_nan))
 }
 
 /// Words of the refusals of rough data.

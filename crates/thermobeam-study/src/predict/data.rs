@@ -74,7 +74,8 @@ impl Datum {
     /// [`SHORTEST`]. The interval is the half over which the field changes more.
     fn jump(&self, [mut from, mut to]: [f64; 2], least: f64) -> Option<f64> {
         let change = |from: f64, to: f64| (self.function.eval(to) - self.function.eval(from)).abs();
-        let mut before = f64::INFINITY;
+        // An element may be short itself, because of the jump.
+        let mut before = change(from, to);
         while to - from > SHORTEST {
             if to - from > STEEP * SHORTEST {
                 before = change(from, to);

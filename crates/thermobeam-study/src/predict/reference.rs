@@ -12,6 +12,8 @@
 //! * Steps: at the peak of an impact, on the time scale (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error peaks inside steps, and is
 //!   not visible at their ends. The degree q helps between impacts, short steps during them.
 //! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; after time t its width is √(ζ t).
+//! * Initial data: nodes at narrow features and at kinks, see `data`. From a kink a layer of width √(ζ t) begins at the start: the
+//!   elements on both sides of it are split like the last one, until there is a contact event.
 //! * Short waves: u ~ e^(λt) sin(kx) has λ² + ζk²λ + (1 + N)k² = 0. While N < -1 every wave grows, shorter waves faster, up to the
 //!   rate s/ζ, s = -(1 + N), which waves with k > √s/ζ come close to. Unresolved waves grow most, and p and p + 4 agree on waves that
 //!   both lack: errors of 300 times the difference were observed. N ≥ β, so this requires β < -1. Then the first mesh resolves k =

@@ -245,6 +245,47 @@ impl RandomErrors {
         Ok(found)
     }
 
+    fn checks(&self, ran: &[Ran<Drawn, Found>], found: &[(&Ran<Drawn, Found>, &Found)]) -> Vec<Check> {
+        let [over_estimate, over_target, over_norm_target] = worst(found);
+        let falls: Vec<f64> =
+            found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
+        let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
+        let fall = format!("their error falls {FALL} times or more");
+        let [refused, rough] = [false, true].map(|is_rough| refusals(found, is_rough));
+        let mut checks = vec![
+            completion(ran, |found| readings::not_finite(&found.readings())),
+            Check::that(
+                over_estimate <= EXCEEDED && !found.is_empty(),
+                format!("no error of a number exceeds {EXCEEDED} times its estimate"),
+                format!("the largest is {over_estimate:.2} of its estimate, of {} numbers", 8 * found.len()),
+            ),
+            Check::that(
+                over_target <= 1.0 && !found.is_empty(),
+                "no chosen run misses its target error",
+                format!("the largest is {over_target:.2} of it, of {} runs", self.targets.len() * found.len()),
+            ),
+            Check::that(
+                over_norm_target <= 1.0 && !found.is_empty(),
+                "no chosen run misses its target error in the norm of Theorem 3.4",
+                format!("the largest is {over_norm_target:.2} of it"),
+            ),
+            Check::that(refused.is_empty(), "every search of smooth data ends with a run", refused.join("; ")),
+            Check::that(
+                rough.iter().all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
+                "a search of rough data is refused only where no mesh resolves them, or because a finer run contradicts it",
+                format!("{} searches refused: {}", rough.len(), rough.join("; ")),
+            ),
+        ];
+        if self.refined > 0 {
+            checks.push(Check::that(
+                least >= FALL && !falls.is_empty(),
+                format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
+                format!("with four times of both it falls at least {least:.1} times, of {} scenes", falls.len()),
+            ));
+        }
+        checks
+    }
+
     fn figure(&self, found: &[(&Ran<Drawn, Found>, &Found)]) -> Figure {
         let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -274,58 +315,18 @@ impl Kind for RandomErrors {
 
     fn judge(&self, ran: &[Ran<Drawn, Found>]) -> Outcome {
         let found: Vec<(&Ran<Drawn, Found>, &Found)> = ran.iter().filter_map(|ran| Some((ran, ran.ok()?))).collect();
-        let worst = |of: fn(&Found) -> f64| found.iter().map(|(_, found)| of(found)).fold(0.0, max_or_nan);
-        let (over_estimate, over_target) = (worst(|found| found.over_estimate), worst(|found| found.over_target));
-        let over_norm_target = worst(|found| found.over_norm_target);
-        let falls: Vec<f64> =
-            found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
-        let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
-        let fall = format!("their error falls {FALL} times or more");
-        let [refused, rough] = [false, true].map(|is_rough| refusals(&found, is_rough));
-        let mut checks = vec![
-            completion(ran, |found| readings::not_finite(&found.readings())),
-            Check::that(
-                over_estimate <= EXCEEDED && !found.is_empty(),
-                format!("no error of a number exceeds {EXCEEDED} times its estimate"),
-                format!("the largest is {over_estimate:.2} of its estimate, of {} numbers", 8 * found.len()),
-            ),
-            Check::that(
-                over_target <= 1.0 && !found.is_empty(),
-                "no chosen run misses its target error",
-                format!("the largest is {over_target:.2} of it, of {} runs", self.targets.len() * found.len()),
-            ),
-            Check::that(
-                over_norm_target <= 1.0 && !found.is_empty(),
-                "no chosen run misses its target error in the norm of Theorem 3.4",
-                format!("the largest is {over_norm_target:.2} of it"),
-            ),
-            Check::that(refused.is_empty(), "every search of smooth data ends with a run", refused.join("; ")),
-            Check::that(
-                rough.iter().all(|reason| reason.contains(UNRESOLVED)),
-                "a search of rough data is refused only where no mesh resolves them",
-                format!("{} searches refused: {}", rough.len(), rough.join("; ")),
-            ),
-        ];
-        if self.refined > 0 {
-            checks.push(Check::that(
-                least >= FALL && !falls.is_empty(),
-                format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
-                format!("with four times of both it falls at least {least:.1} times, of {} scenes", falls.len()),
-            ));
-        }
+        let [over_estimate, over_target, over_norm_target] = worst(&found);
         let rows: Vec<_> = found.iter().map(|(ran, found)| (vec![ran.case.label.clone()], found.readings())).collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
-        let errors = format!(
-            "{over_estimate:.2} of their estimates and {:.2} of the target error",
-            over_target.max(over_norm_target)
-        );
+        let most = max_or_nan(over_target, over_norm_target);
+        let errors = format!("{over_estimate:.2} of their estimates and {most:.2} of the target error");
         let headline = format!("{} scenes: errors at most {errors}", found.len());
         Outcome {
             tables: vec![readings::table("Errors relative to the estimates and targets", &["scene"], &rows)],
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
             headline: headline.clone(),
-            ..Outcome::new(headline, vec![], checks)
+            ..Outcome::new(headline, vec![], self.checks(ran, &found))
         }
     }
 }
@@ -343,8 +344,15 @@ impl Found {
     }
 }
 
-/// Words of the refusal of data that no mesh resolves.
-const UNRESOLVED: &str = "do not resolve";
+/// The largest errors in units of their estimates, of the targets, and of those in the norm.
+fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> [f64; 3] {
+    let of: [fn(&Found) -> f64; 3] =
+        [|found| found.over_estimate, |found| found.over_target, |found| found.over_norm_target];
+    of.map(|of| found.iter().map(|(_, found)| of(found)).fold(0.0, max_or_nan))
+}
+
+/// Words of the refusals of rough data.
+const REFUSALS: [&str; 2] = ["do not resolve", "is contradicted by"];
 
 /// Why searches of smooth, or of rough, data were refused.
 fn refusals(found: &[(&Ran<Drawn, Found>, &Found)], is_rough: bool) -> Vec<String> {

@@ -5,4 +5,5 @@ mod dev;
 mod links;
 mod map;
 mod quick_tier;
+mod readme;
 mod workflow;

@@ -16,6 +16,8 @@ mod grid;
 mod layering;
 #[cfg(feature = "reports")]
 mod plots;
+#[cfg(feature = "command-line")]
+mod readme;
 mod richardson;
 #[cfg(feature = "files")]
 mod tables;

@@ -46,13 +46,20 @@ pub fn discrete_gradient(obstacles: &Obstacles, u: f64, u0: f64) -> f64 {
     }
 }
 
-/// The formulas of a time scheme, by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The formulas of a time scheme: of the project's by their names, of others as stated.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SchemeFormulas {
     /// The paper's scheme, (3.7)-(3.8).
     EulerCrankNicolson,
     /// The implicit midpoint rule with the discrete gradient of the contact energy.
     Midpoint,
+    /// A scheme of one's own, stated a second time beside the row that the solver steps.
+    Own {
+        /// The factor c of the inertia.
+        inertia: f64,
+        /// Whether the contact force is the discrete gradient; otherwise it is g at the new level.
+        has_discrete_gradient: bool,
+    },
 }
 
 impl SchemeFormulas {
@@ -73,14 +80,15 @@ impl SchemeFormulas {
         match self {
             Self::EulerCrankNicolson => 1.0,
             Self::Midpoint => 2.0,
+            Self::Own { inertia, .. } => inertia,
         }
     }
 
     /// The contact force of a step that takes u(1) from `u0` to `u`.
     pub fn contact_force(self, obstacles: &Obstacles, u: f64, u0: f64) -> f64 {
         match self {
-            Self::EulerCrankNicolson => contact_force(obstacles, u),
-            Self::Midpoint => discrete_gradient(obstacles, u, u0),
+            Self::EulerCrankNicolson | Self::Own { has_discrete_gradient: false, .. } => contact_force(obstacles, u),
+            Self::Midpoint | Self::Own { has_discrete_gradient: true, .. } => discrete_gradient(obstacles, u, u0),
         }
     }
 }

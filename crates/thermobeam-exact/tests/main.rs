@@ -2,4 +2,6 @@
 
 mod errors;
 mod expression;
+mod independence;
+mod loads;
 mod sources;

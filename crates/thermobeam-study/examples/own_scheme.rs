@@ -1,6 +1,7 @@
 //! Your own time scheme, judged by the studies that judge the others.
 //!
-//! A scheme is a row of data. A method outside this form is judged by its errors, as in the example `own_rates`.
+//! A scheme is a row of data. What judges shares nothing with what is judged, so the study gets its formulas a second time. A method
+//! outside this form is judged by its errors, as in the example `own_rates`.
 //!
 //! `cargo run -p thermobeam-study --example own_scheme`
 
@@ -15,6 +16,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
+use thermobeam_exact::formulas::SchemeFormulas;
 use thermobeam_study::kinds::convergence::Convergence;
 
 /// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new velocity, and contact by the
@@ -27,6 +29,9 @@ const MINE: Scheme = Scheme {
     source: "V = 3/4 v + 1/4 v0",
 };
 
+/// The same as formulas of the loads: a wrong entry in either changes the order.
+const FORMULAS: SchemeFormulas = SchemeFormulas::Own { inertia: 4.0 / 3.0, has_discrete_gradient: true };
+
 const STUDY: &str = r#"
     study = { id = "my-scheme", claim = "The order of a scheme in time", tier = "quick" }
     exact.u = [{ x = "0.3*sin(1.3*pi*x)", t = "cos(3*t) + 0.2*t" }]
@@ -38,7 +43,9 @@ const STUDY: &str = r#"
 /// The verdict on an order in dt.
 fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error>> {
     let mut study = Convergence::parse(STUDY, "my-scheme.toml".as_ref())?;
-    (study.refine.scheme, study.expect[0].1.order) = (scheme, order);
+    study.refine.scheme = scheme;
+    study.formulas = Some(FORMULAS);
+    study.expect[0].1.order = order;
     let outcome = run_one(&study);
     Ok((outcome.verdict, outcome.rates[0].1.reason.clone()))
 }

@@ -287,6 +287,6 @@ mod tests {
         let diagnosis = Diagnosis { resembles: ["one", "two"].map(resembling).to_vec(), ..Diagnosis::default() };
         let text = diagnosis_in_markdown(Some(&diagnosis));
         let lines = "- **resembles**: \"one\" (0.90)  f.rs\n  - \"two\" (0.90)  f.rs\n";
-        assert!(text.ends_with(&format!("\n\n{lines}\n")), "{text}");
+        assert!(text.ends_with(&format!("\n{lines}\n")), "{text}");
     }
 }

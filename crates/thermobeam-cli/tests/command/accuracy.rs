@@ -79,16 +79,25 @@ fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
     }
 }
 
+/// Scenes whose steps are far from solved, and what is found: an open balance by the midpoint rule, a rise by dG.
+pub(super) const UNSOLVED: [(&str, &str); 2] = [
+    (
+        "[beam]\nrho = 5000.0\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\nt_end = 10.0\n\
+         dt = 0.1\ntolerance = 1e6\n",
+        "the balance of the energy is violated by ",
+    ),
+    (
+        "[beam]\nrho = 5000.0\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 2\ndegree = 3\n[time]\nscheme = \"dg\"\nt_end = 10.0\n\
+         dt = 0.5\nrestart_dt = 0.5\ntolerance = 1e6\n",
+        "the energy rose by ",
+    ),
+];
+
 #[test]
 fn a_run_whose_energy_rose_or_is_not_balanced_ends_with_status_1() {
     let folder = Folder::new();
-    let extreme = "[beam]\nzeta = 1e300\n[obstacles]\nepsilon = 1e-300\ng1 = -0.01\ng2 = 0.1\n[initial]\n\
-        u = \"0.01*x*(x-2)\"\nu_t = \"x\"\n[mesh]\nelements = 8\n[time]\ndt = 1e-2\nt_end = 0.1\n";
-    let any_order = extreme.replace("dt = 1e-2", "scheme = \"dg\"");
-    for (scene, message) in
-        [(extreme, "the energy rose by "), (&any_order, "the balance of the energy is violated by ")]
-    {
-        let ended = ended(thermobeam().arg("run").arg(folder.file("extreme.toml", scene)));
+    for (scene, message) in UNSOLVED {
+        let ended = ended(thermobeam().arg("run").arg(folder.file("loose.toml", scene)));
         assert_eq!(ended.status, Some(1), "{}", ended.stdout);
         assert!(ended.stderr.contains(message), "{}", ended.stderr);
     }

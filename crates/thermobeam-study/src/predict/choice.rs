@@ -18,8 +18,8 @@
 
 use thermobeam::solve::Stopping;
 
-use super::curves::{Apart, Curves, Rows, curves};
-use super::reference::{Reference, Wanted, finer, impact, reference};
+use super::curves::{Apart, Curves, Rows, Wanted, curves};
+use super::reference::{Reference, finer, impact, reference};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 

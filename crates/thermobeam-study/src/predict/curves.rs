@@ -26,6 +26,13 @@ const TIMES: usize = 4000;
 /// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest length by dG.
 const MOST_KEPT: usize = 4_000_000;
 
+/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the norm.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Wanted {
+    pub(super) rows: Rows,
+    pub(super) tolerance: [f64; 3],
+}
+
 /// The row of numbers read from a run at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Rows {

@@ -27,12 +27,16 @@
 use thermobeam::dg::{self, Field};
 use thermobeam::mesh::Mesh;
 
-use super::curves::Rows;
-use super::estimate::none;
-use super::reference::{GRADING, MOST_ELEMENTS, Wanted};
+use super::curves::{Rows, Wanted};
 use super::{Reason, Unreachable};
 use crate::expression::Expression;
 use crate::scene::{Initial, Scene};
+
+/// Ratio of the distances of neighbouring nodes from x = 1.
+pub(super) const GRADING: f64 = 6.0;
+
+/// Maximum number of elements.
+pub(super) const MOST_ELEMENTS: usize = 512;
 
 /// Longest distance of points of comparison: features of this width are seen.
 const NARROWEST: f64 = 1e-4;
@@ -185,7 +189,7 @@ impl Data {
     /// The differences on all elements; those that were there before are not computed again.
     fn compare(&self, scene: &Scene, before: &[Element], wanted: &Wanted) -> Result<Vec<Element>, Unreachable> {
         let simulation = dg::Simulation::new(scene.dg_problem(), scene.dg_stepping())
-            .map_err(|error| none(wanted.tolerance[0], Reason::of_run(error)))?;
+            .map_err(|error| Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error)))?;
         let mut before = before.iter().peekable();
         let mut elements = vec![];
         for x in scene.mesh.nodes().windows(2) {
@@ -264,7 +268,8 @@ impl Data {
 
 /// The scene on a mesh with these nodes.
 fn on(scene: &Scene, nodes: Vec<f64>, wanted: &Wanted) -> Result<Scene, Unreachable> {
-    let mesh = Mesh::from_nodes(nodes).map_err(|error| none(wanted.tolerance[0], Reason::of_run(error)))?;
+    let mesh = Mesh::from_nodes(nodes)
+        .map_err(|error| Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error)))?;
     Ok(Scene { mesh, ..scene.clone() })
 }
 

@@ -8,9 +8,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::curves::{Curves, Rows, curves};
+use super::curves::{Curves, Rows, Wanted, curves};
 use super::data::Data;
-use super::reference::{Reference, Wanted, finer, first, reference};
+use super::reference::{Reference, finer, first, reference};
 use super::{Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::Scene;
@@ -141,7 +141,9 @@ fn against(
         let start = held.as_ref().map(|(reference, ..)| &reference.scene);
         let found = reference(scene, start, &wanted, work).and_then(|reference| {
             let curves = curves(&reference.scene, &Rows::Numbers, Some(times), work);
-            curves.map(|curves| (reference, curves)).map_err(|reason| none(wanted.tolerance[0], reason))
+            curves
+                .map(|curves| (reference, curves))
+                .map_err(|reason| Unreachable::without_comparison(wanted.tolerance[0], reason))
         });
         let (reference, exact) = match (found, held) {
             (Ok(found), _) => found,
@@ -158,7 +160,7 @@ fn against(
         }
         held = Some((reference, exact, errors));
     }
-    Err(none(wanted.tolerance[0], Reason::Rounds))
+    Err(Unreachable::without_comparison(wanted.tolerance[0], Reason::Rounds))
 }
 
 /// The largest value of each curve: that of the scene or, if its mesh may miss narrow features of the initial data, of the first dG run
@@ -172,14 +174,10 @@ fn scales(scene: &Scene, own: &Curves, times: &[f64], work: &mut Work<'_>) -> Re
     if !is_narrow {
         return Ok(of_own);
     }
-    let rough = curves(&first, &Rows::Numbers, Some(times), work).map_err(|reason| none(ROUGH, reason))?;
+    let rough = curves(&first, &Rows::Numbers, Some(times), work)
+        .map_err(|reason| Unreachable::without_comparison(ROUGH, reason))?;
     let of_rough: [f64; 3] = largest_of(&rough);
     Ok(std::array::from_fn(|k| of_own[k].max(of_rough[k])))
-}
-
-/// The result if no comparison was made.
-pub(super) fn none(target: f64, reason: Reason) -> Unreachable {
-    Unreachable::NotReached { target, reached: f64::INFINITY, space: f64::NAN, time: f64::NAN, reason }
 }
 
 fn largest(curve: &[f64]) -> f64 {

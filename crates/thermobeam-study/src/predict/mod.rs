@@ -171,6 +171,13 @@ pub enum Unreachable {
     },
 }
 
+impl Unreachable {
+    /// The result if no comparison was made.
+    fn without_comparison(target: f64, reason: Reason) -> Self {
+        Self::NotReached { target, reached: f64::INFINITY, space: f64::NAN, time: f64::NAN, reason }
+    }
+}
+
 /// The reachable error, in words; empty before the first comparison.
 fn reachable(reached: f64, space: f64, time: f64) -> String {
     if reached.is_finite() {

@@ -23,8 +23,8 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
-use super::curves::{Apart, Curves, Rows, curves};
-use super::data::{Data, add_node};
+use super::curves::{Apart, Curves, Rows, Wanted, curves};
+use super::data::{Data, GRADING, MOST_ELEMENTS, add_node};
 use super::{Cost, Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::{Method, Scene, resampled};
@@ -63,17 +63,11 @@ const HIGHEST_DEGREE: usize = 27;
 /// Growth of steps below which it is kept: slower growth would never reach dt.
 const LEAST_GROWTH: f64 = 1.02;
 
-/// Ratio of the distances of neighbouring nodes from x = 1.
-pub(super) const GRADING: f64 = 6.0;
-
 /// A node this close to one that is kept, in units of the distance from x = 1, is left out.
 const CLOSE: f64 = 0.2;
 
 /// Elements longer than this part of the longest are halved; shorter ones wait until the lengths are closer.
 const LONG: f64 = 0.25;
-
-/// Maximum number of elements.
-pub(super) const MOST_ELEMENTS: usize = 512;
 
 /// Rounds of refinement: each at least halves something.
 const ROUNDS: usize = 14;
@@ -95,13 +89,6 @@ const LONGEST: f64 = 0.02;
 
 /// Axial force below which short waves grow.
 const SHORT_WAVES_GROW: f64 = -1.0;
-
-/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the norm.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Wanted {
-    pub(super) rows: Rows,
-    pub(super) tolerance: [f64; 3],
-}
 
 /// A run whose own error is known.
 #[derive(Debug, Clone, PartialEq)]

@@ -144,7 +144,6 @@ fn files_with_errors_are_refused() {
         ("extremes.toml", "ends = \"indefinite\"", "ends = \"well\"", "ends"),
         ("extremes.toml", "drift = 1e-11", "drift = 0", "drift"),
         ("extremes.toml", "zeta = 0.0", "zeta = -1.0", "beam.zeta"),
-        ("corollary-3.2.toml", "beta = 0.0", "theta_a = 1.0", "states nothing"),
         ("corollary-3.2.toml", "beta = -0.5\nrho = 0.0", "beta = -0.72\nrho = 0.0", "beta > -0.7116"),
         ("random-scenes-quick.toml", "batches = 2", "batches = 0", "random.batches"),
         ("random-scenes-quick.toml", "[random]", "[[random-scenes]]", "random-scenes"),

@@ -131,10 +131,10 @@ mod tests {
     /// Most of what the mistake does in the dictionary are failures; a run with only its moved numbers resembles it all the same.
     #[test]
     fn moved_numbers_are_compared_with_the_moved_numbers_of_mistakes_that_also_fail() {
-        let moves = [("s: u", 0.5), ("s: phi", -0.2)];
+        let moves = [("s: u", 0.5), ("s: v", -0.2)];
         let fails = ["a: u fails", "b: u fails", "c: u fails", "d: u fails"].map(|item| (item, 1.0));
         let known = |mistake: &str, items: Fingerprint| Known { mistake: mistake.into(), file: "f.rs".into(), items };
-        let other = fingerprint(&[("s: u", -0.5), ("t: theta", 1.0)]);
+        let other = fingerprint(&[("s: u", -0.5), ("t: w", 1.0)]);
         let both = fingerprint(&[&moves[..], &fails].concat());
         let all = Fingerprints { threshold: 0.6, known: vec![known("other", other), known("one", both)] };
         let names = |run: &[(&str, f64)]| -> Vec<(String, f64)> {

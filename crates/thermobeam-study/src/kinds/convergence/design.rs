@@ -48,7 +48,8 @@ impl<'a> Prepared<'a> {
     /// [`CaseFailure`] with the solver's message.
     pub fn run(&mut self, steps: usize, solver: Coefficients, defect: Option<Defect>) -> Result<Norms, CaseFailure> {
         let Convergence { exact, theory, refine, .. } = self.study;
-        let (scheme, obstacles) = (formulas_of(refine.scheme)?, theory.obstacles.as_ref());
+        let scheme = self.study.formulas.map_or_else(|| formulas_of(refine.scheme), Ok)?;
+        let obstacles = theory.obstacles.as_ref();
         let (mut old, dt) = (Factors::default(), refine.dt(steps));
         old.at(exact, 0.0);
         let mut driver = self.start(&old, dt, solver, defect)?;

@@ -37,6 +37,7 @@ use convergence_study::study::until_decided::{self, Next};
 use super::prelude::*;
 use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
 pub use crate::exact::defect::Defect;
+use crate::exact::formulas::SchemeFormulas;
 pub use design::Prepared;
 
 /// The row of the table of kinds.
@@ -69,6 +70,8 @@ pub struct Convergence {
     pub refine: Refine,
     /// The expected orders: at least one, and each norm at most once.
     pub expect: Vec<(Norm, Claim)>,
+    /// The formulas of a scheme that files do not know; `None` for one that they name.
+    pub formulas: Option<SchemeFormulas>,
 }
 
 impl FromFile for Convergence {
@@ -89,7 +92,7 @@ impl FromFile for Convergence {
             let allowed = "orders alone, for a grid has one in h and in dt";
             return Err(root.refuse("expect", "a least order or a constant", allowed));
         }
-        Ok(Self { theory, solver, exact, refine, expect })
+        Ok(Self { theory, solver, exact, refine, expect, formulas: None })
     }
 }
 

@@ -48,6 +48,7 @@ use crate::time_limit::{Patience, TimeUp};
 
 pub mod bars;
 pub mod grids;
+pub mod held_out;
 pub mod laws;
 
 /// Tolerances, each with the distance of the wrong claims from the order.

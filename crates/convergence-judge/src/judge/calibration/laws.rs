@@ -79,10 +79,17 @@ enum Shape {
     Noise { sigma: f64, a: [f64; 2], s: [f64; 2] },
     /// h^p, except that one level is up to 3 times too large or too small.
     Outlier,
+    /// One of [`held_out`](super::held_out).
+    HeldOut(super::held_out::Formula),
 }
 
 const fn law(name: &'static str, group: Group, shape: Shape) -> Law {
     Law { name, group, shape }
+}
+
+/// A law of [`held_out`](super::held_out).
+pub(super) const fn held_out(name: &'static str, group: Group, formula: super::held_out::Formula) -> Law {
+    law(name, group, Shape::HeldOut(formula))
 }
 
 const fn polluted(name: &'static str, a: [f64; 2], r: [f64; 2]) -> Law {
@@ -152,7 +159,7 @@ impl Law {
     pub(crate) fn draw_at(&self, steps: &[f64], random: &mut SplitMix) -> Table {
         let mut shown = random.within([0.5, 4.0]);
         let mut order = Some(shown);
-        if let Shape::LowerOrder = self.shape {
+        if self.group == Group::Emerging {
             let lower = [0.5, 1.0][random.below(2)];
             shown += 1.0;
             order = Some(shown - lower);
@@ -163,6 +170,17 @@ impl Law {
         let levels = steps.iter().map(|&step| Level { step, error: error(step) }).collect();
         Table { levels, shown, order }
     }
+}
+
+/// The numbers that are the same for all levels of a table of a held-out law.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Exponents {
+    /// The exponent that the coarse levels show.
+    pub p: f64,
+    /// The order, if there is one.
+    pub order: Option<f64>,
+    /// The finest step, H.
+    pub finest: f64,
 }
 
 impl Shape {
@@ -226,12 +244,13 @@ impl Shape {
                 let (wrong, factor) = (steps[random.below(steps.len())], log_uniform([1.0 / 3.0, 3.0], random));
                 Box::new(move |h| h.powf(p) * if h == wrong { factor } else { 1.0 })
             }
+            Self::HeldOut(formula) => formula(Exponents { p, order, finest }, random),
         }
     }
 }
 
 /// A number whose logarithm is uniform.
-fn log_uniform([low, high]: [f64; 2], random: &mut SplitMix) -> f64 {
+pub(super) fn log_uniform([low, high]: [f64; 2], random: &mut SplitMix) -> f64 {
     random.within([low.ln(), high.ln()]).exp()
 }
 
@@ -285,6 +304,7 @@ fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
 
 #[cfg(test)]
 mod tests {
+    use super::super::held_out::HELD_OUT;
     use super::*;
     use crate::judge::fit::pairwise_rates;
 
@@ -292,7 +312,7 @@ mod tests {
     #[test]
     fn each_law_has_the_order_that_it_says() {
         let mut random = SplitMix::new(11);
-        for law in &LAWS {
+        for law in LAWS.iter().chain(&HELD_OUT) {
             for _ in 0..20 {
                 let table = law.draw(60, 2.0, &mut random);
                 let finest = pairwise_rates(&table.levels)[58];

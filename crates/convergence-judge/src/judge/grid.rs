@@ -85,7 +85,7 @@
 
 use super::fit::Level;
 use super::richardson::{RATES, crossing};
-use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, ROUND_OFF_FLOOR, RateVerdict, Reason, Verdict};
+use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, Verdict};
 use crate::text::number::error_text;
 
 /// Share of the tolerance by which the second of two rates may be farther from the order than the first.
@@ -96,6 +96,9 @@ pub const MISFITS: f64 = 3.0;
 
 /// Bounds on the factor by which the distance of a rate from the order shrinks from one level to the next.
 pub const FADE: [f64; 2] = [0.25, 0.75];
+
+/// Share of an error below which differences are round-off: a thousand times about a hundred rounding errors.
+const ROUND_OFF: f64 = 1e-10;
 
 /// The remainder is never known more accurately than this many misfits.
 pub const MISFITS_OF_REST: f64 = 4.0;
@@ -231,10 +234,9 @@ impl GridErrors<'_> {
 
 /// What the differences must exceed, in the unit of the errors.
 fn floor(errors: &[Level], misfit: f64, power: f64) -> f64 {
-    // A relative uncertainty m or an absolute one r of e is one of s m e^s or s r e^(s - 1) of e^s.
+    // A relative uncertainty m of e is one of s m e^s of e^s.
     let finest = errors.last().map_or(f64::NAN, |level| level.error);
-    let unknown = MISFITS * misfit * finest + ROUND_OFF_FLOOR;
-    let floor = (power * unknown * finest.powf(power - 1.0)).powf(1.0 / power);
+    let floor = finest * (power * (MISFITS * misfit + ROUND_OFF)).powf(1.0 / power);
     // If (a) misses everything, nothing is known.
     if floor.is_finite() { floor } else { f64::MAX }
 }

@@ -196,9 +196,6 @@ impl RateVerdict {
 
     /// Builds the verdict, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
-        let level = reading.outlier().filter(|_| kind == Reason::Outlier);
-        let outlier = level.map(|level| format!("level {} does not fit its neighbours", level + 1));
-        let reason = outlier.clone().unwrap_or_else(|| kind.text().to_owned());
         let mut found = Self {
             order,
             tolerance,
@@ -211,8 +208,8 @@ impl RateVerdict {
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),
             kind,
-            because: outlier.unwrap_or_else(|| kind.brief().to_owned()),
-            reason,
+            because: kind.brief().to_owned(),
+            reason: kind.text().to_owned(),
         };
         if let Some(interval) = found.interval {
             found.reason += &format!(": {} {}", interval_text(interval, RATE_PLACES), found.levels_in_words());

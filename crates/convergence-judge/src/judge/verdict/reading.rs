@@ -6,7 +6,7 @@ use super::reason::Reason;
 use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
-    Level, RateInterval, asymptotic_range, extrapolated_rate, outlier, pairwise_rates, rate_interval,
+    Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
 
 /// A sequence of errors, read once and compared with any claim.
@@ -67,73 +67,52 @@ impl<'a> Reading<'a> {
             return vec![];
         }
         let above_floor = self.range.end;
-        let coarse = 0..if self.used.is_empty() { self.range.start } else { self.used.start };
+        let coarse = if self.used.is_empty() { self.range.start } else { self.used.start };
+        let finest = self.rates().last().copied().unwrap_or(f64::NAN);
+        let is_far = |level: &usize| (self.pairwise[*level] - finest).abs() > SPREAD;
+        // The level next to the range was dropped for its rate, or because the range is as long as it may be.
+        let because = match coarse.checked_sub(1) {
+            Some(next) if !is_far(&next) => Aside::BeyondFive,
+            _ => Aside::PreAsymptotic,
+        };
         let aside = |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
-        let because = if self.outlier().is_some() { Aside::Outlier } else { Aside::PreAsymptotic };
-        aside(coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
+        aside(0..coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
     }
 
     /// The reason for the verdict on a claim: the steps of the rule, in their order.
     pub(super) fn reason(&self, order: f64, tolerance: f64) -> Reason {
-        let sensible = order > 0.0 && order.is_finite();
-        match self.unusable {
-            Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)) => reason,
-            _ if !sensible => Reason::ClaimUnusable,
-            Some(reason) => reason,
-            None => self.not_convergent(order).unwrap_or_else(|| self.held_against(order, tolerance)),
+        let is_sensible = order > 0.0 && order.is_finite();
+        match (self.unusable, self.fit) {
+            (Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)), _) => reason,
+            _ if !is_sensible => Reason::ClaimUnusable,
+            (Some(reason), _) => reason,
+            _ if self.range.end < FEWEST_LEVELS => Reason::RoundOffFloor,
+            _ if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
+            _ if trend::falls_away(self.rates(), order) => Reason::FallsAway,
+            _ if self.range.len() < FEWEST_LEVELS => Reason::NotAsymptotic,
+            (_, None) => Reason::TooFewLevels,
+            (_, Some(fit)) => self.compare(fit.interval, order, tolerance),
         }
     }
 
-    /// Steps 4 to 7: reasons not to use the interval.
-    fn not_convergent(&self, order: f64) -> Option<Reason> {
-        let above_floor = self.range.end;
-        // The step down to the floor is a rate like any other and may be wild; rates between levels at the floor mean nothing.
-        let down_to_floor = &self.pairwise[..self.pairwise.len().min(above_floor)];
-        let rates = self.rates();
-        let possible = !trend::steep(self.sequence, rates, order);
-        if possible && trend::grows(rates) {
-            Some(Reason::ErrorGrows)
-        } else if possible && trend::falls_away(rates, order) {
-            Some(Reason::FallsAway)
-        } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
-            Some(Reason::WildRate)
-        } else if self.range.len() >= FEWEST_LEVELS {
-            None
-        } else if self.levels - above_floor >= self.range.start {
-            Some(Reason::RoundOffFloor)
-        } else if self.outlier().is_some() {
-            Some(Reason::Outlier)
-        } else {
-            Some(Reason::NotAsymptotic)
-        }
-    }
-
-    /// Steps 8 and 9: the trend of the rates, and the interval against the band.
-    fn held_against(&self, order: f64, tolerance: f64) -> Reason {
-        let Some(fit) = &self.fit else { return Reason::TooFewLevels };
+    /// Steps 6 and 7: the trend of the rates, and the interval against the band.
+    fn compare(&self, interval: [f64; 2], order: f64, tolerance: f64) -> Reason {
         let rates = self.rates();
         if trend::departs(rates, tolerance) {
             return Reason::Departs;
         }
-        let finest = rates.last().copied().unwrap_or(f64::NAN);
-        match compare(fit.interval, order, tolerance) {
+        let grows = rates.last().is_none_or(|finest| *finest <= 0.0);
+        match compare(interval, order, tolerance) {
+            Reason::TooLow if grows => Reason::ErrorGrows,
             Reason::TooLow => Reason::TooLow,
-            Reason::Agrees if trend::emerges(rates, tolerance) => Reason::NotAsymptotic,
-            Reason::Agrees if self.outlier().is_some() => Reason::Outlier,
-            Reason::Agrees if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
-            Reason::Agrees if (finest - order).abs() > tolerance => Reason::LastPair,
             // The finest error is not smaller, which scatter may explain: there is no order that could agree.
-            _ if finest <= 0.0 => Reason::IntervalTooWide,
+            _ if grows => Reason::IntervalTooWide,
+            Reason::Agrees if trend::emerges(rates, order, tolerance) => Reason::NotAsymptotic,
             reason => reason,
         }
     }
 
-    /// The level that does not fit its neighbours.
-    pub(super) fn outlier(&self) -> Option<usize> {
-        outlier(&self.sequence[..self.range.end], self.range.start)
-    }
-
-    /// Ratio of the coarsest step above the floor to the finest; infinite if there is none.
+    /// Ratio of the coarsest step above the floor to the finest.
     fn span(&self) -> f64 {
         let above_floor = &self.sequence[..self.range.end];
         above_floor.first().zip(above_floor.last()).map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
@@ -145,7 +124,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Steps 1 to 3 of the rule, except for what depends on the claim.
+/// Steps 1 and 2 of the rule, except for what depends on the claim.
 fn unusable(levels: &[Level]) -> Option<Reason> {
     let step_usable = |level: &Level| level.step > 0.0 && level.step.is_finite();
     let decreasing = levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);

@@ -39,6 +39,7 @@
 
 use thiserror::Error;
 
+use self::held_out::HELD_OUT;
 use self::laws::{Group, HIDDEN_SHARES, LAWS, Law, Meshes, Table, USUAL, WIDE, hidden_term, three_terms, wrong_limit};
 use crate::judge::claims;
 use crate::judge::fit::{Level, fit_line, pairwise_rates};
@@ -193,7 +194,9 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
     let mut sheets = vec![
         rules("rules", "4 to 8 levels, ratios 1.5 to 3", USUAL, tables, &mut Draw::new(seed(0)))?,
         rules("rules-wide", "3 to 12 levels, ratios 1.1 to 4", WIDE, tables, &mut Draw::new(seed(1)))?,
-        levels(10 * tables, &mut Draw::new(seed(2)))?,
+        levels("levels", &LAWS, 10 * tables, &mut Draw::new(seed(2)))?,
+        levels("held-out", &HELD_OUT, 10 * tables, &mut Draw::new(seed(7)))?,
+        three(40 * tables, &mut Draw::new(seed(8)))?,
         intervals(20 * tables, &mut Draw::new(seed(3)))?,
     ];
     for (key, tolerance, levels) in HIDDEN {
@@ -227,6 +230,11 @@ impl<'a> Evidence<'a> {
         }
     }
 
+    /// All levels.
+    fn all(&self) -> &Reading<'a> {
+        &self.looks[self.looks.len() - 1]
+    }
+
     /// The verdict of the rule at this place in [`RULES`].
     fn decide(&self, rule: usize, judge: &Judge, order: f64) -> Verdict {
         let inside = |rate: f64, [low, high]: [f64; 2]| {
@@ -234,7 +242,7 @@ impl<'a> Evidence<'a> {
         };
         let band = [judge.tolerance(); 2];
         match rule {
-            0 => judge.decide(&self.looks[self.looks.len() - 1], order),
+            0 => judge.decide(self.all(), order),
             1 => self.added(judge, order).0,
             2 => inside(self.line, band),
             3 => inside(self.last, band),
@@ -297,45 +305,82 @@ fn rules(
     Ok(Sheet { columns, ..Sheet::new(key, &title, &[], rows) })
 }
 
+/// Numbers of levels, or to how many levels are added.
+const LOOKS: [(&str, usize, bool); 7] = [
+    ("3 levels", 3, false),
+    ("4 levels", 4, false),
+    ("5 levels", 5, false),
+    ("6 levels", 6, false),
+    ("8 levels", 8, false),
+    ("added up to 6", 6, true),
+    ("added up to 8", 8, true),
+];
+
 /// Steps halved, at the default tolerance: a fixed number of levels, or levels added up to that number.
-fn levels(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+fn levels(key: &'static str, laws: &[Law], tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
-    for (name, levels, is_added) in [
-        ("4 levels", 4, false),
-        ("5 levels", 5, false),
-        ("6 levels", 6, false),
-        ("8 levels", 8, false),
-        ("added up to 6", 6, true),
-        ("added up to 8", 8, true),
-    ] {
-        let (mut shares, mut work) = ([Share::default(); 4], Share::default());
-        for law in &LAWS {
+    for (name, levels, is_added) in LOOKS {
+        let (mut shares, mut work) = ([Share::default(); 6], Share::default());
+        for law in laws {
             for _ in 0..tables {
                 let table = law.draw(levels, 2.0, draw.next()?);
                 let evidence = Evidence::new(&judge, &table.levels);
+                let decide = |order: f64| evidence.decide(usize::from(is_added), &judge, order);
                 if let Some(order) = table.order {
-                    let verdict = evidence.decide(usize::from(is_added), &judge, order);
+                    let verdict = decide(order);
                     shares[0].count(verdict.is_pass());
                     shares[1].count(verdict == Verdict::Fail);
                     work.hits += if is_added { FIRST_LOOK + evidence.added(&judge, order).1 } else { levels };
                     work.of += 1;
+                    if let (Some(fit), false, false) = (evidence.all().fit, is_added, law.group == Group::Emerging) {
+                        shares[4].count(fit.interval[0] <= order && order <= fit.interval[1]);
+                    }
                 }
                 for claim in wrong(&table, 2.0 * DEFAULT_TOLERANCE) {
-                    let passes = evidence.decide(usize::from(is_added), &judge, claim).is_pass();
+                    let passes = decide(claim).is_pass();
                     shares[2].count(passes);
                     if (claim - table.shown).abs() > DEFAULT_TOLERANCE {
                         shares[3].count(passes);
                     }
                 }
+                if levels > FEWEST_LEVELS && !is_added {
+                    let without = judge.decide(&judge.read(&table.levels[1..]), table.shown);
+                    shares[5].count(without.is_pass() && !decide(table.shown).is_pass());
+                }
             }
         }
         rows.push(row(name, true, &[&shares[..], &[work]].concat()));
     }
-    let columns = ["true pass", "true fail", "wrong pass", "visibly wrong pass", "levels"];
-    let title =
-        "Share of claims that pass or fail at ±0.25, 29 error laws, steps halved; wrong claims are half an order off";
-    Ok(Sheet::new("levels", title, &columns, rows))
+    let columns = [
+        "true pass",
+        "true fail",
+        "wrong pass",
+        "visibly wrong pass",
+        "interval holds the order",
+        "passes without its coarsest level only",
+        "levels",
+    ];
+    let title = format!(
+        "Share of claims that pass or fail at ±0.25, {} error laws, steps halved; wrong claims are half an order off",
+        laws.len()
+    );
+    Ok(Sheet::new(key, &title, &columns, rows))
+}
+
+/// Three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the finest error.
+fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+    let judge = judge(DEFAULT_TOLERANCE)?;
+    let mut shares = [Share::default(); 2];
+    for _ in 0..tables {
+        let random = draw.next()?;
+        let part = random.within([0.05, 0.6]);
+        let table = hidden_term(FEWEST_LEVELS, part, random);
+        let passes = judge.decide(&judge.read(&table.levels), table.shown).is_pass();
+        shares[usize::from(table.order.is_some())].count(passes);
+    }
+    let title = "Share of tables with three levels that pass at ±0.25 although something else makes up 5 to 60 % of the finest error";
+    Ok(Sheet::new("three", title, &["wrong limit passes", "lower order passes"], [row("3 levels", true, &shares)]))
 }
 
 /// What each law does to claims 0.1 off at ±0.05 and to intervals.

@@ -47,7 +47,8 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
     let round_off = ROUND_OFF * y.iter().fold(1.0_f64, |scale, y| scale.max(y.abs()));
     let finest_ratio = x[m - 2] - x[m - 1];
     let finest_rate = (y[m - 2] - y[m - 1]) / finest_ratio;
-    let mut line = Line::fit(&x, &y, round_off, None);
+    let [log_h, log_e] = [&x, &y].map(|values| centred(values.iter().copied()));
+    let mut line = Line::fit(log_h.clone(), log_e.clone(), round_off, None);
     let half = if m == 3 {
         // Pollution h^r makes the two rates p + c h^r at the middles of their pairs, in log h.
         let apart = (0.5 * SLOWEST_POLLUTION * (x[0] - x[2])).exp_m1();
@@ -55,7 +56,12 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         line.rate = finest_rate;
         FACTOR_OF_THREE * change / apart
     } else {
-        line = line.or_clearly_better(POLLUTION_EXPONENTS.map(|r| Line::fit(&x, &y, round_off, Some(r))));
+        let polluted = |r: f64| {
+            let column = centred(x.iter().map(|x_k| (r * (x_k - x[0])).exp()));
+            let without = |values: &[f64]| project_out(&column, values.to_vec());
+            Line::fit(without(&log_h), without(&log_e), round_off, Some(r))
+        };
+        line = line.or_clearly_better(POLLUTION_EXPONENTS.map(polluted));
         let of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
         let correction = ((line.rate - finest_rate).abs() - of_pair).max(0.0);
         FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction)
@@ -81,19 +87,14 @@ struct Line {
 }
 
 impl Line {
-    /// Least squares: the other columns are projected out of x and y (Frisch-Waugh).
-    fn fit(x: &[f64], y: &[f64], round_off: f64, pollution: Option<f64>) -> Self {
-        let mut direction = centred(x.to_vec());
-        let mut rest = centred(y.to_vec());
-        if let Some(r) = pollution {
-            let column = centred(x.iter().map(|value| (r * (value - x[0])).exp()).collect());
-            project_out(&column, &mut direction);
-            project_out(&column, &mut rest);
-        }
+    /// Least squares.
+    ///
+    /// * `x`, `y`: what the projection on the other columns leaves of them (Frisch-Waugh).
+    fn fit(x: Vec<f64>, y: Vec<f64>, round_off: f64, pollution: Option<f64>) -> Self {
         let dof = x.len().saturating_sub(2 + usize::from(pollution.is_some()));
-        let square = dot(&direction, &direction);
-        let rate = dot(&direction, &rest) / square;
-        project_out(&direction, &mut rest);
+        let square = dot(&x, &x);
+        let rate = dot(&x, &y) / square;
+        let rest = project_out(&x, y);
         let variance = dot(&rest, &rest) / dof as f64 + round_off.powi(2);
         Self { pollution, rate, dof, variance, square }
     }
@@ -114,14 +115,16 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn centred(mut values: Vec<f64>) -> Vec<f64> {
+fn centred(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     values.iter_mut().for_each(|value| *value -= mean);
     values
 }
 
-/// Subtracts from `values` their projection on `direction`.
-fn project_out(direction: &[f64], values: &mut [f64]) {
-    let factor = dot(values, direction) / dot(direction, direction);
+/// The values without their projection on `direction`.
+fn project_out(direction: &[f64], mut values: Vec<f64>) -> Vec<f64> {
+    let factor = dot(&values, direction) / dot(direction, direction);
     values.iter_mut().zip(direction).for_each(|(value, along)| *value -= factor * along);
+    values
 }

@@ -203,7 +203,7 @@ impl RateVerdict {
             fitted: reading.fit.map(|fit| fit.rate),
             constant: reading.constant(),
             interval: reading.fit.map(|fit| fit.interval),
-            extrapolated: reading.extrapolated,
+            extrapolated: reading.extrapolated(),
             used: reading.used.clone(),
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),

@@ -22,7 +22,6 @@ pub(crate) struct Reading<'a> {
     /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels above the floor.
     pub(super) used: Range<usize>,
     pub(crate) fit: Option<RateInterval>,
-    pub(super) extrapolated: Option<f64>,
     /// What makes rates impossible to form.
     unusable: Option<Reason>,
 }
@@ -38,16 +37,12 @@ impl<'a> Reading<'a> {
         let start = if range.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.start };
         let fit = rate_interval(&sequence[start..end]);
         let used = if fit.is_some() { start..end } else { 0..0 };
-        Self {
-            sequence,
-            levels: sequence.len(),
-            pairwise: pairwise_rates(sequence),
-            extrapolated: extrapolated_rate(&sequence[used.clone()]),
-            range,
-            used,
-            fit,
-            unusable,
-        }
+        Self { sequence, levels: sequence.len(), pairwise: pairwise_rates(sequence), range, used, fit, unusable }
+    }
+
+    /// Limit of the finest pairwise rates that the fit uses.
+    pub(super) fn extrapolated(&self) -> Option<f64> {
+        extrapolated_rate(&self.sequence[self.used.clone()])
     }
 
     /// The constant C of error = C step^rate for the fitted rate, through the finest level that the fit uses.

@@ -39,7 +39,7 @@ impl Judgement {
         let errors = self.levels.iter().map(|level| Some(level.error)).collect();
         let axis = if self.step == "dt" { Axis::Time } else { Axis::Space };
         let columns = vec![ErrorColumn { name: self.name.clone(), errors, claim, look: 0 }];
-        let levels = Levels { axis, refinements: self.levels.iter().map(refinement).collect(), columns };
+        let levels = Levels::new(axis, self.levels.iter().map(refinement), columns);
         levels.figure("", None, String::new(), &[(self.name.clone(), self.rate.clone())]).svg
     }
 }

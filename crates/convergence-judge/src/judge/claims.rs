@@ -28,7 +28,12 @@ impl Claim {
 
     /// The rate of these levels, held against everything claimed. (The tolerance of `judge` is not used.)
     pub fn judge(&self, judge: &Judge, levels: &[Level]) -> RateVerdict {
-        let rate = judge.judge(levels, self.order);
+        self.judge_rounded(judge, levels, 0.0)
+    }
+
+    /// The same for a rate that is uncertain by `doubt`, see [`Judge::judge_rounded`].
+    pub fn judge_rounded(&self, judge: &Judge, levels: &[Level], doubt: f64) -> RateVerdict {
+        let rate = judge.judge_rounded(levels, self.order, doubt);
         let rate = if self.at_least { at_least(rate) } else { rate };
         match self.constant {
             Some(between) => with_constant(levels, rate, between),

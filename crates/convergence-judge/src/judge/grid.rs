@@ -210,9 +210,8 @@ impl GridErrors<'_> {
         let (finest, next) = (finest?, next?);
         let levels = reduced(&finest, &lines[0], power, order);
         let mut reading = finest.read(&levels);
-        if let (Some(fit), Some(other)) = (&mut reading.fit, next.read(&reduced(&next, &lines[1], power, order)).fit) {
-            let shift = (fit.rate - other.rate).abs();
-            fit.interval = [fit.interval[0] - shift, fit.interval[1] + shift];
+        if let (Some(fit), Some(other)) = (reading.fit, next.read(&reduced(&next, &lines[1], power, order)).fit) {
+            reading.widen((fit.rate - other.rate).abs());
         }
         let judged = finest.judge_read(&reading, order);
         let doubtful = judged.verdict == Verdict::Pass && (turns(&lines[0], &judged) || leaves(&judged));

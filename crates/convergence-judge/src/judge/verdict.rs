@@ -94,7 +94,14 @@ impl Judge {
 
     /// Judges the levels, coarsest first, against the order that theory claims.
     pub fn judge(&self, levels: &[Level], order: f64) -> RateVerdict {
-        self.judge_read(&self.read(levels), order)
+        self.judge_rounded(levels, order, 0.0)
+    }
+
+    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`: its interval is wider by that at either end.
+    pub fn judge_rounded(&self, levels: &[Level], order: f64, doubt: f64) -> RateVerdict {
+        let mut reading = self.read(levels);
+        reading.widen(doubt);
+        self.judge_read(&reading, order)
     }
 
     /// The same for levels already read by a judge with the same floor and confidence.

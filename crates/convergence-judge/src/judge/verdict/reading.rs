@@ -45,6 +45,14 @@ impl<'a> Reading<'a> {
         extrapolated_rate(&self.sequence[self.used.clone()])
     }
 
+    /// Extends the interval at either end.
+    pub(crate) fn widen(&mut self, doubt: f64) {
+        if let Some(RateInterval { interval: [low, high], .. }) = &mut self.fit {
+            *low -= doubt;
+            *high += doubt;
+        }
+    }
+
     /// The constant C of error = C step^rate for the fitted rate, through the finest level that the fit uses.
     ///
     /// The rate is that at h → 0, to which the finest level is the closest; the curve of a constant fitted to all

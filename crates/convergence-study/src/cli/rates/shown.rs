@@ -12,11 +12,11 @@ use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, Reason, SetAside, Verdict};
+use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit_of};
-use crate::text::number::{error_text, order_text, pair_text, plain_text, short_text};
+use crate::text::number::{committed_rate, error_text, order_text, pair_text, plain_text, short_text};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would repeat the colours.
@@ -33,7 +33,7 @@ impl JudgedColumn<'_> {
     fn found(&self) -> String {
         let found = match self.claim {
             Claim { at_least: true, order, tolerance, .. } => {
-                let passes = format!("at least {}, not {}", order_text(order), order_text(order - 2.0 * tolerance));
+                let passes = format!("at least {}", order_text(committed_rate(order - tolerance)));
                 let why = if self.rate.verdict.is_pass() { &passes } else { &self.rate.because };
                 format!("{}, claimed {}: {why}", self.rate.rate_in_words(MOST_PLACES), self.claim)
             }
@@ -106,11 +106,18 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
         let causes =
             "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
         format!("{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}")
-    } else if let Some(limit) = limit(&errors).map(plain_text) {
-        format!("{name} tends to {limit}, not to zero. If it is a value and no error: --values '{name}'. {general}")
+    } else if let Some(limit) = limit(&errors).filter(|_| may_be_zero(rate)).map(plain_text) {
+        let would =
+            format!("{name} would tend to {limit}, not to zero, if its differences went on falling as the last two");
+        format!("{would}. If it is a value and no error: --values '{name}'. {general}")
     } else {
         general + &next_level(judged, findings).unwrap_or_default()
     }
+}
+
+/// Whether the interval of the rate does not exclude that the error stays.
+fn may_be_zero(rate: &RateVerdict) -> bool {
+    rate.interval.is_none_or(|[low, _]| low <= 0.0)
 }
 
 /// The level down to which the error falls at a steady rate, if it stops falling there.

@@ -5,9 +5,6 @@
 use super::laws::{Exponents, Group, Law, held_out, log_uniform};
 use crate::judge::random::SplitMix;
 
-/// Draws the numbers of a law; the error is a function of the step, to be called once for each step, coarsest first.
-pub(super) type Formula = for<'a> fn(Exponents, &'a mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + 'a>;
-
 /// The laws.
 pub const HELD_OUT: [Law; 10] = [
     held_out("h^p (1 + a s (1 - s)), s the fraction of c/h", Group::Scattered, interface),
@@ -85,4 +82,36 @@ fn lower_order_at_random(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(
 fn noisy_limit(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
     let f = of.finest.powf(of.p) * log_uniform([0.03, 3.0], random);
     Box::new(move |h| h.powf(of.p) * (0.01 * random.normal()).exp() + f)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::laws::LAWS;
+    use super::*;
+    use crate::judge::fit::pairwise_rates;
+
+    /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
+    #[test]
+    fn each_law_has_the_order_that_it_says() {
+        let mut random = SplitMix::new(11);
+        for law in LAWS.iter().chain(&HELD_OUT) {
+            for _ in 0..20 {
+                let table = law.draw(60, 2.0, &mut random);
+                let finest = pairwise_rates(&table.levels)[58];
+                match (law.group, table.order) {
+                    (Group::Stagnating, order) => assert!(order.is_none(), "{}", law.name),
+                    (Group::Emerging, Some(order)) => assert!(order < table.shown, "{}", law.name),
+                    // log h changes by one part in forty: the exponent of the logarithm shows.
+                    (Group::Polluted, Some(order)) => {
+                        assert!((finest - order).abs() < 0.05, "{}: {finest} {order}", law.name);
+                    }
+                    (Group::Scattered, Some(order)) => {
+                        let mean = (table.levels[0].error / table.levels[59].error).log2() / 59.0;
+                        assert!((mean - order).abs() < 0.1, "{}: {mean} {order}", law.name);
+                    }
+                    _ => panic!("{} has no order", law.name),
+                }
+            }
+        }
+    }
 }

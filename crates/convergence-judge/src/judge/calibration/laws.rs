@@ -79,16 +79,16 @@ enum Shape {
     Noise { sigma: f64, a: [f64; 2], s: [f64; 2] },
     /// h^p, except that one level is up to 3 times too large or too small.
     Outlier,
-    /// One of [`held_out`](super::held_out).
-    HeldOut(super::held_out::Formula),
+    /// A law of another file.
+    HeldOut(Formula),
 }
 
 const fn law(name: &'static str, group: Group, shape: Shape) -> Law {
     Law { name, group, shape }
 }
 
-/// A law of [`held_out`](super::held_out).
-pub(super) const fn held_out(name: &'static str, group: Group, formula: super::held_out::Formula) -> Law {
+/// A law of another file.
+pub(super) const fn held_out(name: &'static str, group: Group, formula: Formula) -> Law {
     law(name, group, Shape::HeldOut(formula))
 }
 
@@ -171,6 +171,9 @@ impl Law {
         Table { levels, shown, order }
     }
 }
+
+/// Draws the numbers of a law; the error is a function of the step, to be called once for each step, coarsest first.
+pub(super) type Formula = for<'a> fn(Exponents, &'a mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + 'a>;
 
 /// The numbers that are the same for all levels of a table of a held-out law.
 #[derive(Debug, Clone, Copy)]
@@ -304,34 +307,8 @@ fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::super::held_out::HELD_OUT;
     use super::*;
     use crate::judge::fit::pairwise_rates;
-
-    /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
-    #[test]
-    fn each_law_has_the_order_that_it_says() {
-        let mut random = SplitMix::new(11);
-        for law in LAWS.iter().chain(&HELD_OUT) {
-            for _ in 0..20 {
-                let table = law.draw(60, 2.0, &mut random);
-                let finest = pairwise_rates(&table.levels)[58];
-                match (law.group, table.order) {
-                    (Group::Stagnating, order) => assert!(order.is_none(), "{}", law.name),
-                    (Group::Emerging, Some(order)) => assert!(order < table.shown, "{}", law.name),
-                    // log h changes by one part in forty: the exponent of the logarithm shows.
-                    (Group::Polluted, Some(order)) => {
-                        assert!((finest - order).abs() < 0.05, "{}: {finest} {order}", law.name);
-                    }
-                    (Group::Scattered, Some(order)) => {
-                        let mean = (table.levels[0].error / table.levels[59].error).log2() / 59.0;
-                        assert!((mean - order).abs() < 0.1, "{}: {mean} {order}", law.name);
-                    }
-                    _ => panic!("{} has no order", law.name),
-                }
-            }
-        }
-    }
 
     #[test]
     fn a_hidden_term_has_its_share_of_the_finest_error() {

@@ -115,9 +115,9 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     }
 }
 
-/// Whether the interval of the rate does not exclude that the error stays.
+/// Whether the rate may be 0, within the tolerance.
 fn may_be_zero(rate: &RateVerdict) -> bool {
-    rate.interval.is_none_or(|[low, _]| low <= 0.0)
+    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance)
 }
 
 /// The level down to which the error falls at a steady rate, if it stops falling there.

@@ -87,7 +87,7 @@ impl Judgement {
     }
 
     #[getter]
-    fn advice(&self) -> Option<&'static str> {
+    fn advice(&self) -> Option<String> {
         self.rate.advice()
     }
 

@@ -8,12 +8,14 @@ use thiserror::Error;
 
 pub use crate::judge::fit::{Level, scatter};
 
+mod cause;
 mod outcome;
 mod reading;
 mod reason;
 mod trend;
 mod words;
 
+pub use cause::Cause;
 pub use outcome::{PowerLaw, RateVerdict};
 pub(crate) use reading::Reading;
 pub use reason::Reason;

@@ -48,7 +48,7 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
 
 type Test = (&'static str, fn());
 
-const TESTS: [Test; 31] = [
+const TESTS: [Test; 34] = [
     (
         "what_failed_is_repeated_alone_and_the_slowest_are_listed",
         what_failed_is_repeated_alone_and_the_slowest_are_listed,
@@ -89,6 +89,9 @@ const TESTS: [Test; 31] = [
     ("a_new_study_of_a_program_passes_as_it_is", a_new_study_of_a_program_passes_as_it_is),
     ("wrong_claims_are_answered_with_what_to_do", tables::wrong_claims_are_answered_with_what_to_do),
     ("values_and_rounded_numbers_are_told_from_errors", tables::values_and_rounded_numbers_are_told_from_errors),
+    ("a_column_has_one_interval_whatever_is_claimed", tables::a_column_has_one_interval_whatever_is_claimed),
+    ("words_name_what_is_there", tables::words_name_what_is_there),
+    ("no_error_is_too_small_or_too_large", tables::no_error_is_too_small_or_too_large),
 ];
 
 fn main() -> ExitCode {

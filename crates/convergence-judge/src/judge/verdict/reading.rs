@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::cause::Cause;
 use super::reason::Reason;
 use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, trend};
@@ -62,6 +63,11 @@ impl<'a> Reading<'a> {
         // In logarithms: a power of a small step may underflow.
         let constant = (finest.error.ln() - self.fit?.rate * finest.step.ln()).exp();
         Some(constant).filter(|constant| constant.is_finite())
+    }
+
+    /// The law that explains the levels above the floor, if rates can be formed.
+    pub(super) fn cause(&self, order: f64) -> Option<Cause> {
+        self.fit.and_then(|_| Cause::of(&self.sequence[..self.range.end], order, |_| 0.0))
     }
 
     /// The levels that the fit leaves out.

@@ -91,11 +91,11 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
 /// What the reason means for a column, and what to do, using its numbers if they show more than the reason.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
-    let general = rate.kind.advice().to_owned();
+    let general = rate.advice().unwrap_or_default();
     let errors: Vec<f64> = judged.column.levels.iter().map(|level| level.error).collect();
     let grows = |rates: &[f64]| rates.len() > 1 && rates.iter().all(|rate| *rate < 0.0);
     let stays = matches!(rate.kind, Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow | Reason::ZeroError);
-    if judged.estimate.is_some() || !(stays || rate.kind.wants_a_level()) {
+    if judged.estimate.is_some() || rate.cause.is_some() || !(stays || rate.kind.wants_a_level()) {
         general
     } else if errors.iter().position(|error| *error == 0.0).is_some_and(|zero| zero + 1 == errors.len()) {
         format!("{name} is zero on the finest level only. Is that level its own reference? Leave it out.")
@@ -115,9 +115,9 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     }
 }
 
-/// Whether the rate may be 0, within the tolerance.
+/// Whether the rate may be 0, within the tolerance, and the finest levels do not say otherwise.
 fn may_be_zero(rate: &RateVerdict) -> bool {
-    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance)
+    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance) && rate.finest_rate().is_none_or(|rate| rate < STOP)
 }
 
 /// The level down to which the error falls at a steady rate, if it stops falling there.

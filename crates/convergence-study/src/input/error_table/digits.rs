@@ -3,7 +3,7 @@
 use crate::judge::claims::Claim;
 use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
 use crate::judge::richardson::{Estimate, Estimator, Value};
-use crate::judge::verdict::{Judge, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{Cause, Judge, RateVerdict, Reason, Verdict};
 use crate::text::number::counted;
 
 /// Rounding below this share of a number changes no verdict.
@@ -35,11 +35,12 @@ impl Column {
         let finest = self.levels[..used].windows(2).enumerate().next_back();
         let doubt = finest.map_or(0.0, |(k, pair)| (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln());
         let doubt = if is_exact || !doubt.is_finite() { 0.0 } else { doubt };
-        let judged = claim.judge_rounded(judge, &self.levels, doubt);
+        let mut judged = claim.judge_rounded(judge, &self.levels, doubt);
         let is_told = matches!(judged.kind, Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels);
         if is_exact || is_told || claim.order.is_nan() || judged.verdict == Verdict::Pass {
             return judged;
         }
+        judged.cause = judged.cause.or_else(|| Cause::of(&self.levels[..used], claim.order, share));
         let corners = self.corners(finest_rate);
         let may_be = |verdict: Verdict| corners.iter().any(|levels| claim.judge(judge, levels).verdict == verdict);
         let is_undone = judged.verdict == Verdict::Inconclusive

@@ -1,4 +1,5 @@
 //! [laws]: crate::judge::calibration::laws
+//! [held]: crate::judge::calibration::held_out
 //! [calibration]: crate::judge::calibration
 //! [grid]: crate::judge::grid
 // The links above are for rustdoc, those at the end of RULE.md for readers of that file.

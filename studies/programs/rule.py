@@ -23,7 +23,7 @@ def line(x, y, r, round_off):
 def interval(x, y, q):
     rho, round_off = x[-2] - x[-1], 2**-49 * max(1, *map(abs, y))
     if len(x) == 3:
-        half = 2 * (abs(q[-1] - q[-2]) + round_off / rho) / expm1((x[0] - x[2]) / 6)
+        half = 1.5 * (abs(q[-1] - q[-2]) + round_off / rho) / expm1((x[0] - x[2]) / 6)
         return q[-1] - half, q[-1] + half
     straight, best = line(x, y, None, round_off), min(line(x, y, r, round_off) for r in (1 / 3, 2 / 3, 1, 2, 3))
     _, rate, v, square, free = best if 20 * best[0] < straight[0] else straight

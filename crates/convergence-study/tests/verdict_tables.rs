@@ -40,7 +40,7 @@ const SIGN: Cause = Cause::SignChange;
 
 const ROWS: [Row; 22] = [
     // Sound, of an order that the levels show with another cause, or not yet.
-    explained(row("|h² - 24.2 h³|", [0.1, 4.0], |h| h * h - 24.2 * h.powi(3), 0.25, Reason::IntervalTooWide), SIGN),
+    explained(row("|h² - 24.2 h³|", [0.1, 4.0], |h| h * h - 24.2 * h.powi(3), 0.25, Reason::TooLow), SIGN),
     row("|h² - 24.2 h³|", [0.1, 8.0], |h| h * h - 24.2 * h.powi(3), 0.25, Reason::Agrees),
     explained(row("|h² - 125 h³|", [0.1, 5.0], |h| h * h - 125.0 * h.powi(3), 0.25, Reason::NotAsymptotic), SIGN),
     row("h² |log h|", [0.125, 5.0], |h| h * h * h.ln(), 0.25, Reason::Agrees),

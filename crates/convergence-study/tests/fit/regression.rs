@@ -59,7 +59,7 @@ fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     if let [coarse, middle, fine] = levels {
         let rate = |a: &Level, b: &Level| (a.error / b.error).ln() / (a.step / b.step).ln();
         let (before, finest) = (rate(coarse, middle), rate(middle, fine));
-        let half = 2.0 * (finest - before).abs() / ((coarse.step / fine.step).powf(1.0 / 6.0) - 1.0);
+        let half = 1.5 * (finest - before).abs() / ((coarse.step / fine.step).powf(1.0 / 6.0) - 1.0);
         return (finest, None, [finest - half, finest + half]);
     }
     let line = model(levels, None);

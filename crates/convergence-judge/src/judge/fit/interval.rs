@@ -14,7 +14,7 @@ pub const CLEARLY_BETTER: f64 = 20.0;
 pub const FACTOR: f64 = 1.1;
 
 /// Half-width for three levels, in corrections by pollution h^[`SLOWEST_POLLUTION`].
-pub const FACTOR_OF_THREE: f64 = 2.0;
+pub const FACTOR_OF_THREE: f64 = 1.5;
 
 /// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.
 pub const SLOWEST_POLLUTION: f64 = 1.0 / 3.0;
@@ -47,8 +47,8 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
     let round_off = ROUND_OFF * y.iter().fold(1.0_f64, |scale, y| scale.max(y.abs()));
     let finest_ratio = x[m - 2] - x[m - 1];
     let finest_rate = (y[m - 2] - y[m - 1]) / finest_ratio;
-    let [log_h, log_e] = [&x, &y].map(|values| centred(values.iter().copied()));
-    let mut line = Line::fit(log_h.clone(), log_e.clone(), round_off, None);
+    let [log_h, log_e] = [&x, &y].map(|values| centred(values));
+    let mut line = Line::fit(&log_h, &log_e, round_off, None);
     let half = if m == 3 {
         // Pollution h^r makes the two rates p + c h^r at the middles of their pairs, in log h.
         let apart = (0.5 * SLOWEST_POLLUTION * (x[0] - x[2])).exp_m1();
@@ -57,9 +57,8 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         FACTOR_OF_THREE * change / apart
     } else {
         let polluted = |r: f64| {
-            let column = centred(x.iter().map(|x_k| (r * (x_k - x[0])).exp()));
-            let without = |values: &[f64]| project_out(&column, values.to_vec());
-            Line::fit(without(&log_h), without(&log_e), round_off, Some(r))
+            let column = centred(&x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect::<Vec<_>>());
+            Line::fit(&project_out(&column, &log_h), &project_out(&column, &log_e), round_off, Some(r))
         };
         line = line.or_clearly_better(POLLUTION_EXPONENTS.map(polluted));
         let of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
@@ -90,24 +89,20 @@ impl Line {
     /// Least squares.
     ///
     /// * `x`, `y`: what the projection on the other columns leaves of them (Frisch-Waugh).
-    fn fit(x: Vec<f64>, y: Vec<f64>, round_off: f64, pollution: Option<f64>) -> Self {
+    fn fit(x: &[f64], y: &[f64], round_off: f64, pollution: Option<f64>) -> Self {
         let dof = x.len().saturating_sub(2 + usize::from(pollution.is_some()));
-        let square = dot(&x, &x);
-        let rate = dot(&x, &y) / square;
-        let rest = project_out(&x, y);
+        let square = dot(x, x);
+        let rate = dot(x, y) / square;
+        let rest = project_out(x, y);
         let variance = dot(&rest, &rest) / dof as f64 + round_off.powi(2);
         Self { pollution, rate, dof, variance, square }
     }
 
-    /// Sum of squared residuals.
-    fn rss(&self) -> f64 {
-        self.variance * self.dof as f64
-    }
-
     /// The best of the others if it is [`CLEARLY_BETTER`] than this one.
     fn or_clearly_better(self, others: [Self; 5]) -> Self {
-        let best = others.into_iter().min_by(|a, b| a.rss().total_cmp(&b.rss()));
-        best.filter(|best| CLEARLY_BETTER * best.rss() < self.rss()).unwrap_or(self)
+        let rss = |line: &Self| line.variance * line.dof as f64;
+        let best = others.into_iter().min_by(|a, b| rss(a).total_cmp(&rss(b)));
+        best.filter(|best| CLEARLY_BETTER * rss(best) < rss(&self)).unwrap_or(self)
     }
 }
 
@@ -115,16 +110,13 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn centred(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
+fn centred(values: &[f64]) -> Vec<f64> {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
-    values.iter_mut().for_each(|value| *value -= mean);
-    values
+    values.iter().map(|value| value - mean).collect()
 }
 
 /// The values without their projection on `direction`.
-fn project_out(direction: &[f64], mut values: Vec<f64>) -> Vec<f64> {
-    let factor = dot(&values, direction) / dot(direction, direction);
-    values.iter_mut().zip(direction).for_each(|(value, along)| *value -= factor * along);
-    values
+fn project_out(direction: &[f64], values: &[f64]) -> Vec<f64> {
+    let factor = dot(values, direction) / dot(direction, direction);
+    values.iter().zip(direction).map(|(value, along)| value - factor * along).collect()
 }

@@ -8,8 +8,8 @@ const EXPLAINED: f64 = 1e-3;
 /// Least share by which a logarithm changes the errors between the first level and the last.
 const LEAST_CHANGE: f64 = 0.05;
 
-/// With fewer levels two constants explain too much.
-const FEWEST_EXPLAINED: usize = 4;
+/// Numbers of levels that are explained: with fewer two constants explain too much, and no table of errors has more.
+const EXPLAINED_LEVELS: std::ops::RangeInclusive<usize> = 4..=30;
 
 /// A law that explains the errors and the order claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -46,7 +46,7 @@ impl Cause {
     pub fn of(levels: &[Level], order: f64, doubt: impl Fn(usize) -> f64) -> Option<Self> {
         let usable = |level: &Level| level.error > 0.0 && level.error.is_finite() && level.step > 0.0;
         let first = levels.first()?.step;
-        if levels.len() < FEWEST_EXPLAINED || !levels.iter().all(usable) || !order.is_finite() {
+        if !EXPLAINED_LEVELS.contains(&levels.len()) || !levels.iter().all(usable) || !order.is_finite() {
             return None;
         }
         // In units of h^p: a + b φ(h).

@@ -244,7 +244,7 @@ impl Reason {
                 "the rates fall away from the order",
                 "The finest rates fall, by more than half an order: the error tends to a limit that is \
                  not zero, or to a lower order. Look for what does not change with the step: the \
-                 reference, the solver's tolerance, the error of the other axis.",
+                 reference, the solver's tolerance, round-off (set a floor), the error of the other axis.",
             ],
             Self::WrongLimit => [
                 "limit",

@@ -53,13 +53,13 @@ const ROWS: [Row; 22] = [
     // First order, or a wrong limit: three levels decide no more than the four or five that they are part of.
     row("h² + 0.003 h", [0.2, 5.0], |h| h * h + 0.003 * h, 0.25, Reason::Departs),
     row("h² + 0.003 h", [0.2, 4.0], |h| h * h + 0.003 * h, 0.25, Reason::Departs),
-    row("h² + 0.003 h", [0.1, 3.0], |h| h * h + 0.003 * h, 0.25, Reason::IntervalTooWide),
+    row("h² + 0.003 h", [0.1, 3.0], |h| h * h + 0.003 * h, 0.25, Reason::AtTheEdge),
     row("h² + 0.003 h", [0.2, 3.0], |h| h * h + 0.003 * h, 0.25, Reason::NotAsymptotic),
     row("h² + 9e-6", [0.1, 4.0], |h| h * h + 9e-6, 0.25, Reason::Departs),
     row("h² + 9e-6", [0.05, 3.0], |h| h * h + 9e-6, 0.25, Reason::IntervalTooWide),
     row("h² + 3.77e-5", [0.1, 5.0], |h| h * h + 3.77e-5, 0.25, Reason::FallsAway),
     row("h² + 3.77e-5", [0.1, 3.0], |h| h * h + 3.77e-5, 0.25, Reason::IntervalTooWide),
-    row("h² + 0.0033 h", [0.1, 3.0], |h| h * h + 0.0033 * h, 0.25, Reason::IntervalTooWide),
+    row("h² + 0.0033 h", [0.1, 3.0], |h| h * h + 0.0033 * h, 0.25, Reason::AtTheEdge),
     row("a rate of 76, then 1", [1.0, 4.0], |h| if h < 1.0 { h * h } else { 2e22 }, 0.25, Reason::Agrees),
     // First order and a wrong limit that these levels do not show: the rule is wrong about them.
     row("h² - 4.106 h³ + 0.001813 h", [0.1, 5.0], |h| h * h * (1.0 - 4.106 * h) + 0.001813 * h, 0.25, Reason::Agrees),

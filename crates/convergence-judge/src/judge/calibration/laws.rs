@@ -235,7 +235,6 @@ impl Shape {
             }
             Self::Saturated => {
                 let h0 = log_uniform([finest, 1.0], random);
-                let saturated = |x: f64| x / (1.0 + x);
                 Box::new(move |h| saturated((h / h0).powf(p)))
             }
             Self::Noise { sigma, a, s } => {
@@ -250,6 +249,10 @@ impl Shape {
             Self::HeldOut(formula) => formula(Exponents { p, order, finest }, random),
         }
     }
+}
+
+fn saturated(x: f64) -> f64 {
+    x / (1.0 + x)
 }
 
 /// A number whose logarithm is uniform.

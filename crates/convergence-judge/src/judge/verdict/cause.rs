@@ -49,7 +49,7 @@ impl Cause {
         if !EXPLAINED_LEVELS.contains(&levels.len()) || !levels.iter().all(usable) || !order.is_finite() {
             return None;
         }
-        // In units of h^p: a + b φ(h).
+        // In units of h^p: a + b x(h).
         let heights: Vec<f64> = levels.iter().map(|level| level.error / (level.step / first).powf(order)).collect();
         let allowed = |k: usize, unit: f64| EXPLAINED * unit + doubt(k) * heights[k];
         let logarithms: Vec<f64> = levels.iter().map(|level| (first / level.step).ln()).collect();
@@ -72,20 +72,20 @@ impl Cause {
     }
 }
 
-/// The least-squares line a + b φ.
-fn line(phi: &[f64], heights: &[f64]) -> [f64; 2] {
-    let count = phi.len() as f64;
-    let [mean_phi, mean] = [phi, heights].map(|values| values.iter().sum::<f64>() / count);
-    let square: f64 = phi.iter().map(|phi| (phi - mean_phi).powi(2)).sum();
-    let slope = phi.iter().zip(heights).map(|(phi, height)| (phi - mean_phi) * (height - mean)).sum::<f64>() / square;
-    [mean - slope * mean_phi, slope]
+/// The least-squares line a + b x.
+fn line(x: &[f64], heights: &[f64]) -> [f64; 2] {
+    let count = x.len() as f64;
+    let [mean_x, mean] = [x, heights].map(|values| values.iter().sum::<f64>() / count);
+    let square: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();
+    let slope = x.iter().zip(heights).map(|(x, height)| (x - mean_x) * (height - mean)).sum::<f64>() / square;
+    [mean - slope * mean_x, slope]
 }
 
 /// Whether that line misses no level by more than is allowed there.
-fn explains(phi: &[f64], heights: &[f64], allowed: impl Fn(usize) -> f64) -> bool {
-    let [constant, slope] = line(phi, heights);
-    let miss = |k: usize| (constant + slope * phi[k] - heights[k]).abs();
-    (0..phi.len()).all(|k| miss(k) <= allowed(k))
+fn explains(x: &[f64], heights: &[f64], allowed: impl Fn(usize) -> f64) -> bool {
+    let [constant, slope] = line(x, heights);
+    let miss = |k: usize| (constant + slope * x[k] - heights[k]).abs();
+    (0..x.len()).all(|k| miss(k) <= allowed(k))
 }
 
 #[cfg(test)]

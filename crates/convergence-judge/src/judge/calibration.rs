@@ -487,11 +487,11 @@ fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
         let mut shares = [Share::default(); 3];
         for _ in 0..tables {
             let table = wrong_limit(draw.next()?);
-            let passes = judge.judge(&table.levels, table.shown).verdict.is_pass();
+            let passes = judge.decide(&judge.read(&table.levels), table.shown).is_pass();
             shares[0].count(passes);
             shares[1].count(passes && judge.judge(&table.levels[3..], table.shown).kind == Reason::Departs);
             let table = three_terms(draw.next()?);
-            shares[2].count(judge.judge(&table.levels, table.shown).verdict.is_pass());
+            shares[2].count(judge.decide(&judge.read(&table.levels), table.shown).is_pass());
         }
         rows.push(row(format!("±{tolerance}"), true, &shares));
     }
@@ -518,7 +518,8 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
         for law in &LAWS {
             for _ in 0..tables {
                 let table = law.draw(levels, 2.0, draw.next()?);
-                let least = |order: f64| claims::at_least(judge.judge(&table.levels, order)).verdict;
+                let reading = judge.read(&table.levels);
+                let least = |order: f64| claims::at_least(judge.judge_read(&reading, order)).verdict;
                 let Some(order) = table.order else {
                     shares[0].count(least(table.shown + 2.0 * DEFAULT_TOLERANCE).is_pass());
                     continue;
@@ -526,7 +527,7 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
                 shares[0].count(least(table.shown.max(order) + 2.0 * DEFAULT_TOLERANCE).is_pass());
                 shares[1].count(least(order).is_pass());
                 shares[2].count(least(order - 2.0 * DEFAULT_TOLERANCE).is_pass());
-                let rate = judge.judge(&table.levels, order);
+                let rate = judge.judge_read(&reading, order);
                 if HAS_CONSTANT.contains(&law.name) && rate.verdict.is_pass() {
                     if let Some([low, high]) = claims::constant(&table.levels, &rate) {
                         // A pure power is known to the last digit.

@@ -59,16 +59,16 @@ impl Cause {
         if change > LEAST_CHANGE * highest && explains(&logarithms, &heights, |k| allowed(k, highest)) {
             return Some(Self::Logarithm);
         }
-        let turns = |turned: usize| {
-            let signed: Vec<f64> =
-                heights.iter().enumerate().map(|(k, height)| if k < turned { -height } else { *height }).collect();
-            POLLUTION_EXPONENTS.iter().any(|r| {
-                let powers: Vec<f64> = levels.iter().map(|level| (level.step / first).powf(*r)).collect();
+        let changes_sign = |r: f64| {
+            let powers: Vec<f64> = logarithms.iter().map(|x| (-r * x).exp()).collect();
+            let mut signed = heights.clone();
+            (0..levels.len() - 1).any(|turned| {
+                signed[turned] = -heights[turned];
                 let [constant, _] = line(&powers, &signed);
                 explains(&powers, &signed, |k| allowed(k, constant))
             })
         };
-        (1..levels.len()).any(turns).then_some(Self::SignChange)
+        POLLUTION_EXPONENTS.into_iter().any(changes_sign).then_some(Self::SignChange)
     }
 }
 

@@ -4,7 +4,7 @@ use convergence_study::input::error_table::{Choice, RateTable};
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::richardson::{Estimate, Estimator, Value};
 use convergence_study::judge::shown::{self, Shown};
-use convergence_study::judge::verdict::{ROUND_OFF_FLOOR, RateVerdict};
+use convergence_study::judge::verdict::RateVerdict;
 use convergence_study::study::levels::{ErrorColumn, Levels};
 use convergence_study::study::{Axis, Claim, Refinement};
 use pyo3::exceptions::{PyAssertionError, PyTypeError};
@@ -39,7 +39,7 @@ impl Judgement {
         let errors = self.levels.iter().map(|level| Some(level.error)).collect();
         let axis = if self.step == "dt" { Axis::Time } else { Axis::Space };
         let columns = vec![ErrorColumn { name: self.name.clone(), errors, claim, look: 0 }];
-        let levels = Levels { axis, refinements: self.levels.iter().map(refinement).collect(), columns };
+        let levels = Levels::new(axis, self.levels.iter().map(refinement), columns);
         levels.figure("", None, String::new(), &[(self.name.clone(), self.rate.clone())]).svg
     }
 }
@@ -87,7 +87,7 @@ impl Judgement {
     }
 
     #[getter]
-    fn advice(&self) -> Option<&'static str> {
+    fn advice(&self) -> Option<String> {
         self.rate.advice()
     }
 
@@ -107,7 +107,7 @@ impl Judgement {
     }
 
     fn __repr__(&self) -> String {
-        shown::explained(&self.step, &[self.shown()], ROUND_OFF_FLOOR)
+        shown::explained(&self.step, &[self.shown()], 0.0)
     }
 
     fn _repr_html_(&self) -> String {
@@ -230,7 +230,7 @@ pub(crate) fn assert_order(
     }
     let step = found.first().map_or("h", |judgement| &judgement.step);
     let columns: Vec<Shown<'_>> = found.iter().map(Judgement::shown).collect();
-    let text = shown::explained(step, &columns, ROUND_OFF_FLOOR);
+    let text = shown::explained(step, &columns, 0.0);
     Err(PyAssertionError::new_err(format!("the order is not confirmed\n{text}")))
 }
 

@@ -82,7 +82,21 @@ def test_python_rust_and_the_command_line_find_the_same_bits(tmp_path):
     assert list(v.interval) == told["interval"]
     # As in `tests/asserted.rs` of the crate.
     found = cs.judge([0.25, 0.125, 0.0625, 0.03125], [0.041, 0.0103, 0.00257, 0.000642], order=2)
-    assert (found.rate, found.interval) == (2.001324592958332, (1.98876779196855, 2.013881393948114))
+    assert (found.rate, found.interval) == (1.9993524479350304, (1.9921437580830135, 2.0065611377870476))
+
+
+def test_a_power_of_ten_changes_no_verdict_and_no_interval():
+    for unit in [1e-200, 1e-20, 1e-9, 1e9, 1e200]:
+        for order in [1.5, 2, 2.2]:
+            v, scaled = cs.judge(H, SECOND, order=order), cs.judge(H, [unit * e for e in SECOND], order=order)
+            assert (v.verdict, v.code) == (scaled.verdict, scaled.code)
+            assert scaled.interval == pytest.approx(v.interval, abs=1e-9)
+
+
+def test_an_error_that_may_change_its_sign_is_named():
+    h = [0.1, 0.05, 0.025, 0.0125]
+    v = cs.judge(h, [abs(x**2 - 24.2 * x**3) for x in h], order=2)
+    assert v.verdict != "pass" and "may change its sign between levels" in v.advice
 
 
 @pytest.mark.parametrize(

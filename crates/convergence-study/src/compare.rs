@@ -13,12 +13,12 @@
 //! 4. *Work* for the smallest error of both, interpolated likewise: it may differ by `WORK_WITHIN`, as seconds are not counts.
 //!
 //! A study with a worse verdict is worse even if none of its errors is. What only the new record has is named, and
-//! changes nothing. Errors below the floor count as the floor.
+//! changes nothing. Errors below the floor of the comparison count as that floor; levels that a study has set aside at its own are not compared.
 
 use serde::Serialize;
 
 use crate::judge::fit::Level;
-use crate::judge::verdict::{Judge, JudgeError, RateVerdict, Verdict};
+use crate::judge::verdict::{Aside, Judge, JudgeError, RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::Record;
 use crate::study::LevelErrors;
@@ -70,14 +70,13 @@ impl Shift {
 
 /// The rule by which errors are compared.
 ///
-/// * `floor`: errors not above it are ignored; by default the floor of [`Judge`].
+/// * `floor`: errors not above it count as the floor.
 ///
 /// # Errors
 /// [`JudgeError`] for an invalid floor.
-pub fn rule(floor: Option<f64>) -> Result<Judge, JudgeError> {
+pub fn rule(floor: f64) -> Result<Judge, JudgeError> {
     // The tolerance decides nothing here: the runs have judged the claims.
-    let judge = Judge::new(ORDER_SHIFT)?;
-    floor.map_or(Ok(judge.clone()), |floor| judge.with_floor(floor))
+    Judge::new(ORDER_SHIFT)?.with_floor(floor)
 }
 
 /// What became of one thing.
@@ -189,6 +188,7 @@ struct ErrorSequence<'r> {
 
 impl<'r> ErrorSequence<'r> {
     fn new(outcome: &'r Outcome, name: &str, rule: &Judge) -> Self {
+        let rate = outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate);
         let point = |level: &'r LevelErrors| {
             let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
             Some((level, Level { step: level.step.unwrap_or(f64::NAN), error: *error }))
@@ -197,9 +197,15 @@ impl<'r> ErrorSequence<'r> {
         let levels: Vec<Level> = points.iter().map(|(_, level)| *level).collect();
         let is_sequence =
             levels.iter().all(|level| level.step > 0.0) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
-        let rate = outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate);
         let read = || is_sequence.then(|| rule.judge(&levels, 1.0)).and_then(|rate| order_of(&rate));
         Self { points, is_sequence, rate, order: rate.and_then(order_of).or_else(read) }
+    }
+
+    /// Whether the study's own floor sets the level with these parameters aside.
+    fn is_at_floor(&self, level: &LevelErrors) -> bool {
+        let place = self.points.iter().position(|(known, _)| known.parameters == level.parameters);
+        let mut set_aside = self.rate.into_iter().flat_map(|rate| &rate.set_aside);
+        set_aside.any(|aside| Some(aside.level) == place && aside.because == Aside::AtFloor)
     }
 
     /// The error at the level with these parameters.
@@ -322,7 +328,8 @@ impl Both<'_> {
             // Two zeros without a floor are the same.
             Some([if ratio.is_nan() { 0.0 } else { ratio }, doubt])
         };
-        let sound = self.new.points.iter().filter(|(_, at)| at.error >= 0.0);
+        let is_known = |level: &LevelErrors| ![&self.old, &self.new].iter().any(|sequence| sequence.is_at_floor(level));
+        let sound = self.new.points.iter().filter(|(level, at)| at.error >= 0.0 && is_known(level));
         sound.filter_map(|point| Some((point.0, ratio(point)?))).collect()
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use convergence_study::compare::{Comparison, Shift, WITHIN, compare, rule};
-use convergence_study::judge::verdict::{Verdict, judge_pairs};
+use convergence_study::judge::verdict::{Judge, Level, Verdict, judge_pairs};
 use convergence_study::run::{Finished, Spent};
 use convergence_study::store::{Record, json};
 use convergence_study::study::{Header, LevelErrors, Outcome};
@@ -54,7 +54,7 @@ fn sound(id: &str) -> Finished {
 }
 
 fn compared(old: Finished, new: Finished) -> Comparison {
-    compare(&record(vec![old]), &record(vec![new]), &rule(None).unwrap(), WITHIN)
+    compare(&record(vec![old]), &record(vec![new]), &rule(0.0).unwrap(), WITHIN)
 }
 
 /// The errors that differ, each with its change.
@@ -75,7 +75,7 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     };
     let old = studies(&smooth(1.0, 2.0), &smooth(3.0, 1.0));
     let new = studies(&smooth(1.05, 2.0), &smooth(3.0, 0.5));
-    let comparison = compare(&old, &new, &rule(None).unwrap(), WITHIN);
+    let comparison = compare(&old, &new, &rule(0.0).unwrap(), WITHIN);
     assert_eq!(found(&comparison), [("L2", Shift::Worse), ("H1", Shift::Worse)]);
     assert_eq!((comparison.studies, comparison.gained.len(), comparison.findings.len()), (3, 0, 6));
     let [larger, lower] = [2, 5].map(|k| &comparison.findings[k]);
@@ -84,9 +84,9 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     assert!(larger.reason.starts_with(words) && larger.reason.ends_with(": 1.05 times"), "{}", larger.reason);
     assert!(lower.reason.starts_with("order 1.0") && lower.reason.contains("→ 0.5"), "{}", lower.reason);
     // The other way round both are better.
-    let comparison = compare(&new, &old, &rule(None).unwrap(), WITHIN);
+    let comparison = compare(&new, &old, &rule(0.0).unwrap(), WITHIN);
     assert_eq!(found(&comparison), [("L2", Shift::Better), ("H1", Shift::Better)]);
-    assert_eq!(compare(&old, &old, &rule(None).unwrap(), WITHIN).change, Shift::Same);
+    assert_eq!(compare(&old, &old, &rule(0.0).unwrap(), WITHIN).change, Shift::Same);
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn a_difference_below_the_limit_is_none() {
     let new = || study("a", &COUNTS, smooth(1.005, 2.0), smooth(3.0, 1.0));
     assert_eq!(compared(sound("a"), new()).change, Shift::Same);
     assert_eq!(
-        compare(&record(vec![sound("a")]), &record(vec![new()]), &rule(None).unwrap(), 0.001).change,
+        compare(&record(vec![sound("a")]), &record(vec![new()]), &rule(0.0).unwrap(), 0.001).change,
         Shift::Worse
     );
 }
@@ -141,7 +141,7 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
         assert_eq!(gained.gained.iter().any(|name| name == "a: H1"), why.ends_with("the error"), "{gained:?}");
     }
     let [old, new] = [record(vec![sound("a"), sound("b")]), record(vec![sound("a"), sound("c")])];
-    let comparison = compare(&old, &new, &rule(None).unwrap(), WITHIN);
+    let comparison = compare(&old, &new, &rule(0.0).unwrap(), WITHIN);
     assert_eq!((comparison.change, comparison.gained), (Shift::Lost, vec!["the study c".to_owned()]));
     assert_eq!(comparison.findings.last().map(|finding| (&*finding.study, finding.change)), Some(("b", Shift::Lost)));
 }
@@ -206,7 +206,7 @@ fn errors_that_are_larger_at_every_level_are_worse_however_they_scatter() {
 fn noise_and_errors_at_the_floor_differ_from_nothing() {
     let noisy = |seed: f64| move |h: f64| h * h * (1.0 + 0.03 * (seed / h).sin());
     let of = |seed: f64| unjudged(study("a", &COUNTS, noisy(seed), |h| 1e-13 * (seed * h).cos().abs()).outcome.levels);
-    let compared = |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &rule(None).unwrap(), within);
+    let compared = |within: f64| compare(&record(vec![of(1.0)]), &record(vec![of(2.0)]), &rule(1e-10).unwrap(), within);
     assert_eq!(compared(0.1).change, Shift::Same, "{:?}", compared(0.1));
     // Errors at the same step are deterministic: with 3 % of scatter some have changed by more than 1 %.
     assert_eq!(found(&compared(WITHIN)), [("L2", Shift::Worse)]);
@@ -250,9 +250,37 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
         let new = study("a", &COUNTS, larger, smooth(3.0, 1.0));
         assert_eq!(found(&compared(sound("a"), new))[0].1, Shift::Worse, "{factor}");
     }
-    // At round-off no difference counts, however large.
-    let tiny = |factor: f64| unclaimed([1e-13, 1e-13, 1e-13, 1e-13, 1e-13, factor * 1e-13]);
-    assert_eq!(compared(tiny(1.0), tiny(100.0)).change, Shift::Same);
+    // At a floor no difference counts, however large.
+    let tiny = |factor: f64| record(vec![unclaimed([1e-13, 1e-13, 1e-13, 1e-13, 1e-13, factor * 1e-13])]);
+    let by = |floor: f64| compare(&tiny(1.0), &tiny(100.0), &rule(floor).unwrap(), WITHIN).change;
+    assert_eq!((by(1e-10), by(0.0)), (Shift::Same, Shift::Worse));
+}
+
+/// Records of the orders of magnitude of SI units are compared like any others.
+#[test]
+fn no_error_is_too_small_to_be_compared() {
+    let of = |scale: f64| study("a", &COUNTS, smooth(scale, 2.0), smooth(scale, 1.0));
+    for unit in [1e-20, 1e-11, 1e-9, 1.0, 1e15] {
+        assert_eq!(compared(of(unit), of(20.0 * unit)).change, Shift::Worse, "{unit}");
+        assert_eq!(compared(of(unit), of(unit / 20.0)).change, Shift::Better, "{unit}");
+        assert_eq!(compared(of(unit), of(1.001 * unit)).change, Shift::Same, "{unit}");
+    }
+}
+
+/// Round-off is another on another machine: a study that states its floor has set those levels aside.
+#[test]
+fn levels_at_the_floor_of_the_study_are_not_compared() {
+    let with_floor = |floor: f64, round_off: f64| {
+        let error = move |h: f64| if h < 0.01 { round_off } else { h * h };
+        let mut study = study("a", &COUNTS, error, smooth(3.0, 1.0));
+        let pairs: Vec<Level> =
+            COUNTS.iter().map(|&n| 1.0 / f64::from(n)).map(|step| Level { step, error: error(step) }).collect();
+        let judge = Judge::new(0.1).and_then(|judge| judge.with_floor(floor)).unwrap();
+        study.outcome.rates[0].1 = judge.judge(&pairs, 2.0);
+        study
+    };
+    assert_eq!(compared(with_floor(1e-9, 1e-13), with_floor(1e-9, 1e-11)).change, Shift::Same);
+    assert_eq!(compared(with_floor(0.0, 1e-13), with_floor(0.0, 1e-11)).change, Shift::Worse);
 }
 
 /// Elements and steps in all pairs, and older records, without steps.

@@ -23,5 +23,6 @@ mod richardson;
 mod tables;
 mod verdict_laws;
 mod verdict_rule;
+mod verdict_tables;
 #[cfg(feature = "reports")]
 mod verification;

@@ -79,11 +79,9 @@ fn a_rate_is_shown_whatever_the_verdict() {
         (&[2.0, 2.0, 2.0], 1.0, Reason::TooHigh),
         (&[2.0, 1.9, 1.6, 1.3], 2.0, Reason::FallsAway),
         (&[-1.0, -1.0, -1.0], 1.0, Reason::ErrorGrows),
-        (&[1.0, 1.0, -0.5], 1.0, Reason::ErrorGrows),
-        (&[0.1, 0.6, 1.1], 1.0, Reason::NotAsymptotic),
+        (&[1.0, 1.0, -0.5], 1.0, Reason::NotAsymptotic),
+        (&[0.1, 0.6, 1.2], 1.0, Reason::NotAsymptotic),
         (&[2.0, 2.0, 1.98, 1.94], 2.0, Reason::Departs),
-        (&[6.5, 1.0, 1.0], 1.0, Reason::WildRate),
-        (&[1.0, -0.5, 2.5, 1.0, 1.0], 1.0, Reason::Outlier),
         (&[1.0, 1.0, 1.0], f64::NAN, Reason::ClaimUnusable),
     ] {
         let outcome = judge(&with_rates(rates), order, 0.05);
@@ -92,8 +90,7 @@ fn a_rate_is_shown_whatever_the_verdict() {
         assert!(low <= rate && rate <= high && outcome.reason.contains("from levels"), "{outcome:?}");
     }
     let off = judge(&with_rates(&[1.0, -0.5, 2.5, 1.0, 1.0]), 1.0, 0.05);
-    assert!(off.reason.starts_with("level 3 does not fit its neighbours"), "{off:?}");
-    assert_eq!(off.set_aside, [0, 1, 2].map(|level| SetAside { level, because: Aside::Outlier }));
+    assert_eq!(off.set_aside, [0, 1, 2].map(|level| SetAside { level, because: Aside::PreAsymptotic }));
     let narrow: Vec<Level> =
         (0..5).map(|k| 1.1_f64.powi(-k)).map(|h| Level { step: h, error: h * (1.0 + 0.03 * h) }).collect();
     assert_eq!(judge(&narrow[..4], 1.0, 0.2).kind, Reason::LevelsTooClose, "1.331");
@@ -103,9 +100,11 @@ fn a_rate_is_shown_whatever_the_verdict() {
 }
 
 #[test]
-fn a_rate_of_zero_that_wavers_is_too_low_and_never_passes() {
+fn a_rate_of_zero_that_wavers_fails_and_never_passes() {
     let outcome = judge(&with_rates(&[-0.002, 0.001, -0.0005]), 1.0, 0.05);
-    assert_eq!((outcome.kind, outcome.verdict), (Reason::TooLow, Verdict::Fail), "{outcome:?}");
+    assert_eq!((outcome.kind, outcome.verdict), (Reason::ErrorGrows, Verdict::Fail), "{outcome:?}");
+    let ends_upwards = judge(&with_rates(&[-0.002, -0.001, 0.0005]), 1.0, 0.05);
+    assert_eq!((ends_upwards.kind, ends_upwards.verdict), (Reason::TooLow, Verdict::Fail), "{ends_upwards:?}");
     let scattered = judge(&with_rates(&[1.3, 0.2, 1.9, -0.1]), 1.0, 0.05);
     assert_eq!(scattered.verdict, Verdict::Inconclusive, "{scattered:?}");
 }
@@ -133,8 +132,8 @@ fn sound_but_noisy_errors_on_narrow_steps_do_not_fail() {
         };
         (0..200).filter(|&seed| one(seed)).count()
     };
-    // An earlier rule failed 40, 38 and 19 of these 200.
-    for (ratio, levels, most) in [(1.1, 8, 2), (1.1, 6, 3), (1.3, 8, 4)] {
+    // Rules without a scatter in the fall failed 40, 38 and 19 of these 200.
+    for (ratio, levels, most) in [(1.1, 8, 5), (1.1, 6, 10), (1.3, 8, 6)] {
         let failed = fails(ratio, levels, 0.1);
         assert!(failed <= most, "ratio {ratio}, {levels} levels: {failed} of 200 fail");
     }
@@ -163,15 +162,19 @@ fn a_floor_means_what_it_says_and_names_the_levels_below() {
     let levels = with_error(7, 2.0, |h| h * h);
     let judge = |floor| Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable");
     let just_above = judge(0.99 * levels[6].error).judge(&levels, 2.0);
-    assert!(just_above.set_aside.is_empty() && just_above.used == (0..7), "{just_above:?}");
+    let aside = |because: Aside, levels: &[usize]| -> Vec<SetAside> {
+        levels.iter().map(|&level| SetAside { level, because }).collect()
+    };
+    assert_eq!((&just_above.set_aside, just_above.used), (&aside(Aside::BeyondFive, &[0, 1]), 2..7));
     let floored = judge(levels[5].error).judge(&levels, 2.0);
-    assert_eq!(floored.set_aside, [5, 6].map(|level| SetAside { level, because: Aside::AtFloor }));
+    assert_eq!(floored.set_aside, aside(Aside::AtFloor, &[5, 6]));
     assert_eq!((floored.used, floored.verdict), (0..5, Verdict::Pass));
     let nothing_left = judge(1.0).judge(&levels, 2.0);
     assert_eq!((nothing_left.kind, nothing_left.set_aside.len()), (Reason::RoundOffFloor, 7));
-    let both = judge(0.02 * 2.0_f64.powi(-10)).judge(&with_rates(&[0.3, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]), 1.0);
-    let because: Vec<Aside> = both.set_aside.iter().map(|aside| aside.because).collect();
-    assert!(because.first() == Some(&Aside::PreAsymptotic) && because.last().is_some(), "{both:?}");
+    let rates = [0.3, 1.0, 1.0, 1.0, 1.0];
+    let both = judge(with_rates(&rates)[5].error).judge(&with_rates(&rates), 1.0);
+    let expected = [aside(Aside::PreAsymptotic, &[0]), aside(Aside::AtFloor, &[5])].concat();
+    assert_eq!((&both.set_aside, both.used), (&expected, 1..5));
 }
 
 #[test]
@@ -196,9 +199,9 @@ mod laws {
         #[test]
         fn units_of_step_and_error_change_no_verdict(
             rates in prop::collection::vec(0.5..2.5_f64, 2..8),
-            step in -20..20_i32, error in 0..20_i32, order in 0.7..2.2_f64, tolerance in 0.05..0.4_f64,
+            step in -20..20_i32, error in -900..900_i32, order in 0.7..2.2_f64, tolerance in 0.05..0.4_f64,
         ) {
-            // Powers of two are exact; errors only grow, away from the floor.
+            // Powers of two are exact.
             let levels = with_rates(&rates);
             let scale = |level: &Level| Level { step: level.step * 2.0_f64.powi(step), error: level.error * 2.0_f64.powi(error) };
             let scaled: Vec<Level> = levels.iter().map(scale).collect();
@@ -221,7 +224,7 @@ mod laws {
 
         /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order or wrong limit.
         #[test]
-        fn a_coarser_level_never_turns_a_departure_or_a_last_pair_outside_the_band_into_a_pass(
+        fn a_coarser_level_never_turns_a_departure_into_a_pass(
             scattered in prop::collection::vec(1.8..2.2_f64, 3..8),
             pollution in -0.9..3.0_f64, power in 1.0..2.0_f64, wrong in -0.3..0.3_f64, hidden in 0.0..1.5_f64,
             tolerance in 0.05..0.3_f64,
@@ -231,8 +234,7 @@ mod laws {
             for levels in [with_rates(&scattered), smooth] {
                 for first in 1..levels.len() - 3 {
                     let (fine, all) = (judge(&levels[first..], 2.0, tolerance), judge(&levels, 2.0, tolerance));
-                    let outside = fine.pairwise.last().is_some_and(|rate| (rate - 2.0).abs() > tolerance);
-                    if fine.kind == Reason::Departs || outside {
+                    if fine.kind == Reason::Departs {
                         prop_assert_ne!(all.verdict, Verdict::Pass, "{:?} {:?}", fine, all);
                     }
                 }

@@ -44,7 +44,14 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         settings: Settings { stopping: Stopping::below(1e-13), ..Settings::default() },
     };
     let theory = Coefficients { beam: Beam::default(), obstacles: None };
-    Ok(Convergence { theory, solver: theory, exact, refine, expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))] })
+    Ok(Convergence {
+        theory,
+        solver: theory,
+        exact,
+        refine,
+        expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))],
+        formulas: None,
+    })
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

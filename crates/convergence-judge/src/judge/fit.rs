@@ -11,19 +11,18 @@
 //!
 //! * [`pairwise_rates`]: the raw rates, level by level, nothing left out;
 //! * [`fit_line`]: least squares with a Student-t interval, right when the scatter outweighs the bend;
-//! * [`rate_interval`]: several weighted least-squares fits, with and without the bend: right in both cases;
+//! * [`rate_interval`]: the line, or one with a bend where that is clearly better: right in both cases;
 //! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step ratios);
 //! * [`asymptotic_range`]: which levels any of these may use;
 
-mod candidates;
+mod interval;
 mod range;
 
-pub use candidates::{
-    PENALTY, POLLUTION_EXPONENTS, RateInterval, SAFETY, SCATTER_EXPONENTS, SLOW, SLOW_PENALTY, SLOWEST_POLLUTION,
-    rate_interval,
+pub use interval::{
+    CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION, rate_interval,
 };
-pub use range::{FADING_SPREAD, FLOOR_MARGIN, PRE_ASYMPTOTIC_SPREAD, asymptotic_range, scatter};
-pub(crate) use range::{changes, outlier};
+pub(crate) use range::changes;
+pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range, scatter};
 
 /// One level of a refinement study.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -39,7 +39,8 @@ impl Shown<'_> {
     fn error(&self, level: usize) -> String {
         let mark = match self.because(level) {
             Some(Aside::AtFloor) => "_",
-            Some(Aside::PreAsymptotic | Aside::Outlier) => "~",
+            Some(Aside::PreAsymptotic) => "~",
+            Some(Aside::BeyondFive) => "'",
             Some(Aside::NoResult) | None => "",
         };
         format!("{:.4e}{mark:1}", self.levels[level].error)
@@ -57,7 +58,7 @@ impl Shown<'_> {
 /// Names, then step and each error with its mark and rate, coarsest level first, then the meaning of the marks.
 ///
 /// * `step`: the name of the step.
-/// * `floor`: of the rule that judged.
+/// * `floor`: of the rule that judged; 0 if it had none, or several.
 pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
     let names = columns.iter().flat_map(|shown| [shown.name.to_owned(), "rate".to_owned()]);
     let mut rows = vec![std::iter::once(step.to_owned()).chain(names).collect::<Vec<_>>()];
@@ -80,10 +81,12 @@ fn legend(columns: &[Shown<'_>], floor: f64) -> String {
         columns.iter().any(|shown| shown.rate.set_aside.iter().any(|aside| aside.because == *because))
     };
     let marked = |because: Aside| match because {
-        Aside::AtFloor => format!("_ set aside: not above the floor {floor:e}\n"),
+        Aside::AtFloor if floor > 0.0 => format!("_ set aside: not above the floor {floor:e}\n"),
+        Aside::AtFloor => format!("_ set aside: {}\n", because.text()),
+        Aside::BeyondFive => format!("' set aside: {}\n", because.text()),
         _ => format!("~ set aside: {}\n", because.text()),
     };
-    [Aside::PreAsymptotic, Aside::Outlier, Aside::AtFloor].into_iter().filter(occurs).map(marked).collect()
+    [Aside::PreAsymptotic, Aside::BeyondFive, Aside::AtFloor].into_iter().filter(occurs).map(marked).collect()
 }
 
 /// Table, findings and advice, for the message of a failing test.

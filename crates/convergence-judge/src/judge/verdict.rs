@@ -1,4 +1,5 @@
 //! [laws]: crate::judge::calibration::laws
+//! [held]: crate::judge::calibration::held_out
 //! [calibration]: crate::judge::calibration
 //! [grid]: crate::judge::grid
 // The links above are for rustdoc, those at the end of RULE.md for readers of that file.
@@ -6,19 +7,20 @@
 
 use thiserror::Error;
 
-use crate::judge::fit::FLOOR_MARGIN;
 pub use crate::judge::fit::{Level, scatter};
 
+mod cause;
 mod outcome;
 mod reading;
 mod reason;
 mod trend;
 mod words;
 
+pub use cause::Cause;
 pub use outcome::{PowerLaw, RateVerdict};
 pub(crate) use reading::Reading;
 pub use reason::Reason;
-pub use trend::{departs, falls_away, grows};
+pub use trend::{departs, falls_away};
 pub use words::{Aside, SetAside, Verdict};
 
 /// Two rates and one difference of them: with fewer, nothing tells a rate from chance.
@@ -30,15 +32,8 @@ pub const WIDEST_TOLERANCE: f64 = 0.5;
 /// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and from 2.5.
 pub const DEFAULT_TOLERANCE: f64 = 0.25;
 
-/// Distance from the order beyond which a pairwise rate is not a pre-asymptotic effect: an error that falls 32 times
-/// faster or slower than theory when the step is halved is a different solution, not a worse one.
-pub const WILD: f64 = 5.0;
-
 /// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order changes no rate.
 pub const LEAST_SPAN: f64 = 1.5;
-
-/// Floor of errors of quantities of order 1, [`FLOOR_MARGIN`] times about a hundred rounding errors: the default of [`Judge`].
-pub const ROUND_OFF_FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 
 /// A setting of [`Judge`] that would make every verdict meaningless.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -62,14 +57,14 @@ pub struct Judge {
 }
 
 impl Default for Judge {
-    /// The rule with [`DEFAULT_TOLERANCE`] and the floor [`ROUND_OFF_FLOOR`].
+    /// The rule with [`DEFAULT_TOLERANCE`] and without a floor.
     fn default() -> Self {
-        Self { tolerance: DEFAULT_TOLERANCE, floor: ROUND_OFF_FLOOR }
+        Self { tolerance: DEFAULT_TOLERANCE, floor: 0.0 }
     }
 }
 
 impl Judge {
-    /// The rule at 95 % confidence and with the floor [`ROUND_OFF_FLOOR`].
+    /// The rule without a floor: multiplying all errors by a number changes neither verdict nor interval.
     ///
     /// * `tolerance`: half-width of the band about the order, 0 < tolerance < [`WIDEST_TOLERANCE`].
     pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
@@ -79,13 +74,13 @@ impl Judge {
         if tolerance <= 0.0 || tolerance.is_nan() {
             return Err(JudgeError::ToleranceNotPositive(tolerance));
         }
-        Ok(Self { tolerance, floor: ROUND_OFF_FLOOR })
+        Ok(Self { tolerance, floor: 0.0 })
     }
 
     /// The same rule with another floor, in the unit of the errors: fine levels with errors up to the floor are not used. 0 drops no level.
     ///
-    /// If the round-off is known, pass [`FLOOR_MARGIN`] times as much. [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not
-    /// estimated from the data. [`RateVerdict::set_aside`] names the levels.
+    /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
+    /// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the data. [`RateVerdict::set_aside`] names the levels.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         if floor >= 0.0 && floor.is_finite() { Ok(Self { floor, ..self }) } else { Err(JudgeError::Floor(floor)) }
     }
@@ -102,7 +97,14 @@ impl Judge {
 
     /// Judges the levels, coarsest first, against the order that theory claims.
     pub fn judge(&self, levels: &[Level], order: f64) -> RateVerdict {
-        self.judge_read(&self.read(levels), order)
+        self.judge_rounded(levels, order, 0.0)
+    }
+
+    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`: its interval is wider by that at either end.
+    pub fn judge_rounded(&self, levels: &[Level], order: f64, doubt: f64) -> RateVerdict {
+        let mut reading = self.read(levels);
+        reading.widen(doubt);
+        self.judge_read(&reading, order)
     }
 
     /// The same for levels already read by a judge with the same floor and confidence.
@@ -140,7 +142,7 @@ pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
         Err(_) => Reason::ClaimUnusable,
     };
     // The rate does not depend on the tolerance.
-    let reading = Reading::new(levels, ROUND_OFF_FLOOR);
+    let reading = Reading::new(levels, 0.0);
     RateVerdict::new(&reading, order, tolerance, refused)
 }
 

@@ -22,9 +22,9 @@ pub struct Arguments {
     /// Errors at the same step that differ by less, as a share, are the same
     #[arg(long, value_name = "SHARE", default_value_t = WITHIN, value_parser = share, allow_hyphen_values = true)]
     within: f64,
-    /// Errors not above this are not used [default: 1e-10]
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    floor: Option<f64>,
+    /// Errors not above this are not used; 0 uses all
+    #[arg(long, value_name = "E", default_value_t = 0.0, allow_hyphen_values = true)]
+    floor: f64,
     /// Every error, not only those that differ
     #[arg(long)]
     all: bool,

@@ -10,7 +10,7 @@ use super::markdown::{anchor, cell, table, text};
 use super::section::folded;
 use super::words::{blessing, can_be_blessed, summary};
 use crate::input::visible;
-use crate::judge::verdict::{Reason, Verdict};
+use crate::judge::verdict::{Cause, Reason, Verdict};
 use crate::run::Finished;
 use crate::store::{Change, Movement, Record, diagnosis::Diagnosis};
 use crate::study::kind::{COMPLETION, by_reason};
@@ -72,7 +72,9 @@ fn names_another(Finished { header, outcome, .. }: &Finished, ids: &HashSet<&str
 fn reasons(Finished { header, outcome, failed_cases, .. }: &Finished) -> NotPassed {
     let rates = outcome.rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
     let advice = Reason::ALL.into_iter().filter(|&reason| rates.clone().any(|(_, rate)| rate.kind == reason));
-    let advice = advice.map(|reason| format!("{}: {}", reason.code(), reason.advice())).collect();
+    let advice = advice.map(|reason| format!("{}: {}", reason.code(), reason.advice()));
+    let causes = Cause::ALL.into_iter().filter(|&cause| rates.clone().any(|(_, rate)| rate.cause == Some(cause)));
+    let advice = advice.chain(causes.map(|cause| cause.advice().to_owned())).collect();
     let rates = rates.map(|(name, rate)| format!("{name}: {} ({})", rate.line(), rate.kind.code()));
     // The reasons already say that cases are missing.
     let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();

@@ -3,7 +3,7 @@
 use super::{Finished, run_kind};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, Shown};
-use crate::judge::verdict::{DEFAULT_TOLERANCE, Judge, ROUND_OFF_FLOOR, Verdict, judge};
+use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict, judge};
 use crate::study::{ErrorsOverLevels, IntoErrors};
 
 /// Judges errors against the order that theory claims, in any test; the tolerance is [`DEFAULT_TOLERANCE`].
@@ -24,7 +24,7 @@ pub fn assert_order(h: &[f64], errors: &[f64], order: f64) {
     let levels: Vec<Level> = h.iter().zip(errors).map(|(&step, &error)| Level { step, error }).collect();
     let rate = judge(&levels, order, DEFAULT_TOLERANCE);
     let shown = Shown { name: "error", levels: &levels, rate: &rate, late: 0 };
-    assert!(rate.verdict.is_pass(), "the order is not confirmed\n{}", shown::explained("h", &[shown], ROUND_OFF_FLOOR));
+    assert!(rate.verdict.is_pass(), "the order is not confirmed\n{}", shown::explained("h", &[shown], 0.0));
 }
 
 impl<R, F> ErrorsOverLevels<F>
@@ -66,8 +66,7 @@ impl Finished {
         let rates = outcome.rates.iter().zip(&levels);
         let columns: Vec<Shown<'_>> =
             rates.map(|((name, rate), levels)| Shown { name, levels, rate, late: 0 }).collect();
-        let floor = Judge::default().floor();
-        let mut text = format!("{id}: {}\n{}", outcome.verdict, shown::explained("step", &columns, floor));
+        let mut text = format!("{id}: {}\n{}", outcome.verdict, shown::explained("step", &columns, 0.0));
         for check in outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass) {
             text += &format!("{}: {}: {}\n", check.claim, check.verdict, check.evidence);
         }

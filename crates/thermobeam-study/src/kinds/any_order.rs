@@ -25,6 +25,7 @@
 //! tolerance = 0.1       # of the rate; or factor = 4.0 for "degree"
 //! ```
 
+use convergence_study::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::Stepping;
 
 use super::prelude::*;
@@ -54,6 +55,9 @@ const INSIDE: [f64; 2] = [0.13, 0.61];
 
 /// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
 const ROUND_OFF: f64 = 2e-12;
+
+/// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities of order 1.
+const FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 
 /// What is refined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -314,7 +318,7 @@ impl AnyOrder {
             Refinement::new(ran.case.label.clone(), &numbers, step)
         };
         let axis = if self.over == Over::Time { Axis::Time } else { Axis::Space };
-        Levels::new(axis, ran.iter().map(refinement), columns)
+        Levels::new(axis, ran.iter().map(refinement), columns).with_floor(FLOOR)
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.

@@ -119,10 +119,9 @@ impl Kind for EndStates {
 
     fn judge(&self, ran: &[Ran<(usize, Option<usize>), AtRest>]) -> Outcome {
         let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
-        let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight()));
         // Errors below the floor cannot be distinguished from the remaining motion.
-        let floor = MOTION * self.speed;
-        let rates = bent.judge_by(|judge: Judge| judge.clone().with_floor(floor).unwrap_or(judge));
+        let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight())).with_floor(MOTION * self.speed);
+        let rates = bent.judge();
         let mut checks = vec![completion(ran, |end| {
             let fields = [("tip", end.tip), ("exact tip", end.exact_tip()), ("error", end.errors())];
             let of_fields = fields.map(|(name, [u, phi])| Reading::new(format!("{name} of u or φ"), u + phi));

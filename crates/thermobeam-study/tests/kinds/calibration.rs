@@ -57,8 +57,8 @@ fn files_with_errors_are_refused() {
     for (from, to, message) in [
         ("tables = 4", "tables = 0", "tables"),
         ("of = \"rule\"", "of = \"rules\"", "rule"),
-        ("most = 0.006", "most = -1", "most"),
-        ("most = 0.006", "", "one of the two"),
+        ("most = 0.0029", "most = -1", "most"),
+        ("most = 0.0029", "", "one of the two"),
         ("column = ", "columns = ", "columns"),
     ] {
         let error = refusal(&ROW, "rule-calibration.toml", from, to);

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::cause::Cause;
 use super::reading::Reading;
 use super::reason::Reason;
 use super::words::{Aside, SetAside, Verdict};
@@ -72,6 +73,9 @@ pub struct RateVerdict {
     pub because: String,
     /// The reason in words, with its numbers.
     pub reason: String,
+    /// A law that explains why the claim does not pass, if one is known: advice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<Cause>,
 }
 
 impl RateVerdict {
@@ -112,9 +116,10 @@ impl RateVerdict {
         format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.because)
     }
 
-    /// What the reason means, and what to do; `None` for a pass.
-    pub fn advice(&self) -> Option<&'static str> {
-        (!self.verdict.is_pass()).then(|| self.kind.advice())
+    /// What the reason means, its cause if one is known, and what to do; `None` for a pass.
+    pub fn advice(&self) -> Option<String> {
+        let cause = self.cause.map_or(String::new(), |cause| format!(" {}", cause.advice()));
+        (!self.verdict.is_pass()).then(|| self.kind.advice().to_owned() + &cause)
     }
 
     /// The last rate between neighbouring levels that is a number.
@@ -170,7 +175,8 @@ impl RateVerdict {
     pub fn with_reason(self, kind: Reason, because: &str) -> Self {
         let rest = self.reason.strip_prefix(self.kind.text()).unwrap_or_default();
         let reason = format!("{because}{rest}");
-        Self { verdict: kind.verdict(), kind, because: because.to_owned(), reason, ..self }
+        let cause = self.cause.filter(|_| !kind.verdict().is_pass());
+        Self { verdict: kind.verdict(), kind, because: because.to_owned(), reason, cause, ..self }
     }
 
     /// The same rate with the verdict that some levels have no result.
@@ -196,9 +202,6 @@ impl RateVerdict {
 
     /// Builds the verdict, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
-        let level = reading.outlier().filter(|_| kind == Reason::Outlier);
-        let outlier = level.map(|level| format!("level {} does not fit its neighbours", level + 1));
-        let reason = outlier.clone().unwrap_or_else(|| kind.text().to_owned());
         let mut found = Self {
             order,
             tolerance,
@@ -206,13 +209,14 @@ impl RateVerdict {
             fitted: reading.fit.map(|fit| fit.rate),
             constant: reading.constant(),
             interval: reading.fit.map(|fit| fit.interval),
-            extrapolated: reading.extrapolated,
+            extrapolated: reading.extrapolated(),
             used: reading.used.clone(),
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),
             kind,
-            because: outlier.unwrap_or_else(|| kind.brief().to_owned()),
-            reason,
+            because: kind.brief().to_owned(),
+            reason: kind.text().to_owned(),
+            cause: reading.cause(order).filter(|_| !kind.verdict().is_pass()),
         };
         if let Some(interval) = found.interval {
             found.reason += &format!(": {} {}", interval_text(interval, RATE_PLACES), found.levels_in_words());

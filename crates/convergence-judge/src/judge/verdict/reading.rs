@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
+use super::cause::Cause;
 use super::reason::Reason;
 use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
-    Level, RateInterval, asymptotic_range, extrapolated_rate, outlier, pairwise_rates, rate_interval,
+    Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
 
 /// A sequence of errors, read once and compared with any claim.
@@ -22,7 +23,6 @@ pub(crate) struct Reading<'a> {
     /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels above the floor.
     pub(super) used: Range<usize>,
     pub(crate) fit: Option<RateInterval>,
-    pub(super) extrapolated: Option<f64>,
     /// What makes rates impossible to form.
     unusable: Option<Reason>,
 }
@@ -38,15 +38,19 @@ impl<'a> Reading<'a> {
         let start = if range.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.start };
         let fit = rate_interval(&sequence[start..end]);
         let used = if fit.is_some() { start..end } else { 0..0 };
-        Self {
-            sequence,
-            levels: sequence.len(),
-            pairwise: pairwise_rates(sequence),
-            extrapolated: extrapolated_rate(&sequence[used.clone()]),
-            range,
-            used,
-            fit,
-            unusable,
+        Self { sequence, levels: sequence.len(), pairwise: pairwise_rates(sequence), range, used, fit, unusable }
+    }
+
+    /// Limit of the finest pairwise rates that the fit uses.
+    pub(super) fn extrapolated(&self) -> Option<f64> {
+        extrapolated_rate(&self.sequence[self.used.clone()])
+    }
+
+    /// Extends the interval at either end.
+    pub(crate) fn widen(&mut self, doubt: f64) {
+        if let Some(RateInterval { interval: [low, high], .. }) = &mut self.fit {
+            *low -= doubt;
+            *high += doubt;
         }
     }
 
@@ -61,79 +65,63 @@ impl<'a> Reading<'a> {
         Some(constant).filter(|constant| constant.is_finite())
     }
 
+    /// The law that explains the levels above the floor, if rates can be formed.
+    pub(super) fn cause(&self, order: f64) -> Option<Cause> {
+        self.fit.and_then(|_| Cause::of(&self.sequence[..self.range.end], order, |_| 0.0))
+    }
+
     /// The levels that the fit leaves out.
     pub(super) fn set_aside(&self) -> Vec<SetAside> {
         if self.unusable.is_some() {
             return vec![];
         }
         let above_floor = self.range.end;
-        let coarse = 0..if self.used.is_empty() { self.range.start } else { self.used.start };
+        let coarse = if self.used.is_empty() { self.range.start } else { self.used.start };
+        let finest = self.rates().last().copied().unwrap_or(f64::NAN);
+        let is_far = |level: &usize| (self.pairwise[*level] - finest).abs() > SPREAD;
+        // The level next to the range was dropped for its rate, or because the range is as long as it may be.
+        let because = match coarse.checked_sub(1) {
+            Some(next) if !is_far(&next) => Aside::BeyondFive,
+            _ => Aside::PreAsymptotic,
+        };
         let aside = |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
-        let because = if self.outlier().is_some() { Aside::Outlier } else { Aside::PreAsymptotic };
-        aside(coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
+        aside(0..coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
     }
 
     /// The reason for the verdict on a claim: the steps of the rule, in their order.
     pub(super) fn reason(&self, order: f64, tolerance: f64) -> Reason {
-        let sensible = order > 0.0 && order.is_finite();
-        match self.unusable {
-            Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)) => reason,
-            _ if !sensible => Reason::ClaimUnusable,
-            Some(reason) => reason,
-            None => self.not_convergent(order).unwrap_or_else(|| self.held_against(order, tolerance)),
+        let is_sensible = order > 0.0 && order.is_finite();
+        match (self.unusable, self.fit) {
+            (Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)), _) => reason,
+            _ if !is_sensible => Reason::ClaimUnusable,
+            (Some(reason), _) => reason,
+            _ if self.range.end < FEWEST_LEVELS => Reason::RoundOffFloor,
+            _ if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
+            _ if trend::falls_away(self.rates(), order) => Reason::FallsAway,
+            _ if self.range.len() < FEWEST_LEVELS => Reason::NotAsymptotic,
+            (_, None) => Reason::TooFewLevels,
+            (_, Some(fit)) => self.compare(fit.interval, order, tolerance),
         }
     }
 
-    /// Steps 4 to 7: reasons not to use the interval.
-    fn not_convergent(&self, order: f64) -> Option<Reason> {
-        let above_floor = self.range.end;
-        // The step down to the floor is a rate like any other and may be wild; rates between levels at the floor mean nothing.
-        let down_to_floor = &self.pairwise[..self.pairwise.len().min(above_floor)];
-        let rates = self.rates();
-        let possible = !trend::steep(self.sequence, rates, order);
-        if possible && trend::grows(rates) {
-            Some(Reason::ErrorGrows)
-        } else if possible && trend::falls_away(rates, order) {
-            Some(Reason::FallsAway)
-        } else if down_to_floor.iter().any(|rate| (rate - order).abs() > super::WILD) {
-            Some(Reason::WildRate)
-        } else if self.range.len() >= FEWEST_LEVELS {
-            None
-        } else if self.levels - above_floor >= self.range.start {
-            Some(Reason::RoundOffFloor)
-        } else if self.outlier().is_some() {
-            Some(Reason::Outlier)
-        } else {
-            Some(Reason::NotAsymptotic)
-        }
-    }
-
-    /// Steps 8 and 9: the trend of the rates, and the interval against the band.
-    fn held_against(&self, order: f64, tolerance: f64) -> Reason {
-        let Some(fit) = &self.fit else { return Reason::TooFewLevels };
+    /// Steps 6 and 7: the trend of the rates, and the interval against the band.
+    fn compare(&self, interval: [f64; 2], order: f64, tolerance: f64) -> Reason {
         let rates = self.rates();
         if trend::departs(rates, tolerance) {
             return Reason::Departs;
         }
-        let finest = rates.last().copied().unwrap_or(f64::NAN);
-        match compare(fit.interval, order, tolerance) {
+        let grows = rates.last().is_none_or(|finest| *finest <= 0.0);
+        match compare(interval, order, tolerance) {
+            Reason::TooLow if grows => Reason::ErrorGrows,
             Reason::TooLow => Reason::TooLow,
-            Reason::Agrees if trend::emerges(rates, tolerance) => Reason::NotAsymptotic,
-            Reason::Agrees if self.outlier().is_some() => Reason::Outlier,
-            Reason::Agrees if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
-            Reason::Agrees if (finest - order).abs() > tolerance => Reason::LastPair,
             // The finest error is not smaller, which scatter may explain: there is no order that could agree.
-            _ if finest <= 0.0 => Reason::IntervalTooWide,
+            _ if grows => Reason::IntervalTooWide,
+            Reason::Agrees if trend::emerges(rates, order, tolerance) => Reason::NotAsymptotic,
             reason => reason,
         }
     }
 
-    /// The level that does not fit its neighbours.
-    pub(super) fn outlier(&self) -> Option<usize> {
-        outlier(&self.sequence[..self.range.end], self.range.start)
-    }
-
-    /// Ratio of the coarsest step above the floor to the finest; infinite if there is none.
+    /// Ratio of the coarsest step above the floor to the finest.
     fn span(&self) -> f64 {
         let above_floor = &self.sequence[..self.range.end];
         above_floor.first().zip(above_floor.last()).map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
@@ -145,7 +133,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Steps 1 to 3 of the rule, except for what depends on the claim.
+/// Steps 1 and 2 of the rule, except for what depends on the claim.
 fn unusable(levels: &[Level]) -> Option<Reason> {
     let step_usable = |level: &Level| level.step > 0.0 && level.step.is_finite();
     let decreasing = levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);

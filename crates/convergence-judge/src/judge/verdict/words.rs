@@ -55,9 +55,10 @@ pub struct SetAside {
 #[serde(rename_all = "kebab-case")]
 pub enum Aside {
     /// Coarse: the rates there are still too far from the finest one.
+    #[serde(alias = "outlier")]
     PreAsymptotic,
-    /// Coarse: an outlier, or a level behind it.
-    Outlier,
+    /// Coarse: five finer levels are used.
+    BeyondFive,
     /// Fine: neither this error nor that of any finer level is above the floor.
     AtFloor,
     /// It has no result.
@@ -69,7 +70,7 @@ impl Aside {
     pub fn text(self) -> &'static str {
         match self {
             Self::PreAsymptotic => "not yet asymptotic",
-            Self::Outlier => "at or before a level that does not fit its neighbours",
+            Self::BeyondFive => "coarser than the five finest",
             Self::AtFloor => "at or below the floor",
             Self::NoResult => "no result",
         }

@@ -35,7 +35,7 @@ pub struct Arguments {
     /// drops none
     ///
     /// A level above the floor is kept, and so are all levels coarser than it.
-    #[arg(long, value_name = "E", default_value_t = verdict::ROUND_OFF_FLOOR, allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", default_value_t = 0.0, allow_negative_numbers = true)]
     floor: f64,
     /// The column of the step, of a count or of levels: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]

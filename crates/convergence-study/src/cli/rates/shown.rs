@@ -12,11 +12,11 @@ use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, Reason, SetAside, Verdict};
+use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit_of};
-use crate::text::number::{error_text, order_text, pair_text, plain_text, short_text};
+use crate::text::number::{committed_rate, error_text, order_text, pair_text, plain_text, short_text};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would repeat the colours.
@@ -33,7 +33,7 @@ impl JudgedColumn<'_> {
     fn found(&self) -> String {
         let found = match self.claim {
             Claim { at_least: true, order, tolerance, .. } => {
-                let passes = format!("at least {}, not {}", order_text(order), order_text(order - 2.0 * tolerance));
+                let passes = format!("at least {}", order_text(committed_rate(order - tolerance)));
                 let why = if self.rate.verdict.is_pass() { &passes } else { &self.rate.because };
                 format!("{}, claimed {}: {why}", self.rate.rate_in_words(MOST_PLACES), self.claim)
             }
@@ -91,11 +91,11 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
 /// What the reason means for a column, and what to do, using its numbers if they show more than the reason.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
-    let general = rate.kind.advice().to_owned();
+    let general = rate.advice().unwrap_or_default();
     let errors: Vec<f64> = judged.column.levels.iter().map(|level| level.error).collect();
     let grows = |rates: &[f64]| rates.len() > 1 && rates.iter().all(|rate| *rate < 0.0);
     let stays = matches!(rate.kind, Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow | Reason::ZeroError);
-    if judged.estimate.is_some() || !(stays || rate.kind.wants_a_level()) {
+    if judged.estimate.is_some() || rate.cause.is_some() || !(stays || rate.kind.wants_a_level()) {
         general
     } else if errors.iter().position(|error| *error == 0.0).is_some_and(|zero| zero + 1 == errors.len()) {
         format!("{name} is zero on the finest level only. Is that level its own reference? Leave it out.")
@@ -106,11 +106,18 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
         let causes =
             "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
         format!("{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}")
-    } else if let Some(limit) = limit(&errors).map(plain_text) {
-        format!("{name} tends to {limit}, not to zero. If it is a value and no error: --values '{name}'. {general}")
+    } else if let Some(limit) = limit(&errors).filter(|_| may_be_zero(rate)).map(plain_text) {
+        let would =
+            format!("{name} would tend to {limit}, not to zero, if its differences went on falling as the last two");
+        format!("{would}. If it is a value and no error: --values '{name}'. {general}")
     } else {
         general + &next_level(judged, findings).unwrap_or_default()
     }
+}
+
+/// Whether the rate may be 0, within the tolerance, and the finest levels do not say otherwise.
+fn may_be_zero(rate: &RateVerdict) -> bool {
+    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance) && rate.finest_rate().is_none_or(|rate| rate < STOP)
 }
 
 /// The level down to which the error falls at a steady rate, if it stops falling there.

@@ -93,27 +93,33 @@ impl Cells<'_> {
     /// level of each pair.
     ///
     /// * `steps`: of the rows, the coarsest first.
-    pub(super) fn are_rates_of(&self, error: &Self, steps: &[f64]) -> bool {
+    pub(super) fn derived_from(&self, error: &Self, steps: &[f64]) -> Option<Derived> {
         let (last, errors) = (steps.len() - 1, &error.values);
         if last < 2 || !errors.iter().all(|value| *value > 0.0) || errors[last] >= 0.7 * errors[0] {
-            return false;
+            return None;
         }
         let half = 1.2 * self.widest_half();
-        let is_same = |k: usize, found: f64, measure: usize| {
+        let is_same = |k: usize, found: f64, derived: Derived| {
             let reduction = errors[k] / errors[k + 1];
             let doubt = error.halves[k] / errors[k] + error.halves[k + 1] / errors[k + 1];
-            let (value, doubt) = match measure {
-                0 => (reduction, doubt * reduction),
-                1 => (reduction.log2(), doubt / LN_2),
-                _ => (reduction.ln() / (steps[k] / steps[k + 1]).ln(), doubt / (steps[k] / steps[k + 1]).ln()),
+            let (value, doubt) = match derived {
+                Derived::Factors => (reduction, doubt * reduction),
+                Derived::RatesOfHalvedSteps => (reduction.log2(), doubt / LN_2),
+                Derived::Rates => {
+                    let ratio = (steps[k] / steps[k + 1]).ln();
+                    (reduction.ln() / ratio, doubt / ratio)
+                }
             };
             (found - value).abs() <= (half + doubt).min(0.25) + SAME * value.abs()
         };
-        let matches = |shift: usize, measure| (0..last).all(|k| is_same(k, self.values[k + shift], measure));
+        let matches = |shift: usize, derived| (0..last).all(|k| is_same(k, self.values[k + shift], derived));
         // Three rates are proof enough; two need a name, or an end without one.
         let is_end = |row: usize| !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row]);
         let may = |shift: &usize| last > 2 || self.word == Word::Rate || is_end(if *shift == 1 { 0 } else { last });
-        [1, 0].into_iter().filter(may).any(|shift| (0..3).any(|measure| matches(shift, measure)))
+        let shifts: Vec<usize> = [1, 0].into_iter().filter(may).collect();
+        [Derived::Rates, Derived::RatesOfHalvedSteps, Derived::Factors]
+            .into_iter()
+            .find(|derived| shifts.iter().any(|shift| matches(*shift, *derived)))
     }
 
     /// Whether the error of no name that is known falls, tends to a limit, or does neither.
@@ -132,6 +138,17 @@ impl Cells<'_> {
             None => Trend::Doubtful("growing or standing still where the step falls"),
         }
     }
+}
+
+/// What somebody has computed from the errors of another column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Derived {
+    /// `log(e_k / e_(k+1)) / log(h_k / h_(k+1))`.
+    Rates,
+    /// `log2(e_k / e_(k+1))`.
+    RatesOfHalvedSteps,
+    /// `e_k / e_(k+1)`.
+    Factors,
 }
 
 /// How the numbers of a column go on as the step falls.

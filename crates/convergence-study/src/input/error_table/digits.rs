@@ -1,9 +1,9 @@
 //! Printed digits: the part that rounding hides decides nothing.
 
 use crate::judge::claims::Claim;
-use crate::judge::fit::Level;
+use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
 use crate::judge::richardson::{Estimate, Estimator, Value};
-use crate::judge::verdict::{Judge, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{Cause, Judge, RateVerdict, Reason, Verdict};
 use crate::text::number::counted;
 
 /// Rounding below this share of a number changes no verdict.
@@ -25,28 +25,28 @@ pub struct Column {
 }
 
 impl Column {
-    /// Judges the errors. The interval is widened by as much as rounding moves the finest rate; if another digit could
-    /// turn a verdict into a pass or a pass into another verdict, the reason is missing digits.
+    /// Judges the errors. The interval, whatever is claimed, is wider by as much as rounding moves the finest rate. If
+    /// without rounding there would be a verdict, or if other digits could turn another verdict into a pass, the reason is missing digits.
     pub fn judge(&self, judge: &Judge, claim: &Claim) -> RateVerdict {
-        let (judged, order) = (claim.judge(judge, &self.levels), claim.order);
-        let share = |k: usize| self.half(k, order) / self.levels[k].error.abs().max(f64::MIN_POSITIVE);
+        let used = asymptotic_range(&self.levels, judge.floor()).end;
+        let finest_rate = pairwise_rates(&self.levels[..used]).last().copied().unwrap_or(0.0);
+        let share = |k: usize| self.half(k, finest_rate) / self.levels[k].error.abs().max(f64::MIN_POSITIVE);
+        let is_exact = (0..self.levels.len()).all(|k| share(k) < NOTHING);
+        let finest = self.levels[..used].windows(2).enumerate().next_back();
+        let doubt = finest.map_or(0.0, |(k, pair)| (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln());
+        let doubt = if is_exact || !doubt.is_finite() { 0.0 } else { doubt };
+        let mut judged = claim.judge_rounded(judge, &self.levels, doubt);
         let is_told = matches!(judged.kind, Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels);
-        if is_told || order.is_nan() || (0..self.levels.len()).all(|k| share(k) < NOTHING) {
+        if is_exact || is_told || claim.order.is_nan() || judged.verdict == Verdict::Pass {
             return judged;
         }
-        let finest = self.levels.windows(2).enumerate().next_back();
-        let wider = finest.map_or(0.0, |(k, pair)| (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln());
-        if judged.verdict != Verdict::Pass {
-            let corners = self.corners(order);
-            let may_be = |verdict: Verdict| corners.iter().any(|levels| claim.judge(judge, levels).verdict == verdict);
-            let is_poor =
-                wider > judge.tolerance() && (judged.verdict != Verdict::Fail || may_be(Verdict::Inconclusive));
-            return if is_poor || may_be(Verdict::Pass) { self.without_digits(judged) } else { judged };
-        }
-        let Some([low, high]) = judged.interval.map(|[low, high]| [low - wider, high + wider]) else { return judged };
-        let judged = RateVerdict { interval: Some([low, high]), ..judged };
-        let is_above = high > order + judge.tolerance() && !claim.at_least;
-        if low < order - judge.tolerance() || is_above { self.without_digits(judged) } else { judged }
+        judged.cause = judged.cause.or_else(|| Cause::of(&self.levels[..used], claim.order, share));
+        let corners = self.corners(finest_rate);
+        let may_be = |verdict: Verdict| corners.iter().any(|levels| claim.judge(judge, levels).verdict == verdict);
+        let is_undone = judged.verdict == Verdict::Inconclusive
+            && claim.judge(judge, &self.levels).verdict != Verdict::Inconclusive;
+        let is_poor = doubt > judge.tolerance() && (judged.verdict != Verdict::Fail || may_be(Verdict::Inconclusive));
+        if is_undone || is_poor || may_be(Verdict::Pass) { self.without_digits(judged) } else { judged }
     }
 
     /// Judges the differences of the values, and estimates their limit.
@@ -56,7 +56,8 @@ impl Column {
             estimator.estimate(&levels.iter().map(value).collect::<Vec<_>>(), order)
         };
         let mut found = estimate(&self.levels);
-        let corners: Vec<Estimate> = self.corners(order).iter().map(estimate).collect();
+        let rate = found.judged.finest_rate().unwrap_or(0.0);
+        let corners: Vec<Estimate> = self.corners(rate).iter().map(estimate).collect();
         let verdict = found.judged.verdict;
         if !order.is_nan() && corners.iter().any(|corner| corner.judged.verdict != verdict) {
             found.judged = self.without_digits(found.judged);
@@ -70,16 +71,18 @@ impl Column {
     }
 
     /// Uncertainty from the last places of an error and of its step, in the unit of the error.
-    fn half(&self, k: usize, order: f64) -> f64 {
+    ///
+    /// * `rate`: with which the error changes with the step.
+    fn half(&self, k: usize, rate: f64) -> f64 {
         let Level { step, error } = self.levels[k];
-        self.halves[k] + error.abs() * order.max(0.0) * self.step_halves[k] / step
+        self.halves[k] + error.abs() * rate.max(0.0) * self.step_halves[k] / step
     }
 
     /// The numbers that may have been rounded to the finest ones: each unchanged, or half a unit more or less.
-    fn corners(&self, order: f64) -> Vec<Vec<Level>> {
+    fn corners(&self, rate: f64) -> Vec<Vec<Level>> {
         let mut corners = vec![self.levels.clone()];
         for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {
-            let half = self.half(k, order);
+            let half = self.half(k, rate);
             let moved = |by: f64| {
                 let mut levels = corners.clone();
                 levels.iter_mut().for_each(|levels| levels[k].error += by);
@@ -96,7 +99,8 @@ impl Column {
         let last = self.levels.len() - 1;
         let share = self.halves[last] / self.levels[last].error.abs();
         let digits = (-(2.0 * share).log10()).clamp(0.0, 16.0).floor() as usize + 1;
-        let is_step = judged.order * self.step_halves[last] / self.levels[last].step > share;
+        let rate = judged.finest_rate().unwrap_or(0.0);
+        let is_step = rate * self.step_halves[last] / self.levels[last].step > share;
         let what = if is_step { "the steps have too few digits".to_owned() } else { counted(digits, "digit") };
         judged.with_reason(Reason::Digits, &format!("{what}: print more"))
     }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::hash::Hash;
 
-use super::columns::{Cells, Trend};
+use super::columns::{Cells, Derived, Trend};
 use super::names::Word;
 use super::pairs::RawTable;
 use super::reader::{NEIGHBOURS, Refusal, TableReader, listed};
@@ -185,12 +185,17 @@ impl TableReader<'_> {
         // Errors before it, the nearest first, and those after it.
         let near = (k.saturating_sub(NEIGHBOURS)..k).rev().chain(k + 1..(k + NEIGHBOURS).min(self.columns.len()));
         let mut near = near.filter(|near| *near != step).map(|near| &self.columns[near]);
-        match (near.find(|error| column.are_rates_of(error, steps)), column.word.noun()) {
+        let derived = near.find_map(|error| Some((error, column.derived_from(error, steps)?)));
+        match (derived, column.word.noun()) {
             _ if column.is_claimed => Ok(Holds::Error),
             _ if numbers == 0 => other("no number"),
             _ if column.is_index => other("the number of the row"),
+            // Errors that are halved have the rate 1 and the factor 2.
+            (Some((error, Derived::Factors)), _) if column.word == Word::Rate => {
+                other(&format!("factors by which `{}` falls, not its rates", error.name))
+            }
             (_, Some(_)) if column.is_constant() => other("the same in each row"),
-            (Some(error), _) => other(&format!("the rates of `{}`", error.name)),
+            (Some((error, _)), _) => other(&format!("the rates of `{}`", error.name)),
             _ if column.word == Word::Rate && column.is_steep() => Ok(Holds::Error),
             (None, Some(noun)) => other(noun),
             _ if numbers < steps.len() => match column.word {

@@ -137,12 +137,10 @@ fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict
     // The predicted α tells whether dt resolves the impact. If a case failed it is NaN, which must not drop a level.
     let averaged = |of: &Compliance<'_>| !(of.alpha() < AVERAGED);
     let stiff = |of: &Compliance<'_>| of.epsilon <= STIFF;
-    // Penetrations are ε times a force: their relative error is small, so they need no floor.
-    let judge = study.judge.clone().with_floor(0.0).unwrap_or_else(|_| study.judge.clone());
     let rate = |name: &str, order, belongs: &dyn Fn(&Compliance<'_>) -> bool, error: fn(&Compliance<'_>) -> f64| {
         let level = |of: &Compliance<'_>| Level { step: of.epsilon, error: error(of) };
         let levels: Vec<Level> = all.iter().filter(|of| belongs(of)).map(level).collect();
-        (name.to_owned(), judge.judge(&levels, order))
+        (name.to_owned(), study.judge.judge(&levels, order))
     };
     vec![
         rate(LARGEST, 1.0, &averaged, |of| penetration(of.bouncing)),

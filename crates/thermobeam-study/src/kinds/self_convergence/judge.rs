@@ -39,7 +39,7 @@ static OBSERVABLES: [Observable; 7] = [
     // The largest u(1) over all time levels.
     Observable { name: "tip-max", in_space: 2.0, of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs() },
     // The largest defect of the energy balance in a step; of a fixed number of iterations it has an order of its own.
-    Observable { name: "balance", in_space: 2.0, of: |a, b| (a.balance_residual - b.balance_residual).abs() },
+    Observable { name: "balance", in_space: 2.0, of: |a, b| (a.energy_defect - b.energy_defect).abs() },
     // The solutions as functions.
     Observable { name: "theorem-3.4", in_space: 1.0, of: |coarse, fine| functions(coarse, fine)[0] },
     // The same norm of their values at the nodes of the coarser mesh.

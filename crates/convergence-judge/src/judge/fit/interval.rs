@@ -1,0 +1,122 @@
+//! The rate at h → 0 with an interval: a straight line, or a line with one pollution term where that is clearly better.
+//!
+//! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant buys.
+
+use super::{Level, logarithms, student_t};
+
+/// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they guard against overconfidence.
+pub const POLLUTION_EXPONENTS: [f64; 5] = [1.0 / 3.0, 2.0 / 3.0, 1.0, 2.0, 3.0];
+
+/// A polluted line replaces the straight one if this many times its sum of squares is less.
+pub const CLEARLY_BETTER: f64 = 20.0;
+
+/// Factor on the half-width, for what no model has.
+pub const FACTOR: f64 = 1.1;
+
+/// Half-width for three levels, in corrections by pollution h^[`SLOWEST_POLLUTION`].
+pub const FACTOR_OF_THREE: f64 = 1.5;
+
+/// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.
+pub const SLOWEST_POLLUTION: f64 = 1.0 / 3.0;
+
+/// Relative round-off of the logarithm of an error: no residual is known more accurately, so no interval is narrower.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
+/// The rate at h → 0 and its interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RateInterval {
+    /// The rate of the line chosen; for three levels the finest pairwise rate.
+    pub rate: f64,
+    /// Its pollution exponent r; `None` for a straight line.
+    pub pollution: Option<f64>,
+    /// `rate` ± its half-width.
+    pub interval: [f64; 2],
+    /// How far log e of the finest level may lie from its line, at the confidence of the interval.
+    pub scatter: f64,
+}
+
+/// The rate of the levels given, which should be those of [`asymptotic_range`](super::asymptotic_range).
+///
+/// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not differ.
+pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
+    let (x, y) = logarithms(levels)?;
+    let m = x.len();
+    if m < 3 || x[m - 2] == x[m - 1] {
+        return None;
+    }
+    let round_off = ROUND_OFF * y.iter().fold(1.0_f64, |scale, y| scale.max(y.abs()));
+    let finest_ratio = x[m - 2] - x[m - 1];
+    let finest_rate = (y[m - 2] - y[m - 1]) / finest_ratio;
+    let [log_h, log_e] = [&x, &y].map(|values| centred(values));
+    let mut line = Line::fit(&log_h, &log_e, round_off, None);
+    let half = if m == 3 {
+        // Pollution h^r makes the two rates p + c h^r at the middles of their pairs, in log h.
+        let apart = (0.5 * SLOWEST_POLLUTION * (x[0] - x[2])).exp_m1();
+        let change = (finest_rate - (y[0] - y[1]) / (x[0] - x[1])).abs() + round_off / finest_ratio;
+        line.rate = finest_rate;
+        FACTOR_OF_THREE * change / apart
+    } else {
+        let polluted = |r: f64| {
+            let column = centred(&x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect::<Vec<_>>());
+            Line::fit(&project_out(&column, &log_h), &project_out(&column, &log_e), round_off, Some(r))
+        };
+        line = line.or_clearly_better(POLLUTION_EXPONENTS.map(polluted));
+        let of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
+        let correction = ((line.rate - finest_rate).abs() - of_pair).max(0.0);
+        FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction)
+    };
+    let Line { rate, pollution, dof, variance, .. } = line;
+    let is_regular = rate.is_finite() && half.is_finite();
+    let scatter = student_t(dof) * variance.sqrt();
+    is_regular.then_some(RateInterval { rate, pollution, interval: [rate - half, rate + half], scatter })
+}
+
+/// One model of the logarithms: `y = a + q x`, or `y = a + q x + c (h / h_1)^r`.
+#[derive(Clone, Copy)]
+struct Line {
+    pollution: Option<f64>,
+    /// q.
+    rate: f64,
+    /// Number of levels without that of parameters.
+    dof: usize,
+    /// Sum of squared residuals over `dof`, and the round-off.
+    variance: f64,
+    /// Square of what is left of x without the other columns: the variance of q is `variance / square`.
+    square: f64,
+}
+
+impl Line {
+    /// Least squares.
+    ///
+    /// * `x`, `y`: what the projection on the other columns leaves of them (Frisch-Waugh).
+    fn fit(x: &[f64], y: &[f64], round_off: f64, pollution: Option<f64>) -> Self {
+        let dof = x.len().saturating_sub(2 + usize::from(pollution.is_some()));
+        let square = dot(x, x);
+        let rate = dot(x, y) / square;
+        let rest = project_out(x, y);
+        let variance = dot(&rest, &rest) / dof as f64 + round_off.powi(2);
+        Self { pollution, rate, dof, variance, square }
+    }
+
+    /// The best of the others if it is [`CLEARLY_BETTER`] than this one.
+    fn or_clearly_better(self, others: [Self; 5]) -> Self {
+        let rss = |line: &Self| line.variance * line.dof as f64;
+        let best = others.into_iter().min_by(|a, b| rss(a).total_cmp(&rss(b)));
+        best.filter(|best| CLEARLY_BETTER * rss(best) < rss(&self)).unwrap_or(self)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn centred(values: &[f64]) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter().map(|value| value - mean).collect()
+}
+
+/// The values without their projection on `direction`.
+fn project_out(direction: &[f64], values: &[f64]) -> Vec<f64> {
+    let factor = dot(values, direction) / dot(direction, direction);
+    values.iter().zip(direction).map(|(value, along)| value - factor * along).collect()
+}

@@ -169,7 +169,7 @@ where
         let mut checks = vec![completion(ran, not_finite)];
         if self.claims.is_empty() {
             let (claim, evidence) = ("an order is claimed".to_owned(), "no order of any error is claimed".to_owned());
-            checks.push(Check { claim, verdict: Verdict::Inconclusive, evidence });
+            checks.push(Check { verdict: Verdict::Inconclusive, ..Check::that(false, claim, evidence) });
         }
         levels.outcome("errors", None, "Errors over levels of refinement.", checks)
     }

@@ -49,7 +49,7 @@ impl Grid {
         let [h, dt] = self.steps();
         if let Some(different) = self.off_grid(&h, &dt) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
-            let check = Check { claim, verdict: Verdict::Inconclusive, evidence: different };
+            let check = Check { verdict: Verdict::Inconclusive, ..Check::that(false, claim, different) };
             return Outcome::new("", vec![], vec![check]);
         }
         let (mut rates, mut checks) = (vec![], vec![]);
@@ -137,6 +137,9 @@ impl Grid {
         }
         // Nobody claimed it: if it does not hold, the orders are unknown.
         let verdict = if plain.min(squares) <= MISFIT { Verdict::Pass } else { Verdict::Inconclusive };
-        Check { claim: format!("{name}: the errors of space and time add, or their squares"), verdict, evidence }
+        Check {
+            verdict,
+            ..Check::that(false, format!("{name}: the errors of space and time add, or their squares"), evidence)
+        }
     }
 }

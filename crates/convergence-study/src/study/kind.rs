@@ -3,7 +3,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::header::Header;
-use super::outcome::{Check, Outcome};
+use super::outcome::{Check, Origin, Outcome};
 use crate::text::lists::{and_more, grouped};
 
 /// One computation of a study.
@@ -152,6 +152,9 @@ pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
 /// The claim of the check of [`completion`].
 pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
 
+/// Number of reasons that a check of completion lists.
+const SHOWN: usize = 8;
+
 /// Fails unless every case has a result with finite numbers only.
 ///
 /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
@@ -165,8 +168,11 @@ pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String
     }
     let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
     let mut evidence = format!("{completed} of {} cases completed", ran.len());
-    complaints.iter().for_each(|complaint| evidence += &format!("; {complaint}"));
-    Check::that(complaints.is_empty() && !ran.is_empty(), COMPLETION, evidence)
+    complaints.iter().take(SHOWN).for_each(|complaint| evidence += &format!("; {complaint}"));
+    if complaints.len() > SHOWN {
+        evidence += &format!("; and {} more", complaints.len() - SHOWN);
+    }
+    Check::that(complaints.is_empty() && !ran.is_empty(), COMPLETION, evidence).stated_by(Origin::Completion)
 }
 
 /// A study of any kind, as the runner sees it.

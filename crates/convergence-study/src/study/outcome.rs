@@ -68,6 +68,21 @@ impl LevelErrors {
     }
 }
 
+/// Whose statement a check is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// That every case has run: no statement.
+    Completion,
+    /// A statement of the source, as printed there.
+    Source,
+    /// What holds in place of a statement of the source that does not.
+    Correction,
+    /// The study's own.
+    #[default]
+    Own,
+}
+
 /// Something judged.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Check {
@@ -77,13 +92,22 @@ pub struct Check {
     pub verdict: Verdict,
     /// The evidence, with numbers.
     pub evidence: String,
+    /// Whose statement it is; [`Origin::Own`] in records that do not say.
+    #[serde(default)]
+    pub origin: Origin,
 }
 
 impl Check {
     /// Passes or fails on a condition; `holds` must be false for NaN.
     pub fn that(holds: bool, claim: impl Into<String>, evidence: impl Into<String>) -> Self {
         let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
-        Self { claim: claim.into(), verdict, evidence: evidence.into() }
+        Self { claim: claim.into(), verdict, evidence: evidence.into(), origin: Origin::Own }
+    }
+
+    /// The same as somebody's statement.
+    #[must_use]
+    pub fn stated_by(self, origin: Origin) -> Self {
+        Self { origin, ..self }
     }
 }
 

@@ -12,12 +12,12 @@ pub(crate) use convergence_study::run::time_limit::Patience;
 pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
-    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Reading, Refinement, Study, Table, Untested, read_claim, reader, readings,
+    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow, Origin, Outcome,
+    Quantity, Ran, Reading, Refinement, Study, Table, Untested, read_claim, reader, readings,
 };
 pub(crate) use convergence_study::text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text};
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
-pub(crate) use thermobeam::equilibrium::{Equilibrium, Phase};
+pub(crate) use thermobeam::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
 pub(crate) use thermobeam::mesh::{Mesh, MeshError};

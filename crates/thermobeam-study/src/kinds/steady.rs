@@ -96,6 +96,8 @@ pub struct AtRest {
     pub tip: [f64; 2],
     /// Number of exact steady states.
     pub states: usize,
+    /// Whether there are no others.
+    pub is_complete: bool,
     /// Number of those that are stable.
     pub stable: usize,
     /// The nearest exact steady state; `None` if there is none.
@@ -121,9 +123,15 @@ impl AtRest {
             t,
             tip: [&level.u, &level.phi].map(|field| field[mesh.elements()]),
             states: states.len(),
+            is_complete: completeness(&scene.beam, scene.obstacles.as_ref()) == Completeness::Complete,
             stable: states.iter().filter(|state| state.stable).count(),
             nearest: Nearest::of(mesh, level, states.into_iter().filter(meant)),
         })
+    }
+
+    /// The number of steady states, in words: a list that may lack some gives only a least number.
+    pub(super) fn count(&self) -> String {
+        if self.is_complete { self.states.to_string() } else { format!("at least {}", self.states) }
     }
 
     /// u(1) and φ(1) of the nearest exact steady state; NaN if there is none.

@@ -1,12 +1,12 @@
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind};
+use convergence_study::study::{FromFile, Kind, Origin};
 use thermobeam::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::experiment::{AtRest, Experiments, Found, Measured, Nearest, ROW};
 
 use super::file;
 use super::planted::verdict_with;
 use super::refused::refusal;
-use super::typed::passes_but_not_without_each_case;
+use super::typed::{changed, passes_but_not_without_each_case};
 
 fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -112,4 +112,28 @@ fn files_with_errors_are_refused() {
         let error = refusal(&ROW, "section-5.toml", from, to);
         assert!(error.contains(message), "{error}");
     }
+}
+
+/// Completion is no statement, the refuted one is named, and a list that may lack states gives a least number.
+#[test]
+fn the_headline_counts_statements_by_whose_they_are() {
+    let study = study("section-5.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    let outcome = study.judge(&sound);
+    let refuted = "1 is refuted: several steady states for β < -1/2, where there are several only for β < -0.7116";
+    assert_eq!(
+        outcome.headline,
+        format!("the paper's 12 statements: 11 hold as printed, {refuted}; 1 of 1 of ours hold")
+    );
+    let origins = |origin: Origin| outcome.checks.iter().filter(|check| check.origin == origin).count();
+    assert_eq!([Origin::Completion, Origin::Source, Origin::Correction, Origin::Own].map(origins), [1, 11, 1, 1]);
+    let counts: Vec<&str> = outcome.tables[1].rows.iter().map(|row| row[1].as_str()).collect();
+    assert_eq!((counts[0], counts[counts.len() - 1]), ("at least 33", "1"), "{counts:?}");
+    let bent = sound.iter().position(|ran| ran.case.label.contains("paper-3")).expect("the third experiment");
+    let broken = changed::<Experiments>(&sound, |index, found| {
+        if index == bent {
+            run(|run| run.end.tip[0] = 0.0)(found);
+        }
+    });
+    assert!(study.judge(&broken).headline.starts_with("the paper's 12 statements: 10 hold"), "{}", outcome.headline);
 }

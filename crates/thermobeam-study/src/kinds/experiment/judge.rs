@@ -93,7 +93,7 @@ impl AtRest {
     pub(super) fn readings(&self) -> Vec<Reading> {
         let distance = Reading::new("distance to the nearest", self.distance());
         vec![
-            Reading::text("steady states", self.states.to_string()),
+            Reading::text("steady states", self.count()),
             Reading::text("stable", self.stable.to_string()),
             Reading::new("u(1) at rest", self.tip[0]).scientific(6),
             distance.shown(|distance| if self.nearest.is_some() { format!("{distance:.1e}") } else { "-".to_owned() }),
@@ -118,7 +118,7 @@ pub(super) fn checks(study: &Experiments, ran: &[Ran<usize, Found>], rests: &[(f
             Found::Rest(rest) => rest.readings(),
         })
     })];
-    checks.extend(claims(study, ran));
+    checks.extend(claims(study, ran).into_iter().map(|check| check.stated_by(Origin::Source)));
     checks.extend(counts(rests, rests.len() == study.rest.betas.len()));
     checks
 }
@@ -218,7 +218,7 @@ fn ends_bent(scene: &Scene, run: &Measured) -> Check {
     Check::that(
         run.end.tip[0].abs() > ARRIVED && has_arrived(run),
         format!("β = {}: the stationary solution is not zero", scene.beam.beta),
-        format!("{}, one of {} steady states", at_rest(run), run.end.states),
+        format!("{}, one of {} steady states", at_rest(run), run.end.count()),
     )
 }
 
@@ -242,7 +242,7 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
         let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();
         let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
         let evidence = |(beta, rest): &&(f64, &AtRest)| {
-            format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.states, rest.tip[0])
+            format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.count(), rest.tip[0])
         };
         let each: Vec<String> = within.iter().map(evidence).collect();
         let evidence = if each.is_empty() { "no β in this range".to_owned() } else { each.join("; ") };
@@ -257,8 +257,8 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
     let several =
         "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent";
     [
-        claim([AS_PRINTED, f64::INFINITY], alone_and_straight, unique, ""),
-        claim([-BUCKLING, AS_PRINTED], alone_and_straight, one, &convex),
+        claim([AS_PRINTED, f64::INFINITY], alone_and_straight, unique, "").stated_by(Origin::Source),
+        claim([-BUCKLING, AS_PRINTED], alone_and_straight, one, &convex).stated_by(Origin::Correction),
         claim([f64::NEG_INFINITY, -BUCKLING], bent, several, ""),
     ]
 }

@@ -10,8 +10,7 @@ const SECONDS: f64 = 16.0;
 pub(super) fn outcome(study: &Experiments, ran: &[Ran<usize, Found>]) -> Outcome {
     let rests = judge::rests(study, ran);
     let checks = judge::checks(study, ran, &rests);
-    let passed = checks.iter().filter(|check| check.verdict == Verdict::Pass).count();
-    let headline = format!("{passed} of {} statements about the experiments hold", checks.len());
+    let headline = headline(&checks);
     let row = |(experiment, run): &(&Experiment, &Measured)| {
         let Scene { name, beam, .. } = &experiment.scene;
         let bent = experiment.group != SectionGroup::First;
@@ -30,6 +29,28 @@ pub(super) fn outcome(study: &Experiments, ran: &[Ran<usize, Found>]) -> Outcome
         headline: headline.clone(),
         ..Outcome::new(headline, vec![], checks)
     }
+}
+
+/// How many statements hold: the paper's as printed, what holds in place of one that does not, and ours. That every case
+/// completes is no statement.
+fn headline(checks: &[Check]) -> String {
+    let count = |origin: Origin| checks.iter().filter(|check| check.origin == origin).count();
+    let holding =
+        |origin: Origin| checks.iter().filter(|check| check.origin == origin && check.verdict == Verdict::Pass).count();
+    let [printed, refuted, own] = [Origin::Source, Origin::Correction, Origin::Own].map(holding);
+    let all = count(Origin::Source) + count(Origin::Correction);
+    let refutation = if refuted == 0 {
+        "none is refuted".to_owned()
+    } else {
+        format!(
+            "{refuted} is refuted: several steady states for β < -1/2, where there are several only for β < {:.4}",
+            -BUCKLING
+        )
+    };
+    format!(
+        "the paper's {all} statements: {printed} hold as printed, {refutation}; {own} of {} of ours hold",
+        count(Origin::Own)
+    )
 }
 
 fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {

@@ -90,3 +90,14 @@ fn no_other_readme_shows_output() {
     with_output.sort();
     assert_eq!(with_output, ["README.md", "crates/convergence-study/README.md"].map(PathBuf::from));
 }
+
+/// The error of the paper's figures in the README is that of the record of the full tier.
+#[test]
+fn the_error_of_the_papers_figures_is_that_of_the_record() {
+    let readme = read("README.md");
+    let (_, after) = readme.split_once("the figures are off by up to ").expect("a sentence on the figures");
+    let number = after.split(' ').next().expect("a number");
+    let record = read("reports/full/README.md");
+    let row = record.lines().find(|line| line.starts_with("| The paper's figures")).expect("a row of the first table");
+    assert!(row.contains(&format!("off by up to {number} in u(1, t)")), "{number}: {row}");
+}

@@ -114,7 +114,7 @@ impl Expression {
     /// The points of [0, 1] at which `abs`, `min` or `max` change branch, in increasing order.
     ///
     /// A change is a change of sign of the argument of `abs`, or of the difference of the two arguments. It is seen between points
-    /// that are [`BRANCH_SAMPLES`]⁻¹ apart, and next to the other changes: two changes of one function that are closer than that are
+    /// that are 1/10080 apart, and next to the other changes: two changes of one function that are closer than that are
     /// found only if a change of another function is between them, as in a narrow hat `max(0, 1 - abs(x - c)/w)`.
     pub fn kinks(&self) -> Vec<f64> {
         let mut kinks = vec![];

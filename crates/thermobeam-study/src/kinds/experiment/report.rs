@@ -40,7 +40,7 @@ fn headline(checks: &[Check]) -> String {
     let [printed, refuted, own] = [Origin::Source, Origin::Correction, Origin::Own].map(holding);
     let all = count(Origin::Source) + count(Origin::Correction);
     let refutation = if refuted == 0 {
-        "none is refuted".to_owned()
+        "the last is not decided".to_owned()
     } else {
         format!(
             "{refuted} is refuted: several steady states for β < -1/2, where there are several only for β < {:.4}",

@@ -164,7 +164,7 @@ impl Kind for Solvers {
                 _ => {}
             }
         }
-        let contraction = self.contraction.as_ref().map(|_| parts::judge_contraction(&factors));
+        let contraction = self.contraction.as_ref().map(|grid| parts::judge_contraction(&factors, grid.cases().len()));
         let comparison = self.comparison.as_ref().map(|_| parts::judge_comparison(&agreements));
         let map = self.map.as_ref().map(|map| map.judge(&rows, &lines));
         let parts: Vec<Outcome> = [contraction, comparison, map].into_iter().flatten().collect();

@@ -151,14 +151,14 @@ fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
     format!("dt = {dt:e}, epsilon = {epsilon:e}, zeta = {zeta}")
 }
 
-/// * `found`: the results, each with its (dt, ε, ζ).
-pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)]) -> Outcome {
+/// * `found`: the results, each with its (dt, ε, ζ); `all`: the number of points of the grid.
+pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)], all: usize) -> Outcome {
     let settled: Vec<&Contraction> = found.iter().map(|(_, point)| *point).filter(|point| point.is_settled()).collect();
     let worst = settled.iter().map(|point| point.error()).fold(0.0, max_or_nan);
     let deviation = found.iter().map(|(_, point)| point.deviation).fold(0.0, max_or_nan);
-    let all = found.len();
+    let linear = found.iter().filter(|(_, point)| point.deviation <= LINEAR).count();
     let increments =
-        format!("increments are those of the linearised iteration to {deviation:.0e} at {all} of {all} points");
+        format!("increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points");
     let factors = format!("the factor is its spectral radius to {:.1} % at {}", 100.0 * worst, settled.len());
     let unsettled = all - settled.len();
     let left_out = if unsettled == 0 { String::new() } else { format!("; too few iterations for that at {unsettled}") };

@@ -99,13 +99,7 @@ impl Case {
     /// * Returns infinity if A_u is not positive definite.
     pub fn axial_contraction(&self, n_value: f64, u: &[f64]) -> f64 {
         let Some(of_u) = self.matrix_of_u(n_value) else { return f64::INFINITY };
-        let mut bent = vec![0.0; u.len()];
-        for (i, h) in self.lengths.iter().enumerate() {
-            let slope = (u[i + 1] - u[i]) / h;
-            bent[i] -= slope;
-            bent[i + 1] += slope;
-        }
-        bent[0] = 0.0;
+        let bent = stiffness_times(&self.lengths, u);
         let mut moved = bent.clone();
         of_u.factor.solve_in_place(&mut moved);
         self.beam.rho * self.dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
@@ -124,6 +118,18 @@ impl Case {
         ];
         loops.into_iter().fold((0.0, Loop::Contact), |most, next| if next.0 > most.0 { next } else { most })
     }
+}
+
+/// `K u` at the nodes, with a zero at the clamped end.
+pub(crate) fn stiffness_times(lengths: &[f64], u: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; u.len()];
+    for (i, h) in lengths.iter().enumerate() {
+        let slope = (u[i + 1] - u[i]) / h;
+        product[i] -= slope;
+        product[i + 1] += slope;
+    }
+    product[0] = 0.0;
+    product
 }
 
 /// `mass M + stiffness K`, with its factorisation.

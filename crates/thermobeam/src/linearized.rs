@@ -14,7 +14,7 @@
 //! radius of (δV, δW) -> (δV', δW') is below 1. The four factors are those of one loop each; two loops that act on the same
 //! vectors can add or cancel.
 
-use crate::contraction::{Operator, coupling, transposed_coupling};
+use crate::contraction::{Operator, coupling, stiffness_times, transposed_coupling};
 use crate::norms::slope_squared;
 use crate::scheme::{Case, ContactRule};
 
@@ -51,13 +51,6 @@ impl Case {
         let sigma = beam.zeta + 0.5 * dt;
         let is_coupled = n > 1 && beam.a != 0.0;
         let of_theta = if is_coupled { Some(Operator::new(n - 1, lengths, 2.0 / dt, 1.0)?) } else { None };
-        let mut bent = vec![0.0; n + 1];
-        for (i, h) in lengths.iter().enumerate() {
-            let slope = (u[i + 1] - u[i]) / h;
-            bent[i] -= slope;
-            bent[i + 1] += slope;
-        }
-        bent[0] = 0.0;
         let touched = obstacles.filter(|obstacles| obstacles.force(u[n]) != 0.0);
         let slope = touched.map_or(0.0, |obstacles| match scheme.contact {
             ContactRule::Implicit => 1.0 / obstacles.epsilon,
@@ -71,7 +64,7 @@ impl Case {
             sigma,
             a: beam.a,
             axial: beam.rho * dt,
-            bent,
+            bent: stiffness_times(lengths, u),
             contact: dt * slope,
             theta: vec![0.0; n + 1],
             right: vec![0.0; n + 1],

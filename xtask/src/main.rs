@@ -19,7 +19,10 @@ struct Xtask {
 }
 
 #[derive(Debug, Subcommand)]
-#[expect(clippy::large_enum_variant, reason = "there is one value of it in a run")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is one value of it in a run"
+)]
 enum Command {
     #[command(flatten)]
     Thermobeam(thermobeam_cli::Command),

@@ -44,20 +44,31 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = list::read(&root)?;
     let is_meant = |one: &&Regression| {
-        let has = |part: &String| one.name.contains(part.as_str()) || one.file.contains(part.as_str());
+        let has =
+            |part: &String| one.name.contains(part.as_str()) || one.file.contains(part.as_str());
         arguments.only.is_empty() || arguments.only.iter().any(has)
     };
     let chosen: Vec<&Regression> = all.iter().filter(is_meant).collect();
     if chosen.is_empty() {
-        return Err(Unusable::because(&format!("no regression with {} in its name", arguments.only.join(" or "))));
+        return Err(Unusable::because(&format!(
+            "no regression with {} in its name",
+            arguments.only.join(" or ")
+        )));
     }
     if arguments.list {
         return print_list(&chosen);
     }
     // All of them are checked before the first is compiled.
-    let planted = chosen.iter().map(|regression| regression.planted(&root)).collect::<Result<Vec<_>, _>>()?;
+    let planted = chosen
+        .iter()
+        .map(|regression| regression.planted(&root))
+        .collect::<Result<Vec<_>, _>>()?;
     let reported = root.join("reports/regressions.md");
-    let clock = LongRun::begin("one build and one run of the quick tier for each mistake", &reported, false);
+    let clock = LongRun::begin(
+        "one build and one run of the quick tier for each mistake",
+        &reported,
+        false,
+    );
     let (copy, count) = (Copy::of(&root)?, chosen.len());
     let passing = copy.as_it_is(arguments.recorded)?.seconds;
     exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
@@ -65,7 +76,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     for (regression, text) in chosen.iter().zip(&planted) {
         match copy.with(regression, text, arguments.recorded) {
             Ok(found) => {
-                clock.done(&format!("{}: {}", regression.name, first_words(regression, &found)));
+                clock.done(&format!(
+                    "{}: {}",
+                    regression.name,
+                    first_words(regression, &found)
+                ));
                 all.push((*regression, found));
             }
             Err(why) => complaints.push(format!("{}: {}", regression.name, why.message())),
@@ -74,41 +89,89 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if all.is_empty() {
         return Err(Unusable::because(&complaints.join("\n")));
     }
-    complaints.iter().for_each(|complaint| screen::complain(complaint));
+    complaints
+        .iter()
+        .for_each(|complaint| screen::complain(complaint));
     let all = judged::judged(&root, all)?;
-    let named = all.iter().filter(|one| one.found.is_named_by(one.regression)).count();
-    let table = Table::new("", HEAD, all.iter().map(|one| row(one.regression, &one.found)));
-    let rest = if all.len() < count { format!(", {} more are not recorded", count - all.len()) } else { String::new() };
-    let sentence =
-        format!("{named} of {} mistakes are noticed by the study or the test named for them{rest}", all.len());
+    let named = all
+        .iter()
+        .filter(|one| one.found.is_named_by(one.regression))
+        .count();
+    let table = Table::new(
+        "",
+        HEAD,
+        all.iter().map(|one| row(one.regression, &one.found)),
+    );
+    let rest = if all.len() < count {
+        format!(", {} more are not recorded", count - all.len())
+    } else {
+        String::new()
+    };
+    let sentence = format!(
+        "{named} of {} mistakes are noticed by the study or the test named for them{rest}",
+        all.len()
+    );
     let scores = judged::page(&all, passing);
-    screen::print(&format!("{}{scores}{sentence}\n", screen::table(&HEAD, &table.rows)))?;
+    screen::print(&format!(
+        "{}{scores}{sentence}\n",
+        screen::table(&HEAD, &table.rows)
+    ))?;
     if arguments.write {
-        atomic::write(&reported, page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores)?;
+        atomic::write(
+            &reported,
+            page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores,
+        )?;
         let prints = serde_json::to_string(&judged::fingerprints(&all)).map_err(io::Error::from)?;
-        atomic::write(&root.join(FINGERPRINTS), prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n")?;
+        atomic::write(
+            &root.join(FINGERPRINTS),
+            prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n",
+        )?;
         screen::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
     }
-    Ok(if named == count { Verdict::Pass } else { Verdict::Fail })
+    Ok(if named == count {
+        Verdict::Pass
+    } else {
+        Verdict::Fail
+    })
 }
 
 fn print_list(chosen: &[&Regression]) -> Outcome {
-    let row = |one: &&Regression| vec![one.name.clone(), one.file.clone(), one.noticed_by().to_owned()];
+    let row = |one: &&Regression| {
+        vec![
+            one.name.clone(),
+            one.file.clone(),
+            one.noticed_by().to_owned(),
+        ]
+    };
     let rows = chosen.iter().map(row).collect::<Vec<_>>();
-    screen::print(&screen::table(&["mistake", "file", "to be noticed by"], &rows))?;
+    screen::print(&screen::table(
+        &["mistake", "file", "to be noticed by"],
+        &rows,
+    ))?;
     Ok(Verdict::Pass)
 }
 
 /// Where later runs of `verify` find the effects of these mistakes.
 const FINGERPRINTS: &str = ".cargo/fingerprints.json";
 
-const HEAD: [&str; 4] = ["mistake", "file", "first words about it", "named by its study or test"];
+const HEAD: [&str; 4] = [
+    "mistake",
+    "file",
+    "first words about it",
+    "named by its study or test",
+];
 
 fn first_words(regression: &Regression, found: &Found) -> String {
     let said = found.said();
     match said.first() {
         Some(first) if found.is_named_by(regression) => first.clone(),
-        _ => format!("not noticed:\n{}", said.iter().take(SHOWN).map(|line| format!("  {line}\n")).collect::<String>()),
+        _ => format!(
+            "not noticed:\n{}",
+            said.iter()
+                .take(SHOWN)
+                .map(|line| format!("  {line}\n"))
+                .collect::<String>()
+        ),
     }
 }
 
@@ -117,9 +180,22 @@ const SHOWN: usize = 12;
 
 fn row(regression: &Regression, found: &Found) -> Vec<String> {
     let by = regression.noticed_by();
-    let named = if found.is_named_by(regression) { by.to_owned() } else { format!("no, not by {by}") };
-    let first = found.said().first().cloned().unwrap_or_else(|| "nothing".to_owned());
-    vec![regression.name.clone(), regression.file.clone(), first, named]
+    let named = if found.is_named_by(regression) {
+        by.to_owned()
+    } else {
+        format!("no, not by {by}")
+    };
+    let first = found
+        .said()
+        .first()
+        .cloned()
+        .unwrap_or_else(|| "nothing".to_owned());
+    vec![
+        regression.name.clone(),
+        regression.file.clone(),
+        first,
+        named,
+    ]
 }
 
 fn page(table: &Table, sentence: &str, ended: &str) -> String {

@@ -44,33 +44,60 @@ fn run(tier: &str, ids: &str, status: i32, place: &str) -> Ran {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/actions/verify/run.sh");
     let path = format!("{}:{}", at("bin").display(), std::env::var("PATH").unwrap());
     let mut command = Command::new("bash");
-    command.arg(script.canonicalize().unwrap()).current_dir(folder.path());
-    command.envs([("PATH", path.as_str()), ("TIER", tier), ("IDS", ids), ("PLACE", place)]);
-    command.env("STATUS", status.to_string()).env("RUNNER_TEMP", folder.path()).env("GITHUB_OUTPUT", at("output"));
+    command
+        .arg(script.canonicalize().unwrap())
+        .current_dir(folder.path());
+    command.envs([
+        ("PATH", path.as_str()),
+        ("TIER", tier),
+        ("IDS", ids),
+        ("PLACE", place),
+    ]);
+    command
+        .env("STATUS", status.to_string())
+        .env("RUNNER_TEMP", folder.path())
+        .env("GITHUB_OUTPUT", at("output"));
     let status = output(&mut command).status.code();
     let text = |name: &str| fs::read_to_string(at(name)).unwrap_or_default();
-    Ran { status, arguments: text("arguments"), output: text("output"), folder }
+    Ran {
+        status,
+        arguments: text("arguments"),
+        output: text("output"),
+        folder,
+    }
 }
 
 impl Ran {
     fn report(&self) -> Option<&str> {
-        self.output.lines().find_map(|line| line.strip_prefix("report="))
+        self.output
+            .lines()
+            .find_map(|line| line.strip_prefix("report="))
     }
 }
 
 #[test]
 fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
-    for (tier, ids, place) in
-        [("quick", "", "reports"), ("full", "", "reports/full"), ("quick", "a-space  b-*", "reports/local/partial")]
-    {
+    for (tier, ids, place) in [
+        ("quick", "", "reports"),
+        ("full", "", "reports/full"),
+        ("quick", "a-space  b-*", "reports/local/partial"),
+    ] {
         for status in [0, 1] {
             let ran = run(tier, ids, status, place);
             assert_eq!(ran.status, Some(status));
-            assert!(ran.output.starts_with(&format!("status={status}\n")), "{}", ran.output);
+            assert!(
+                ran.output.starts_with(&format!("status={status}\n")),
+                "{}",
+                ran.output
+            );
             let report = Path::new(ran.report().unwrap());
             assert!(report.starts_with(ran.folder.path()));
             for new in ["README.md", "figures/a b.svg", "provenance.json"] {
-                assert_eq!(fs::read_to_string(report.join(new)).unwrap(), "new\n", "{new}");
+                assert_eq!(
+                    fs::read_to_string(report.join(new)).unwrap(),
+                    "new\n",
+                    "{new}"
+                );
             }
             assert!(!report.join("stale.svg").exists());
         }
@@ -90,16 +117,26 @@ fn where_nothing_was_written_no_old_report_is_handed_on() {
 fn patterns_reach_the_program_as_they_are() {
     // The folder of the fake run contains a file that matches the pattern.
     let ran = run("quick", "a-space reports/*", 0, "reports/local/partial");
-    assert_eq!(ran.arguments, "xtask\nverify\n--tier\nquick\na-space\nreports/*\n");
+    assert_eq!(
+        ran.arguments,
+        "xtask\nverify\n--tier\nquick\na-space\nreports/*\n"
+    );
 }
 
 #[test]
 fn what_the_action_builds_is_what_it_runs() {
-    let read = |path: &str| fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)).unwrap();
+    let read = |path: &str| {
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)).unwrap()
+    };
     let profile = |path: &str, command: &str| {
-        read(path).split_once(command).map(|(_, rest)| rest.split(' ').next().unwrap().to_owned())
+        read(path)
+            .split_once(command)
+            .map(|(_, rest)| rest.split(' ').next().unwrap().to_owned())
     };
     let run = profile(".cargo/config.toml", "xtask = \"run --profile ");
-    let built = profile(".github/actions/verify/action.yml", "cargo build --profile ");
+    let built = profile(
+        ".github/actions/verify/action.yml",
+        "cargo build --profile ",
+    );
     assert!(run.is_some() && run == built, "{run:?} {built:?}");
 }

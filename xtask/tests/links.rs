@@ -25,16 +25,22 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
 /// The links and pictures of a page.
 fn links(text: &str) -> Vec<String> {
     let link = |event| match event {
-        Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => Some(dest_url.into_string()),
+        Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+            Some(dest_url.into_string())
+        }
         _ => None,
     };
-    Parser::new_ext(text, Options::all()).filter_map(link).collect()
+    Parser::new_ext(text, Options::all())
+        .filter_map(link)
+        .collect()
 }
 
 /// GitHub's anchor of a heading: small letters, digits, `-` and `_`; blanks become `-`, everything else is dropped.
 fn anchor(heading: &str) -> String {
     let kept = heading.to_lowercase().replace(' ', "-");
-    kept.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_')).collect()
+    kept.chars()
+        .filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_'))
+        .collect()
 }
 
 /// The anchors of the headings of a page.
@@ -44,7 +50,9 @@ fn anchors(text: &str) -> BTreeSet<String> {
         match (event, &mut heading) {
             (Event::Start(Tag::Heading { .. }), _) => heading = Some(String::new()),
             (Event::Text(text) | Event::Code(text), Some(heading)) => heading.push_str(&text),
-            (Event::End(TagEnd::Heading(_)), Some(_)) => found.extend(heading.take().map(|heading| anchor(&heading))),
+            (Event::End(TagEnd::Heading(_)), Some(_)) => {
+                found.extend(heading.take().map(|heading| anchor(&heading)))
+            }
             _ => {}
         }
     }
@@ -56,12 +64,20 @@ fn broken(page: &Path) -> Vec<String> {
     let text = fs::read_to_string(page).unwrap();
     let leads_nowhere = |link: &String| {
         let (file, heading) = link.split_once('#').unwrap_or((link, ""));
-        let target = if file.is_empty() { page.to_owned() } else { page.parent().unwrap().join(file) };
-        let lacks_heading = || !fs::read_to_string(&target).is_ok_and(|text| anchors(&text).contains(heading));
+        let target = if file.is_empty() {
+            page.to_owned()
+        } else {
+            page.parent().unwrap().join(file)
+        };
+        let lacks_heading =
+            || !fs::read_to_string(&target).is_ok_and(|text| anchors(&text).contains(heading));
         !target.exists() || (!heading.is_empty() && lacks_heading())
     };
     let to_the_web = |link: &String| link.starts_with("https://");
-    links(&text).into_iter().filter(|link| !to_the_web(link) && leads_nowhere(link)).collect()
+    links(&text)
+        .into_iter()
+        .filter(|link| !to_the_web(link) && leads_nowhere(link))
+        .collect()
 }
 
 #[test]
@@ -71,7 +87,11 @@ fn every_link_leads_somewhere() {
     assert!(pages.len() > 15, "{pages:?}");
     let found: Vec<String> = pages
         .iter()
-        .flat_map(|page| broken(page).into_iter().map(move |link| format!("{}: {link}", page.display())))
+        .flat_map(|page| {
+            broken(page)
+                .into_iter()
+                .map(move |link| format!("{}: {link}", page.display()))
+        })
         .collect();
     assert_eq!(found, Vec::<String>::new());
 }

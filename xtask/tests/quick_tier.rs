@@ -23,9 +23,19 @@ fn the_quick_tier_passes_and_no_number_moves() {
     let root = tempfile::tempdir().expect("a folder");
     // Read at run time, not at compile time: the copy in which it was compiled may be gone.
     let package = std::env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo");
-    copied(&Path::new(&package).join("../studies"), &root.path().join("studies"));
+    copied(
+        &Path::new(&package).join("../studies"),
+        &root.path().join("studies"),
+    );
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
-    command.args(["verify", "--quiet", "--case-limit", "120"]).current_dir(root.path());
+    command
+        .args(["verify", "--quiet", "--case-limit", "120"])
+        .current_dir(root.path());
     let output = command.output().expect("the program starts");
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stdout));
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stdout)
+    );
 }

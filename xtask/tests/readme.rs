@@ -24,12 +24,18 @@ fn is_reported(line: &str, report: &str) -> bool {
     if let Some((verdict, sentence)) = line.split_once(": ") {
         return verdict == "report" || report.contains(&format!("**{verdict}**: {sentence}\n"));
     }
-    let cells: Vec<&str> = line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    let cells: Vec<&str> = line
+        .split("  ")
+        .map(str::trim)
+        .filter(|cell| !cell.is_empty())
+        .collect();
     match cells[..] {
         ["study", "verdict", "seconds", "key numbers"] => true,
         [id, verdict, _, numbers] => report.lines().any(|row| {
             let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-            row.starts_with(&format!("| [{id}](")) && cells.contains(&verdict) && cells.contains(&numbers)
+            row.starts_with(&format!("| [{id}]("))
+                && cells.contains(&verdict)
+                && cells.contains(&numbers)
         }),
         _ => false,
     }
@@ -44,13 +50,21 @@ fn every_block_of_output_is_what_the_command_prints() {
         // The studies take seconds when optimised: their report is what `verify` wrote, and each merge writes it anew.
         if command[2] == "verify" {
             let report = read("reports/README.md");
-            let wrong: Vec<&String> =
-                lines.iter().filter(|line| *line != "..." && !is_reported(line, &report)).collect();
-            assert!(wrong.is_empty() && lines.len() > 4, "not in reports/README.md: {wrong:#?}");
+            let wrong: Vec<&String> = lines
+                .iter()
+                .filter(|line| *line != "..." && !is_reported(line, &report))
+                .collect();
+            assert!(
+                wrong.is_empty() && lines.len() > 4,
+                "not in reports/README.md: {wrong:#?}"
+            );
             continue;
         }
-        let output =
-            Command::new(env!("CARGO_BIN_EXE_xtask")).args(&command[2..]).current_dir(root()).output().unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
+            .args(&command[2..])
+            .current_dir(root())
+            .output()
+            .unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
         assert_eq!(missing(&lines, &text), None, "{command:?}:\n{text}");
     }
@@ -59,8 +73,11 @@ fn every_block_of_output_is_what_the_command_prints() {
 #[test]
 fn a_line_that_verify_does_not_report_is_found() {
     let report = "**pass**: all 2 studies pass\n\n| [a-b](#a-b) | claim | pass | velocity 2.000 (order 2) |\n";
-    for line in ["a-b   pass   1.24  velocity 2.000 (order 2)", "pass: all 2 studies pass", "report: reports/README.md"]
-    {
+    for line in [
+        "a-b   pass   1.24  velocity 2.000 (order 2)",
+        "pass: all 2 studies pass",
+        "report: reports/README.md",
+    ] {
         assert!(is_reported(line, report), "{line}");
     }
     for line in [
@@ -77,27 +94,46 @@ fn no_other_readme_shows_output() {
     let mut folders = vec![root()];
     let mut with_output = vec![];
     while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        for path in fs::read_dir(&folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+        {
+            let name = path
+                .file_name()
+                .and_then(|name| name.to_str())
+                .unwrap_or_default();
             // Reports and what is not committed.
             if path.is_dir() && !matches!(name, "target" | "reports" | ".git" | "mutants.out") {
                 folders.push(path);
-            } else if name == "README.md" && fs::read_to_string(&path).unwrap().contains("\n```text\n") {
+            } else if name == "README.md"
+                && fs::read_to_string(&path).unwrap().contains("\n```text\n")
+            {
                 with_output.push(path.strip_prefix(root()).unwrap().to_owned());
             }
         }
     }
     with_output.sort();
-    assert_eq!(with_output, ["README.md", "crates/convergence-study/README.md"].map(PathBuf::from));
+    assert_eq!(
+        with_output,
+        ["README.md", "crates/convergence-study/README.md"].map(PathBuf::from)
+    );
 }
 
 /// The error of the paper's figures in the README is that of the record of the full tier.
 #[test]
 fn the_error_of_the_papers_figures_is_that_of_the_record() {
     let readme = read("README.md");
-    let (_, after) = readme.split_once("the figures are off by up to ").expect("a sentence on the figures");
+    let (_, after) = readme
+        .split_once("the figures are off by up to ")
+        .expect("a sentence on the figures");
     let number = after.split(' ').next().expect("a number");
     let record = read("reports/full/README.md");
-    let row = record.lines().find(|line| line.starts_with("| The paper's figures")).expect("a row of the first table");
-    assert!(row.contains(&format!("off by up to {number} in u(1, t)")), "{number}: {row}");
+    let row = record
+        .lines()
+        .find(|line| line.starts_with("| The paper's figures"))
+        .expect("a row of the first table");
+    assert!(
+        row.contains(&format!("off by up to {number} in u(1, t)")),
+        "{number}: {row}"
+    );
 }

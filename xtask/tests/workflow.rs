@@ -9,7 +9,10 @@ fn read(path: &str) -> String {
 
 /// The commands of `.ci/run`.
 fn steps(script: &str) -> Vec<&str> {
-    script.lines().filter_map(|line| line.strip_prefix("step ")).collect()
+    script
+        .lines()
+        .filter_map(|line| line.strip_prefix("step "))
+        .collect()
 }
 
 #[test]
@@ -18,19 +21,26 @@ fn the_readme_has_each_command_of_ci_run_and_no_other() {
     let steps = steps(&script);
     assert!(steps.len() > 5, "{steps:?}");
     let block = format!("```sh\n{}\n```", steps.join("\n"));
-    assert!(read("README.md").contains(&block), "expected in README.md:\n{block}");
+    assert!(
+        read("README.md").contains(&block),
+        "expected in README.md:\n{block}"
+    );
 }
 
 #[test]
 fn each_script_is_run_by_the_workflow() {
     let workflow = read(".github/workflows/ci.yml");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.ci");
-    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let names = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let names: Vec<String> = names.collect();
     assert!(names.len() >= 5, "{names:?}");
     for name in names {
         // As a word of its own at the end of a line.
-        let is_run = |line: &str| line.trim_start().starts_with("- run: ") && line.ends_with(&format!(" .ci/{name}"));
+        let is_run = |line: &str| {
+            line.trim_start().starts_with("- run: ") && line.ends_with(&format!(" .ci/{name}"))
+        };
         assert!(workflow.lines().any(is_run), "no job runs .ci/{name}");
     }
 }

@@ -28,7 +28,9 @@ pub struct TimeUp {
 impl TimeUp {
     fn allowed(&self) -> String {
         match self.work {
-            Some(work) => format!("{work} passes over a node, three times what it took when blessed (work)"),
+            Some(work) => {
+                format!("{work} passes over a node, three times what it took when blessed (work)")
+            }
             None => format!("{} s", self.limit.as_secs_f64()),
         }
     }
@@ -68,10 +70,20 @@ pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Optio
 }
 
 /// The same by another clock.
-pub fn within_by<T>(clock: Clock, limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
+pub fn within_by<T>(
+    clock: Clock,
+    limit: Option<Duration>,
+    case: impl FnOnce() -> T,
+) -> (T, Option<TimeUp>) {
     let now = clock();
     // A limit that the clock cannot represent is no limit.
-    let deadline = limit.and_then(|limit| Some(Deadline { clock, at: now.checked_add(limit)?, limit }));
+    let deadline = limit.and_then(|limit| {
+        Some(Deadline {
+            clock,
+            at: now.checked_add(limit)?,
+            limit,
+        })
+    });
     let before = DEADLINE.replace(deadline);
     REACHED.set(None);
     let result = case();
@@ -103,7 +115,11 @@ impl Patience {
     /// For rounds that each advance `elements` elements by a step.
     pub fn new(elements: usize) -> Self {
         let round = elements.saturating_add(Self::STEP);
-        Self { round, since: 0, begun: false }
+        Self {
+            round,
+            since: 0,
+            begun: false,
+        }
     }
 
     /// For rounds of another kind, each long enough to look at the clock.
@@ -133,11 +149,18 @@ impl Patience {
         WORK.set((done, most));
         (self.since, self.begun) = (0, true);
         let work = most.filter(|most| done > *most);
-        let late = DEADLINE.get().filter(|deadline| (deadline.clock)() >= deadline.at);
+        let late = DEADLINE
+            .get()
+            .filter(|deadline| (deadline.clock)() >= deadline.at);
         if work.is_none() && late.is_none() {
             return Ok(());
         }
-        let up = TimeUp { step, t: t(), limit: late.map_or(Duration::ZERO, |deadline| deadline.limit), work };
+        let up = TimeUp {
+            step,
+            t: t(),
+            limit: late.map_or(Duration::ZERO, |deadline| deadline.limit),
+            work,
+        };
         REACHED.set(Some(up));
         Err(up)
     }
@@ -176,8 +199,23 @@ mod tests {
         let limit = Duration::from_millis(20);
         let (done, up) = rounds(Some(limit), usize::MAX);
         // The clock is read before the first round, then every 304 of them, and 20 ms after the start the 20th time.
-        assert_eq!((done, up), (19 * 304, Some(TimeUp { step: done, t: 0.5, limit, work: None })));
-        assert!(up.unwrap().to_string().starts_with("stopped at the limit of 0.02 s, after step "));
+        assert_eq!(
+            (done, up),
+            (
+                19 * 304,
+                Some(TimeUp {
+                    step: done,
+                    t: 0.5,
+                    limit,
+                    work: None
+                })
+            )
+        );
+        assert!(
+            up.unwrap()
+                .to_string()
+                .starts_with("stopped at the limit of 0.02 s, after step ")
+        );
         assert_eq!(rounds(None, 1000), (1000, None));
     }
 
@@ -189,17 +227,28 @@ mod tests {
         assert!((10_700_000..10_800_000).contains(&work), "{work}");
         let (stopped, done) = run(Some(1_000_000));
         let up = stopped.1.expect("a limit");
-        assert!(up.work == Some(1_000_000) && done > 1_000_000 && stopped.0 < 10_000, "{up}");
+        assert!(
+            up.work == Some(1_000_000) && done > 1_000_000 && stopped.0 < 10_000,
+            "{up}"
+        );
         assert_eq!(run(Some(1_000_000)), (stopped, done));
-        assert!(up.to_string().ends_with("t = 0.5") && up.to_string().contains("(work)"), "{up}");
+        assert!(
+            up.to_string().ends_with("t = 0.5") && up.to_string().contains("(work)"),
+            "{up}"
+        );
     }
 
     #[test]
     fn a_loop_that_was_set_up_before_the_limit_obeys_it() {
         let mut patience = Patience::new(100);
         let limit = Duration::from_millis(1);
-        let (done, up) = within(Some(limit), || (0..usize::MAX).find(|&step| patience.check(step, || 0.5).is_err()));
-        assert!(done.is_some() && up.is_some_and(|up| up.limit == limit), "{done:?} {up:?}");
+        let (done, up) = within(Some(limit), || {
+            (0..usize::MAX).find(|&step| patience.check(step, || 0.5).is_err())
+        });
+        assert!(
+            done.is_some() && up.is_some_and(|up| up.limit == limit),
+            "{done:?} {up:?}"
+        );
     }
 
     #[test]

@@ -29,18 +29,44 @@ pub(crate) struct Judgement {
 
 impl Judgement {
     fn shown(&self) -> Shown<'_> {
-        Shown { name: &self.name, levels: &self.levels, rate: &self.rate, late: 0 }
+        Shown {
+            name: &self.name,
+            levels: &self.levels,
+            rate: &self.rate,
+            late: 0,
+        }
     }
 
     /// A picture of the errors over the steps, with the rate and the claimed order.
     fn picture(&self) -> String {
-        let refinement = |level: &Level| Refinement { label: String::new(), parameters: vec![], step: level.step };
-        let claim = Some(Claim::new(self.rate.order, self.rate.tolerance)).filter(|claim| claim.order.is_finite());
+        let refinement = |level: &Level| Refinement {
+            label: String::new(),
+            parameters: vec![],
+            step: level.step,
+        };
+        let claim = Some(Claim::new(self.rate.order, self.rate.tolerance))
+            .filter(|claim| claim.order.is_finite());
         let errors = self.levels.iter().map(|level| Some(level.error)).collect();
-        let axis = if self.step == "dt" { Axis::Time } else { Axis::Space };
-        let columns = vec![ErrorColumn { name: self.name.clone(), errors, claim, look: 0 }];
+        let axis = if self.step == "dt" {
+            Axis::Time
+        } else {
+            Axis::Space
+        };
+        let columns = vec![ErrorColumn {
+            name: self.name.clone(),
+            errors,
+            claim,
+            look: 0,
+        }];
         let levels = Levels::new(axis, self.levels.iter().map(refinement), columns);
-        levels.figure("", None, String::new(), &[(self.name.clone(), self.rate.clone())]).svg
+        levels
+            .figure(
+                "",
+                None,
+                String::new(),
+                &[(self.name.clone(), self.rate.clone())],
+            )
+            .svg
     }
 }
 
@@ -92,7 +118,9 @@ impl Judgement {
     }
 
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let rates = std::iter::once(f64::NAN).chain(self.rate.pairwise.iter().copied()).collect();
+        let rates = std::iter::once(f64::NAN)
+            .chain(self.rate.pairwise.iter().copied())
+            .collect();
         let column = |value: fn(&Level) -> f64| self.levels.iter().map(value).collect::<Vec<f64>>();
         let columns = [
             (self.step.clone(), column(|level| level.step)),
@@ -103,7 +131,9 @@ impl Judgement {
     }
 
     fn __bool__(&self) -> PyResult<bool> {
-        Err(PyTypeError::new_err("a judgement is no truth value: pass, fail or inconclusive; ask .verdict"))
+        Err(PyTypeError::new_err(
+            "a judgement is no truth value: pass, fail or inconclusive; ask .verdict",
+        ))
     }
 
     fn __repr__(&self) -> String {
@@ -118,13 +148,21 @@ impl Judgement {
 /// Text and pictures for a notebook.
 pub(crate) fn html(text: &str, pictures: &[String]) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    format!("<div><pre style=\"white-space: pre-wrap\">{text}</pre>{}</div>", pictures.concat())
+    format!(
+        "<div><pre style=\"white-space: pre-wrap\">{text}</pre>{}</div>",
+        pictures.concat()
+    )
 }
 
 /// A data frame if the caller has imported pandas, otherwise a dict of lists.
-pub(crate) fn frame<'py>(py: Python<'py>, columns: &[(String, Vec<f64>)]) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn frame<'py>(
+    py: Python<'py>,
+    columns: &[(String, Vec<f64>)],
+) -> PyResult<Bound<'py, PyAny>> {
     let table = PyDict::new(py);
-    columns.iter().try_for_each(|(name, numbers)| table.set_item(name, numbers))?;
+    columns
+        .iter()
+        .try_for_each(|(name, numbers)| table.set_item(name, numbers))?;
     match py.import("pandas") {
         Ok(pandas) => pandas.call_method1("DataFrame", (table,)),
         Err(_) => Ok(table.into_any()),
@@ -141,25 +179,62 @@ fn judged(
     let judge = values::judge_with(tolerance)?;
     let judgement = |step: &str, name: &str, levels: Vec<Level>, claim: Claim| {
         let rate = claim.judge(&judge, &levels);
-        Judgement { name: name.to_owned(), step: step.to_owned(), levels, rate }
+        Judgement {
+            name: name.to_owned(),
+            step: step.to_owned(),
+            levels,
+            rate,
+        }
     };
     let claims = match errors {
         Some(errors) => {
             let claim = values::claim(order, tolerance)?;
-            return Ok((vec![judgement("h", "error", values::levels(h, "errors", errors)?, claim)], false));
+            return Ok((
+                vec![judgement(
+                    "h",
+                    "error",
+                    values::levels(h, "errors", errors)?,
+                    claim,
+                )],
+                false,
+            ));
         }
         None => Claims::read(order, tolerance)?,
     };
     let table = table(h, &claims.names())?;
-    let known = || table.columns.iter().map(|column| column.name.as_str()).collect::<Vec<_>>().join(", ");
+    let known = || {
+        table
+            .columns
+            .iter()
+            .map(|column| column.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let of = |name: &str, claim: &Claim| {
-        let unknown = || refuse(format!("order: expected names of columns of errors, {}; found `{name}`", known()));
+        let unknown = || {
+            refuse(format!(
+                "order: expected names of columns of errors, {}; found `{name}`",
+                known()
+            ))
+        };
         let column = table.column(name).ok_or_else(unknown)?;
-        Ok(judgement(&table.step, &column.name, column.levels.clone(), *claim))
+        Ok(judgement(
+            &table.step,
+            &column.name,
+            column.levels.clone(),
+            *claim,
+        ))
     };
     let found = match &claims {
-        Claims::ForAll(claim) => table.columns.iter().map(|column| of(&column.name, claim)).collect::<PyResult<_>>()?,
-        Claims::Named(named) => named.iter().map(|(name, claim)| of(name, claim)).collect::<PyResult<_>>()?,
+        Claims::ForAll(claim) => table
+            .columns
+            .iter()
+            .map(|column| of(&column.name, claim))
+            .collect::<PyResult<_>>()?,
+        Claims::Named(named) => named
+            .iter()
+            .map(|(name, claim)| of(name, claim))
+            .collect::<PyResult<_>>()?,
     };
     Ok((found, true))
 }
@@ -167,19 +242,37 @@ fn judged(
 /// A data frame, read like text by `convergence-study rates`, with all digits.
 fn table(table: &Bound<'_, PyAny>, claimed: &[String]) -> PyResult<RateTable> {
     let Some(columns) = values::columns(table, claimed)? else {
-        return Err(refuse("errors: expected the errors at the steps h, or a data frame in place of h"));
+        return Err(refuse(
+            "errors: expected the errors at the steps h, or a data frame in place of h",
+        ));
     };
-    let rows = columns.iter().map(|(_, numbers)| numbers.len()).max().unwrap_or(0);
+    let rows = columns
+        .iter()
+        .map(|(_, numbers)| numbers.len())
+        .max()
+        .unwrap_or(0);
     if let Some((name, numbers)) = columns.iter().find(|(_, numbers)| numbers.len() != rows) {
-        return Err(refuse(format!("{name}: expected {rows} numbers, as other columns have; found {}", numbers.len())));
+        return Err(refuse(format!(
+            "{name}: expected {rows} numbers, as other columns have; found {}",
+            numbers.len()
+        )));
     }
-    let names: Vec<String> = columns.iter().map(|(name, _)| format!("\"{}\"", name.replace('"', "'"))).collect();
+    let names: Vec<String> = columns
+        .iter()
+        .map(|(name, _)| format!("\"{}\"", name.replace('"', "'")))
+        .collect();
     let mut text = names.join(",") + "\n";
     for row in 0..rows {
-        let cells: Vec<String> = columns.iter().map(|(_, numbers)| format!("{:?}", numbers[row])).collect();
+        let cells: Vec<String> = columns
+            .iter()
+            .map(|(_, numbers)| format!("{:?}", numbers[row]))
+            .collect();
         text += &(cells.join(",") + "\n");
     }
-    let choice = Choice { claimed: claimed.to_vec(), ..Choice::default() };
+    let choice = Choice {
+        claimed: claimed.to_vec(),
+        ..Choice::default()
+    };
     RateTable::parse_with(&text, "the data frame", &choice).map_err(refuse)
 }
 
@@ -225,13 +318,19 @@ pub(crate) fn assert_order(
     tolerance: f64,
 ) -> PyResult<()> {
     let (found, _) = judged(h, errors, order, tolerance)?;
-    if !found.is_empty() && found.iter().all(|judgement| judgement.rate.verdict.is_pass()) {
+    if !found.is_empty()
+        && found
+            .iter()
+            .all(|judgement| judgement.rate.verdict.is_pass())
+    {
         return Ok(());
     }
     let step = found.first().map_or("h", |judgement| &judgement.step);
     let columns: Vec<Shown<'_>> = found.iter().map(Judgement::shown).collect();
     let text = shown::explained(step, &columns, 0.0);
-    Err(PyAssertionError::new_err(format!("the order is not confirmed\n{text}")))
+    Err(PyAssertionError::new_err(format!(
+        "the order is not confirmed\n{text}"
+    )))
 }
 
 /// The limit of values at h = 0.
@@ -252,7 +351,9 @@ pub(crate) struct Limit {
 
 impl Limit {
     fn new(Estimate { bar, gci, judged }: Estimate) -> Self {
-        let reason = bar.as_ref().map_or_else(ToString::to_string, |_| judged.reason.clone());
+        let reason = bar
+            .as_ref()
+            .map_or_else(ToString::to_string, |_| judged.reason.clone());
         let bar = bar.ok();
         Self {
             value: bar.as_ref().map(|bar| bar.extrapolated),
@@ -270,7 +371,9 @@ impl Limit {
 impl Limit {
     fn __repr__(&self) -> String {
         match (self.value, self.interval) {
-            (Some(value), Some((low, high))) => format!("limit {value:?} ({low:?} to {high:?}): {}", self.reason),
+            (Some(value), Some((low, high))) => {
+                format!("limit {value:?} ({low:?} to {high:?}): {}", self.reason)
+            }
             _ => format!("no limit: {}", self.reason),
         }
     }
@@ -290,9 +393,18 @@ pub(crate) fn limit(
 ) -> PyResult<Limit> {
     let claim = values::claim(order, tolerance)?;
     let levels = values::levels(h, "values", values)?;
-    let values: Vec<Value> = levels.iter().map(|level| Value { step: level.step, value: level.error }).collect();
+    let values: Vec<Value> = levels
+        .iter()
+        .map(|level| Value {
+            step: level.step,
+            value: level.error,
+        })
+        .collect();
     let estimator = Estimator::new(tolerance).map_err(refuse)?;
-    let estimate =
-        if order.is_none() { estimator.estimate_unclaimed(&values) } else { estimator.estimate(&values, claim.order) };
+    let estimate = if order.is_none() {
+        estimator.estimate_unclaimed(&values)
+    } else {
+        estimator.estimate(&values, claim.order)
+    };
     Ok(Limit::new(estimate))
 }

@@ -19,7 +19,15 @@ use pyo3::prelude::*;
 /// * `arguments`: the program's arguments, without its name.
 #[pyfunction]
 fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -> u8 {
-    guard::enable_by([executable, "-m".into(), "convergence_study".into(), guard::COMMAND.into()].into());
+    guard::enable_by(
+        [
+            executable,
+            "-m".into(),
+            "convergence_study".into(),
+            guard::COMMAND.into(),
+        ]
+        .into(),
+    );
     let arguments = std::iter::once("convergence-study".into()).chain(arguments);
     py.detach(|| cli::main_with(&program::PROJECT, arguments))
 }

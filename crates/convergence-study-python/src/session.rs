@@ -28,8 +28,11 @@ pub(crate) fn finish(
     reason: Option<String>,
     report: Option<PathBuf>,
 ) -> PyResult<(Vec<String>, bool)> {
-    let guarded: Vec<Finished> =
-        studies.iter().filter(|(_, excused)| !excused).map(|(study, _)| study.finished.clone()).collect();
+    let guarded: Vec<Finished> = studies
+        .iter()
+        .filter(|(_, excused)| !excused)
+        .map(|(study, _)| study.finished.clone())
+        .collect();
     let (mut lines, mut changes) = (vec![], None);
     let mut is_refused = false;
     if bless || baseline.is_file() {
@@ -45,10 +48,10 @@ pub(crate) fn finish(
                 }
                 Err(refusal) => {
                     is_refused = true;
-                    lines.push(
-                        format!("baseline: {refusal}")
-                            .replace("--bless --reason", "--convergence-bless --convergence-reason"),
-                    );
+                    lines.push(format!("baseline: {refusal}").replace(
+                        "--bless --reason",
+                        "--convergence-bless --convergence-reason",
+                    ));
                 }
             }
         }
@@ -58,10 +61,19 @@ pub(crate) fn finish(
     lines.extend(moved.iter().map(|change| format!("baseline: {change}")));
     let is_well = moved.is_empty() && !is_refused;
     if let Some(folder) = report {
-        let finished: Vec<Finished> = studies.iter().map(|(study, _)| study.finished.clone()).collect();
+        let finished: Vec<Finished> = studies
+            .iter()
+            .map(|(study, _)| study.finished.clone())
+            .collect();
         let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
         let verdict = if is_well { own } else { Verdict::Fail };
-        let record = Record::new("files", PROJECT.command, verdict, changes.as_deref(), finished);
+        let record = Record::new(
+            "files",
+            PROJECT.command,
+            verdict,
+            changes.as_deref(),
+            finished,
+        );
         verify::publish(&PROJECT, record, run::available().get(), &folder).map_err(refuse)?;
         lines.push(format!("report: {}", folder.join("index.html").display()));
     }

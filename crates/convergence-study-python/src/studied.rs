@@ -8,7 +8,8 @@ use convergence_study::program;
 use convergence_study::run::Finished;
 use convergence_study::study::until_decided::{self, FIRST, Next};
 use convergence_study::study::{
-    Claim, ErrorsOverLevels, Header, Kind, NamedErrors, STEPS, header::is_name, levels, run_cases_here,
+    Claim, ErrorsOverLevels, Header, Kind, NamedErrors, STEPS, header::is_name, levels,
+    run_cases_here,
 };
 use convergence_study::verify;
 use pyo3::exceptions::PyAssertionError;
@@ -50,7 +51,12 @@ impl Study {
         let by_name = PyDict::new(py);
         for (name, rate) in &self.finished.outcome.rates {
             let levels = self.finished.outcome.levels_of(name);
-            let judgement = Judgement { name: name.clone(), step: "h".to_owned(), levels, rate: rate.clone() };
+            let judgement = Judgement {
+                name: name.clone(),
+                step: "h".to_owned(),
+                levels,
+                rate: rate.clone(),
+            };
             by_name.set_item(name, Bound::new(py, judgement)?)?;
         }
         Ok(by_name)
@@ -58,12 +64,26 @@ impl Study {
 
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let levels = &self.finished.outcome.levels;
-        let steps = levels.iter().map(|level| level.step.unwrap_or(f64::NAN)).collect();
+        let steps = levels
+            .iter()
+            .map(|level| level.step.unwrap_or(f64::NAN))
+            .collect();
         let mut columns: Vec<(String, Vec<f64>)> = vec![("h".to_owned(), steps)];
         for (name, _) in levels.first().map_or(&[][..], |level| &level.errors) {
-            columns.push((name.clone(), levels.iter().map(|level| level.error(name)).collect()));
-            if let Some((_, rate)) = self.finished.outcome.rates.iter().find(|(rated, _)| rated == name) {
-                let rates = std::iter::once(f64::NAN).chain(rate.pairwise.iter().copied()).collect();
+            columns.push((
+                name.clone(),
+                levels.iter().map(|level| level.error(name)).collect(),
+            ));
+            if let Some((_, rate)) = self
+                .finished
+                .outcome
+                .rates
+                .iter()
+                .find(|(rated, _)| rated == name)
+            {
+                let rates = std::iter::once(f64::NAN)
+                    .chain(rate.pairwise.iter().copied())
+                    .collect();
                 columns.push((format!("rate {name}"), rates));
             }
         }
@@ -71,11 +91,20 @@ impl Study {
     }
 
     fn report(&self, folder: PathBuf) -> PyResult<()> {
-        verify::report(&program::PROJECT, std::slice::from_ref(&self.finished), &folder).map_err(refuse)
+        verify::report(
+            &program::PROJECT,
+            std::slice::from_ref(&self.finished),
+            &folder,
+        )
+        .map_err(refuse)
     }
 
     fn assert_passes(&self) -> PyResult<()> {
-        if self.finished.outcome.verdict.is_pass() { Ok(()) } else { Err(PyAssertionError::new_err(self.__repr__())) }
+        if self.finished.outcome.verdict.is_pass() {
+            Ok(())
+        } else {
+            Err(PyAssertionError::new_err(self.__repr__()))
+        }
     }
 
     fn __bool__(&self) -> PyResult<bool> {
@@ -89,28 +118,61 @@ impl Study {
     }
 
     fn _repr_html_(&self) -> String {
-        let pictures: Vec<String> = self.finished.outcome.figures.iter().map(|figure| figure.svg.clone()).collect();
-        html(&format!("{}\n{}", self.finished.outcome.summary, self.__repr__()), &pictures)
+        let pictures: Vec<String> = self
+            .finished
+            .outcome
+            .figures
+            .iter()
+            .map(|figure| figure.svg.clone())
+            .collect();
+        html(
+            &format!("{}\n{}", self.finished.outcome.summary, self.__repr__()),
+            &pictures,
+        )
     }
 }
 
 /// A text as the id of a study: small letters, digits, `.` and `-`.
 fn id_of(name: &str) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() || c == '.' { c.to_ascii_lowercase() } else { '-' };
-    let id: String = name.chars().map(plain).skip_while(|c| !c.is_ascii_alphanumeric()).take(100).collect();
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || c == '.' {
+            c.to_ascii_lowercase()
+        } else {
+            '-'
+        }
+    };
+    let id: String = name
+        .chars()
+        .map(plain)
+        .skip_while(|c| !c.is_ascii_alphanumeric())
+        .take(100)
+        .collect();
     if is_name(&id) { id } else { "study".to_owned() }
 }
 
 /// The header of a study; the baseline keeps its settings as claims.
 fn header(name: &str, claims: &[(String, Claim)], levels: &str) -> Header {
-    let orders: Vec<String> = claims.iter().map(|(name, claim)| format!("{name} {claim}")).collect();
+    let orders: Vec<String> = claims
+        .iter()
+        .map(|(name, claim)| format!("{name} {claim}"))
+        .collect();
     let mut header = Header::new(id_of(name), format!("orders: {}", orders.join(", ")));
     for (name, claim) in claims {
-        header.settings.push((format!("expect.{name}.order"), claim.order.to_string()));
-        header.settings.push((format!("expect.{name}.tolerance"), claim.tolerance.to_string()));
-        header.settings.push((format!("expect.{name}.at_least"), claim.at_least.to_string()));
+        header
+            .settings
+            .push((format!("expect.{name}.order"), claim.order.to_string()));
+        header.settings.push((
+            format!("expect.{name}.tolerance"),
+            claim.tolerance.to_string(),
+        ));
+        header.settings.push((
+            format!("expect.{name}.at_least"),
+            claim.at_least.to_string(),
+        ));
     }
-    header.settings.push(("levels".to_owned(), levels.to_owned()));
+    header
+        .settings
+        .push(("levels".to_owned(), levels.to_owned()));
     header
 }
 
@@ -122,9 +184,16 @@ fn study_of<'f>(
     found: &'f [NamedErrors],
 ) -> ErrorsOverLevels<impl Fn(usize) -> NamedErrors + use<'f>> {
     let known = counts.to_vec();
-    let solve = move |n: usize| known.iter().position(|count| *count == n).map_or(vec![], |at| found[at].clone());
+    let solve = move |n: usize| {
+        known
+            .iter()
+            .position(|count| *count == n)
+            .map_or(vec![], |at| found[at].clone())
+    };
     let study = levels(counts.iter().copied(), solve).described(header);
-    claims.iter().fold(study, |study, (name, claim)| study.claiming(name, *claim))
+    claims
+        .iter()
+        .fold(study, |study, (name, claim)| study.claiming(name, *claim))
 }
 
 /// A table of errors as a study, for reports and baselines.
@@ -140,17 +209,38 @@ pub(crate) fn of_table(
 ) -> PyResult<Study> {
     let claims = [("error".to_owned(), values::claim(order, tolerance)?)];
     let levels = values::levels(h, "errors", errors)?;
-    let found: Vec<NamedErrors> =
-        levels.iter().map(|level| vec![("h".to_owned(), level.step), ("error".to_owned(), level.error)]).collect();
+    let found: Vec<NamedErrors> = levels
+        .iter()
+        .map(|level| {
+            vec![
+                ("h".to_owned(), level.step),
+                ("error".to_owned(), level.error),
+            ]
+        })
+        .collect();
     let counts: Vec<usize> = (1..=found.len()).collect();
-    let study = study_of(header(name, &claims, &counts.len().to_string()), &claims, &counts, &found);
-    Ok(Study { finished: py.detach(|| study.counting("level", convergence_study::study::Axis::Space).run()) })
+    let study = study_of(
+        header(name, &claims, &counts.len().to_string()),
+        &claims,
+        &counts,
+        &found,
+    );
+    Ok(Study {
+        finished: py.detach(|| {
+            study
+                .counting("level", convergence_study::study::Axis::Space)
+                .run()
+        }),
+    })
 }
 
 /// The errors returned by a level.
 fn found(n: usize, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
     let Ok(by_name) = returned.cast::<PyDict>() else {
-        return Ok(vec![("error".to_owned(), number(|| format!("solve({n})"), returned)?)]);
+        return Ok(vec![(
+            "error".to_owned(),
+            number(|| format!("solve({n})"), returned)?,
+        )]);
     };
     let entry = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name = name.str()?.to_string();
@@ -162,18 +252,28 @@ fn found(n: usize, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
 
 /// The listed counts; `None` for `"auto"`.
 fn listed(n: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<usize>>> {
-    let Some(n) = n.filter(|n| n.extract::<String>().map_or(true, |text| text != "auto")) else { return Ok(None) };
+    let Some(n) = n.filter(|n| n.extract::<String>().map_or(true, |text| text != "auto")) else {
+        return Ok(None);
+    };
     let mut counts = vec![];
     for (k, number) in numbers("n", n)?.into_iter().enumerate() {
         if !(1.0..=1e15).contains(&number) || number.fract() != 0.0 {
-            return Err(refuse(format!("n[{k}]: expected a whole number > 0, found {number}")));
+            return Err(refuse(format!(
+                "n[{k}]: expected a whole number > 0, found {number}"
+            )));
         }
         if counts.contains(&(number as usize)) {
-            return Err(refuse(format!("n[{k}]: expected each number once, found {number} again")));
+            return Err(refuse(format!(
+                "n[{k}]: expected each number once, found {number} again"
+            )));
         }
         counts.push(number as usize);
     }
-    if counts.is_empty() { Err(refuse("n: expected \"auto\" or whole numbers, found none")) } else { Ok(Some(counts)) }
+    if counts.is_empty() {
+        Err(refuse("n: expected \"auto\" or whole numbers, found none"))
+    } else {
+        Ok(Some(counts))
+    }
 }
 
 /// Calls `solve` at one level, and reports it on a terminal.
@@ -181,7 +281,11 @@ fn solved(solve: &Bound<'_, PyAny>, n: usize, seconds: &mut Vec<f64>) -> PyResul
     let is_shown = stderr().is_terminal();
     if is_shown {
         let so_far = seconds.iter().fold(0.0, |sum, seconds| sum + seconds);
-        let _ = write!(stderr(), "\r\x1b[2Kn = {n}: level {}, {so_far:.1} s so far", seconds.len() + 1);
+        let _ = write!(
+            stderr(),
+            "\r\x1b[2Kn = {n}: level {}, {so_far:.1} s so far",
+            seconds.len() + 1
+        );
     }
     let started = Instant::now();
     let returned = solve.call1((n,));
@@ -213,7 +317,9 @@ pub(crate) fn study(
 ) -> PyResult<Study> {
     let (claimed, listed) = (Claims::read(order, tolerance)?, listed(n)?);
     if !(budget > 0.0) {
-        return Err(refuse(format!("budget: expected a number of seconds > 0, found {budget}")));
+        return Err(refuse(format!(
+            "budget: expected a number of seconds > 0, found {budget}"
+        )));
     }
     let is_auto = listed.is_none();
     let mut counts = listed.unwrap_or_else(|| FIRST.to_vec());
@@ -235,12 +341,25 @@ pub(crate) fn study(
         }
     }
     let words: Vec<String> = counts.iter().map(ToString::to_string).collect();
-    let header = header(name, &claims, &if is_auto { "auto".to_owned() } else { words.join(", ") });
+    let header = header(
+        name,
+        &claims,
+        &if is_auto {
+            "auto".to_owned()
+        } else {
+            words.join(", ")
+        },
+    );
     let study = study_of(header, &claims, &counts, &results);
     let mut finished = py.detach(|| study.run());
     if is_auto {
-        finished.outcome =
-            until_decided::ended(finished.outcome, next, &study.levels(&run_cases_here(&study)), budget, "s");
+        finished.outcome = until_decided::ended(
+            finished.outcome,
+            next,
+            &study.levels(&run_cases_here(&study)),
+            budget,
+            "s",
+        );
     }
     Ok(Study { finished })
 }
@@ -251,7 +370,9 @@ fn all_claims(claims: &Claims, first: &NamedErrors) -> Vec<(String, Claim)> {
         Claims::Named(named) => named.clone(),
         Claims::ForAll(claim) if claim.order.is_nan() => vec![],
         Claims::ForAll(claim) => {
-            let errors = first.iter().filter(|(name, _)| !STEPS.contains(&name.as_str()));
+            let errors = first
+                .iter()
+                .filter(|(name, _)| !STEPS.contains(&name.as_str()));
             errors.map(|(name, _)| (name.clone(), *claim)).collect()
         }
     }

@@ -16,46 +16,90 @@ pub(crate) fn refuse(message: impl std::fmt::Display) -> PyErr {
 
 /// The start of Python's text for a value.
 fn shown(value: &Bound<'_, PyAny>) -> String {
-    let text = value.repr().map_or_else(|_| "a value".to_owned(), |text| text.to_string());
-    if text.chars().count() > 60 { text.chars().take(60).chain("...".chars()).collect() } else { text }
+    let text = value
+        .repr()
+        .map_or_else(|_| "a value".to_owned(), |text| text.to_string());
+    if text.chars().count() > 60 {
+        text.chars().take(60).chain("...".chars()).collect()
+    } else {
+        text
+    }
 }
 
 fn is_text(value: &Bound<'_, PyAny>) -> bool {
-    value.is_instance_of::<PyString>() || value.is_instance_of::<PyBytes>() || value.is_instance_of::<PyBool>()
+    value.is_instance_of::<PyString>()
+        || value.is_instance_of::<PyBytes>()
+        || value.is_instance_of::<PyBool>()
 }
 
 /// A number; NaN and infinity are numbers.
 pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    let expected = || refuse(format!("{}: expected a number, found {}", name(), shown(value)));
-    if is_text(value) { Err(expected()) } else { value.extract().map_err(|_| expected()) }
+    let expected = || {
+        refuse(format!(
+            "{}: expected a number, found {}",
+            name(),
+            shown(value)
+        ))
+    };
+    if is_text(value) {
+        Err(expected())
+    } else {
+        value.extract().map_err(|_| expected())
+    }
 }
 
 /// The numbers of a list, an array, a series: anything with `tolist` or `to_list`, or that can be iterated.
 pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let expected = || refuse(format!("{name}: expected a sequence of numbers, found {}", shown(value)));
+    let expected = || {
+        refuse(format!(
+            "{name}: expected a sequence of numbers, found {}",
+            shown(value)
+        ))
+    };
     if is_text(value) || value.is_instance_of::<PyDict>() {
         return Err(expected());
     }
-    let list = ["tolist", "to_list"].into_iter().find(|method| value.hasattr(*method).unwrap_or(false));
+    let list = ["tolist", "to_list"]
+        .into_iter()
+        .find(|method| value.hasattr(*method).unwrap_or(false));
     let list = list.map_or_else(|| Ok(value.clone()), |method| value.call_method0(method))?;
     let items = list.try_iter().map_err(|_| expected())?;
-    items.enumerate().map(|(k, item)| number(|| format!("{name}[{k}]"), &item?)).collect()
+    items
+        .enumerate()
+        .map(|(k, item)| number(|| format!("{name}[{k}]"), &item?))
+        .collect()
 }
 
 /// The levels, coarse to fine, given in any order.
-pub(crate) fn levels(h: &Bound<'_, PyAny>, name: &str, errors: &Bound<'_, PyAny>) -> PyResult<Vec<Level>> {
+pub(crate) fn levels(
+    h: &Bound<'_, PyAny>,
+    name: &str,
+    errors: &Bound<'_, PyAny>,
+) -> PyResult<Vec<Level>> {
     let (steps, errors) = (numbers("h", h)?, numbers(name, errors)?);
     if steps.is_empty() {
         return Err(refuse("h: expected the step of each level, found none"));
     }
     if steps.len() != errors.len() {
         let (found, expected) = (errors.len(), steps.len());
-        return Err(refuse(format!("{name}: expected as many numbers as h has, {expected}; found {found}")));
+        return Err(refuse(format!(
+            "{name}: expected as many numbers as h has, {expected}; found {found}"
+        )));
     }
-    if let Some(k) = steps.iter().position(|step| !(*step > 0.0 && step.is_finite())) {
-        return Err(refuse(format!("h[{k}]: expected a finite number > 0, found {}", steps[k])));
+    if let Some(k) = steps
+        .iter()
+        .position(|step| !(*step > 0.0 && step.is_finite()))
+    {
+        return Err(refuse(format!(
+            "h[{k}]: expected a finite number > 0, found {}",
+            steps[k]
+        )));
     }
-    let mut levels: Vec<Level> = steps.into_iter().zip(errors).map(|(step, error)| Level { step, error }).collect();
+    let mut levels: Vec<Level> = steps
+        .into_iter()
+        .zip(errors)
+        .map(|(step, error)| Level { step, error })
+        .collect();
     levels.sort_by(|a, b| b.step.total_cmp(&a.step));
     Ok(levels)
 }
@@ -68,16 +112,24 @@ pub(crate) fn judge_with(tolerance: f64) -> PyResult<Judge> {
 /// The claim about an error; without a claim the order is NaN, which nothing confirms.
 pub(crate) fn claim(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Claim> {
     judge_with(tolerance)?;
-    let Some(order) = order else { return Ok(Claim::new(f64::NAN, tolerance)) };
+    let Some(order) = order else {
+        return Ok(Claim::new(f64::NAN, tolerance));
+    };
     let expected = || refuse(format!("order: expected {ORDER}, found {}", shown(order)));
     let (order, at_least) = match order.extract::<String>() {
         Ok(text) => order_from_text(&text).ok_or_else(expected)?,
-        Err(_) => (number(|| "order".to_owned(), order).map_err(|_| expected())?, false),
+        Err(_) => (
+            number(|| "order".to_owned(), order).map_err(|_| expected())?,
+            false,
+        ),
     };
     if !(order > 0.0 && order.is_finite()) {
         return Err(expected());
     }
-    Ok(Claim { at_least, ..Claim::new(order, tolerance) })
+    Ok(Claim {
+        at_least,
+        ..Claim::new(order, tolerance)
+    })
 }
 
 /// Claims by name, or one for all names.
@@ -91,7 +143,9 @@ impl Claims {
         let Some(by_name) = order.and_then(|order| order.cast::<PyDict>().ok()) else {
             return Ok(Self::ForAll(claim(order, tolerance)?));
         };
-        let named = by_name.iter().map(|(name, order)| Ok((name.extract()?, claim(Some(&order), tolerance)?)));
+        let named = by_name
+            .iter()
+            .map(|(name, order)| Ok((name.extract()?, claim(Some(&order), tolerance)?)));
         Ok(Self::Named(named.collect::<PyResult<_>>()?))
     }
 

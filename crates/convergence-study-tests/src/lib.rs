@@ -37,14 +37,24 @@ pub fn output(command: &mut Command) -> Output {
 /// Starts a command, without input and with its output kept.
 #[track_caller]
 pub fn started(command: &mut Command) -> Child {
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     command.spawn().expect("the program starts")
 }
 
 /// Sends a signal, in the words of `kill`: `-INT`.
 #[track_caller]
 pub fn signal(id: u32, name: &str) {
-    assert!(Command::new("kill").args([name, &id.to_string()]).status().expect("kill").success(), "{name}");
+    assert!(
+        Command::new("kill")
+            .args([name, &id.to_string()])
+            .status()
+            .expect("kill")
+            .success(),
+        "{name}"
+    );
 }
 
 /// The status and the output of a process that has ended.
@@ -61,9 +71,19 @@ pub struct Ended {
 impl From<Output> for Ended {
     /// # Panics
     /// The output is not UTF-8.
-    fn from(Output { status, stdout, stderr }: Output) -> Self {
+    fn from(
+        Output {
+            status,
+            stdout,
+            stderr,
+        }: Output,
+    ) -> Self {
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-        Self { status: status.code(), stdout: text(stdout), stderr: text(stderr) }
+        Self {
+            status: status.code(),
+            stdout: text(stdout),
+            stderr: text(stderr),
+        }
     }
 }
 
@@ -86,7 +106,9 @@ pub fn interruptible(command: &Command) -> Command {
     if interruption_is_ignored() {
         listening.arg("--default-signal=INT");
     }
-    listening.arg(command.get_program()).args(command.get_args());
+    listening
+        .arg(command.get_program())
+        .args(command.get_args());
     for (name, value) in command.get_envs() {
         match value {
             Some(value) => listening.env(name, value),
@@ -103,5 +125,6 @@ pub fn interruptible(command: &Command) -> Command {
 fn interruption_is_ignored() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 2 != 0)
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask & 2 != 0)
 }

@@ -18,20 +18,39 @@ fn errors(n: usize) -> [(&'static str, f64); 2] {
     }
     let error = |i: usize| (u[i] - (-PI * PI * t_end).exp() * (PI * i as f64 * h).sin()).abs();
     let mean_square = (0..=n).map(|i| h * error(i).powi(2)).sum::<f64>().sqrt();
-    [("mean square", mean_square), ("maximum", (0..=n).map(error).fold(0.0, max_or_nan))]
+    [
+        ("mean square", mean_square),
+        ("maximum", (0..=n).map(error).fold(0.0, max_or_nan)),
+    ]
 }
 
 fn run(folder: &Path) -> Result<Finished, VerificationError> {
-    let header = Header::new("heat-equation", "with dt = h²/4, explicit Euler is of second order in h");
-    let study = levels([8, 16, 32, 64, 128], errors).described(header).claim("mean square", 2.0).claim("maximum", 2.0);
+    let header = Header::new(
+        "heat-equation",
+        "with dt = h²/4, explicit Euler is of second order in h",
+    );
+    let study = levels([8, 16, 32, 64, 128], errors)
+        .described(header)
+        .claim("mean square", 2.0)
+        .claim("maximum", 2.0);
     let found = study.run();
-    report(&Project::new("heat-equation", "cargo run --example heat_equation"), std::slice::from_ref(&found), folder)?;
+    report(
+        &Project::new("heat-equation", "cargo run --example heat_equation"),
+        std::slice::from_ref(&found),
+        folder,
+    )?;
     Ok(found)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = env::args_os().nth(1).map_or_else(|| env::temp_dir().join("heat-equation"), Into::into);
-    println!("{}: see {}", run(&folder)?.outcome.verdict, folder.join("index.html").display());
+    let folder = env::args_os()
+        .nth(1)
+        .map_or_else(|| env::temp_dir().join("heat-equation"), Into::into);
+    println!(
+        "{}: see {}",
+        run(&folder)?.outcome.verdict,
+        folder.join("index.html").display()
+    );
     Ok(())
 }
 
@@ -46,17 +65,40 @@ mod tests {
         let reports = folder.path().join("new/report");
         let outcome = run(&reports).unwrap().outcome;
         assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:?}");
-        let rates: Vec<f64> = outcome.rates.iter().map(|(_, rate)| rate.fitted.unwrap()).collect();
-        assert!(rates.len() == 2 && rates.iter().all(|rate| (rate - 2.0).abs() < 0.01), "{rates:?}");
+        let rates: Vec<f64> = outcome
+            .rates
+            .iter()
+            .map(|(_, rate)| rate.fitted.unwrap())
+            .collect();
+        assert!(
+            rates.len() == 2 && rates.iter().all(|rate| (rate - 2.0).abs() < 0.01),
+            "{rates:?}"
+        );
         let page = std::fs::read_to_string(reports.join("README.md")).unwrap();
-        assert!(page.starts_with("# Verification report\n\n**pass**: the study passes"), "{page}");
-        let files = ["index.html", "results.json", "junit.xml", "errors.csv", "figures/heat-equation-errors.svg"];
+        assert!(
+            page.starts_with("# Verification report\n\n**pass**: the study passes"),
+            "{page}"
+        );
+        let files = [
+            "index.html",
+            "results.json",
+            "junit.xml",
+            "errors.csv",
+            "figures/heat-equation-errors.svg",
+        ];
         assert!(files.iter().all(|file| reports.join(file).is_file()));
     }
 
     #[test]
     fn the_example_is_short() {
-        let program = include_str!("heat_equation.rs").split("\n#[cfg(test)]").next().unwrap();
-        assert!(program.lines().count() <= 40, "{} lines", program.lines().count());
+        let program = include_str!("heat_equation.rs")
+            .split("\n#[cfg(test)]")
+            .next()
+            .unwrap();
+        assert!(
+            program.lines().count() <= 40,
+            "{} lines",
+            program.lines().count()
+        );
     }
 }

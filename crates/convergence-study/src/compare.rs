@@ -123,25 +123,52 @@ pub struct Comparison {
 /// * `rule`: see [`rule()`].
 /// * `within`: errors that differ by less, as a share, are the same.
 pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Comparison {
-    let mut found = Comparison { within, change: Shift::Same, studies: 0, findings: vec![], gained: vec![] };
+    let mut found = Comparison {
+        within,
+        change: Shift::Same,
+        studies: 0,
+        findings: vec![],
+        gained: vec![],
+    };
     for was in &old.studies {
         let id = &was.header.id;
         match new.studies.iter().find(|study| study.header.id == *id) {
             Some(is) => found.add(was, is, rule),
             None => {
-                found.findings.push(whole(id, Shift::Lost, "the new record does not have the study".to_owned()));
+                found.findings.push(whole(
+                    id,
+                    Shift::Lost,
+                    "the new record does not have the study".to_owned(),
+                ));
             }
         }
     }
     let is_new = |id: &&String| old.studies.iter().all(|study| study.header.id != **id);
-    let gained = new.studies.iter().map(|study| &study.header.id).filter(is_new);
-    found.gained.extend(gained.map(|id| format!("the study {id}")));
-    found.change = found.findings.iter().map(|finding| finding.change).max().unwrap_or(Shift::Same);
+    let gained = new
+        .studies
+        .iter()
+        .map(|study| &study.header.id)
+        .filter(is_new);
+    found
+        .gained
+        .extend(gained.map(|id| format!("the study {id}")));
+    found.change = found
+        .findings
+        .iter()
+        .map(|finding| finding.change)
+        .max()
+        .unwrap_or(Shift::Same);
     found
 }
 
 fn whole(study: &str, change: Shift, reason: String) -> Finding {
-    Finding { study: study.to_owned(), norm: None, change, reason, orders: [None; 2] }
+    Finding {
+        study: study.to_owned(),
+        norm: None,
+        change,
+        reason,
+        orders: [None; 2],
+    }
 }
 
 impl Comparison {
@@ -150,29 +177,55 @@ impl Comparison {
         self.studies += 1;
         let id = &was.header.id;
         let [known, found] = [was, is].map(|study| names(&study.outcome));
-        self.gained.extend(found.iter().filter(|name| !known.contains(name)).map(|name| format!("{id}: {name}")));
+        self.gained.extend(
+            found
+                .iter()
+                .filter(|name| !known.contains(name))
+                .map(|name| format!("{id}: {name}")),
+        );
         let before = self.findings.len();
         for name in known {
             let [old, new] = [was, is].map(|study| ErrorSequence::new(&study.outcome, name, rule));
             let orders = [old.order, new.order];
-            let (change, reason) = Both { old, new, floor: rule.floor(), within: self.within }.judged();
-            self.findings.push(Finding { study: id.clone(), norm: Some(name.clone()), change, reason, orders });
+            let (change, reason) = Both {
+                old,
+                new,
+                floor: rule.floor(),
+                within: self.within,
+            }
+            .judged();
+            self.findings.push(Finding {
+                study: id.clone(),
+                norm: Some(name.clone()),
+                change,
+                reason,
+                orders,
+            });
         }
-        let own = self.findings[before..].iter().map(|finding| finding.change).max();
+        let own = self.findings[before..]
+            .iter()
+            .map(|finding| finding.change)
+            .max();
         let [before, after] = [was, is].map(|study| study.outcome.verdict);
         let change = match (before, after) {
             _ if after > before && own < Some(Shift::Worse) => Shift::Worse,
             (Verdict::Fail, Verdict::Pass) if own < Some(Shift::Better) => Shift::Better,
             _ => return,
         };
-        let reason = format!("the verdict was {before}, is {after}: {}", is.outcome.summary);
+        let reason = format!(
+            "the verdict was {before}, is {after}: {}",
+            is.outcome.summary
+        );
         self.findings.push(whole(id, change, reason));
     }
 }
 
 /// The errors of all levels and the rates, each name once.
 fn names(outcome: &Outcome) -> Vec<&String> {
-    let errors = outcome.levels.iter().flat_map(|level| level.errors.iter().map(|(name, _)| name));
+    let errors = outcome
+        .levels
+        .iter()
+        .flat_map(|level| level.errors.iter().map(|(name, _)| name));
     distinct(errors.chain(outcome.rates.iter().map(|(name, _)| name)))
 }
 
@@ -188,35 +241,67 @@ struct ErrorSequence<'r> {
 
 impl<'r> ErrorSequence<'r> {
     fn new(outcome: &'r Outcome, name: &str, rule: &Judge) -> Self {
-        let rate = outcome.rates.iter().find(|(known, _)| known == name).map(|(_, rate)| rate);
+        let rate = outcome
+            .rates
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, rate)| rate);
         let point = |level: &'r LevelErrors| {
             let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
-            Some((level, Level { step: level.step.unwrap_or(f64::NAN), error: *error }))
+            Some((
+                level,
+                Level {
+                    step: level.step.unwrap_or(f64::NAN),
+                    error: *error,
+                },
+            ))
         };
         let points: Vec<(&LevelErrors, Level)> = outcome.levels.iter().filter_map(point).collect();
         let levels: Vec<Level> = points.iter().map(|(_, level)| *level).collect();
-        let is_sequence =
-            levels.iter().all(|level| level.step > 0.0) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
-        let read = || is_sequence.then(|| rule.judge(&levels, 1.0)).and_then(|rate| order_of(&rate));
-        Self { points, is_sequence, rate, order: rate.and_then(order_of).or_else(read) }
+        let is_sequence = levels.iter().all(|level| level.step > 0.0)
+            && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
+        let read = || {
+            is_sequence
+                .then(|| rule.judge(&levels, 1.0))
+                .and_then(|rate| order_of(&rate))
+        };
+        Self {
+            points,
+            is_sequence,
+            rate,
+            order: rate.and_then(order_of).or_else(read),
+        }
     }
 
     /// Whether the study's own floor sets the level with these parameters aside.
     fn is_at_floor(&self, level: &LevelErrors) -> bool {
-        let place = self.points.iter().position(|(known, _)| known.parameters == level.parameters);
+        let place = self
+            .points
+            .iter()
+            .position(|(known, _)| known.parameters == level.parameters);
         let mut set_aside = self.rate.into_iter().flat_map(|rate| &rate.set_aside);
         set_aside.any(|aside| Some(aside.level) == place && aside.because == Aside::AtFloor)
     }
 
     /// The error at the level with these parameters.
     fn at(&self, level: &LevelErrors) -> Option<f64> {
-        self.points.iter().find(|(known, _)| known.parameters == level.parameters).map(|(_, level)| level.error)
+        self.points
+            .iter()
+            .find(|(known, _)| known.parameters == level.parameters)
+            .map(|(_, level)| level.error)
     }
 
     /// Interpolates linearly in logarithms: y over x, and its uncertainty.
-    fn interpolated(&self, place: impl Fn(&LevelErrors, &Level) -> Option<[f64; 2]>, x: f64) -> Option<[f64; 2]> {
+    fn interpolated(
+        &self,
+        place: impl Fn(&LevelErrors, &Level) -> Option<[f64; 2]>,
+        x: f64,
+    ) -> Option<[f64; 2]> {
         let place = |(level, at): &(&LevelErrors, Level)| Some(place(level, at)?.map(f64::ln));
-        between(&self.points.iter().map(place).collect::<Option<Vec<_>>>()?, x.ln())
+        between(
+            &self.points.iter().map(place).collect::<Option<Vec<_>>>()?,
+            x.ln(),
+        )
     }
 
     /// The logarithm of the work that an error takes, and its uncertainty.
@@ -235,20 +320,41 @@ fn work(level: &LevelErrors) -> Option<f64> {
 }
 
 fn label(level: &LevelErrors) -> String {
-    level.parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
+    level
+        .parameters
+        .iter()
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Linear interpolation between points with decreasing x, and its uncertainty.
 fn between(points: &[[f64; 2]], x: f64) -> Option<[f64; 2]> {
-    if let Some([_, y]) = points.iter().find(|[known, _]| (known - x).abs() <= SAME_STEP) {
+    if let Some([_, y]) = points
+        .iter()
+        .find(|[known, _]| (known - x).abs() <= SAME_STEP)
+    {
         return Some([*y, 0.0]);
     }
-    let k = points.windows(2).position(|pair| pair[0][0] > x && x > pair[1][0])?;
-    let slope = |k: usize| points.get(k + 1).map(|next| (next[1] - points[k][1]) / (next[0] - points[k][0]));
+    let k = points
+        .windows(2)
+        .position(|pair| pair[0][0] > x && x > pair[1][0])?;
+    let slope = |k: usize| {
+        points
+            .get(k + 1)
+            .map(|next| (next[1] - points[k][1]) / (next[0] - points[k][0]))
+    };
     let here = slope(k)?;
     let neighbours = [k.checked_sub(1).and_then(slope), slope(k + 1)];
-    let change = neighbours.into_iter().flatten().map(|slope| (slope - here).abs()).fold(0.0, f64::max);
-    Some([points[k][1] + here * (x - points[k][0]), 0.25 * change * (points[k][0] - points[k + 1][0])])
+    let change = neighbours
+        .into_iter()
+        .flatten()
+        .map(|slope| (slope - here).abs())
+        .fold(0.0, f64::max);
+    Some([
+        points[k][1] + here * (x - points[k][0]),
+        0.25 * change * (points[k][0] - points[k + 1][0]),
+    ])
 }
 
 /// One error in both records.
@@ -268,7 +374,11 @@ impl Both<'_> {
         let lost = self.lost().map(|reason| (Shift::Lost, reason));
         let order = self.order();
         let lower = order.clone().filter(|(change, _)| *change == Shift::Worse);
-        let found = lost.or(lower).or_else(|| self.broken().map(worse)).or_else(|| self.larger().map(worse)).or(order);
+        let found = lost
+            .or(lower)
+            .or_else(|| self.broken().map(worse))
+            .or_else(|| self.larger().map(worse))
+            .or(order);
         found.unwrap_or_else(|| self.cost())
     }
 
@@ -287,7 +397,12 @@ impl Both<'_> {
         } else {
             new.at(level).is_none()
         };
-        is_lost.then(|| format!("the new record does not have the finest level, {}", label(level)))
+        is_lost.then(|| {
+            format!(
+                "the new record does not have the finest level, {}",
+                label(level)
+            )
+        })
     }
 
     fn order(&self) -> Option<(Shift, String)> {
@@ -295,26 +410,42 @@ impl Both<'_> {
         if let (Some(old), Some(new)) = (old.order, new.order) {
             let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
             if apart && (new.order - old.order).abs() > ORDER_SHIFT {
-                let change = if new.order < old.order { Shift::Worse } else { Shift::Better };
-                let words = |Order { order, interval: [low, high] }| format!("{order:.3} ({low:.3} to {high:.3})");
+                let change = if new.order < old.order {
+                    Shift::Worse
+                } else {
+                    Shift::Better
+                };
+                let words =
+                    |Order {
+                         order,
+                         interval: [low, high],
+                     }| format!("{order:.3} ({low:.3} to {high:.3})");
                 return Some((change, format!("order {} → {}", words(old), words(new))));
             }
         }
         let (old, new) = (old.rate?, new.rate?);
         let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
-        failed.then(|| (Shift::Worse, format!("the claimed order was pass, is {}: {}", new.verdict, new.reason)))
+        failed.then(|| {
+            (
+                Shift::Worse,
+                format!(
+                    "the claimed order was pass, is {}: {}",
+                    new.verdict, new.reason
+                ),
+            )
+        })
     }
 
     /// Levels whose error has become negative, infinite or NaN.
     fn broken(&self) -> Option<String> {
         let is_error = |error: f64| error >= 0.0 && error.is_finite();
-        let broken = self
-            .new
-            .points
-            .iter()
-            .filter(|(level, at)| !is_error(at.error) && self.old.at(level).is_some_and(is_error));
+        let broken =
+            self.new.points.iter().filter(|(level, at)| {
+                !is_error(at.error) && self.old.at(level).is_some_and(is_error)
+            });
         let broken: Vec<String> = broken.map(|(level, _)| label(level)).collect();
-        (!broken.is_empty()).then(|| format!("no longer a finite number >= 0 at {}", broken.join("; ")))
+        (!broken.is_empty())
+            .then(|| format!("no longer a finite number >= 0 at {}", broken.join("; ")))
     }
 
     /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its uncertainty.
@@ -322,23 +453,43 @@ impl Both<'_> {
         let floor = self.floor;
         let ratio = |(level, at): &(&'_ LevelErrors, Level)| {
             let same = self.old.at(level).map(|error| [error.max(floor).ln(), 0.0]);
-            let over_step = || self.old.interpolated(|_, at| Some([at.step, at.error.max(floor)]), at.step);
+            let over_step = || {
+                self.old
+                    .interpolated(|_, at| Some([at.step, at.error.max(floor)]), at.step)
+            };
             let [before, doubt] = same.or_else(over_step)?;
             let ratio = at.error.max(floor).ln() - before;
             // Two zeros without a floor are the same.
             Some([if ratio.is_nan() { 0.0 } else { ratio }, doubt])
         };
-        let is_known = |level: &LevelErrors| ![&self.old, &self.new].iter().any(|sequence| sequence.is_at_floor(level));
-        let sound = self.new.points.iter().filter(|(level, at)| at.error >= 0.0 && is_known(level));
-        sound.filter_map(|point| Some((point.0, ratio(point)?))).collect()
+        let is_known = |level: &LevelErrors| {
+            ![&self.old, &self.new]
+                .iter()
+                .any(|sequence| sequence.is_at_floor(level))
+        };
+        let sound = self
+            .new
+            .points
+            .iter()
+            .filter(|(level, at)| at.error >= 0.0 && is_known(level));
+        sound
+            .filter_map(|point| Some((point.0, ratio(point)?)))
+            .collect()
     }
 
     fn larger(&self) -> Option<String> {
         let (ratios, limit) = (self.ratios(), self.within.ln_1p());
-        let larger: Vec<_> = ratios.iter().filter(|(_, [ratio, doubt])| ratio - doubt > limit).collect();
+        let larger: Vec<_> = ratios
+            .iter()
+            .filter(|(_, [ratio, doubt])| ratio - doubt > limit)
+            .collect();
         let (level, [ratio, _]) = larger.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
         let levels = format!("{} of {} levels that both have", larger.len(), ratios.len());
-        Some(format!("errors larger at {levels}: {}: {} times", label(level), plain_text(ratio.exp())))
+        Some(format!(
+            "errors larger at {levels}: {}: {} times",
+            label(level),
+            plain_text(ratio.exp())
+        ))
     }
 
     fn cost(&self) -> (Shift, String) {
@@ -351,32 +502,72 @@ impl Both<'_> {
             } else {
                 "no level is at a step that both have reached"
             };
-            return (Shift::NotProven, format!("no difference of orders is proven; {why}"));
+            return (
+                Shift::NotProven,
+                format!("no difference of orders is proven; {why}"),
+            );
         }
-        if ratios.iter().all(|(_, [ratio, doubt])| ratio + doubt < -limit) {
-            let most = ratios.iter().map(|(_, [ratio, _])| *ratio).fold(f64::NEG_INFINITY, f64::max);
+        if ratios
+            .iter()
+            .all(|(_, [ratio, doubt])| ratio + doubt < -limit)
+        {
+            let most = ratios
+                .iter()
+                .map(|(_, [ratio, _])| *ratio)
+                .fold(f64::NEG_INFINITY, f64::max);
             let times = plain_text(most.exp());
-            return (Shift::Better, format!("errors smaller: {times} times or less at {count} levels"));
+            return (
+                Shift::Better,
+                format!("errors smaller: {times} times or less at {count} levels"),
+            );
         }
-        if !ratios.iter().all(|(_, [ratio, doubt])| ratio.abs() + doubt <= limit) {
-            return (Shift::NotProven, format!("no difference of errors is proven at {count} levels"));
+        if !ratios
+            .iter()
+            .all(|(_, [ratio, doubt])| ratio.abs() + doubt <= limit)
+        {
+            return (
+                Shift::NotProven,
+                format!("no difference of errors is proven at {count} levels"),
+            );
         }
-        let work = self.work().filter(|[ratio, doubt]| ratio.abs() - doubt > WORK_WITHIN.ln_1p());
-        let Some([ratio, _]) = work else { return (Shift::Same, format!("errors the same at {count} levels")) };
-        let change = if ratio > 0.0 { Shift::Worse } else { Shift::Better };
-        (change, format!("the same error takes {:.3} times the work", ratio.exp()))
+        let work = self
+            .work()
+            .filter(|[ratio, doubt]| ratio.abs() - doubt > WORK_WITHIN.ln_1p());
+        let Some([ratio, _]) = work else {
+            return (Shift::Same, format!("errors the same at {count} levels"));
+        };
+        let change = if ratio > 0.0 {
+            Shift::Worse
+        } else {
+            Shift::Better
+        };
+        (
+            change,
+            format!("the same error takes {:.3} times the work", ratio.exp()),
+        )
     }
 
     /// The logarithm of the new work over the old one for the smallest error that both have reached, and its uncertainty: errors within
     /// the limit count as equal, so the work is uncertain by its growth over that share of the error.
     fn work(&self) -> Option<[f64; 2]> {
-        let error = self.old.points.last()?.1.error.max(self.new.points.last()?.1.error);
+        let error = self
+            .old
+            .points
+            .last()?
+            .1
+            .error
+            .max(self.new.points.last()?.1.error);
         if !(error > self.floor) {
             return None;
         }
         let [before, after] = [self.old.work_at(error)?, self.new.work_at(error)?];
-        let [.., (coarse, large), (fine, small)] = self.new.points.as_slice() else { return None };
+        let [.., (coarse, large), (fine, small)] = self.new.points.as_slice() else {
+            return None;
+        };
         let growth = (work(fine)? / work(coarse)?).ln() / (large.error / small.error).ln();
-        Some([after[0] - before[0], before[1] + after[1] + self.within.ln_1p() * growth.abs()])
+        Some([
+            after[0] - before[0],
+            before[1] + after[1] + self.within.ln_1p() * growth.abs(),
+        ])
     }
 }

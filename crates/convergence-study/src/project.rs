@@ -48,7 +48,11 @@ impl Project {
             terms: &[],
             templates: &[],
             front_pictures: &[],
-            front: Front { verified: "", plot: "", statements: &[] },
+            front: Front {
+                verified: "",
+                plot: "",
+                statements: &[],
+            },
             settings,
             places: &[],
             fingerprints: None,

@@ -105,16 +105,26 @@ impl Request {
     /// Waits for other processes that write the reports, and then blocks them; for a blessing first for those that write the baseline,
     /// whose lock is in the project, wherever the reports go.
     fn lock(&self) -> io::Result<[Option<File>; 2]> {
-        let baseline = self.bless.then(|| lock_reports(&self.root.join("reports"))).transpose()?;
+        let baseline = self
+            .bless
+            .then(|| lock_reports(&self.root.join("reports")))
+            .transpose()?;
         // A second lock on the same file would wait for the first.
         let is_held = baseline.is_some() && self.is_one_lock();
-        Ok([baseline, if is_held { None } else { Some(lock_reports(&self.reports)?) }])
+        Ok([
+            baseline,
+            if is_held {
+                None
+            } else {
+                Some(lock_reports(&self.reports)?)
+            },
+        ])
     }
 
     /// Whether baseline and reports have the same lock. One of them must be held: its file then exists.
     fn is_one_lock(&self) -> bool {
-        let [baseline, reports] =
-            [&self.root.join("reports"), &self.reports].map(|folder| lock_file(folder).canonicalize().ok());
+        let [baseline, reports] = [&self.root.join("reports"), &self.reports]
+            .map(|folder| lock_file(folder).canonicalize().ok());
         baseline.is_some() && baseline == reports
     }
 }
@@ -163,8 +173,11 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
-    let mistakes =
-        project.fingerprints.map(|file| Fingerprints::read(&request.root.join(file))).transpose()?.unwrap_or_default();
+    let mistakes = project
+        .fingerprints
+        .map(|file| Fingerprints::read(&request.root.join(file)))
+        .transpose()?
+        .unwrap_or_default();
     let folder = &request.reports;
     tidy(request)?;
     // A folder that is not writable is reported before the run.
@@ -172,7 +185,8 @@ pub fn verify(
     let works_file = request.root.join("studies/work.json");
     let mut works = Works::read(&works_file)?;
     // Blessed runs may take longer than before.
-    let allowed = |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
+    let allowed =
+        |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
     let finished = run::run_within(studies, request.effort, &allowed, progress)?;
 
     let _lock = request.lock()?;
@@ -180,17 +194,36 @@ pub fn verify(
     let _writing = atomic::begin_write();
     // Another run may have blessed in the meantime: the baseline is read again under the lock.
     let mut baseline = Baseline::read(&baseline_file)?;
-    let blessing = request.bless.then(|| bless(&mut baseline, &finished, request)).transpose()?;
+    let blessing = request
+        .bless
+        .then(|| bless(&mut baseline, &finished, request))
+        .transpose()?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
     let verdict = verdict(&finished, &changes);
-    let mut record = Record::new(request.scope.name(), &command, verdict, Some(&changes), finished);
+    let mut record = Record::new(
+        request.scope.name(),
+        &command,
+        verdict,
+        Some(&changes),
+        finished,
+    );
     record.diagnosis = diagnose(project, &record.studies, &changes, &mistakes);
     // Everything is prepared before anything is written.
-    let provenance = Provenance::collect(&request.root, command, request.effort.jobs.get(), &record.studies);
+    let provenance = Provenance::collect(
+        &request.root,
+        command,
+        request.effort.jobs.get(),
+        &record.studies,
+    );
     let committed = record.clone().committed();
     let see_also = see_also(&committed, folder);
-    let findings = Findings { project, record: &committed, see_also, provenance: Some(&provenance) };
+    let findings = Findings {
+        project,
+        record: &committed,
+        see_also,
+        provenance: Some(&provenance),
+    };
     let files = findings.files().map_err(unwritable(folder))?;
     let provenance = json(&provenance).map_err(unwritable(folder))?;
     if let Some(Ok(())) = &blessing {
@@ -202,8 +235,13 @@ pub fn verify(
     }
     let target = request.scope.report_folder(folder);
     target.publish(&files).map_err(unwritable(folder))?;
-    atomic::write(&folder.join("local").join("provenance.json"), provenance).map_err(unwritable(folder))?;
-    Ok(Verification { record, blessing, reports: target.folder })
+    atomic::write(&folder.join("local").join("provenance.json"), provenance)
+        .map_err(unwritable(folder))?;
+    Ok(Verification {
+        record,
+        blessing,
+        reports: target.folder,
+    })
 }
 
 /// Accepts all changes into the baseline, or those selected: all of them or none.
@@ -220,17 +258,29 @@ fn bless(
     let mut chosen = vec![false; changes.len()];
     for word in &request.only {
         let pattern = Pattern::new(word).ok();
-        let matches = |id: &str| id == word || pattern.as_ref().is_some_and(|pattern| pattern.matches(id));
-        let found: Vec<usize> = (0..changes.len()).filter(|&k| matches(&changes[k].id())).collect();
+        let matches =
+            |id: &str| id == word || pattern.as_ref().is_some_and(|pattern| pattern.matches(id));
+        let found: Vec<usize> = (0..changes.len())
+            .filter(|&k| matches(&changes[k].id()))
+            .collect();
         if found.is_empty() {
             let some = changes.iter().take(3).map(Change::id).collect();
-            return Err(VerificationError::NoChange { pattern: word.clone(), changes: changes.len(), some });
+            return Err(VerificationError::NoChange {
+                pattern: word.clone(),
+                changes: changes.len(),
+                some,
+            });
         }
         found.into_iter().for_each(|k| chosen[k] = true);
     }
-    let mut chosen = changes.iter().zip(chosen).filter(|(_, chosen)| *chosen).map(|(change, _)| change);
+    let mut chosen = changes
+        .iter()
+        .zip(chosen)
+        .filter(|(_, chosen)| *chosen)
+        .map(|(change, _)| change);
     let mut new = baseline.clone();
-    let taken = chosen.try_for_each(|change| new.accept(finished, change, reason.unwrap_or_default()));
+    let taken =
+        chosen.try_for_each(|change| new.accept(finished, change, reason.unwrap_or_default()));
     if taken.is_ok() {
         *baseline = new;
     }
@@ -240,8 +290,17 @@ fn bless(
 /// Writes a report on studies that have run, without a baseline.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
-pub fn report(project: &Project, finished: &[Finished], folder: &Path) -> Result<(), VerificationError> {
-    publish(project, record(project, finished, project.command), run::available().get(), folder)
+pub fn report(
+    project: &Project,
+    finished: &[Finished],
+    folder: &Path,
+) -> Result<(), VerificationError> {
+    publish(
+        project,
+        record(project, finished, project.command),
+        run::available().get(),
+        folder,
+    )
 }
 
 /// The record of studies that have run without a baseline.
@@ -249,14 +308,33 @@ pub fn report(project: &Project, finished: &[Finished], folder: &Path) -> Result
 /// * `command`: the command that ran them.
 pub fn record(project: &Project, finished: &[Finished], command: &str) -> Record {
     let diagnosis = diagnose(project, finished, &[], &Fingerprints::default());
-    Record { diagnosis, ..Record::new("files", command, verdict(finished, &[]), None, finished.to_vec()) }
+    Record {
+        diagnosis,
+        ..Record::new(
+            "files",
+            command,
+            verdict(finished, &[]),
+            None,
+            finished.to_vec(),
+        )
+    }
 }
 
 /// Writes the report on them into a separate folder; missing folders are made.
 ///
 /// * `jobs`: number of threads that ran them.
-pub fn publish(project: &Project, record: Record, jobs: usize, folder: &Path) -> Result<(), VerificationError> {
-    let here = Provenance::collect(Path::new("."), record.command.clone(), jobs, &record.studies);
+pub fn publish(
+    project: &Project,
+    record: Record,
+    jobs: usize,
+    folder: &Path,
+) -> Result<(), VerificationError> {
+    let here = Provenance::collect(
+        Path::new("."),
+        record.command.clone(),
+        jobs,
+        &record.studies,
+    );
     rebuild(project, record, Some(&here), folder)
 }
 
@@ -273,9 +351,20 @@ pub fn rebuild(
     let publish = || {
         let reports = reports_around(folder);
         let _lock = lock(&lock_file(&reports))?;
-        let target = ReportFolder { folder: folder.to_owned(), workshop: reports.join("local/workshop/rebuilt") };
+        let target = ReportFolder {
+            folder: folder.to_owned(),
+            workshop: reports.join("local/workshop/rebuilt"),
+        };
         let see_also = see_also(&record, folder);
-        target.publish(&Findings { project, record: &record, see_also, provenance }.files()?)
+        target.publish(
+            &Findings {
+                project,
+                record: &record,
+                see_also,
+                provenance,
+            }
+            .files()?,
+        )
     };
     Ok(publish().map_err(unwritable(folder))?)
 }
@@ -283,7 +372,12 @@ pub fn rebuild(
 /// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`; otherwise the folder itself.
 pub(crate) fn reports_around(folder: &Path) -> PathBuf {
     let has_lock = |folder: &&Path| lock_file(folder).is_file();
-    folder.ancestors().take(3).find(has_lock).unwrap_or(folder).to_owned()
+    folder
+        .ancestors()
+        .take(3)
+        .find(has_lock)
+        .unwrap_or(folder)
+        .to_owned()
 }
 
 /// Completes or removes what killed runs of any scope have left.
@@ -304,8 +398,14 @@ fn tidy(request: &Request) -> io::Result<()> {
         // Left by a run that was killed while it tested the folder.
         atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
         let whole = |tier| Scope::Tier(tier, vec![]);
-        let scopes = [whole(Tier::Quick), whole(Tier::Full), Scope::Selection(vec![])];
-        scopes.iter().try_for_each(|scope| scope.report_folder(reports).tidy())
+        let scopes = [
+            whole(Tier::Quick),
+            whole(Tier::Full),
+            Scope::Selection(vec![]),
+        ];
+        scopes
+            .iter()
+            .try_for_each(|scope| scope.report_folder(reports).tidy())
     };
     tidy().map_err(unwritable(reports))
 }
@@ -318,7 +418,13 @@ fn lock_reports(folder: &Path) -> io::Result<File> {
 /// For `map_err`: the same error, preceded by the folder of the reports.
 fn unwritable(reports: &Path) -> impl Fn(io::Error) -> io::Error {
     move |error| {
-        io::Error::new(error.kind(), format!("{}: the reports cannot be written: {error}", visible::path(reports)))
+        io::Error::new(
+            error.kind(),
+            format!(
+                "{}: the reports cannot be written: {error}",
+                visible::path(reports)
+            ),
+        )
     }
 }
 
@@ -329,7 +435,11 @@ fn lock_file(reports: &Path) -> PathBuf {
 /// The worst verdict of all studies; fail if the baseline differs.
 fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
-    if changes.is_empty() { own } else { Verdict::Fail }
+    if changes.is_empty() {
+        own
+    } else {
+        Verdict::Fail
+    }
 }
 
 /// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh checkout has only its Markdown.

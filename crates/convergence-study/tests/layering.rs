@@ -32,8 +32,10 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of this crate from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 11] =
-    ["input", "plots", "study", "run", "project", "store", "program", "compare", "report", "verify", "cli"];
+const ORDER: [&str; 11] = [
+    "input", "plots", "study", "run", "project", "store", "program", "compare", "report", "verify",
+    "cli",
+];
 
 /// The modules of the crate below, which every module may use under this crate's name; `circles.rs` has their order.
 const BELOW: [&str; 2] = ["text", "judge"];
@@ -61,8 +63,14 @@ const CRATES: [(&str, &[&str]); 7] = [
     ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["thermobeam"]),
-    ("thermobeam-study", &["convergence-study", "thermobeam", "thermobeam-exact"]),
-    ("thermobeam-cli", &["convergence-study", "thermobeam", "thermobeam-study"]),
+    (
+        "thermobeam-study",
+        &["convergence-study", "thermobeam", "thermobeam-exact"],
+    ),
+    (
+        "thermobeam-cli",
+        &["convergence-study", "thermobeam", "thermobeam-study"],
+    ),
 ];
 
 /// Libraries that the solver must not use.
@@ -80,7 +88,10 @@ fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|extension| extensions.iter().any(|known| extension == *known)) {
+            } else if path
+                .extension()
+                .is_some_and(|extension| extensions.iter().any(|known| extension == *known))
+            {
                 files.push(path);
             }
         }
@@ -90,7 +101,8 @@ fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
 }
 
 fn words(text: &str) -> impl Iterator<Item = String> {
-    text.split(|c: char| !c.is_alphabetic()).map(str::to_lowercase)
+    text.split(|c: char| !c.is_alphabetic())
+        .map(str::to_lowercase)
 }
 
 fn foreign(text: &str) -> Vec<(usize, String)> {
@@ -106,37 +118,57 @@ fn nothing_in_this_crate_names_the_application() {
     let found: Vec<String> = ["src", "tests", "examples"]
         .iter()
         .flat_map(|folder| files(&here().join(folder), &["rs", "js", "css", "toml", "csv"]))
-        .chain(files(&here().join("../convergence-judge/src"), &["rs", "md"]))
+        .chain(files(
+            &here().join("../convergence-judge/src"),
+            &["rs", "md"],
+        ))
         .chain(["README.md", "Cargo.toml"].map(|name| here().join(name)))
         // This file lists the words; the other one is about every crate.
         .filter(|path| !path.ends_with("tests/layering.rs") && !path.ends_with("tests/circles.rs"))
         .flat_map(|path| {
             let text = fs::read_to_string(&path).unwrap();
-            foreign(&text).into_iter().map(move |(line, word)| format!("{}:{line}: {word}", path.display()))
+            foreign(&text)
+                .into_iter()
+                .map(move |(line, word)| format!("{}:{line}: {word}", path.display()))
         })
         .collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
-    assert_eq!(foreign("fn a() {}\n// the Obstacle's g1, beam_length\n"), [(2, "obstacle".into()), (2, "beam".into())]);
+    assert_eq!(
+        foreign("fn a() {}\n// the Obstacle's g1, beam_length\n"),
+        [(2, "obstacle".into()), (2, "beam".into())]
+    );
 }
 
 /// Source text without line comments: a doc comment may mention the users of a module.
 fn code(text: &str) -> String {
-    text.lines().map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n").collect()
+    text.lines()
+        .map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n")
+        .collect()
 }
 
 /// The paths that follow `crate::` in a source, up to two segments, braces resolved one level deep.
 fn uses(text: &str) -> BTreeSet<String> {
-    let segment = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let segment = |text: &str| {
+        text.chars()
+            .take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect::<String>()
+    };
     let mut found = BTreeSet::new();
     for (at, _) in text.match_indices("crate::") {
         if text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') {
             continue;
         }
         let rest = &text[at + "crate::".len()..];
-        let list = rest.strip_prefix('{').and_then(|rest| rest.split_once('}')).map(|(list, _)| list);
+        let list = rest
+            .strip_prefix('{')
+            .and_then(|rest| rest.split_once('}'))
+            .map(|(list, _)| list);
         for path in list.map_or(vec![rest], |list| list.split(',').map(str::trim).collect()) {
             let first = segment(path);
-            let second = path[first.len()..].strip_prefix("::").map(segment).filter(|second| !second.is_empty());
+            let second = path[first.len()..]
+                .strip_prefix("::")
+                .map(segment)
+                .filter(|second| !second.is_empty());
             found.insert(second.map_or(first.clone(), |second| format!("{first}::{second}")));
         }
     }
@@ -147,18 +179,33 @@ fn uses(text: &str) -> BTreeSet<String> {
 /// The module of the first level that a source file belongs to.
 fn module(path: &Path) -> String {
     let inside = path.strip_prefix(here().join("src")).unwrap();
-    inside.components().next().unwrap().as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned()
+    inside
+        .components()
+        .next()
+        .unwrap()
+        .as_os_str()
+        .to_string_lossy()
+        .trim_end_matches(".rs")
+        .to_owned()
 }
 
 fn breaches(module: &str, text: &str) -> Vec<String> {
     let place = |name: &str| ORDER.iter().position(|known| *known == name);
     let is_allowed = |path: &String| {
         let target = path.split("::").next().unwrap_or(path);
-        BELOW.contains(&target) || place(target).is_some_and(|target| place(module).is_some_and(|own| target <= own))
+        BELOW.contains(&target)
+            || place(target).is_some_and(|target| place(module).is_some_and(|own| target <= own))
     };
-    let upwards = uses(text).into_iter().filter(|path| !is_allowed(path)).map(|path| format!("{module} uses {path}"));
-    let libraries = LIBRARIES.iter().filter(|(name, of)| !of.contains(&module) && text.contains(&format!("{name}::")));
-    upwards.chain(libraries.map(|(name, _)| format!("{module} uses the library {name}"))).collect()
+    let upwards = uses(text)
+        .into_iter()
+        .filter(|path| !is_allowed(path))
+        .map(|path| format!("{module} uses {path}"));
+    let libraries = LIBRARIES
+        .iter()
+        .filter(|(name, of)| !of.contains(&module) && text.contains(&format!("{name}::")));
+    upwards
+        .chain(libraries.map(|(name, _)| format!("{module} uses the library {name}")))
+        .collect()
 }
 
 #[test]
@@ -168,23 +215,46 @@ fn modules_use_only_those_below_them() {
     for path in files(&here().join("src"), &["rs"]) {
         let module = module(&path);
         if module != "lib" && module != "main" {
-            found.extend(breaches(&module, &code(&fs::read_to_string(&path).unwrap())));
+            found.extend(breaches(
+                &module,
+                &code(&fs::read_to_string(&path).unwrap()),
+            ));
             seen.insert(module);
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
-    assert_eq!(seen, ORDER.map(str::to_owned).into(), "every module has its place in the order");
+    assert_eq!(
+        seen,
+        ORDER.map(str::to_owned).into(),
+        "every module has its place in the order"
+    );
 }
 
 #[test]
 fn a_use_against_the_order_is_found() {
     for (module, text, found) in [
         ("input", "use crate::run::queue;", "input uses run::queue"),
-        ("study", "fn f() { crate::store::atomic::write(); }", "study uses store::atomic"),
-        ("input", "pub(crate) use crate::{plots::axis, study, judge};", "input uses plots::axis, input uses study"),
-        ("report", "use rayon::prelude::*;", "report uses the library rayon"),
+        (
+            "study",
+            "fn f() { crate::store::atomic::write(); }",
+            "study uses store::atomic",
+        ),
+        (
+            "input",
+            "pub(crate) use crate::{plots::axis, study, judge};",
+            "input uses plots::axis, input uses study",
+        ),
+        (
+            "report",
+            "use rayon::prelude::*;",
+            "report uses the library rayon",
+        ),
         ("store", "use crate::nowhere;", "store uses nowhere"),
-        ("store", "use crate::run::Finished; pub(crate) struct A; // crate::cli", ""),
+        (
+            "store",
+            "use crate::run::Finished; pub(crate) struct A; // crate::cli",
+            "",
+        ),
     ] {
         assert_eq!(breaches(module, &code(text)).join(", "), found, "{text}");
     }
@@ -207,12 +277,24 @@ fn a_library_that_the_rule_does_without_is_optional() {
     let (modules, manifest) = (always_there(&read("src/lib.rs")), read("Cargo.toml"));
     assert_eq!(modules, ["run", "study"].map(str::to_owned).into());
     for (library, users) in LIBRARIES {
-        let is_its_line = |line: &&str| line.split(['.', ' ']).next().unwrap_or("").replace('-', "_") == library;
-        let line = manifest.lines().find(is_its_line).unwrap_or_else(|| panic!("{library} in Cargo.toml"));
+        let is_its_line = |line: &&str| {
+            line.split(['.', ' '])
+                .next()
+                .unwrap_or("")
+                .replace('-', "_")
+                == library
+        };
+        let line = manifest
+            .lines()
+            .find(is_its_line)
+            .unwrap_or_else(|| panic!("{library} in Cargo.toml"));
         let is_needed = users.iter().any(|user| modules.contains(*user));
         assert_eq!(line.contains("optional = true"), !is_needed, "{line}");
     }
-    assert_eq!(always_there("#[cfg(feature = \"a\")]\npub mod a;\npub mod b;\n"), ["b".to_owned()].into());
+    assert_eq!(
+        always_there("#[cfg(feature = \"a\")]\npub mod a;\npub mod b;\n"),
+        ["b".to_owned()].into()
+    );
 }
 
 /// The names of the crates in a manifest's tables of dependencies; with those for tests if `of_tests`.
@@ -223,7 +305,9 @@ fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
         if let Some(table) = line.strip_prefix('[') {
             let table = table.trim_end_matches(']');
             let ends = |name: &str| table == name || table.ends_with(&format!(".{name}"));
-            is_table = ends("dependencies") || ends("build-dependencies") || (of_tests && ends("dev-dependencies"));
+            is_table = ends("dependencies")
+                || ends("build-dependencies")
+                || (of_tests && ends("dev-dependencies"));
         } else if is_table && !line.starts_with('#') {
             let name = line.split(['.', '=', ' ']).next().unwrap_or("");
             if !name.is_empty() {
@@ -247,25 +331,42 @@ fn crates_depend_only_on_those_below_them() {
         read += 1;
         // Tests may use a crate above the one tested, but not here: the harness is tested without the application.
         let found = dependencies(&manifest, name == "convergence-study");
-        let found: Vec<&str> = names.into_iter().filter(|name| found.contains(*name)).collect();
+        let found: Vec<&str> = names
+            .into_iter()
+            .filter(|name| found.contains(*name))
+            .collect();
         assert_eq!(found, allowed, "{name}");
     }
-    assert!(read == 1 || read == CRATES.len(), "{read} of {} manifests found", CRATES.len());
+    assert!(
+        read == 1 || read == CRATES.len(),
+        "{read} of {} manifests found",
+        CRATES.len()
+    );
 }
 
 #[test]
 fn the_solver_does_without_threads_and_files() {
-    let Ok(manifest) = fs::read_to_string(here().join("../thermobeam/Cargo.toml")) else { return };
+    let Ok(manifest) = fs::read_to_string(here().join("../thermobeam/Cargo.toml")) else {
+        return;
+    };
     let found = dependencies(&manifest, false);
     assert!(found.contains("thiserror"), "{found:?}");
-    assert!(NOT_IN_THE_SOLVER.iter().all(|name| !found.contains(*name)), "{found:?}");
+    assert!(
+        NOT_IN_THE_SOLVER.iter().all(|name| !found.contains(*name)),
+        "{found:?}"
+    );
 }
 
 #[test]
 fn dependencies_are_read_from_every_table() {
     let manifest = "[dependencies]\na.workspace = true\n# b = 1\n[target.'cfg(unix)'.dependencies]\nc = { path = \"x\" }\n\
                     [dev-dependencies]\nd = \"1\"\n[lints]\ne = 1\n";
-    let set = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
+    let set = |names: &[&str]| {
+        names
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect::<BTreeSet<_>>()
+    };
     assert_eq!(dependencies(manifest, false), set(&["a", "c"]));
     assert_eq!(dependencies(manifest, true), set(&["a", "c", "d"]));
 }

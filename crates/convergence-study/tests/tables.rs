@@ -32,8 +32,14 @@ fn samples() -> Vec<Sample> {
     let sample = |part: &str| {
         let (head, rest) = part.split_once('\n').expect("a title");
         let (options, rest) = rest.split_once('\n').expect("options");
-        let (table, found) = rest.split_once("\n---\n").unwrap_or_else(|| panic!("{head}: no result"));
-        let options = options.strip_prefix('$').unwrap_or_else(|| panic!("{head}: {options}")).trim().to_owned();
+        let (table, found) = rest
+            .split_once("\n---\n")
+            .unwrap_or_else(|| panic!("{head}: no result"));
+        let options = options
+            .strip_prefix('$')
+            .unwrap_or_else(|| panic!("{head}: {options}"))
+            .trim()
+            .to_owned();
         Sample {
             title: head.trim().to_owned(),
             options,
@@ -41,7 +47,11 @@ fn samples() -> Vec<Sample> {
             found: found.trim_end().to_owned(),
         }
     };
-    format!("\n{text}").split("\n>>> ").skip(1).map(sample).collect()
+    format!("\n{text}")
+        .split("\n>>> ")
+        .skip(1)
+        .map(sample)
+        .collect()
 }
 
 /// Words as a shell splits them, without escapes.
@@ -60,7 +70,13 @@ fn words(line: &str) -> Vec<String> {
 
 /// The choice made by the options, and the orders they claim.
 fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
-    let (mut choice, mut orders) = (Choice { command: "rates TABLE".to_owned(), ..Choice::default() }, vec![]);
+    let (mut choice, mut orders) = (
+        Choice {
+            command: "rates TABLE".to_owned(),
+            ..Choice::default()
+        },
+        vec![],
+    );
     for option in options.chunks(2) {
         let value = option[1].clone();
         let list = || value.split(',').map(str::to_owned).collect::<Vec<_>>();
@@ -72,7 +88,9 @@ fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
             "--values" => choice.values = list(),
             "--names" => choice.names = Some(list()),
             "--order" => match value.rsplit_once('=') {
-                Some((name, order)) => orders.push((Some(name.to_owned()), order.parse().expect("an order"))),
+                Some((name, order)) => {
+                    orders.push((Some(name.to_owned()), order.parse().expect("an order")))
+                }
                 None => orders.push((None, value.parse().expect("an order"))),
             },
             other => panic!("{other}"),
@@ -84,15 +102,34 @@ fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
 
 /// How a table was read, its numbers, and the verdict on each column with a claimed order.
 fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
-    let numbers =
-        |column: &Column| column.levels.iter().map(|level| level.error.to_string()).collect::<Vec<_>>().join(" ");
-    let first = table.columns.iter().chain(&table.values).next().expect("a column");
-    let steps: Vec<String> = first.levels.iter().map(|level| level.step.to_string()).collect();
+    let numbers = |column: &Column| {
+        column
+            .levels
+            .iter()
+            .map(|level| level.error.to_string())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let first = table
+        .columns
+        .iter()
+        .chain(&table.values)
+        .next()
+        .expect("a column");
+    let steps: Vec<String> = first
+        .levels
+        .iter()
+        .map(|level| level.step.to_string())
+        .collect();
     let mut text = format!("{}\n{}: {}\n", table.reading, table.step, steps.join(" "));
     let order = |name: &str| {
-        let by_name =
-            orders.iter().find(|(of, _)| of.as_deref().is_some_and(|of| of == name || format!("column {of}") == name));
-        by_name.or_else(|| orders.iter().find(|(of, _)| of.is_none())).map(|(_, order)| *order)
+        let by_name = orders.iter().find(|(of, _)| {
+            of.as_deref()
+                .is_some_and(|of| of == name || format!("column {of}") == name)
+        });
+        by_name
+            .or_else(|| orders.iter().find(|(of, _)| of.is_none()))
+            .map(|(_, order)| *order)
     };
     let judge = Judge::new(TOLERANCE).expect("a tolerance");
     for column in &table.columns {
@@ -102,17 +139,30 @@ fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
             text += &format!(
                 " | {order}: {}{}",
                 judged.verdict,
-                if judged.verdict == Verdict::Pass { String::new() } else { format!(": {}", judged.because) }
+                if judged.verdict == Verdict::Pass {
+                    String::new()
+                } else {
+                    format!(": {}", judged.because)
+                }
             );
         }
         text.push('\n');
     }
     for column in &table.values {
-        let found =
-            column.estimate(&Estimator::new(TOLERANCE).expect("a tolerance"), order(&column.name).unwrap_or(f64::NAN));
-        let limit =
-            found.bar.map_or_else(|refusal| refusal.to_string(), |bar| format!("limit {:.6}", bar.extrapolated));
-        text += &format!("{}: {} | {}, {limit}\n", column.name, numbers(column), found.judged.verdict);
+        let found = column.estimate(
+            &Estimator::new(TOLERANCE).expect("a tolerance"),
+            order(&column.name).unwrap_or(f64::NAN),
+        );
+        let limit = found.bar.map_or_else(
+            |refusal| refusal.to_string(),
+            |bar| format!("limit {:.6}", bar.extrapolated),
+        );
+        text += &format!(
+            "{}: {} | {}, {limit}\n",
+            column.name,
+            numbers(column),
+            found.judged.verdict
+        );
     }
     text
 }
@@ -126,13 +176,17 @@ fn found(sample: &Sample) -> String {
             let message = error.to_string();
             let mut text = format!("refused: {message}\n");
             // Every command in the message reads the table.
-            for line in message.lines().filter_map(|line| line.strip_prefix("  rates TABLE")) {
+            for line in message
+                .lines()
+                .filter_map(|line| line.strip_prefix("  rates TABLE"))
+            {
                 let table = RateTable::parse_with(
                     &table,
                     "TABLE",
                     &choice(&words(line.split("  #").next().unwrap_or_default())).0,
                 );
-                let table = table.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
+                let table =
+                    table.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
                 text += &format!("then: {}\n", table.reading);
             }
             text
@@ -147,13 +201,27 @@ fn every_table_is_read_or_refused_as_the_page_says() {
     let [mut read, mut refused] = [String::new(), String::new()];
     for sample in &samples {
         let found = found(sample);
-        tables += &format!(">>> {}\n$ {}\n{}---\n{found}\n", sample.title, sample.options, sample.table);
+        tables += &format!(
+            ">>> {}\n$ {}\n{}---\n{found}\n",
+            sample.title, sample.options, sample.table
+        );
         if found.trim_end() != sample.found {
             wrong.push(format!("{}:\n{found}", sample.title));
         }
-        let options = if sample.options.is_empty() { String::new() } else { format!("`{}`", sample.options) };
+        let options = if sample.options.is_empty() {
+            String::new()
+        } else {
+            format!("`{}`", sample.options)
+        };
         let cell = |text: &str| text.replace('|', "\\|");
-        let row = |text: &str| format!("| {} | {} | {} |\n", cell(&sample.title), cell(&options), cell(text));
+        let row = |text: &str| {
+            format!(
+                "| {} | {} | {} |\n",
+                cell(&sample.title),
+                cell(&options),
+                cell(text)
+            )
+        };
         match found.strip_prefix("refused: TABLE") {
             Some(message) => {
                 let (message, rest) = message.split_once('\n').unwrap_or((message, ""));
@@ -169,7 +237,9 @@ fn every_table_is_read_or_refused_as_the_page_says() {
             None => read += &row(found.lines().next().unwrap_or_default()),
         }
     }
-    let (head, _) = include_str!("../TABLES.md").split_once("## Read\n").expect("a head");
+    let (head, _) = include_str!("../TABLES.md")
+        .split_once("## Read\n")
+        .expect("a head");
     let head_of = |last: &str| format!("| table | options | {last} |\n| --- | --- | --- |\n");
     let page = format!(
         "{head}## Read\n\n{}{read}\n## Refused\n\n{}{refused}",
@@ -181,17 +251,32 @@ fn every_table_is_read_or_refused_as_the_page_says() {
         fs::write(file("TABLES.md"), &page).expect("written");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert_eq!(include_str!("../TABLES.md"), page, "TABLES.md is not what the tests say");
+    assert_eq!(
+        include_str!("../TABLES.md"),
+        page,
+        "TABLES.md is not what the tests say"
+    );
     assert!(samples.len() >= 200, "{} tables", samples.len());
 }
 
 #[test]
 fn tables_read_the_same_with_other_line_ends_and_a_byte_order_mark() {
-    for sample in samples().iter().filter(|sample| !sample.found.starts_with("refused")) {
+    for sample in samples()
+        .iter()
+        .filter(|sample| !sample.found.starts_with("refused"))
+    {
         for end in ["\r\n", "\r"] {
             let table = format!("\u{feff}{}", sample.table.replace('\n', end));
-            let other = Sample { table, ..sample.clone() };
-            assert_eq!(found(&other).trim_end(), sample.found, "{end:?}: {}", sample.title);
+            let other = Sample {
+                table,
+                ..sample.clone()
+            };
+            assert_eq!(
+                found(&other).trim_end(),
+                sample.found,
+                "{end:?}: {}",
+                sample.title
+            );
         }
     }
 }

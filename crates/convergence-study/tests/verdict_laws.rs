@@ -1,26 +1,44 @@
 //! What the judge must never do, and what it must always do.
 
 use convergence_study::judge::verdict::{
-    Aside, Judge, JudgeError, Level, RateVerdict, Reason, SetAside, Verdict, falls_away, judge, judge_pairs,
+    Aside, Judge, JudgeError, Level, RateVerdict, Reason, SetAside, Verdict, falls_away, judge,
+    judge_pairs,
 };
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
 fn with_rates(rates: &[f64]) -> Vec<Level> {
-    let mut levels = vec![Level { step: 0.125, error: 0.1 }];
+    let mut levels = vec![Level {
+        step: 0.125,
+        error: 0.1,
+    }];
     for rate in rates {
         let last = levels[levels.len() - 1];
-        levels.push(Level { step: last.step / 2.0, error: last.error * 2.0_f64.powf(-rate) });
+        levels.push(Level {
+            step: last.step / 2.0,
+            error: last.error * 2.0_f64.powf(-rate),
+        });
     }
     levels
 }
 
 fn with_errors(errors: &[f64]) -> Vec<Level> {
-    errors.iter().zip(0..).map(|(&error, k)| Level { step: 0.5_f64.powi(k), error }).collect()
+    errors
+        .iter()
+        .zip(0..)
+        .map(|(&error, k)| Level {
+            step: 0.5_f64.powi(k),
+            error,
+        })
+        .collect()
 }
 
 #[track_caller]
 fn check(outcome: &RateVerdict, kind: Reason, verdict: Verdict) {
-    assert_eq!((outcome.kind, outcome.verdict), (kind, verdict), "{outcome:?}");
+    assert_eq!(
+        (outcome.kind, outcome.verdict),
+        (kind, verdict),
+        "{outcome:?}"
+    );
     assert!(!outcome.reason.is_empty());
 }
 
@@ -38,7 +56,12 @@ fn check_errors(errors: &[f64], order: f64, kind: Reason, verdict: Verdict) {
 fn clean_rates_pass() {
     check_rates(&[2.0, 2.0, 2.0], 2.0, Reason::Agrees, Verdict::Pass);
     check_rates(&[1.0, 1.0], 1.0, Reason::Agrees, Verdict::Pass);
-    check_rates(&[1.992, 1.998, 1.9995, 1.9999], 2.0, Reason::Agrees, Verdict::Pass);
+    check_rates(
+        &[1.992, 1.998, 1.9995, 1.9999],
+        2.0,
+        Reason::Agrees,
+        Verdict::Pass,
+    );
     check_rates(&[0.983, 0.991, 0.996], 1.0, Reason::Agrees, Verdict::Pass);
 }
 
@@ -54,14 +77,27 @@ fn rates_that_close_in_on_the_order_pass_though_their_mean_is_off() {
 fn interpolation_errors_of_a_superclose_scheme_pass_with_four_levels() {
     let error = |h: f64| (h * h + 9.0 * h.powi(4)).sqrt();
     let pairs = [8.0, 16.0, 32.0, 64.0].map(|n: f64| (1.0 / n, error(1.0 / n)));
-    check(&judge_pairs(pairs, 1.0, 0.05), Reason::Agrees, Verdict::Pass);
+    check(
+        &judge_pairs(pairs, 1.0, 0.05),
+        Reason::Agrees,
+        Verdict::Pass,
+    );
 }
 
 #[test]
 fn any_refinement_ratio_will_do() {
-    let pairs = [10.0, 15.0, 24.0, 50.0, 64.0].map(|n: f64| (1.0 / n, 0.3 * n.powi(-2) * (1.0 + 0.5 / n)));
-    check(&judge_pairs(pairs, 2.0, 0.05), Reason::Agrees, Verdict::Pass);
-    check(&judge_pairs(pairs, 1.9, 0.05), Reason::TooHigh, Verdict::Fail);
+    let pairs =
+        [10.0, 15.0, 24.0, 50.0, 64.0].map(|n: f64| (1.0 / n, 0.3 * n.powi(-2) * (1.0 + 0.5 / n)));
+    check(
+        &judge_pairs(pairs, 2.0, 0.05),
+        Reason::Agrees,
+        Verdict::Pass,
+    );
+    check(
+        &judge_pairs(pairs, 1.9, 0.05),
+        Reason::TooHigh,
+        Verdict::Fail,
+    );
 }
 
 #[test]
@@ -88,7 +124,10 @@ fn a_nan_error_anywhere_fails() {
         levels[k].error = f64::NAN;
         let outcome = judge(&levels, 1.0, 0.05);
         check(&outcome, Reason::NonFiniteError, Verdict::Fail);
-        assert!(outcome.pairwise.iter().any(|rate| rate.is_nan()), "NaN rates are reported");
+        assert!(
+            outcome.pairwise.iter().any(|rate| rate.is_nan()),
+            "NaN rates are reported"
+        );
     }
 }
 
@@ -99,7 +138,12 @@ fn all_nan_fails() {
 
 #[test]
 fn an_infinite_error_fails() {
-    check_errors(&[f64::INFINITY, 0.5, 0.25, 0.125], 1.0, Reason::NonFiniteError, Verdict::Fail);
+    check_errors(
+        &[f64::INFINITY, 0.5, 0.25, 0.125],
+        1.0,
+        Reason::NonFiniteError,
+        Verdict::Fail,
+    );
 }
 
 #[test]
@@ -109,10 +153,18 @@ fn nan_fails_even_with_one_level() {
 
 #[test]
 fn a_negative_error_fails() {
-    check_errors(&[1.0, -0.5, 0.25, 0.125], 1.0, Reason::NegativeError, Verdict::Fail);
+    check_errors(
+        &[1.0, -0.5, 0.25, 0.125],
+        1.0,
+        Reason::NegativeError,
+        Verdict::Fail,
+    );
     let all_negative = judge(&with_errors(&[-1.0, -0.5, -0.25, -0.125]), 1.0, 0.05);
     check(&all_negative, Reason::NegativeError, Verdict::Fail);
-    assert!(all_negative.pairwise.iter().all(|rate| rate.is_nan()), "their quotients would look like rates of 1");
+    assert!(
+        all_negative.pairwise.iter().all(|rate| rate.is_nan()),
+        "their quotients would look like rates of 1"
+    );
 }
 
 #[test]
@@ -122,7 +174,12 @@ fn errors_all_zero_never_pass() {
 
 #[test]
 fn one_zero_error_never_passes() {
-    check_errors(&[1.0, 0.5, 0.25, 0.125, 0.0], 1.0, Reason::ZeroError, Verdict::Inconclusive);
+    check_errors(
+        &[1.0, 0.5, 0.25, 0.125, 0.0],
+        1.0,
+        Reason::ZeroError,
+        Verdict::Inconclusive,
+    );
 }
 
 #[test]
@@ -141,21 +198,43 @@ fn a_rate_of_75_976_never_passes_and_a_coarse_level_like_that_is_set_aside() {
     for rates in [[1.0, 1.0, 75.976], [1.0, 75.976, 1.0]] {
         check_rates(&rates, 1.0, Reason::NotAsymptotic, Verdict::Inconclusive);
     }
-    check_rates(&[75.976, 75.976, 75.976], 1.0, Reason::TooHigh, Verdict::Fail);
+    check_rates(
+        &[75.976, 75.976, 75.976],
+        1.0,
+        Reason::TooHigh,
+        Verdict::Fail,
+    );
     let coarse = judge(&with_rates(&[75.976, 1.0, 1.0]), 1.0, 0.05);
-    assert_eq!(coarse.set_aside, [SetAside { level: 0, because: Aside::PreAsymptotic }], "{coarse:?}");
+    assert_eq!(
+        coarse.set_aside,
+        [SetAside {
+            level: 0,
+            because: Aside::PreAsymptotic
+        }],
+        "{coarse:?}"
+    );
 }
 
 #[test]
 fn two_levels_never_pass() {
     check_errors(&[], 1.0, Reason::TooFewLevels, Verdict::Inconclusive);
     check_errors(&[1.0], 1.0, Reason::TooFewLevels, Verdict::Inconclusive);
-    check_errors(&[1.0, 0.5], 1.0, Reason::TooFewLevels, Verdict::Inconclusive);
+    check_errors(
+        &[1.0, 0.5],
+        1.0,
+        Reason::TooFewLevels,
+        Verdict::Inconclusive,
+    );
 }
 
 #[test]
 fn an_interval_so_wide_that_everything_fits_is_inconclusive() {
-    check_rates(&[1.1, 0.92, 1.08, 0.93], 1.0, Reason::IntervalTooWide, Verdict::Inconclusive);
+    check_rates(
+        &[1.1, 0.92, 1.08, 0.93],
+        1.0,
+        Reason::IntervalTooWide,
+        Verdict::Inconclusive,
+    );
     let outcome = judge(&with_rates(&[1.1, 0.92, 1.08, 0.93]), 2.0, 0.45);
     assert_ne!(outcome.verdict, Verdict::Pass);
 }
@@ -163,31 +242,60 @@ fn an_interval_so_wide_that_everything_fits_is_inconclusive() {
 #[test]
 fn a_tolerance_so_wide_that_everything_fits_is_refused() {
     assert_eq!(Judge::new(0.5), Err(JudgeError::ToleranceTooWide(0.5)));
-    assert_eq!(Judge::new(f64::INFINITY), Err(JudgeError::ToleranceTooWide(f64::INFINITY)));
+    assert_eq!(
+        Judge::new(f64::INFINITY),
+        Err(JudgeError::ToleranceTooWide(f64::INFINITY))
+    );
     assert!(Judge::new(0.0).is_err() && Judge::new(-0.1).is_err() && Judge::new(f64::NAN).is_err());
     let levels = with_rates(&[1.0, 1.0, 1.0]);
-    check(&judge(&levels, 1.0, 1.0), Reason::ToleranceTooWide, Verdict::Inconclusive);
-    check(&judge(&levels, 1.0, f64::NAN), Reason::ClaimUnusable, Verdict::Inconclusive);
+    check(
+        &judge(&levels, 1.0, 1.0),
+        Reason::ToleranceTooWide,
+        Verdict::Inconclusive,
+    );
+    check(
+        &judge(&levels, 1.0, f64::NAN),
+        Reason::ClaimUnusable,
+        Verdict::Inconclusive,
+    );
 }
 
 #[test]
 fn an_order_that_is_no_positive_number_is_inconclusive() {
     for order in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        check(&judge(&with_rates(&[1.0, 1.0, 1.0]), order, 0.05), Reason::ClaimUnusable, Verdict::Inconclusive);
+        check(
+            &judge(&with_rates(&[1.0, 1.0, 1.0]), order, 0.05),
+            Reason::ClaimUnusable,
+            Verdict::Inconclusive,
+        );
     }
 }
 
 #[test]
 fn steps_that_do_not_decrease_are_inconclusive() {
-    for steps in [[1.0, 0.5, 0.5, 0.25], [0.125, 0.25, 0.5, 1.0], [1.0, 0.5, f64::NAN, 0.1], [1.0, 0.5, 0.25, 0.0]] {
+    for steps in [
+        [1.0, 0.5, 0.5, 0.25],
+        [0.125, 0.25, 0.5, 1.0],
+        [1.0, 0.5, f64::NAN, 0.1],
+        [1.0, 0.5, 0.25, 0.0],
+    ] {
         let pairs = steps.into_iter().zip([1.0, 0.5, 0.25, 0.125]);
-        check(&judge_pairs(pairs, 1.0, 0.05), Reason::StepsNotDecreasing, Verdict::Inconclusive);
+        check(
+            &judge_pairs(pairs, 1.0, 0.05),
+            Reason::StepsNotDecreasing,
+            Verdict::Inconclusive,
+        );
     }
 }
 
 #[test]
 fn rates_that_still_change_are_inconclusive() {
-    check_rates(&[0.1, 0.5, 1.1], 1.0, Reason::NotAsymptotic, Verdict::Inconclusive);
+    check_rates(
+        &[0.1, 0.5, 1.1],
+        1.0,
+        Reason::NotAsymptotic,
+        Verdict::Inconclusive,
+    );
 }
 
 #[test]
@@ -195,24 +303,41 @@ fn a_coarse_level_that_is_not_asymptotic_is_set_aside_and_said_so() {
     let outcome = judge(&with_rates(&[0.4, 0.99, 0.995, 0.9975]), 1.0, 0.05);
     check(&outcome, Reason::Agrees, Verdict::Pass);
     assert_eq!(outcome.used, 1..5);
-    assert_eq!(outcome.pairwise.len(), 4, "its rate is reported all the same");
+    assert_eq!(
+        outcome.pairwise.len(),
+        4,
+        "its rate is reported all the same"
+    );
 }
 
 #[test]
 fn levels_at_the_known_floor_are_set_aside() {
     let errors = [1e-4, 2.5e-5, 6.25e-6, 1.5625e-6, 2e-8, 1.9e-8, 2.1e-8];
-    let judge = Judge::new(0.05).and_then(|judge| judge.with_floor(2.1e-8)).expect("usable settings");
+    let judge = Judge::new(0.05)
+        .and_then(|judge| judge.with_floor(2.1e-8))
+        .expect("usable settings");
     let outcome = judge.judge(&with_errors(&errors), 2.0);
     // The fourth level is less than 100 times the floor, and counts.
     check(&outcome, Reason::Agrees, Verdict::Pass);
     assert_eq!(outcome.used, 0..4);
-    assert_eq!(outcome.set_aside, [4, 5, 6].map(|level| SetAside { level, because: Aside::AtFloor }));
+    assert_eq!(
+        outcome.set_aside,
+        [4, 5, 6].map(|level| SetAside {
+            level,
+            because: Aside::AtFloor
+        })
+    );
 }
 
 #[test]
 fn nothing_but_floor_is_inconclusive() {
-    let judge = Judge::new(0.05).and_then(|judge| judge.with_floor(1e-10)).expect("usable settings");
-    let outcome = judge.judge(&with_errors(&[0.7, 0.6, 1.0, 0.9].map(|error| error * 1e-10)), 1.0);
+    let judge = Judge::new(0.05)
+        .and_then(|judge| judge.with_floor(1e-10))
+        .expect("usable settings");
+    let outcome = judge.judge(
+        &with_errors(&[0.7, 0.6, 1.0, 0.9].map(|error| error * 1e-10)),
+        1.0,
+    );
     check(&outcome, Reason::RoundOffFloor, Verdict::Inconclusive);
 }
 
@@ -221,15 +346,28 @@ fn errors_that_level_off_above_the_floor_fail() {
     // A consistency error of 1e-4 of the coarsest error: the first rates look perfect.
     let errors: Vec<f64> = (0..16).map(|k| 0.5_f64.powi(k) + 1e-4).collect();
     check_errors(&errors, 1.0, Reason::FallsAway, Verdict::Fail);
-    let rough: Vec<f64> = (0..9).map(|k| 0.25_f64.powi(k) + 1e-4 * if k % 2 == 0 { 1.0 } else { 0.8 }).collect();
-    assert_ne!(judge(&with_errors(&rough), 2.0, 0.05).verdict, Verdict::Pass);
+    let rough: Vec<f64> = (0..9)
+        .map(|k| 0.25_f64.powi(k) + 1e-4 * if k % 2 == 0 { 1.0 } else { 0.8 })
+        .collect();
+    assert_ne!(
+        judge(&with_errors(&rough), 2.0, 0.05).verdict,
+        Verdict::Pass
+    );
 }
 
 #[test]
 fn a_lower_order_that_emerges_never_passes() {
-    check_rates(&[2.0, 2.0, 1.98, 1.94], 2.0, Reason::Departs, Verdict::Inconclusive);
+    check_rates(
+        &[2.0, 2.0, 1.98, 1.94],
+        2.0,
+        Reason::Departs,
+        Verdict::Inconclusive,
+    );
     check_rates(&[2.0, 1.9, 1.6, 1.3], 2.0, Reason::FallsAway, Verdict::Fail);
-    assert_ne!(judge(&with_rates(&[2.0, 2.0, 1.99, 1.97]), 2.0, 0.05).verdict, Verdict::Pass);
+    assert_ne!(
+        judge(&with_rates(&[2.0, 2.0, 1.99, 1.97]), 2.0, 0.05).verdict,
+        Verdict::Pass
+    );
 }
 
 #[test]
@@ -255,7 +393,10 @@ fn settings_that_mean_nothing_are_refused() {
 #[test]
 fn a_higher_floor_takes_fewer_levels() {
     let levels = with_rates(&[1.1, 0.95, 1.02, 0.99]);
-    let floor = Judge::new(0.4).expect("usable").with_floor(levels[4].error).expect("usable");
+    let floor = Judge::new(0.4)
+        .expect("usable")
+        .with_floor(levels[4].error)
+        .expect("usable");
     assert_eq!(floor.judge(&levels, 1.0).used, 0..4);
 }
 
@@ -281,17 +422,38 @@ fn too_few_levels_are_put_down_to_the_floor_if_it_leaves_too_few() {
     let judged = |rates: &[f64], at_floor: usize| {
         let levels = with_rates(rates);
         let floor = levels[levels.len() - at_floor].error;
-        Judge::new(0.05).and_then(|judge| judge.with_floor(floor)).expect("usable").judge(&levels, 1.0)
+        Judge::new(0.05)
+            .and_then(|judge| judge.with_floor(floor))
+            .expect("usable")
+            .judge(&levels, 1.0)
     };
-    check(&judged(&[0.25, 1.0, 1.0], 2), Reason::RoundOffFloor, Verdict::Inconclusive);
-    check(&judged(&[0.25, 1.0, 1.0], 1), Reason::NotAsymptotic, Verdict::Inconclusive);
-    check(&judged(&[0.25, 1.0, 1.0, 1.0], 1), Reason::Agrees, Verdict::Pass);
+    check(
+        &judged(&[0.25, 1.0, 1.0], 2),
+        Reason::RoundOffFloor,
+        Verdict::Inconclusive,
+    );
+    check(
+        &judged(&[0.25, 1.0, 1.0], 1),
+        Reason::NotAsymptotic,
+        Verdict::Inconclusive,
+    );
+    check(
+        &judged(&[0.25, 1.0, 1.0, 1.0], 1),
+        Reason::Agrees,
+        Verdict::Pass,
+    );
 }
 
 #[test]
 fn infinite_steps_are_none() {
-    let pairs = [f64::INFINITY, 0.5, 0.25, 0.125].into_iter().zip([1.0, 0.5, 0.25, 0.125]);
-    check(&judge_pairs(pairs, 1.0, 0.05), Reason::StepsNotDecreasing, Verdict::Inconclusive);
+    let pairs = [f64::INFINITY, 0.5, 0.25, 0.125]
+        .into_iter()
+        .zip([1.0, 0.5, 0.25, 0.125]);
+    check(
+        &judge_pairs(pairs, 1.0, 0.05),
+        Reason::StepsNotDecreasing,
+        Verdict::Inconclusive,
+    );
 }
 
 #[test]
@@ -302,10 +464,24 @@ fn a_verdict_says_on_what_it_rests() {
     assert_eq!((outcome.order, outcome.tolerance), (1.0, 0.05));
     assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
     let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
-    assert_eq!((nothing.reason.as_str(), nothing.used), ("too few levels", 0..0));
-    assert_eq!(outcome.set_aside, [SetAside { level: 0, because: Aside::PreAsymptotic }]);
     assert_eq!(
-        format!("{:>14}|{:<6}|{}", Verdict::Inconclusive, Verdict::Pass, Verdict::Fail),
+        (nothing.reason.as_str(), nothing.used),
+        ("too few levels", 0..0)
+    );
+    assert_eq!(
+        outcome.set_aside,
+        [SetAside {
+            level: 0,
+            because: Aside::PreAsymptotic
+        }]
+    );
+    assert_eq!(
+        format!(
+            "{:>14}|{:<6}|{}",
+            Verdict::Inconclusive,
+            Verdict::Pass,
+            Verdict::Fail
+        ),
         "  inconclusive|pass  |fail"
     );
 }
@@ -313,8 +489,17 @@ fn a_verdict_says_on_what_it_rests() {
 #[test]
 fn each_reason_has_a_verdict_and_words_of_its_own() {
     use Reason::*;
-    let failing =
-        [NoResult, NonFiniteError, NegativeError, ErrorGrows, FallsAway, WrongLimit, TooLow, TooHigh, ConstantOff];
+    let failing = [
+        NoResult,
+        NonFiniteError,
+        NegativeError,
+        ErrorGrows,
+        FallsAway,
+        WrongLimit,
+        TooLow,
+        TooHigh,
+        ConstantOff,
+    ];
     for reason in Reason::ALL {
         let expected = match reason {
             Agrees => Verdict::Pass,
@@ -322,17 +507,45 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
             _ => Verdict::Inconclusive,
         };
         assert_eq!(reason.verdict(), expected, "{reason:?}");
-        assert!(reason.text().len() > 10 && reason.advice().len() > 30, "{reason:?}");
-        assert!(["To try", "to try"].iter().any(|words| reason.mathematics().contains(words)), "{reason:?}");
+        assert!(
+            reason.text().len() > 10 && reason.advice().len() > 30,
+            "{reason:?}"
+        );
+        assert!(
+            ["To try", "to try"]
+                .iter()
+                .any(|words| reason.mathematics().contains(words)),
+            "{reason:?}"
+        );
         // A finer level can decide only inconclusive verdicts.
-        assert!(!reason.wants_a_level() || expected == Verdict::Inconclusive, "{reason:?}");
+        assert!(
+            !reason.wants_a_level() || expected == Verdict::Inconclusive,
+            "{reason:?}"
+        );
     }
     let distinct = |words: fn(Reason) -> &'static str| {
-        Reason::ALL.map(words).into_iter().collect::<std::collections::BTreeSet<_>>().len()
+        Reason::ALL
+            .map(words)
+            .into_iter()
+            .collect::<std::collections::BTreeSet<_>>()
+            .len()
     };
-    assert_eq!([Reason::code, Reason::text, Reason::advice].map(distinct), [Reason::ALL.len(); 3]);
-    let undecided = [TooFewLevels, NotAsymptotic, Departs, LeftOver, LevelsTooClose, IntervalTooWide, AtTheEdge];
-    assert!(undecided.iter().all(|reason| reason.wants_a_level()) && !RoundOffFloor.wants_a_level());
+    assert_eq!(
+        [Reason::code, Reason::text, Reason::advice].map(distinct),
+        [Reason::ALL.len(); 3]
+    );
+    let undecided = [
+        TooFewLevels,
+        NotAsymptotic,
+        Departs,
+        LeftOver,
+        LevelsTooClose,
+        IntervalTooWide,
+        AtTheEdge,
+    ];
+    assert!(
+        undecided.iter().all(|reason| reason.wants_a_level()) && !RoundOffFloor.wants_a_level()
+    );
 }
 
 mod whatever_is_measured {

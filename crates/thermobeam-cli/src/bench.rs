@@ -44,7 +44,11 @@ pub struct Arguments {
 /// Runs the command.
 pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
-    let path = if arguments.scene.exists() { arguments.scene.clone() } else { root.join(&arguments.scene) };
+    let path = if arguments.scene.exists() {
+        arguments.scene.clone()
+    } else {
+        root.join(&arguments.scene)
+    };
     let scene = Scene::read(&path)?;
     let rival = arguments.beside.as_deref().map(rival).transpose()?;
     let mut studies = vec![];
@@ -53,11 +57,19 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             studies.push(Described::<WorkPrecision>::read(&file.path)?);
         }
     }
-    let Flags { quiet, format, out, .. } = &arguments.flags;
+    let Flags {
+        quiet, format, out, ..
+    } = &arguments.flags;
     let shows = !quiet && *format == Format::Text;
     let what = format!("times of steps, {} studies of accuracy", studies.len());
     let clock = LongRun::begin(&what, &root.join("reports/bench.md"), *quiet);
-    let mut page = Page { text: heading(project, &path), folder: out.clone(), tables: vec![], shows, clock };
+    let mut page = Page {
+        text: heading(project, &path),
+        folder: out.clone(),
+        tables: vec![],
+        shows,
+        clock,
+    };
     let paper = root.join(SCENE);
     if paper.exists() {
         let tables = timing::beside(&Scene::read(paper)?, rival.as_ref());
@@ -79,7 +91,9 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         }
         None => "nothing is written without --out".to_owned(),
     };
-    let words = arguments.flags.words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
+    let words = arguments
+        .flags
+        .words(Verdict::Pass, &sentence, || sentence.clone() + "\n");
     let tables = BTreeMap::from([("tables", &page.tables)]);
     Ok(arguments.flags.print(Verdict::Pass, &tables, &words)?)
 }
@@ -88,7 +102,10 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 fn rival(path: &Path) -> Result<Rival, Unusable> {
     let text = input::read_text(path)?;
     Rival::parse(&text).map_err(|error| {
-        Unusable::because(&format!("{}: {error}; expected what studies/programs/cvode.cpp prints", path.display()))
+        Unusable::because(&format!(
+            "{}: {error}; expected what studies/programs/cvode.cpp prints",
+            path.display()
+        ))
     })
 }
 
@@ -109,7 +126,11 @@ impl Page {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
         self.text += &format!("## {}\n\n{}\n", table.title, report::markdown(&table));
         if self.shows {
-            screen::print(&format!("{}\n{}\n", table.title, screen::table(&head, &table.rows)))?;
+            screen::print(&format!(
+                "{}\n{}\n",
+                table.title,
+                screen::table(&head, &table.rows)
+            ))?;
         }
         self.clock.done(&table.title);
         self.tables.push(table);
@@ -128,7 +149,9 @@ impl Page {
 
 fn heading(project: &Project, scene: &Path) -> String {
     let command = format!("{} bench --out reports", project.command);
-    let name = scene.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let name = scene
+        .file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     format!(
         "# Benchmarks\n\nWritten by `{command}`; scene {name}; the machine is named at the end. Each time is the best of several runs; \
          counts are exact. Another machine gives other times: compare ratios.\n\n"
@@ -136,7 +159,13 @@ fn heading(project: &Project, scene: &Path) -> String {
 }
 
 /// Run time against error, in every quantity.
-fn accuracy(Described { header, kind: study }: &Described<WorkPrecision>, page: &mut Page) -> Result<(), Unusable> {
+fn accuracy(
+    Described {
+        header,
+        kind: study,
+    }: &Described<WorkPrecision>,
+    page: &mut Page,
+) -> Result<(), Unusable> {
     let runs = timing::timed(study).map_err(|failure| Unusable::because(&failure.reason))?;
     let id = &header.id;
     for &quantity in study.quantities() {
@@ -146,7 +175,11 @@ fn accuracy(Described { header, kind: study }: &Described<WorkPrecision>, page: 
         }
         page.add(table)?;
         let caption = format!("{id}: error ({}) over seconds", quantity.name());
-        page.draw(&format!("{id}-{}.svg", quantity.name()), &caption, &timing::figure(study, quantity, &runs))?;
+        page.draw(
+            &format!("{id}-{}.svg", quantity.name()),
+            &caption,
+            &timing::figure(study, quantity, &runs),
+        )?;
     }
     Ok(())
 }

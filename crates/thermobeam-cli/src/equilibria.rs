@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use thermobeam::equilibrium::{Completeness, Equilibrium, EquilibriumError, completeness, equilibria};
+use thermobeam::equilibrium::{
+    Completeness, Equilibrium, EquilibriumError, completeness, equilibria,
+};
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
@@ -28,7 +30,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let scene = Scene::read(&arguments.scene)?;
     let states = match equilibria(&scene.beam, scene.obstacles.as_ref()) {
         Ok(states) => states,
-        Err(error @ EquilibriumError::Parameter(_)) => return Err(Unusable::file(&arguments.scene, &error)),
+        Err(error @ EquilibriumError::Parameter(_)) => {
+            return Err(Unusable::file(&arguments.scene, &error));
+        }
         Err(error) => {
             screen::complain(&format!("{}: {error}", arguments.scene.display()));
             return Ok(Verdict::Fail);
@@ -38,7 +42,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let stable = states.iter().filter(|state| state.stable).count();
     let sentence = format!("{}, {stable} of them stable", counted(states.len()));
     let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states));
-    Ok(flags.show("equilibria", Verdict::Pass, &Listed::new(&scene, &states), &words)?)
+    Ok(flags.show(
+        "equilibria",
+        Verdict::Pass,
+        &Listed::new(&scene, &states),
+        &words,
+    )?)
 }
 
 #[derive(Debug, Serialize)]
@@ -71,7 +80,10 @@ impl Listed {
             contact_force: state.contact_force,
             unstable_directions: state.unstable_directions,
         };
-        Self { equilibria: states.iter().map(state).collect(), complete: known(scene) == Completeness::Complete }
+        Self {
+            equilibria: states.iter().map(state).collect(),
+            complete: known(scene) == Completeness::Complete,
+        }
     }
 }
 
@@ -89,7 +101,10 @@ fn counted(states: usize) -> String {
 fn text(scene: &Scene, states: &[Equilibrium]) -> String {
     let count = counted(states.len());
     let beam = &scene.beam;
-    let mut text = format!("{}: {count} for beta = {:?}, theta_a = {:?}\n\n", scene.name, beam.beta, beam.theta_a);
+    let mut text = format!(
+        "{}: {count} for beta = {:?}, theta_a = {:?}\n\n",
+        scene.name, beam.beta, beam.theta_a
+    );
     let _ = writeln!(
         text,
         "  {:<8}{:>20}{:>20}{:>20}{:>20}  stability",

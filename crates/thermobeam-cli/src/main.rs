@@ -8,5 +8,7 @@ use thermobeam_cli::{GROUPS, Thermobeam, project};
 fn main() -> ExitCode {
     let project = project("thermobeam");
     let line = command_line::<Thermobeam>(&project, &GROUPS);
-    ended(line.clone(), |asked: Thermobeam| asked.command.run(&project, line))
+    ended(line.clone(), |asked: Thermobeam| {
+        asked.command.run(&project, line)
+    })
 }

@@ -26,11 +26,19 @@ pub struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let flags = &arguments.flags;
     let Some(folder) = &flags.out else {
-        return Err(Unusable::because("--out DIR: expected the folder for the joined results; found none"));
+        return Err(Unusable::because(
+            "--out DIR: expected the folder for the joined results; found none",
+        ));
     };
     let merged = sweep::merge(&arguments.folders, folder)?;
-    let verdict = if merged.failed == 0 { Verdict::Pass } else { Verdict::Fail };
+    let verdict = if merged.failed == 0 {
+        Verdict::Pass
+    } else {
+        Verdict::Fail
+    };
     let sentence = format!("{} cases, {} failed", merged.cases, merged.failed);
-    let words = flags.words(verdict, &sentence, || format!("{sentence}\nwrote {}\n", merged.results.display()));
+    let words = flags.words(verdict, &sentence, || {
+        format!("{sentence}\nwrote {}\n", merged.results.display())
+    });
     Ok(flags.print(verdict, &merged, &words)?)
 }

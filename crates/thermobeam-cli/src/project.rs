@@ -51,17 +51,41 @@ const FRONT: Front = Front {
     plot: "theorem-3.4-space-rates.svg",
     statements: &[
         ("Section 5: the paper's statements", "section-5", ""),
-        ("The paper's figures, against the exact solution", "experiments-error", ""),
+        (
+            "The paper's figures, against the exact solution",
+            "experiments-error",
+            "",
+        ),
         ("Theorem 3.4, in h", "theorem-3.4-space", "theorem-3.4"),
         ("Theorem 3.4, in dt", "theorem-3.4-time", "theorem-3.4"),
-        ("Theorem 3.4, over a grid, in h", "theorem-3.4-grid", "theorem-3.4 in h"),
-        ("Theorem 3.4, over a grid, in dt", "theorem-3.4-grid", "theorem-3.4 in dt"),
-        ("Proposition 3.1: the energy never rises, its balance closes", "energy-decay", ""),
-        ("Section 4: the fixed point contracts as its linearisation does", "fixed-point", ""),
+        (
+            "Theorem 3.4, over a grid, in h",
+            "theorem-3.4-grid",
+            "theorem-3.4 in h",
+        ),
+        (
+            "Theorem 3.4, over a grid, in dt",
+            "theorem-3.4-grid",
+            "theorem-3.4 in dt",
+        ),
+        (
+            "Proposition 3.1: the energy never rises, its balance closes",
+            "energy-decay",
+            "",
+        ),
+        (
+            "Section 4: the fixed point contracts as its linearisation does",
+            "fixed-point",
+            "",
+        ),
         ("Steady states, in closed form", "equilibria", ""),
         ("Beyond: elements of degree p", "any-order-space", ""),
         ("Beyond: dG(q) in time", "any-order-time", ""),
-        ("Beyond: the experiments to ten decimals", "experiments-exact", ""),
+        (
+            "Beyond: the experiments to ten decimals",
+            "experiments-exact",
+            "",
+        ),
     ],
 };
 
@@ -105,27 +129,51 @@ mod tests {
 
     #[test]
     fn every_study_of_the_repository_is_explained() {
-        let files = workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")).unwrap();
+        let files = workspace::studies(
+            &PROJECT,
+            &Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."),
+        )
+        .unwrap();
         assert!(files.len() > 10);
         for file in files {
             let header = file.study.header();
             let text = explain::study(&PROJECT, file.study.as_ref());
-            let text = text.unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
-            for title in ["what is claimed", "why it should hold", "how it is judged", "what a failure would mean"] {
+            let text = text
+                .unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
+            for title in [
+                "what is claimed",
+                "why it should hold",
+                "how it is judged",
+                "what a failure would mean",
+            ] {
                 assert!(text.contains(&format!("\n{title}\n")), "{text}");
             }
-            assert!(text.starts_with(&header.id) && text.lines().all(|line| line.chars().count() <= 100), "{text}");
+            assert!(
+                text.starts_with(&header.id)
+                    && text.lines().all(|line| line.chars().count() <= 100),
+                "{text}"
+            );
         }
     }
 
     #[test]
     fn every_term_has_one_meaning() {
         let names = explain::terms(&PROJECT);
-        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
+        assert_eq!(
+            names.iter().collect::<BTreeSet<_>>().len(),
+            names.len(),
+            "{names:?}"
+        );
         for name in names {
             let text = explain::term(&PROJECT, name).unwrap_or_else(|| panic!("{name}"));
-            assert!(text.starts_with(name) && text.lines().all(|line| line.chars().count() <= 100), "{text}");
+            assert!(
+                text.starts_with(name) && text.lines().all(|line| line.chars().count() <= 100),
+                "{text}"
+            );
         }
-        assert_eq!(explain::meant(&PROJECT, [], "superclosed").as_deref(), Some("superclose"));
+        assert_eq!(
+            explain::meant(&PROJECT, [], "superclosed").as_deref(),
+            Some("superclose")
+        );
     }
 }

@@ -68,8 +68,17 @@ impl Arguments {
         sentence: &str,
         text: impl FnOnce() -> String,
     ) -> Outcome {
-        let verdict = if complaint.is_none() { Verdict::Pass } else { Verdict::Fail };
-        self.flags.show("run", verdict, object, &self.flags.words(verdict, sentence, text))?;
+        let verdict = if complaint.is_none() {
+            Verdict::Pass
+        } else {
+            Verdict::Fail
+        };
+        self.flags.show(
+            "run",
+            verdict,
+            object,
+            &self.flags.words(verdict, sentence, text),
+        )?;
         if let Some(complaint) = complaint {
             screen::complain(&format!("{}: {complaint}", self.scene.display()));
         }
@@ -94,9 +103,15 @@ const TICKS: f64 = 1000.0;
 /// Runs the command. Nothing is written, and no folder is created, before the scene has proved usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let read = Scene::read(&arguments.scene)?;
-    let planned = match arguments.target_error.map(|target| accuracy::plan(arguments, &read, target)).transpose() {
+    let planned = match arguments
+        .target_error
+        .map(|target| accuracy::plan(arguments, &read, target))
+        .transpose()
+    {
         Ok(planned) => planned,
-        Err(error @ Unreachable::Target { .. }) => return Err(Unusable::file(&arguments.scene, &error)),
+        Err(error @ Unreachable::Target { .. }) => {
+            return Err(Unusable::file(&arguments.scene, &error));
+        }
         Err(error) => {
             screen::complain(&format!("{}: {error}", arguments.scene.display()));
             return Ok(Verdict::Fail);
@@ -104,25 +119,54 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     };
     let scene = planned.as_ref().map_or(&read, Planned::scene);
     if !arguments.yes && arguments.time_limit.is_none() {
-        running::consent(&arguments.scene.display().to_string(), NODE_STEP * cost_of_run(scene), "--time-limit")?;
+        running::consent(
+            &arguments.scene.display().to_string(),
+            NODE_STEP * cost_of_run(scene),
+            "--time-limit",
+        )?;
     }
-    let simulator = Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
+    let simulator =
+        Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let run = simulate(arguments, scene, simulator)?;
-    let written = arguments.flags.out.as_deref().map_or(Ok(vec![]), |folder| {
-        let history = run.history.iter().map(|history| ("history.csv", history.csv()));
-        write_files(folder, history.chain(run.pictures(scene)))
-    })?;
+    let written = arguments
+        .flags
+        .out
+        .as_deref()
+        .map_or(Ok(vec![]), |folder| {
+            let history = run
+                .history
+                .iter()
+                .map(|history| ("history.csv", history.csv()));
+            write_files(folder, history.chain(run.pictures(scene)))
+        })?;
     // The error of a failed run cannot be estimated.
     let wanted = arguments.estimate_error && run.failure.is_none();
-    let budget = wanted.then(|| accuracy::budget(arguments, scene)).transpose();
+    let budget = wanted
+        .then(|| accuracy::budget(arguments, scene))
+        .transpose();
     let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let complaint = budget.as_ref().err().map(|reason| format!("error budget: {reason}")).or(run.complaint());
+    let complaint = budget
+        .as_ref()
+        .err()
+        .map(|reason| format!("error budget: {reason}"))
+        .or(run.complaint());
     let accuracy = planned.as_ref().map(Planned::object);
-    let object = Printed { object: Object::new(scene, &run), error_budget: known, accuracy };
-    let sentence = format!("{}: {} steps, to t = {} of {}", scene.name, run.steps, run.last.t, scene.t_end);
+    let object = Printed {
+        object: Object::new(scene, &run),
+        error_budget: known,
+        accuracy,
+    };
+    let sentence = format!(
+        "{}: {} steps, to t = {} of {}",
+        scene.name, run.steps, run.last.t, scene.t_end
+    );
     arguments.show(complaint, &object, &sentence, || {
         let worth = known.map_or(summary::UNKNOWN.to_owned(), ToString::to_string);
-        let worth = if planned.is_some() && known.is_none() { String::new() } else { format!("\n{worth}\n") };
+        let worth = if planned.is_some() && known.is_none() {
+            String::new()
+        } else {
+            format!("\n{worth}\n")
+        };
         summary::summary(scene, &run, planned.as_ref().map(Planned::lines), &written) + &worth
     })
 }
@@ -136,12 +180,20 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
         }
         None => Recording::Summary,
     };
-    let bar = running::counting(&scene.name, TICKS as usize, "parts of the time", arguments.flags.quiet);
+    let bar = running::counting(
+        &scene.name,
+        TICKS as usize,
+        "parts of the time",
+        arguments.flags.quiet,
+    );
     let (done, t_end) = (Arc::new(AtomicUsize::new(0)), scene.t_end);
     let (told, shown) = (Arc::clone(&done), bar.clone());
     exit::say(move || {
         let percent = 100.0 * shown.position() as f64 / TICKS;
-        format!("{} steps were done, {percent} % of the time; nothing is kept of them", told.load(Ordering::Relaxed))
+        format!(
+            "{} steps were done, {percent} % of the time; nothing is kept of them",
+            told.load(Ordering::Relaxed)
+        )
     });
     let mut tell = |step, t: f64| {
         done.store(step, Ordering::Relaxed);
@@ -153,7 +205,10 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
 }
 
 /// Writes files into a folder; returns their paths.
-fn write_files(folder: &Path, files: impl Iterator<Item = (&'static str, String)>) -> io::Result<Vec<PathBuf>> {
+fn write_files(
+    folder: &Path,
+    files: impl Iterator<Item = (&'static str, String)>,
+) -> io::Result<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (name, content) in files {
         let path = folder.join(name);

@@ -53,12 +53,18 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> io::Result<Verdict> {
     let bar = running::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
     let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), Verdict::Pass));
-    let outcome = sweep::run(sweep, &mine, jobs(arguments), arguments.case_limit, |line: Line| {
-        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.1 = if line.passed { state.1 } else { Verdict::Fail };
-        bar.inc(1);
-        state.0.add(line)
-    });
+    let outcome = sweep::run(
+        sweep,
+        &mine,
+        jobs(arguments),
+        arguments.case_limit,
+        |line: Line| {
+            let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+            state.1 = if line.passed { state.1 } else { Verdict::Fail };
+            bar.inc(1);
+            state.0.add(line)
+        },
+    );
     bar.finish_and_clear();
     match outcome {
         // A reader that stops early, such as `head`, is not an error.
@@ -76,7 +82,10 @@ fn to_folder(
 ) -> Result<Verdict, sweep::SweepError> {
     let journal = Journal::open(folder, sweep, arguments.partition, arguments.resume)?;
     let cases = mine.len();
-    let pending: Vec<usize> = mine.into_iter().filter(|&index| !journal.has(index)).collect();
+    let pending: Vec<usize> = mine
+        .into_iter()
+        .filter(|&index| !journal.has(index))
+        .collect();
     let begun = pending.len();
     let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
     let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
@@ -91,10 +100,25 @@ fn to_folder(
     let failed = journal.failed();
     let results = journal.finish()?;
     let flags = &arguments.flags;
-    let verdict = if failed == 0 { Verdict::Pass } else { Verdict::Fail };
+    let verdict = if failed == 0 {
+        Verdict::Pass
+    } else {
+        Verdict::Fail
+    };
     let sentence = format!("{}: {cases} cases, {failed} failed", sweep.name);
-    let words = flags.words(verdict, &sentence, || summary(arguments, sweep, [cases, begun, failed], took, &results));
-    Ok(flags.print(verdict, &SweepObject { sweep: &sweep.name, cases, failed, results }, &words)?)
+    let words = flags.words(verdict, &sentence, || {
+        summary(arguments, sweep, [cases, begun, failed], took, &results)
+    });
+    Ok(flags.print(
+        verdict,
+        &SweepObject {
+            sweep: &sweep.name,
+            cases,
+            failed,
+            results,
+        },
+        &words,
+    )?)
 }
 
 /// The keys of `sweep --out DIR --format json` in addition to the verdict.
@@ -118,10 +142,19 @@ fn journaled(
     bar: &ProgressBar,
 ) -> Result<Journal, io::Error> {
     let journal = Mutex::new(journal);
-    sweep::run(sweep, &pending, jobs(arguments), arguments.case_limit, |line| {
-        bar.inc(1);
-        journal.lock().unwrap_or_else(PoisonError::into_inner).append(&line)
-    })?;
+    sweep::run(
+        sweep,
+        &pending,
+        jobs(arguments),
+        arguments.case_limit,
+        |line| {
+            bar.inc(1);
+            journal
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .append(&line)
+        },
+    )?;
     Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
@@ -135,7 +168,11 @@ fn summary(
     let share = if arguments.partition == Share::ALL {
         String::new()
     } else {
-        format!(", share {}: {cases} of {}", arguments.partition, sweep.cases())
+        format!(
+            ", share {}: {cases} of {}",
+            arguments.partition,
+            sweep.cases()
+        )
     };
     let each = 1e3 * took.as_secs_f64() / begun.max(1) as f64;
     format!(

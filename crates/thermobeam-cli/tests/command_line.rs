@@ -18,14 +18,20 @@ fn program() -> clap::Command {
 
 /// The commands for users: the program's internal commands are hidden.
 fn commands(program: &clap::Command) -> impl Iterator<Item = &clap::Command> {
-    program.get_subcommands().filter(|command| !command.is_hide_set())
+    program
+        .get_subcommands()
+        .filter(|command| !command.is_hide_set())
 }
 
 #[test]
 fn every_command_is_in_one_group_of_the_help() {
     let program = program();
     let commands: BTreeSet<&str> = commands(&program).map(clap::Command::get_name).collect();
-    let listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).chain(["help"]).collect();
+    let listed: Vec<&str> = GROUPS
+        .iter()
+        .flat_map(|(_, names)| names.iter().copied())
+        .chain(["help"])
+        .collect();
     assert_eq!(listed.iter().copied().collect::<BTreeSet<_>>(), commands);
     assert_eq!(listed.len(), commands.len(), "{listed:?}");
 }
@@ -36,23 +42,42 @@ fn no_help_names_a_program_that_is_not_there() {
     let texts = [program.render_help(), program.render_long_help()].map(|text| text.to_string());
     let mut texts = texts.to_vec();
     for command in program.get_subcommands_mut() {
-        texts.extend([command.render_help(), command.render_long_help()].map(|text| text.to_string()));
+        texts.extend(
+            [command.render_help(), command.render_long_help()].map(|text| text.to_string()),
+        );
     }
     assert!(texts.len() > 20);
     for text in texts {
-        assert!(text.contains("Usage: thermobeam") && !text.contains(ELSEWHERE), "{text}");
+        assert!(
+            text.contains("Usage: thermobeam") && !text.contains(ELSEWHERE),
+            "{text}"
+        );
     }
 }
 
 /// Lines of code, or of a file that is printed or written, that name the program.
 fn naming(text: &str) -> Vec<String> {
-    let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
-    code.filter(|line| line.contains(ELSEWHERE)).map(|line| line.trim().to_owned()).collect()
+    let code = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""));
+    code.filter(|line| line.contains(ELSEWHERE))
+        .map(|line| line.trim().to_owned())
+        .collect()
 }
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| {
+            if path.is_dir() {
+                sources(&path)
+            } else {
+                vec![path]
+            }
+        })
+        .collect()
 }
 
 #[test]
@@ -66,7 +91,12 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
         "thermobeam-study",
         "thermobeam-cli",
     ] {
-        for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src")) {
+        for path in sources(
+            &Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("..")
+                .join(name)
+                .join("src"),
+        ) {
             // A file that is not UTF-8 counts as empty.
             let text = fs::read_to_string(&path).unwrap_or_default();
             let found = naming(&text);
@@ -75,7 +105,10 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
         }
     }
     assert!(read > 250, "{read}");
-    assert_eq!(naming("let a = \"now  cargo xtask run\"; // or cargo xtask\n/// as `cargo xtask`\n").len(), 1);
+    assert_eq!(
+        naming("let a = \"now  cargo xtask run\"; // or cargo xtask\n/// as `cargo xtask`\n").len(),
+        1
+    );
 }
 
 /// Commands whose answer is not a result, and why.
@@ -85,19 +118,39 @@ const WITHOUT_FLAGS: [&str; 2] = ["completions", "help"];
 fn every_command_has_the_same_flags() {
     let program = program();
     let seen = |command: &clap::Command, name: &str| {
-        let flag = command.get_arguments().find(|argument| argument.get_long() == Some(name))?;
-        let values = flag.get_value_names().map(|names| names.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let flag = command
+            .get_arguments()
+            .find(|argument| argument.get_long() == Some(name))?;
+        let values = flag
+            .get_value_names()
+            .map(|names| names.iter().map(ToString::to_string).collect::<Vec<_>>());
         let short = flag.get_short();
-        Some((flag.get_help()?.to_string(), values, short, flag.is_required_set()))
+        Some((
+            flag.get_help()?.to_string(),
+            values,
+            short,
+            flag.is_required_set(),
+        ))
     };
     for name in ["quiet", "format", "out", "jobs"] {
         let expected = seen(program.find_subcommand("verify").unwrap(), name);
         assert!(expected.is_some(), "{name}");
         for command in commands(&program) {
-            let wanted = if WITHOUT_FLAGS.contains(&command.get_name()) { None } else { expected.clone() };
-            assert_eq!(seen(command, name), wanted, "{} --{name}", command.get_name());
+            let wanted = if WITHOUT_FLAGS.contains(&command.get_name()) {
+                None
+            } else {
+                expected.clone()
+            };
+            assert_eq!(
+                seen(command, name),
+                wanted,
+                "{} --{name}",
+                command.get_name()
+            );
         }
     }
-    let shorts = commands(&program).flat_map(clap::Command::get_arguments).filter_map(clap::Arg::get_short);
+    let shorts = commands(&program)
+        .flat_map(clap::Command::get_arguments)
+        .filter_map(clap::Arg::get_short);
     assert_eq!(shorts.collect::<BTreeSet<char>>(), ['h', 'q'].into());
 }

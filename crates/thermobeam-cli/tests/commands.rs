@@ -30,7 +30,10 @@ fn unusable(root: &TempDir, arguments: &[&str], words: &str) {
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.contains(words), "{words} is not in {error}");
     assert!(output.stdout.is_empty());
-    assert!(!root.path().join("reports").exists() && !root.path().join("studies/baseline.json").exists());
+    assert!(
+        !root.path().join("reports").exists()
+            && !root.path().join("studies/baseline.json").exists()
+    );
 }
 
 fn study(id: &str, kind: &str) -> String {
@@ -40,41 +43,89 @@ fn study(id: &str, kind: &str) -> String {
 #[test]
 fn an_unknown_kind_is_refused_with_its_line() {
     let root = workspace(&[("a.toml", &study("a", "nonsense"))]);
-    for arguments in [&["verify"][..], &["verify", "--bless"], &["study", "studies/a.toml"], &["list"]] {
-        unusable(&root, arguments, "error: studies/a.toml:5:8: study.kind: found \"nonsense\"; expected ");
+    for arguments in [
+        &["verify"][..],
+        &["verify", "--bless"],
+        &["study", "studies/a.toml"],
+        &["list"],
+    ] {
+        unusable(
+            &root,
+            arguments,
+            "error: studies/a.toml:5:8: study.kind: found \"nonsense\"; expected ",
+        );
     }
 }
 
 #[test]
 fn a_study_file_that_is_none_is_refused_with_its_line() {
     let root = workspace(&[("a.toml", "[study]\nid = \"A b\"\n")]);
-    unusable(&root, &["verify"], "a.toml:2:6: study.id: found the text \"A b\"");
-    unusable(&root, &["study", "missing.toml"], "missing.toml: cannot be read");
+    unusable(
+        &root,
+        &["verify"],
+        "a.toml:2:6: study.id: found the text \"A b\"",
+    );
+    unusable(
+        &root,
+        &["study", "missing.toml"],
+        "missing.toml: cannot be read",
+    );
 }
 
 #[test]
 fn times_of_another_program_are_refused_with_their_place() {
     let scene = "[time]\ndt = 0.1\nt_end = 1.0\n";
-    let root = workspace(&[("scenes/s.toml", scene), ("cvode.json", "{\"runs\": [{\"zeta\": 0.1}]}")]);
-    let bench = |file| ["bench", "--scene", "studies/scenes/s.toml", "--beside", file];
-    unusable(&root, &bench("studies/cvode.json"), "studies/cvode.json: missing field `degree` at line 1 column");
-    unusable(&root, &bench("studies/none.json"), "studies/none.json: cannot be read");
+    let root = workspace(&[
+        ("scenes/s.toml", scene),
+        ("cvode.json", "{\"runs\": [{\"zeta\": 0.1}]}"),
+    ]);
+    let bench = |file| {
+        [
+            "bench",
+            "--scene",
+            "studies/scenes/s.toml",
+            "--beside",
+            file,
+        ]
+    };
+    unusable(
+        &root,
+        &bench("studies/cvode.json"),
+        "studies/cvode.json: missing field `degree` at line 1 column",
+    );
+    unusable(
+        &root,
+        &bench("studies/none.json"),
+        "studies/none.json: cannot be read",
+    );
 }
 
 #[test]
 fn where_no_study_is_meant_nothing_passes() {
     let root = workspace(&[]);
     unusable(&root, &["verify"], "no study in the tier quick");
-    unusable(&root, &["verify", "theorem*"], "`theorem*` matches no study");
+    unusable(
+        &root,
+        &["verify", "theorem*"],
+        "`theorem*` matches no study",
+    );
     unusable(&root, &["verify", "--tier", "slow"], "slow");
-    unusable(&root, &["verify", "--jobs", "0"], "expected a whole number >= 1");
+    unusable(
+        &root,
+        &["verify", "--jobs", "0"],
+        "expected a whole number >= 1",
+    );
     unusable(&root, &["study"], "FILE");
 }
 
 #[test]
 fn without_a_folder_of_studies_there_is_nothing_to_verify() {
     let folder = tempfile::tempdir().unwrap();
-    unusable(&folder, &["verify"], "expected a folder studies/, here or above; found none");
+    unusable(
+        &folder,
+        &["verify"],
+        "expected a folder studies/, here or above; found none",
+    );
 }
 
 #[test]
@@ -84,14 +135,30 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
     let root = workspace(&[("a.toml", a.as_str()), ("b.toml", b.as_str())]);
     let list = |arguments: &[&str]| {
         let output = thermobeam(root.path(), &[&["list"], arguments].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         String::from_utf8(output.stdout).unwrap()
     };
     let verdict = |id: &str| {
         let text = list(&[id]);
-        text.lines().nth(1).unwrap().split("  ").filter(|cell| !cell.is_empty()).nth(3).unwrap().trim().to_owned()
+        text.lines()
+            .nth(1)
+            .unwrap()
+            .split("  ")
+            .filter(|cell| !cell.is_empty())
+            .nth(3)
+            .unwrap()
+            .trim()
+            .to_owned()
     };
-    assert_eq!((verdict("a"), verdict("b")), ("never run".to_owned(), "never run".to_owned()));
+    assert_eq!(
+        (verdict("a"), verdict("b")),
+        ("never run".to_owned(), "never run".to_owned())
+    );
     let record = |path: &str, id: &str, verdict: &str| {
         let path = root.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -103,16 +170,25 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
         fs::write(path, format!("{{{head}, \"studies\": [{study}]}}")).unwrap();
     };
     record("reports/results.json", "a", "pass");
-    assert_eq!((verdict("a"), verdict("b")), ("pass".to_owned(), "never run".to_owned()));
+    assert_eq!(
+        (verdict("a"), verdict("b")),
+        ("pass".to_owned(), "never run".to_owned())
+    );
     record("reports/local/partial/results.json", "a", "fail");
     assert_eq!(verdict("a"), "fail");
     assert!(!list(&["a"]).contains("\u{1b}") && list(&["--tier", "quick"]).lines().count() == 3);
     assert_eq!(list(&["b*"]).lines().count(), 2);
-    assert_eq!(thermobeam(root.path(), &["list", "c"]).status.code(), Some(2));
+    assert_eq!(
+        thermobeam(root.path(), &["list", "c"]).status.code(),
+        Some(2)
+    );
     fs::write(root.path().join("reports/results.json"), "{").unwrap();
     let broken = thermobeam(root.path(), &["list"]);
     let error = String::from_utf8_lossy(&broken.stderr).into_owned();
-    assert!(broken.status.code() == Some(2) && error.contains("results.json: "), "{error}");
+    assert!(
+        broken.status.code() == Some(2) && error.contains("results.json: "),
+        "{error}"
+    );
 }
 
 #[test]
@@ -120,21 +196,43 @@ fn a_thousand_million_steps_need_consent_or_a_limit() {
     const STEPS: &str = "dt = 1e-9\nt_end = 1.0\n";
     let beam = "[mesh]\nelements = 1\n[initial]\nu_t = \"x\"\n[time]\n";
     let exact = "[exact]\nu = [{ x = \"x^2\", t = \"t\" }]\nphi = [{ x = \"x\", t = \"t\" }]\ntheta = [{ x = \"x*(1-x)\", t = \"t\" }]\n";
-    let refine = "[refine]\naxis = \"space\"\nelements = [1, 2, 4]\nsteps = 1000000000\nt_end = 1.0\n";
+    let refine =
+        "[refine]\naxis = \"space\"\nelements = [1, 2, 4]\nsteps = 1000000000\nt_end = 1.0\n";
     let expect = "[[expect]]\nnorm = \"velocity\"\norder = 2.0\ntolerance = 0.1\n";
     let long = study("long", "convergence") + exact + refine + expect;
-    let root = workspace(&[("scenes/s.toml", &(beam.to_owned() + STEPS)), ("long.toml", &long)]);
+    let root = workspace(&[
+        ("scenes/s.toml", &(beam.to_owned() + STEPS)),
+        ("long.toml", &long),
+    ]);
     // (1 + 4) elements, 1e9 steps, 20 ns: 100 s. The meshes of the study have 5 + 6 + 8 elements.
-    let words =
-        "found work for about 1.0e2 seconds on one thread; expected at most 60, or --yes, or --time-limit SECONDS";
+    let words = "found work for about 1.0e2 seconds on one thread; expected at most 60, or --yes, or --time-limit SECONDS";
     unusable(&root, &["run", "studies/scenes/s.toml"], words);
-    unusable(&root, &["run", "studies/scenes/s.toml", "--out", "reports"], words);
+    unusable(
+        &root,
+        &["run", "studies/scenes/s.toml", "--out", "reports"],
+        words,
+    );
     let words = "long: found work for about 3.8e2 seconds on one thread; expected at most 60, or --yes, or --case-limit SECONDS";
     unusable(&root, &["study", "studies/long.toml"], words);
     unusable(&root, &["verify"], words);
     // With a limit both run, until it stops them.
     let ended = |arguments: &[&str]| thermobeam(root.path(), arguments).status.code();
-    assert_eq!(ended(&["run", "studies/scenes/s.toml", "--time-limit", "0.1"]), Some(1));
-    assert_eq!(ended(&["run", "studies/scenes/s.toml", "--time-limit", "0.1", "--yes"]), Some(1));
-    assert_eq!(ended(&["study", "studies/long.toml", "--case-limit", "0.1"]), Some(1));
+    assert_eq!(
+        ended(&["run", "studies/scenes/s.toml", "--time-limit", "0.1"]),
+        Some(1)
+    );
+    assert_eq!(
+        ended(&[
+            "run",
+            "studies/scenes/s.toml",
+            "--time-limit",
+            "0.1",
+            "--yes"
+        ]),
+        Some(1)
+    );
+    assert_eq!(
+        ended(&["study", "studies/long.toml", "--case-limit", "0.1"]),
+        Some(1)
+    );
 }

@@ -20,10 +20,19 @@ pub fn load(
     space: &Space,
     defect: Option<Defect>,
 ) -> Box<Load> {
-    let (sources, exact, mut factors) = (Sources::any_order(exact, beam, space), exact.clone(), Factors::default());
+    let (sources, exact, mut factors) = (
+        Sources::any_order(exact, beam, space),
+        exact.clone(),
+        Factors::default(),
+    );
     Box::new(move |t, load| {
         factors.at(&exact, t);
-        sources.fill(&factors, sources.forces(&factors.u, obstacles.as_ref(), defect), defect, load);
+        sources.fill(
+            &factors,
+            sources.forces(&factors.u, obstacles.as_ref(), defect),
+            defect,
+            load,
+        );
     })
 }
 
@@ -31,7 +40,12 @@ pub fn load(
 pub fn initial(exact: &Manufactured) -> Initial {
     let sum = |products: &[Product], derivative: usize| -> Box<dyn Fn(f64) -> f64> {
         let products = products.to_vec();
-        Box::new(move |x| products.iter().map(|p| p.x.eval(x) * p.t.derivatives(0.0)[derivative]).sum())
+        Box::new(move |x| {
+            products
+                .iter()
+                .map(|p| p.x.eval(x) * p.t.derivatives(0.0)[derivative])
+                .sum()
+        })
     };
     Initial {
         u: sum(&exact.u, 0),
@@ -62,17 +76,35 @@ impl<'a> ErrorMeter<'a> {
         let gauss = Space::gauss(space.degree() + EXTRA_POINTS);
         let on_element = |ends: &[f64]| {
             let half = 0.5 * (ends[1] - ends[0]);
-            gauss.iter().map(|(xi, weight)| (ends[0] + half * (1.0 + xi), half * weight)).collect::<Vec<_>>()
+            gauss
+                .iter()
+                .map(|(xi, weight)| (ends[0] + half * (1.0 + xi), half * weight))
+                .collect::<Vec<_>>()
         };
-        let points: Vec<(f64, f64)> = space.mesh().nodes().windows(2).flat_map(on_element).collect();
+        let points: Vec<(f64, f64)> = space
+            .mesh()
+            .nodes()
+            .windows(2)
+            .flat_map(on_element)
+            .collect();
         let shapes = [&exact.u, &exact.phi, &exact.theta].map(|products| {
             let shape = |product: &Product, x: f64| {
                 let [value, slope, _] = product.x.derivatives(x);
                 [value, slope]
             };
-            products.iter().map(|product| points.iter().map(|(x, _)| shape(product, *x)).collect()).collect()
+            products
+                .iter()
+                .map(|product| points.iter().map(|(x, _)| shape(product, *x)).collect())
+                .collect()
         });
-        Self { exact, theta_a, space: space.clone(), points, shapes, factors: Factors::default() }
+        Self {
+            exact,
+            theta_a,
+            space: space.clone(),
+            points,
+            shapes,
+            factors: Factors::default(),
+        }
     }
 
     /// The errors of a level against the exact solution at its time: `‖u_h - u‖, ‖φ_h - φ‖, ‖v_h - u_t‖, ‖w_h - φ_t‖, ‖θ_h - θ‖`
@@ -81,12 +113,19 @@ impl<'a> ErrorMeter<'a> {
         self.factors.at(self.exact, level.t);
         let mut squares = [[0.0_f64; 2]; Field::ALL.len()];
         for (k, (_, weight)) in self.points.iter().enumerate() {
-            for (square, [value, slope]) in squares.iter_mut().zip(self.errors_at(k, level, self.theta_a)) {
+            for (square, [value, slope]) in
+                squares
+                    .iter_mut()
+                    .zip(self.errors_at(k, level, self.theta_a))
+            {
                 square[0] += weight * value * value;
                 square[1] += weight * slope * slope;
             }
         }
-        [squares.map(|square| square[0].sqrt()), squares.map(|square| square[1].sqrt())]
+        [
+            squares.map(|square| square[0].sqrt()),
+            squares.map(|square| square[1].sqrt()),
+        ]
     }
 
     /// The largest `|∫ e_x P_k(ξ) dξ|` over fields, elements and degrees k < p: e is the error of a level, P_k Legendre's polynomial

@@ -43,20 +43,32 @@ pub enum Defect {
 impl Defect {
     /// All defects, with their effects in words.
     pub const ALL: [(Self, &str); 14] = [
-        (Self::SourceAtNewLevel, "source at t_n instead of the middle"),
+        (
+            Self::SourceAtNewLevel,
+            "source at t_n instead of the middle",
+        ),
         (Self::StressDropped, "boundary load of the stress dropped"),
         (Self::MomentDropped, "boundary load of the moment dropped"),
         (Self::ForceAtNewLevel, "N(u^n) instead of the mean of N"),
-        (Self::ContactAtMiddle, "contact at the middle instead of t_n"),
+        (
+            Self::ContactAtMiddle,
+            "contact at the middle instead of t_n",
+        ),
         (Self::HalfOfRho, "half of rho in N"),
         (Self::WithoutBeta, "N without beta"),
-        (Self::ForceOfMeanState, "N of the mean state instead of the mean of N"),
+        (
+            Self::ForceOfMeanState,
+            "N of the mean state instead of the mean of N",
+        ),
         (Self::HalfOfContact, "half of the contact force"),
         (Self::LowerForgotten, "lower obstacle forgotten"),
         (Self::UpperForgotten, "upper obstacle forgotten"),
         (Self::ContactReversed, "contact force with the other sign"),
         (Self::HalfOfCoupling, "half of the load a theta_x"),
-        (Self::StartNotLifted, "theta_A missing in the initial temperature"),
+        (
+            Self::StartNotLifted,
+            "theta_A missing in the initial temperature",
+        ),
     ];
 
     /// Its effect in words.
@@ -66,7 +78,13 @@ impl Defect {
 
     /// Whether it is a mistake in a formula of (1.1)-(1.3), for any method; the others are about the levels of one-step schemes.
     pub const fn is_of_the_problem(self) -> bool {
-        !matches!(self, Self::SourceAtNewLevel | Self::ForceAtNewLevel | Self::ContactAtMiddle | Self::ForceOfMeanState)
+        !matches!(
+            self,
+            Self::SourceAtNewLevel
+                | Self::ForceAtNewLevel
+                | Self::ContactAtMiddle
+                | Self::ForceOfMeanState
+        )
     }
 
     /// Whether the problem with these coefficients has the term that is wrong.
@@ -89,7 +107,13 @@ impl Defect {
 /// N(u) for given `‖u_x‖²`, with a defect if it is one of N.
 pub(crate) fn axial_force_with(defect: Option<Defect>, beam: &Beam, slope_squared: f64) -> f64 {
     match defect {
-        Some(Defect::HalfOfRho) => axial_force(&Beam { rho: 0.5 * beam.rho, ..*beam }, slope_squared),
+        Some(Defect::HalfOfRho) => axial_force(
+            &Beam {
+                rho: 0.5 * beam.rho,
+                ..*beam
+            },
+            slope_squared,
+        ),
         Some(Defect::WithoutBeta) => axial_force(&Beam { beta: 0.0, ..*beam }, slope_squared),
         _ => axial_force(beam, slope_squared),
     }
@@ -101,11 +125,19 @@ pub(crate) fn contact_with(
     obstacles: Option<&Obstacles>,
     law: impl Fn(&Obstacles) -> f64,
 ) -> f64 {
-    let Some(&obstacles) = obstacles else { return 0.0 };
+    let Some(&obstacles) = obstacles else {
+        return 0.0;
+    };
     match defect {
         Some(Defect::HalfOfContact) => 0.5 * law(&obstacles),
-        Some(Defect::LowerForgotten) => law(&Obstacles { g1: f64::NEG_INFINITY, ..obstacles }),
-        Some(Defect::UpperForgotten) => law(&Obstacles { g2: f64::INFINITY, ..obstacles }),
+        Some(Defect::LowerForgotten) => law(&Obstacles {
+            g1: f64::NEG_INFINITY,
+            ..obstacles
+        }),
+        Some(Defect::UpperForgotten) => law(&Obstacles {
+            g2: f64::INFINITY,
+            ..obstacles
+        }),
         Some(Defect::ContactReversed) => -law(&obstacles),
         _ => law(&obstacles),
     }

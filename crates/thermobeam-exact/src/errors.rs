@@ -47,7 +47,13 @@ impl ErrorMeter {
     /// The lifting is zero until [`Self::lift`] sets it.
     pub fn new(exact: &Manufactured, mesh: &Mesh, interpolant: bool) -> Self {
         let fields = [&exact.u, &exact.phi, &exact.theta].map(|products| {
-            products.iter().map(|p| Interpolation { nodal: nodal(p, mesh), moments: vec![] }).collect::<Vec<_>>()
+            products
+                .iter()
+                .map(|p| Interpolation {
+                    nodal: nodal(p, mesh),
+                    moments: vec![],
+                })
+                .collect::<Vec<_>>()
         });
         let [u, phi, _] = fields.each_ref().map(Vec::len);
         let square = |n: usize| vec![0.0; n * n];
@@ -83,11 +89,18 @@ impl ErrorMeter {
             for (s, weight) in RULE {
                 let x = ends[0] + s * h;
                 let sample = |products: &[Product], field: &[Interpolation]| {
-                    let errors = products.iter().zip(field).map(|(p, f)| interpolation_error(p, f, i, h, s, x));
+                    let errors = products
+                        .iter()
+                        .zip(field)
+                        .map(|(p, f)| interpolation_error(p, f, i, h, s, x));
                     errors.collect::<Vec<[f64; 2]>>()
                 };
                 let [u, phi, theta] = &self.fields;
-                let samples = [sample(&exact.u, u), sample(&exact.phi, phi), sample(&exact.theta, theta)];
+                let samples = [
+                    sample(&exact.u, u),
+                    sample(&exact.phi, phi),
+                    sample(&exact.theta, theta),
+                ];
                 self.add_samples(i, s, weight * h, &samples);
             }
         }
@@ -96,7 +109,8 @@ impl ErrorMeter {
     /// Adds the contribution of one quadrature point, given η and η_x of the products of u, φ and θ there.
     fn add_samples(&mut self, element: usize, s: f64, weight: f64, samples: &[Vec<[f64; 2]>; 3]) {
         let values = |sample: &[[f64; 2]]| sample.iter().map(|[eta, _]| *eta).collect::<Vec<_>>();
-        let slopes = |sample: &[[f64; 2]]| sample.iter().map(|[_, eta_x]| *eta_x).collect::<Vec<_>>();
+        let slopes =
+            |sample: &[[f64; 2]]| sample.iter().map(|[_, eta_x]| *eta_x).collect::<Vec<_>>();
         for ((field, gram), sample) in self.fields.iter_mut().zip(&mut self.grams).zip(samples) {
             for (interpolation, [eta, _]) in field.iter_mut().zip(sample) {
                 interpolation.moments[element][0] += weight * (1.0 - s) * eta;
@@ -105,7 +119,10 @@ impl ErrorMeter {
             add_outer(gram, weight, &values(sample));
         }
         let [u, phi, _] = samples;
-        let shear: Vec<f64> = slopes(u).into_iter().chain(values(phi).into_iter().map(|psi| -psi)).collect();
+        let shear: Vec<f64> = slopes(u)
+            .into_iter()
+            .chain(values(phi).into_iter().map(|psi| -psi))
+            .collect();
         add_outer(&mut self.gram_curvature, weight, &slopes(phi));
         add_outer(&mut self.gram_shear, weight, &shear);
     }
@@ -113,7 +130,8 @@ impl ErrorMeter {
     /// The errors of `level` against the exact solution with the given factors.
     pub fn measure(&mut self, level: &Level, factors: &Factors) -> Norms {
         let Factors { u, phi, theta } = factors;
-        let ([of_u, of_phi, of_theta], [gram_u, gram_phi, gram_theta]) = (&self.fields, &self.grams);
+        let ([of_u, of_phi, of_theta], [gram_u, gram_phi, gram_theta]) =
+            (&self.fields, &self.grams);
         let [v_d, u_d, w_d, phi_d, theta_d] = &mut self.difference;
         difference_into(&level.v, of_u, &u.rate, v_d);
         difference_into(&level.u, of_u, &u.value, u_d);
@@ -128,10 +146,13 @@ impl ErrorMeter {
         let shear_factors: Vec<f64> = u.value.iter().chain(&phi.value).copied().collect();
         let squares = TheoremSquares {
             velocity: nodal.velocity + correction(v_d, of_u, &u.rate, gram_u),
-            shear: nodal.shear + quadratic(&self.gram_shear, &shear_factors) + 2.0 * self.shear_product(factors),
+            shear: nodal.shear
+                + quadratic(&self.gram_shear, &shear_factors)
+                + 2.0 * self.shear_product(factors),
             rotation_rate: nodal.rotation_rate + correction(w_d, of_phi, &phi.rate, gram_phi),
             curvature: nodal.curvature + quadratic(&self.gram_curvature, &phi.value),
-            temperature: nodal.temperature + correction(theta_d, of_theta, &theta.value, gram_theta),
+            temperature: nodal.temperature
+                + correction(theta_d, of_theta, &theta.value, gram_theta),
         };
         let displacement = l2_squared(&self.lengths, u_d) + correction(u_d, of_u, &u.value, gram_u);
         let root = |square: f64| if square < 0.0 { 0.0 } else { square.sqrt() };
@@ -155,17 +176,29 @@ impl ErrorMeter {
             let eta = moment(of_u, &factors.u.value, i);
             let psi = moment(of_phi, &factors.phi.value, i);
             let (d_x, p_x) = ((u[i + 1] - u[i]) / h, (phi[i + 1] - phi[i]) / h);
-            sum += p_x * (eta[0] + eta[1]) - d_x * (psi[0] + psi[1]) + phi[i] * psi[0] + phi[i + 1] * psi[1];
+            sum += p_x * (eta[0] + eta[1]) - d_x * (psi[0] + psi[1])
+                + phi[i] * psi[0]
+                + phi[i + 1] * psi[1];
         }
         sum
     }
 }
 
 /// η and η_x of a product at `x = x_i + s h` in element i.
-fn interpolation_error(product: &Product, field: &Interpolation, i: usize, h: f64, s: f64, x: f64) -> [f64; 2] {
+fn interpolation_error(
+    product: &Product,
+    field: &Interpolation,
+    i: usize,
+    h: f64,
+    s: f64,
+    x: f64,
+) -> [f64; 2] {
     let [value, slope, _] = product.x.derivatives(x);
     let (left, right) = (field.nodal[i], field.nodal[i + 1]);
-    [(1.0 - s) * left + s * right - value, (right - left) / h - slope]
+    [
+        (1.0 - s) * left + s * right - value,
+        (right - left) / h - slope,
+    ]
 }
 
 /// Adds `weight vector vectorᵀ` to a Gram matrix.
@@ -178,7 +211,12 @@ fn add_outer(gram: &mut [f64], weight: f64, vector: &[f64]) {
 }
 
 /// `d = y_h - Σ T_j X_j` at the nodes.
-fn difference_into(discrete: &[f64], field: &[Interpolation], factors: &[f64], difference: &mut [f64]) {
+fn difference_into(
+    discrete: &[f64],
+    field: &[Interpolation],
+    factors: &[f64],
+    difference: &mut [f64],
+) {
     difference.copy_from_slice(discrete);
     for (interpolation, factor) in field.iter().zip(factors) {
         for (difference, value) in difference.iter_mut().zip(&interpolation.nodal) {
@@ -211,5 +249,8 @@ fn correction(difference: &[f64], field: &[Interpolation], factors: &[f64], gram
 /// The quadratic form of a Gram matrix.
 fn quadratic(gram: &[f64], factors: &[f64]) -> f64 {
     let row = |row: &[f64]| row.iter().zip(factors).map(|(a, b)| a * b).sum::<f64>();
-    gram.chunks(factors.len().max(1)).zip(factors).map(|(entries, factor)| factor * row(entries)).sum()
+    gram.chunks(factors.len().max(1))
+        .zip(factors)
+        .map(|(entries, factor)| factor * row(entries))
+        .sum()
 }

@@ -71,7 +71,11 @@ impl Expression {
     /// [`ExpressionError`] with the position of the error in the text.
     pub fn parse(source: &str, variable: Variable) -> Result<Self, ExpressionError> {
         let root = parser::parse(source, variable)?;
-        Ok(Self { source: source.to_owned(), variable, root })
+        Ok(Self {
+            source: source.to_owned(),
+            variable,
+            root,
+        })
     }
 
     /// The text from which it was parsed.
@@ -101,10 +105,24 @@ impl Expression {
     pub fn check_finite(&self, end: f64, order: usize) -> Result<(), NotFinite> {
         for at in samples(end) {
             // The values are those of `eval`, because the solver uses it.
-            let [_, first, second] = if order == 0 { [0.0; 3] } else { self.derivatives(at) };
-            for (order, found) in [self.eval(at), first, second].into_iter().enumerate().take(order + 1) {
+            let [_, first, second] = if order == 0 {
+                [0.0; 3]
+            } else {
+                self.derivatives(at)
+            };
+            for (order, found) in [self.eval(at), first, second]
+                .into_iter()
+                .enumerate()
+                .take(order + 1)
+            {
                 if !found.is_finite() {
-                    return Err(NotFinite { variable: self.variable, at, end, order, found });
+                    return Err(NotFinite {
+                        variable: self.variable,
+                        at,
+                        end,
+                        order,
+                        found,
+                    });
                 }
             }
         }
@@ -139,7 +157,9 @@ impl Expression {
         let mut before = self.branches(points[0]);
         for pair in points.windows(2) {
             let after = self.branches(pair[1]);
-            for index in (0..after.len()).filter(|&index| (before[index] < 0.0) != (after[index] < 0.0)) {
+            for index in
+                (0..after.len()).filter(|&index| (before[index] < 0.0) != (after[index] < 0.0))
+            {
                 changes.push(self.change_of_branch(index, [pair[0], pair[1]]));
             }
             before = after;
@@ -156,9 +176,17 @@ impl Expression {
         loop {
             let middle = 0.5 * (low + high);
             if !(low < middle && middle < high) {
-                return if argument(low).abs() <= argument(high).abs() { low } else { high };
+                return if argument(low).abs() <= argument(high).abs() {
+                    low
+                } else {
+                    high
+                };
             }
-            let end = if (argument(middle) < 0.0) == is_negative { &mut low } else { &mut high };
+            let end = if (argument(middle) < 0.0) == is_negative {
+                &mut low
+            } else {
+                &mut high
+            };
             *end = middle;
         }
     }

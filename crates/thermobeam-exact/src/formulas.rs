@@ -87,8 +87,16 @@ impl SchemeFormulas {
     /// The contact force of a step that takes u(1) from `u0` to `u`.
     pub fn contact_force(self, obstacles: &Obstacles, u: f64, u0: f64) -> f64 {
         match self {
-            Self::EulerCrankNicolson | Self::Own { has_discrete_gradient: false, .. } => contact_force(obstacles, u),
-            Self::Midpoint | Self::Own { has_discrete_gradient: true, .. } => discrete_gradient(obstacles, u, u0),
+            Self::EulerCrankNicolson
+            | Self::Own {
+                has_discrete_gradient: false,
+                ..
+            } => contact_force(obstacles, u),
+            Self::Midpoint
+            | Self::Own {
+                has_discrete_gradient: true,
+                ..
+            } => discrete_gradient(obstacles, u, u0),
         }
     }
 }

@@ -109,12 +109,20 @@ fn on_element(h: f64, [left, right]: [f64; 2]) -> f64 {
 ///
 /// * `lengths`: the n element lengths; `y`: the n + 1 nodal values.
 pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
-    lengths.iter().zip(y.windows(2)).map(|(&h, y)| on_element(h, [y[0], y[1]])).sum()
+    lengths
+        .iter()
+        .zip(y.windows(2))
+        .map(|(&h, y)| on_element(h, [y[0], y[1]]))
+        .sum()
 }
 
 /// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
 fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
-    lengths.iter().zip(y.windows(2)).map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h).sum()
+    lengths
+        .iter()
+        .zip(y.windows(2))
+        .map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h)
+        .sum()
 }
 
 /// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
@@ -123,7 +131,11 @@ fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
         let slope = (u[1] - u[0]) / h;
         on_element(h, [slope - phi[0], slope - phi[1]])
     };
-    lengths.iter().zip(u.windows(2).zip(phi.windows(2))).map(on_each).sum()
+    lengths
+        .iter()
+        .zip(u.windows(2).zip(phi.windows(2)))
+        .map(on_each)
+        .sum()
 }
 
 /// The five squares on the left-hand side of (3.14), Theorem 3.4, in its order.
@@ -143,7 +155,14 @@ pub struct TheoremSquares {
 
 impl TheoremSquares {
     /// Those of the P1 functions with these nodal values; arguments as in [`l2_squared`].
-    pub fn of(lengths: &[f64], v: &[f64], u: &[f64], w: &[f64], phi: &[f64], theta: &[f64]) -> Self {
+    pub fn of(
+        lengths: &[f64],
+        v: &[f64],
+        u: &[f64],
+        w: &[f64],
+        phi: &[f64],
+        theta: &[f64],
+    ) -> Self {
         Self {
             velocity: l2_squared(lengths, v),
             shear: shear_squared(lengths, u, phi),
@@ -169,7 +188,13 @@ mod tests {
             let mut norms = Norms::of(|norm| norm as usize as f64);
             assert_eq!(norms[norm], k as f64);
             norms[norm] = -1.0;
-            assert_eq!(norms.iter().filter(|(_, value)| *value == -1.0).collect::<Vec<_>>(), [(norm, -1.0)]);
+            assert_eq!(
+                norms
+                    .iter()
+                    .filter(|(_, value)| *value == -1.0)
+                    .collect::<Vec<_>>(),
+                [(norm, -1.0)]
+            );
         }
     }
 

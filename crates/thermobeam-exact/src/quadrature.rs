@@ -18,13 +18,24 @@ mod tests {
 
     #[test]
     fn degree_nine_is_exact_and_degree_ten_is_not() {
-        let integral = |degree: i32| RULE.iter().map(|(s, weight)| weight * s.powi(degree)).sum::<f64>();
+        let integral = |degree: i32| {
+            RULE.iter()
+                .map(|(s, weight)| weight * s.powi(degree))
+                .sum::<f64>()
+        };
         for degree in 0..10 {
             let found = integral(degree);
-            assert!((found - 1.0 / f64::from(degree + 1)).abs() < 4.0 * f64::EPSILON, "{degree}: {found}");
+            assert!(
+                (found - 1.0 / f64::from(degree + 1)).abs() < 4.0 * f64::EPSILON,
+                "{degree}: {found}"
+            );
         }
         // The rule's error on one element of length 1 is (5!)^4 / (11 (10!)^3) f^(10) = 1.4e-6 for x^10.
-        assert!((1.0 / 11.0 - integral(10) - 1.4e-6).abs() < 1e-7, "{}", integral(10));
+        assert!(
+            (1.0 / 11.0 - integral(10) - 1.4e-6).abs() < 1e-7,
+            "{}",
+            integral(10)
+        );
     }
 
     #[test]

@@ -26,7 +26,10 @@ pub struct Manufactured {
 impl Manufactured {
     /// u(1, t).
     pub fn tip(&self, t: f64) -> f64 {
-        self.u.iter().map(|product| product.x.eval(1.0) * product.t.eval(t)).sum()
+        self.u
+            .iter()
+            .map(|product| product.x.eval(1.0) * product.t.eval(t))
+            .sum()
     }
 }
 
@@ -78,7 +81,8 @@ impl FieldFactors {
             let velocity = (new.value[j] - old.value[j]) / dt;
             self.value.push(0.5 * (old.value[j] + new.value[j]));
             self.rate.push(velocity);
-            self.acceleration.push(inertia / dt * (velocity - old.rate[j]));
+            self.acceleration
+                .push(inertia / dt * (velocity - old.rate[j]));
             new.rate[j] = inertia * velocity + (1.0 - inertia) * old.rate[j];
         }
     }

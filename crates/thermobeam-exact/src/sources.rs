@@ -110,7 +110,13 @@ impl Vectors {
             }
         }
         let [tip, tip_slope, _] = product.x.derivatives(1.0);
-        Self { value, slope, curvature, tip, boundary_slope: tip_slope }
+        Self {
+            value,
+            slope,
+            curvature,
+            tip,
+            boundary_slope: tip_slope,
+        }
     }
 
     /// The integrals by quadrature, with the basis functions of one equation on elements of any degree.
@@ -137,7 +143,11 @@ impl Vectors {
     }
 
     /// The integrals of the nodal interpolant, by the scheme's own matrices: M, K and Cᵀ of (3.7).
-    fn discrete(product: &Product, [mass, stiffness, slope]: &[Tridiagonal; 3], mesh: &Mesh) -> Self {
+    fn discrete(
+        product: &Product,
+        [mass, stiffness, slope]: &[Tridiagonal; 3],
+        mesh: &Mesh,
+    ) -> Self {
         let nodal = nodal(product, mesh);
         let tip = nodal[nodal.len() - 1];
         Self {
@@ -176,15 +186,30 @@ pub struct Nodal {
 impl Nodal {
     /// Evaluates each product once at each node.
     pub fn of(exact: &Manufactured, mesh: &Mesh) -> Self {
-        let of = |products: &[Product]| products.iter().map(|product| nodal(product, mesh)).collect();
-        Self { u: of(&exact.u), phi: of(&exact.phi), theta: of(&exact.theta) }
+        let of = |products: &[Product]| {
+            products
+                .iter()
+                .map(|product| nodal(product, mesh))
+                .collect()
+        };
+        Self {
+            u: of(&exact.u),
+            phi: of(&exact.phi),
+            theta: of(&exact.theta),
+        }
     }
 
     /// The initial data (3.6); the temperature is adjusted to the solver's own θ_A.
     ///
     /// * `mesh`: the mesh of these products; `factors`: their factors at t = 0.
     /// * `exact_theta_a`: θ_A of the exact solution; `theta_a`: the solver's own.
-    pub fn initial(&self, mesh: &Mesh, factors: &Factors, exact_theta_a: f64, theta_a: f64) -> Initial {
+    pub fn initial(
+        &self,
+        mesh: &Mesh,
+        factors: &Factors,
+        exact_theta_a: f64,
+        theta_a: f64,
+    ) -> Initial {
         let sum = |products: &[Vec<f64>], factors: &[f64]| {
             let mut values = vec![0.0; mesh.nodes().len()];
             for (product, factor) in products.iter().zip(factors) {
@@ -215,15 +240,28 @@ impl Sources {
     /// The loads from the strong form (1.1) and the boundary conditions (1.3).
     pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let vectors = |product: &Product| alike(Vectors::strong(product, mesh));
-        Self::assemble(exact, beam, vectors, continuous_gram(&exact.u), mesh.elements())
+        Self::assemble(
+            exact,
+            beam,
+            vectors,
+            continuous_gram(&exact.u),
+            mesh.elements(),
+        )
     }
 
     /// The loads from the strong form (1.1) and the boundary conditions (1.3), for elements of any degree.
     pub fn any_order(exact: &Manufactured, beam: &Beam, space: &Space) -> Self {
         let vectors = |product: &Product| {
-            [Field::U, Field::Phi, Field::Theta].map(|field| Vectors::any_order(product, space, field))
+            [Field::U, Field::Phi, Field::Theta]
+                .map(|field| Vectors::any_order(product, space, field))
         };
-        Self::assemble(exact, beam, vectors, continuous_gram(&exact.u), space.mesh().elements())
+        Self::assemble(
+            exact,
+            beam,
+            vectors,
+            continuous_gram(&exact.u),
+            space.mesh().elements(),
+        )
     }
 
     /// The loads from the matrices of (3.7), applied to the nodal interpolant: the space error is then exactly zero.
@@ -234,7 +272,11 @@ impl Sources {
         let mut gram = vec![];
         for left in &nodal {
             let image = matrices[1].multiply(left);
-            gram.extend(nodal.iter().map(|right| right.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>()));
+            gram.extend(
+                nodal
+                    .iter()
+                    .map(|right| right.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>()),
+            );
         }
         Self::assemble(exact, beam, vectors, gram, mesh.elements())
     }
@@ -247,26 +289,47 @@ impl Sources {
         tip_index: usize,
     ) -> Self {
         let mut terms = vec![];
-        let mut add = |equation: usize, product: [usize; 2], weights: ([f64; 3], bool), vector: Vec<f64>| {
-            terms.push(Term { equation, product, weights, vector });
-        };
+        let mut add =
+            |equation: usize, product: [usize; 2], weights: ([f64; 3], bool), vector: Vec<f64>| {
+                terms.push(Term {
+                    equation,
+                    product,
+                    weights,
+                    vector,
+                });
+            };
         let [value, rate, inertia] =
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|weights| (weights, false));
         // T + ζ T' and (1 + N) T + ζ T'.
         let [damped, tension] = [false, true].map(|is_tension| ([1.0, beam.zeta, 0.0], is_tension));
-        let all = |products: &[Product]| products.iter().map(&vectors).collect::<Vec<[Vectors; 3]>>();
+        let all =
+            |products: &[Product]| products.iter().map(&vectors).collect::<Vec<[Vectors; 3]>>();
         let (u, phi) = (all(&exact.u), all(&exact.phi));
         let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
-        let slopes = |of: &[[Vectors; 3]]| of.iter().map(|[vectors, ..]| vectors.boundary_slope).collect();
-        let boundary = [slopes(&u), phi.iter().map(|[vectors, ..]| vectors.tip).collect(), slopes(&phi)];
-        let scaled = |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
+        let slopes = |of: &[[Vectors; 3]]| {
+            of.iter()
+                .map(|[vectors, ..]| vectors.boundary_slope)
+                .collect()
+        };
+        let boundary = [
+            slopes(&u),
+            phi.iter().map(|[vectors, ..]| vectors.tip).collect(),
+            slopes(&phi),
+        ];
+        let scaled =
+            |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
         for (j, [in_u, in_phi, _]) in u.iter().enumerate() {
             add(0, [0, j], inertia, in_u.value.clone());
             add(0, [0, j], tension, in_u.curvature.clone());
             add(1, [0, j], damped, scaled(-1.0, &in_phi.slope));
         }
         for (k, [in_u, in_phi, in_theta]) in phi.iter().enumerate() {
-            let turned = in_phi.curvature.iter().zip(&in_phi.value).map(|(c, y)| c + y).collect();
+            let turned = in_phi
+                .curvature
+                .iter()
+                .zip(&in_phi.value)
+                .map(|(c, y)| c + y)
+                .collect();
             add(1, [1, k], damped, turned);
             add(1, [1, k], inertia, in_phi.value.clone());
             add(2, [1, k], rate, scaled(beam.a, &in_theta.slope));
@@ -278,7 +341,14 @@ impl Sources {
             add(2, [2, l], value, in_theta.curvature.clone());
             add(2, [2, l], rate, in_theta.value.clone());
         }
-        Self { beam: *beam, terms, gram, tip, tip_index, boundary }
+        Self {
+            beam: *beam,
+            terms,
+            gram,
+            tip,
+            tip_index,
+            boundary,
+        }
     }
 
     /// N(u) of the exact solution with the factors T_j, (2.3).
@@ -302,7 +372,12 @@ impl Sources {
     ///
     /// * `u`: the factors of the displacement at that time.
     /// * `defect`: a mistake in one of them, for a negative control.
-    pub fn forces(&self, u: &FieldFactors, obstacles: Option<&Obstacles>, defect: Option<Defect>) -> Forces {
+    pub fn forces(
+        &self,
+        u: &FieldFactors,
+        obstacles: Option<&Obstacles>,
+        defect: Option<Defect>,
+    ) -> Forces {
         let tip = self.tip(&u.value);
         Forces {
             axial: self.axial(&u.value, defect),
@@ -324,7 +399,12 @@ impl Sources {
         let axial = match defect {
             Some(Defect::ForceAtNewLevel) => self.axial(&new.value, defect),
             Some(Defect::ForceOfMeanState) => {
-                let mean: Vec<f64> = old.value.iter().zip(&new.value).map(|(old, new)| 0.5 * (old + new)).collect();
+                let mean: Vec<f64> = old
+                    .value
+                    .iter()
+                    .zip(&new.value)
+                    .map(|(old, new)| 0.5 * (old + new))
+                    .collect();
                 self.axial(&mean, defect)
             }
             _ => 0.5 * (self.axial(&old.value, defect) + self.axial(&new.value, defect)),
@@ -344,7 +424,13 @@ impl Sources {
     /// * `forces`: N and contact force of the exact solution.
     /// * `defect`: a mistake in the loads, for a negative control; mistakes in the forces are in `forces`.
     /// * `load`: overwritten, n + 1 entries.
-    pub fn fill(&self, factors: &Factors, forces: Forces, defect: Option<Defect>, load: &mut [[f64; 3]]) {
+    pub fn fill(
+        &self,
+        factors: &Factors,
+        forces: Forces,
+        defect: Option<Defect>,
+        load: &mut [[f64; 3]],
+    ) {
         load.fill([0.0; 3]);
         for term in &self.terms {
             let mut coefficient = term.coefficient(factors, forces.axial);
@@ -370,14 +456,27 @@ impl Sources {
         let tension = |j: usize| (1.0 + n_value) * u.value[j] + zeta * u.rate[j];
         let rotation = |k: usize| phi.value[k] + zeta * phi.rate[k];
         let [u_slopes, phi_values, _] = &self.boundary;
-        let stretch: f64 = u_slopes.iter().enumerate().map(|(j, slope)| slope * tension(j)).sum();
-        stretch - phi_values.iter().enumerate().map(|(k, value)| value * rotation(k)).sum::<f64>()
+        let stretch: f64 = u_slopes
+            .iter()
+            .enumerate()
+            .map(|(j, slope)| slope * tension(j))
+            .sum();
+        stretch
+            - phi_values
+                .iter()
+                .enumerate()
+                .map(|(k, value)| value * rotation(k))
+                .sum::<f64>()
     }
 
     /// φ_x(1, t) + ζ φ_xt(1, t).
     fn tip_moment(&self, Factors { phi, .. }: &Factors) -> f64 {
         let rotation = |k: usize| phi.value[k] + self.beam.zeta * phi.rate[k];
-        self.boundary[2].iter().enumerate().map(|(k, slope)| slope * rotation(k)).sum()
+        self.boundary[2]
+            .iter()
+            .enumerate()
+            .map(|(k, slope)| slope * rotation(k))
+            .sum()
     }
 }
 
@@ -394,7 +493,10 @@ fn continuous_gram(products: &[Product]) -> Vec<f64> {
     for panel in 0..PANELS {
         for (s, weight) in RULE {
             let x = (panel as f64 + s) * h;
-            let slopes: Vec<f64> = products.iter().map(|product| product.x.derivatives(x)[1]).collect();
+            let slopes: Vec<f64> = products
+                .iter()
+                .map(|product| product.x.derivatives(x)[1])
+                .collect();
             for j in 0..n {
                 for k in 0..n {
                     gram[j * n + k] += weight * h * slopes[j] * slopes[k];
@@ -412,37 +514,60 @@ mod tests {
 
     fn product(x: &str) -> Product {
         let parse = |text, variable| Expression::parse(text, variable).unwrap();
-        Product { x: parse(x, Variable::X).into(), t: parse("1", Variable::T).into() }
+        Product {
+            x: parse(x, Variable::X).into(),
+            t: parse("1", Variable::T).into(),
+        }
     }
 
     #[test]
     fn strong_and_weak_form_give_the_same_load_to_quadrature_accuracy() {
-        for (x, elements) in [("0.3*sin(1.3*pi*x)", 16), ("0.4*x*exp(-x)", 16), ("x^2*cos(2*x)", 24)] {
+        for (x, elements) in [
+            ("0.3*sin(1.3*pi*x)", 16),
+            ("0.4*x*exp(-x)", 16),
+            ("x^2*cos(2*x)", 24),
+        ] {
             let product = product(x);
             let mesh = Mesh::mapped(elements, |s| 0.4 * s + 0.6 * s * s).unwrap();
             let mut strong = Vectors::strong(&product, &mesh).curvature;
             *strong.last_mut().unwrap() += Vectors::strong(&product, &mesh).boundary_slope;
             // (X', N_i') on each element is an exact difference of X: no quadrature, no second derivative.
             let nodes = mesh.nodes();
-            let flux: Vec<f64> =
-                nodes.windows(2).map(|e| (product.x.eval(e[1]) - product.x.eval(e[0])) / (e[1] - e[0])).collect();
+            let flux: Vec<f64> = nodes
+                .windows(2)
+                .map(|e| (product.x.eval(e[1]) - product.x.eval(e[0])) / (e[1] - e[0]))
+                .collect();
             for i in 1..nodes.len() {
                 let weak = flux[i - 1] - flux.get(i).copied().unwrap_or(0.0);
-                assert!((strong[i] - weak).abs() < 1e-12, "{x}, node {i}: {} {weak}", strong[i]);
+                assert!(
+                    (strong[i] - weak).abs() < 1e-12,
+                    "{x}, node {i}: {} {weak}",
+                    strong[i]
+                );
             }
         }
     }
 
     #[test]
     fn the_axial_force_is_that_of_the_exact_slope() {
-        let exact = Manufactured { u: vec![product("sin(pi*x)"), product("x^2")], ..Manufactured::default() };
-        let beam = Beam { beta: 0.5, rho: 2.0, ..Beam::default() };
+        let exact = Manufactured {
+            u: vec![product("sin(pi*x)"), product("x^2")],
+            ..Manufactured::default()
+        };
+        let beam = Beam {
+            beta: 0.5,
+            rho: 2.0,
+            ..Beam::default()
+        };
         let mesh = Mesh::uniform(4).unwrap();
         let sources = Sources::strong(&exact, &beam, &mesh);
         // ∫ (3 π cos πx + 2·2x)² = 9π²/2 + 24π ∫ x cos πx + 16/3, and ∫ x cos πx = -2/π².
         let pi = std::f64::consts::PI;
         let square = 4.5 * pi * pi - 48.0 / pi + 16.0 / 3.0;
-        let factors = FieldFactors { value: vec![3.0, 2.0], ..FieldFactors::default() };
+        let factors = FieldFactors {
+            value: vec![3.0, 2.0],
+            ..FieldFactors::default()
+        };
         assert!((sources.forces(&factors, None, None).axial - (0.5 + 2.0 * square)).abs() < 1e-12);
     }
 }

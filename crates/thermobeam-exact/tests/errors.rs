@@ -12,9 +12,16 @@ fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
     const PANELS: usize = 2000;
     let on_element = |(i, ends): (usize, &[f64])| {
         let h = (ends[1] - ends[0]) / PANELS as f64;
-        (0..PANELS).map(|k| f(i, ends[0] + (k as f64 + 0.5) * h).powi(2) * h).sum::<f64>()
+        (0..PANELS)
+            .map(|k| f(i, ends[0] + (k as f64 + 0.5) * h).powi(2) * h)
+            .sum::<f64>()
     };
-    mesh.nodes().windows(2).enumerate().map(on_element).sum::<f64>().sqrt()
+    mesh.nodes()
+        .windows(2)
+        .enumerate()
+        .map(on_element)
+        .sum::<f64>()
+        .sqrt()
 }
 
 #[test]
@@ -47,34 +54,59 @@ fn the_errors_agree_with_fine_quadrature() {
     let slope = |y: &[f64], i: usize| (y[i + 1] - y[i]) / (mesh.nodes()[i + 1] - mesh.nodes()[i]);
     // The k-th derivative in x, with the j-th derivative of the time factors.
     let sum = |products: &[Product], x: f64, k: usize, j: usize| -> f64 {
-        products.iter().map(|p| p.x.derivatives(x)[k] * p.t.derivatives(t)[j]).sum()
+        products
+            .iter()
+            .map(|p| p.x.derivatives(x)[k] * p.t.derivatives(t)[j])
+            .sum()
     };
     let Manufactured { u, phi, theta } = &exact;
     let parts = [
         l2_norm(&mesh, |i, x| value(&level.v, i, x) - sum(u, x, 0, 1)),
-        l2_norm(&mesh, |i, x| slope(&level.u, i) - value(&level.phi, i, x) - (sum(u, x, 1, 0) - sum(phi, x, 0, 0))),
+        l2_norm(&mesh, |i, x| {
+            slope(&level.u, i) - value(&level.phi, i, x) - (sum(u, x, 1, 0) - sum(phi, x, 0, 0))
+        }),
         l2_norm(&mesh, |i, x| value(&level.w, i, x) - sum(phi, x, 0, 1)),
         l2_norm(&mesh, |i, x| slope(&level.phi, i) - sum(phi, x, 1, 0)),
-        l2_norm(&mesh, |i, x| value(&level.theta, i, x) + theta_a * (1.0 - x) - sum(theta, x, 0, 0)),
+        l2_norm(&mesh, |i, x| {
+            value(&level.theta, i, x) + theta_a * (1.0 - x) - sum(theta, x, 0, 0)
+        }),
     ];
     let norm = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
     let displacement = l2_norm(&mesh, |i, x| value(&level.u, i, x) - sum(u, x, 0, 0));
     let mut meter = ErrorMeter::new(&exact, &mesh, false);
     meter.lift(&mesh, theta_a);
     let found = meter.measure(&level, &factors);
-    for (norm, expected) in Norm::ALL.into_iter().zip(parts.into_iter().chain([norm, displacement])) {
-        assert!((found[norm] / expected - 1.0).abs() < 2e-6, "{norm:?}: {} {expected}", found[norm]);
+    for (norm, expected) in Norm::ALL
+        .into_iter()
+        .zip(parts.into_iter().chain([norm, displacement]))
+    {
+        assert!(
+            (found[norm] / expected - 1.0).abs() < 2e-6,
+            "{norm:?}: {} {expected}",
+            found[norm]
+        );
     }
     // Only nodal values enter the errors against the interpolant.
     let mut nodal = ErrorMeter::new(&exact, &mesh, true);
     nodal.lift(&mesh, theta_a);
-    assert!((nodal.measure(&level, &factors)[Norm::Theorem34] / found[Norm::Superclose] - 1.0).abs() < 1e-14);
+    assert!(
+        (nodal.measure(&level, &factors)[Norm::Theorem34] / found[Norm::Superclose] - 1.0).abs()
+            < 1e-14
+    );
 }
 
 #[test]
 fn norm_names_are_those_of_the_study_files() {
     let names = Norm::ALL.map(Norm::name);
-    let expected =
-        ["velocity", "shear", "rotation-rate", "curvature", "temperature", "theorem-3.4", "displacement", "superclose"];
+    let expected = [
+        "velocity",
+        "shear",
+        "rotation-rate",
+        "curvature",
+        "temperature",
+        "theorem-3.4",
+        "displacement",
+        "superclose",
+    ];
     assert_eq!(names, expected);
 }

@@ -24,7 +24,9 @@ fn function(text: &str) -> Expression {
 
 #[track_caller]
 fn rejection(text: &str) -> String {
-    Expression::parse(text, Variable::X).expect_err(text).to_string()
+    Expression::parse(text, Variable::X)
+        .expect_err(text)
+        .to_string()
 }
 
 #[test]
@@ -79,7 +81,10 @@ fn expressions_follow_mathematical_precedence() {
         (" sin ( x )\n\t+ 1 ", x.sin() + 1.0),
     ] {
         let found = function(text).eval(x);
-        assert!((found - value).abs() <= 2.0 * f64::EPSILON * value.abs(), "{text}: {found} instead of {value}");
+        assert!(
+            (found - value).abs() <= 2.0 * f64::EPSILON * value.abs(),
+            "{text}: {found} instead of {value}"
+        );
     }
 }
 
@@ -88,7 +93,11 @@ fn each_variable_is_known_by_its_own_name_only() {
     for (variable, name) in [(Variable::X, "x"), (Variable::T, "t"), (Variable::S, "s")] {
         for other in ["x", "t", "s"] {
             let read = Expression::parse(other, variable);
-            assert_eq!(read.is_ok(), other == name, "{other} as a function of {name}");
+            assert_eq!(
+                read.is_ok(),
+                other == name,
+                "{other} as a function of {name}"
+            );
         }
     }
 }
@@ -142,12 +151,20 @@ fn derivatives_agree_with_finite_differences() {
             // The errors of the central differences are h²/6 and h²/12 times the next derivatives.
             let h = 1e-4;
             let (minus, middle, plus) = (f.eval(x - h), f.eval(x), f.eval(x + h));
-            let expected = [middle, (plus - minus) / (2.0 * h), (plus - 2.0 * middle + minus) / (h * h)];
+            let expected = [
+                middle,
+                (plus - minus) / (2.0 * h),
+                (plus - 2.0 * middle + minus) / (h * h),
+            ];
             let scale = expected.iter().fold(1.0, |a: f64, b| a.max(b.abs()));
             for (order, slack) in [4.0 * f64::EPSILON, 1e-5, 1e-5].into_iter().enumerate() {
                 let found = f.derivatives(x)[order];
                 let error = (found - expected[order]).abs();
-                assert!(error <= slack * scale, "{text}, x = {x}, order {order}: {found} and {}", expected[order]);
+                assert!(
+                    error <= slack * scale,
+                    "{text}, x = {x}, order {order}: {found} and {}",
+                    expected[order]
+                );
             }
         }
     }
@@ -161,7 +178,12 @@ fn steep_functions_keep_finite_derivatives() {
 
 #[test]
 fn minimum_and_maximum_keep_nan() {
-    for text in ["min(ln(-1), x)", "min(x, ln(-1))", "max(ln(-1), x)", "max(x, ln(-1))"] {
+    for text in [
+        "min(ln(-1), x)",
+        "min(x, ln(-1))",
+        "max(ln(-1), x)",
+        "max(x, ln(-1))",
+    ] {
         assert!(function(text).eval(0.5).is_nan(), "{text}");
     }
 }
@@ -169,7 +191,14 @@ fn minimum_and_maximum_keep_nan() {
 #[test]
 fn a_syntax_error_gives_its_position_and_the_expected_input() {
     for (text, offset, pieces) in [
-        ("", 0, &["expected a number, x, pi, e, a function or `(`", "found an empty text"][..]),
+        (
+            "",
+            0,
+            &[
+                "expected a number, x, pi, e, a function or `(`",
+                "found an empty text",
+            ][..],
+        ),
         ("  ", 2, &["an empty text"]),
         ("x +", 3, &["expected a number", "found the end"]),
         ("x $ 2", 2, &["operators + - * / ^", "found `$`"]),
@@ -183,7 +212,14 @@ fn a_syntax_error_gives_its_position_and_the_expected_input() {
         ("π*x", 0, &["found `π`", "write pi"]),
         ("2×x", 1, &["found `×`", "a product is written *"]),
         ("2·x", 1, &["found `·`", "a product is written *"]),
-        ("(x", 2, &["an operator or `)` for the bracket at byte 0", "found the end"]),
+        (
+            "(x",
+            2,
+            &[
+                "an operator or `)` for the bracket at byte 0",
+                "found the end",
+            ],
+        ),
         ("sin(x", 5, &["for the bracket at byte 3", "found the end"]),
         ("sin(x]", 5, &["for the bracket at byte 3", "found `]`"]),
         ("x)", 1, &["no bracket is open", "found `)`"]),
@@ -195,7 +231,14 @@ fn a_syntax_error_gives_its_position_and_the_expected_input() {
         ("1+max(x)", 2, &["`max`: expected 2 argument(s), found 1"]),
         ("min(1,2,3)", 0, &["`min`: expected 2 argument(s), found 3"]),
         ("x(2)", 1, &["found `(`"]),
-        ("1 + sine(x)", 4, &["unknown name `sine`, did you mean `sin`?", "expected one of x pi e sin cos"]),
+        (
+            "1 + sine(x)",
+            4,
+            &[
+                "unknown name `sine`, did you mean `sin`?",
+                "expected one of x pi e sin cos",
+            ],
+        ),
         ("Sqrt(x)", 0, &["unknown name `Sqrt`, did you mean `sqrt`?"]),
         ("x*t", 2, &["unknown name `t`; expected one of x pi e"]),
         ("1e400", 0, &["at most 1.797", "found 1e400"]),
@@ -208,8 +251,18 @@ fn a_syntax_error_gives_its_position_and_the_expected_input() {
 
 #[test]
 fn the_hint_about_a_missing_product_sign_appears_only_between_two_operands() {
-    for (text, has_hint) in [("2x", true), ("x $ 2", false), ("sin x", false), ("x)", false), ("x 1", true)] {
-        assert_eq!(rejection(text).contains("a product needs its *"), has_hint, "{text}");
+    for (text, has_hint) in [
+        ("2x", true),
+        ("x $ 2", false),
+        ("sin x", false),
+        ("x)", false),
+        ("x 1", true),
+    ] {
+        assert_eq!(
+            rejection(text).contains("a product needs its *"),
+            has_hint,
+            "{text}"
+        );
     }
 }
 
@@ -220,15 +273,27 @@ fn the_absolute_value_has_the_slope_of_its_right_side_at_zero() {
 
 #[test]
 fn the_caret_points_at_the_error() {
-    assert_eq!(rejection("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'), Some(4));
+    assert_eq!(
+        rejection("ä + 2x").lines().skip(1).collect::<Vec<_>>()[1].find('^'),
+        Some(4)
+    );
     let long = format!("{}2x{}", "x+".repeat(200), "+x".repeat(200));
     let lines: Vec<String> = rejection(&long).lines().map(str::to_owned).collect();
     assert_eq!(lines.len(), 3);
-    assert!(lines[1].starts_with("    ...") && lines[1].ends_with("..."), "{lines:?}");
+    assert!(
+        lines[1].starts_with("    ...") && lines[1].ends_with("..."),
+        "{lines:?}"
+    );
     assert_eq!(rejection("ä + 2x").lines().nth(1), Some("    ä + 2x"));
-    assert!(lines.iter().all(|line| line.chars().count() < 120), "{lines:?}");
+    assert!(
+        lines.iter().all(|line| line.chars().count() < 120),
+        "{lines:?}"
+    );
     let column = lines[2].find('^').expect("a caret");
-    assert!(lines[1][..column].ends_with("+2") && lines[1][column..].starts_with("x+x"), "{lines:?}");
+    assert!(
+        lines[1][..column].ends_with("+2") && lines[1][column..].starts_with("x+x"),
+        "{lines:?}"
+    );
 }
 
 #[test]
@@ -242,35 +307,61 @@ fn deep_nesting_is_rejected_without_stack_overflow() {
         format!("x{}", "^x".repeat(many)),
         "(".repeat(many),
     ] {
-        contains_in_order(&rejection(&text), &["expected at most 256 nested operations"]);
+        contains_in_order(
+            &rejection(&text),
+            &["expected at most 256 nested operations"],
+        );
     }
     // A wide tree is not deep.
     let block = format!("(x{})", "+x".repeat(200));
     let sum = function(&format!("{block}{}", format!("+{block}").repeat(40)));
     assert_eq!(sum.eval(1.0), 201.0 * 41.0);
-    assert_eq!(function(&format!("0{}", "+1".repeat(10_000))).eval(0.0), 10_000.0);
+    assert_eq!(
+        function(&format!("0{}", "+1".repeat(10_000))).eval(0.0),
+        10_000.0
+    );
 }
 
 #[test]
 fn a_value_that_is_not_finite_is_rejected_with_its_position() {
     for (text, order, pieces) in [
-        ("1/x", 0, &["the value is inf at x = 0;", "finite value on all of [0, 1]"][..]),
+        (
+            "1/x",
+            0,
+            &[
+                "the value is inf at x = 0;",
+                "finite value on all of [0, 1]",
+            ][..],
+        ),
         ("ln(x)", 0, &["the value is -inf at x = 0"]),
-        ("1/(3*x-1)", 0, &["the value is ", " at x = 0.3333333333333333"]),
+        (
+            "1/(3*x-1)",
+            0,
+            &["the value is ", " at x = 0.3333333333333333"],
+        ),
         ("sqrt(x-0.1)", 0, &["the value is NaN at x = 0;"]),
         ("exp(1000*x)", 0, &["the value is inf at x = 0.7"]),
         ("sqrt(x)", 1, &["the first derivative is inf at x = 0"]),
         ("x^1.5", 2, &["the second derivative is inf at x = 0"]),
         ("1/0", 0, &["the value is inf at x = 0"]),
     ] {
-        contains_in_order(&function(text).check_finite(1.0, order).expect_err(text).to_string(), pieces);
+        contains_in_order(
+            &function(text)
+                .check_finite(1.0, order)
+                .expect_err(text)
+                .to_string(),
+            pieces,
+        );
     }
     assert_eq!(function("sqrt(x)").check_finite(1.0, 0), Ok(()));
     assert_eq!(function("x^1.5").check_finite(1.0, 1), Ok(()));
     assert_eq!(function("x^3").check_finite(1.0, 2), Ok(()));
     let late = Expression::parse("1/(2-t)", Variable::T).expect("a function");
     assert_eq!(late.check_finite(1.0, 2), Ok(()));
-    contains_in_order(&late.check_finite(4.0, 0).expect_err("a pole").to_string(), &["at t = 2", "[0, 4]"]);
+    contains_in_order(
+        &late.check_finite(4.0, 0).expect_err("a pole").to_string(),
+        &["at t = 2", "[0, 4]"],
+    );
 }
 
 #[test]
@@ -284,7 +375,11 @@ fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
     // max (|f| + |x f'|): for x² it is 3x² at the end, for 1 + x/2 it is 1 + x.
     for (text, size) in [("x^2", 12.0), ("-x^2", 12.0), ("1 + x/2", 3.0), ("7", 7.0)] {
         let function = function(text);
-        assert_eq!((function.size(2.0), function.roundoff(2.0)), (size, 8.0 * f64::EPSILON * size), "{text}");
+        assert_eq!(
+            (function.size(2.0), function.roundoff(2.0)),
+            (size, 8.0 * f64::EPSILON * size),
+            "{text}"
+        );
     }
     // The slope of the root is infinite at 0 and is omitted.
     assert!((function("sqrt(x)").size(4.0) - 3.0).abs() < 1e-12);
@@ -292,8 +387,12 @@ fn the_rounding_bound_of_a_function_includes_the_error_of_its_argument() {
 
 /// Texts that are often nearly valid.
 fn nearly_valid() -> impl Strategy<Value = String> {
-    let pieces = ["x", "pi", "e", "1", "1e-3", ".", "sin", "max", "(", ")", ",", "+", "-", "*", "/", "^", " ", "ä"];
-    prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..40).prop_map(|pieces| pieces.concat())
+    let pieces = [
+        "x", "pi", "e", "1", "1e-3", ".", "sin", "max", "(", ")", ",", "+", "-", "*", "/", "^",
+        " ", "ä",
+    ];
+    prop::collection::vec(prop::sample::select(pieces.to_vec()), 0..40)
+        .prop_map(|pieces| pieces.concat())
 }
 
 /// Parses a text, and evaluates the expression or checks the error.
@@ -304,7 +403,11 @@ fn parse_and_use(text: &str) {
             let _ = (f.eval(0.5), f.derivatives(0.5));
         }
         Err(error) => {
-            assert!(text.is_char_boundary(error.offset), "{text:?}: byte {}", error.offset);
+            assert!(
+                text.is_char_boundary(error.offset),
+                "{text:?}: byte {}",
+                error.offset
+            );
             assert_eq!(error.to_string().lines().count(), 3, "{error}");
         }
     }
@@ -343,15 +446,35 @@ fn kinks_are_where_the_branch_changes() {
         ("0.3*min(x,1-x)", &[0.5]),
         ("1 + -2*abs(x-0.25)^3/exp(x)", &[0.25]),
         ("min(1, max(0, 1e5*(x-0.6)))", &[0.6, 0.60001]),
-        ("abs(sin(4*pi*x+1))", &[0.170_422_528_45, 0.420_422_528_45, 0.670_422_528_45, 0.920_422_528_45]),
+        (
+            "abs(sin(4*pi*x+1))",
+            &[
+                0.170_422_528_45,
+                0.420_422_528_45,
+                0.670_422_528_45,
+                0.920_422_528_45,
+            ],
+        ),
         // Hats: of the narrowest width that samples see, and one that is seen because its middle is.
         ("max(0, 1 - abs(x-0.6137)/1e-4)", &[0.6136, 0.6137, 0.6138]),
-        ("max(0, 1 - abs(x-0.6137)/1e-7)", &[0.613_699_9, 0.6137, 0.613_700_1]),
-        ("max(0, exp(-((x-0.61375)/1e-4)^2) - 0.5)", &[0.613_666_744_54, 0.613_833_255_46]),
+        (
+            "max(0, 1 - abs(x-0.6137)/1e-7)",
+            &[0.613_699_9, 0.6137, 0.613_700_1],
+        ),
+        (
+            "max(0, exp(-((x-0.61375)/1e-4)^2) - 0.5)",
+            &[0.613_666_744_54, 0.613_833_255_46],
+        ),
     ] {
         let kinks = function(text).kinks();
-        let is_found = kinks.iter().zip(expected).all(|(kink, expected)| (kink - expected).abs() < 1e-10);
-        assert!(kinks.len() == expected.len() && is_found, "{text}: {kinks:?}, not {expected:?}");
+        let is_found = kinks
+            .iter()
+            .zip(expected)
+            .all(|(kink, expected)| (kink - expected).abs() < 1e-10);
+        assert!(
+            kinks.len() == expected.len() && is_found,
+            "{text}: {kinks:?}, not {expected:?}"
+        );
     }
     // The point itself, not one of its neighbours.
     assert_eq!(function("max(0,x-0.37)").kinks(), [0.37]);

@@ -19,8 +19,12 @@ const ALLOWED: [&str; 10] = [
 ];
 
 /// The files of the studies that evaluate exact solutions by a scheme, or errors against a reference.
-const STUDIES: [&str; 4] =
-    ["kinds/convergence/design.rs", "run/family.rs", "kinds/vibration/modes.rs", "error/reference.rs"];
+const STUDIES: [&str; 4] = [
+    "kinds/convergence/design.rs",
+    "run/family.rs",
+    "kinds/vibration/modes.rs",
+    "error/reference.rs",
+];
 
 /// Files of the solver whose methods of `Beam` and `Obstacles` are the formulas that are judged.
 const FORMULAS: [&str; 2] = ["kirchhoff.rs", "contact.rs"];
@@ -31,15 +35,27 @@ fn folder(below: &str) -> PathBuf {
 
 /// All sources of this crate.
 fn sources(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| {
+            if path.is_dir() {
+                sources(&path)
+            } else {
+                vec![path]
+            }
+        })
+        .collect()
 }
 
 /// The code of a source without comments and tests.
 fn code(path: &Path) -> String {
     let text = fs::read_to_string(path).unwrap();
     let text = text.split("\n#[cfg(test)]").next().unwrap();
-    text.lines().map(|line| line.split("//").next().unwrap().to_owned() + "\n").collect()
+    text.lines()
+        .map(|line| line.split("//").next().unwrap().to_owned() + "\n")
+        .collect()
 }
 
 fn is_of_name(c: char) -> bool {
@@ -58,10 +74,15 @@ fn paths(code: &str) -> Vec<String> {
             found.push("itself".to_owned());
             continue;
         };
-        let end = path.find(|c| !(is_of_name(c) || c == ':' || c == '*')).unwrap_or(path.len());
+        let end = path
+            .find(|c| !(is_of_name(c) || c == ':' || c == '*'))
+            .unwrap_or(path.len());
         let (module, list) = path.split_at(end);
         match list.strip_prefix('{').and_then(|list| list.split_once('}')) {
-            Some((list, _)) => found.extend(list.split(',').map(|item| format!("{module}{}", item.trim()))),
+            Some((list, _)) => found.extend(
+                list.split(',')
+                    .map(|item| format!("{module}{}", item.trim())),
+            ),
             None => found.push(module.to_owned()),
         }
     }
@@ -74,7 +95,11 @@ fn methods() -> Vec<String> {
     let mut names = vec![];
     for file in FORMULAS {
         let code = code(&folder("../thermobeam/src").join(file));
-        for method in code.split("pub fn ").skip(1).filter(|after| after.contains("(&self")) {
+        for method in code
+            .split("pub fn ")
+            .skip(1)
+            .filter(|after| after.contains("(&self"))
+        {
             names.extend(method.split('(').next().map(str::to_owned));
         }
     }
@@ -83,14 +108,24 @@ fn methods() -> Vec<String> {
 
 /// The formulas of the solver that a code uses: its methods, rows of schemes, norms of P1 functions.
 fn uses_of_formulas(code: &str) -> Vec<String> {
-    let mut found: Vec<String> = methods().into_iter().filter(|name| code.contains(&format!(".{name}("))).collect();
+    let mut found: Vec<String> = methods()
+        .into_iter()
+        .filter(|name| code.contains(&format!(".{name}(")))
+        .collect();
     let fields = [".inertia", ".contact"].into_iter().filter(|field| {
-        let ends = code.match_indices(field).map(|(at, _)| &code[at + field.len()..]);
-        ends.into_iter().any(|rest| !rest.starts_with(is_of_name) && !rest.starts_with('('))
+        let ends = code
+            .match_indices(field)
+            .map(|(at, _)| &code[at + field.len()..]);
+        ends.into_iter()
+            .any(|rest| !rest.starts_with(is_of_name) && !rest.starts_with('('))
     });
     found.extend(fields.map(str::to_owned));
-    found
-        .extend(["ContactRule", "thermobeam::norms"].into_iter().filter(|text| code.contains(text)).map(str::to_owned));
+    found.extend(
+        ["ContactRule", "thermobeam::norms"]
+            .into_iter()
+            .filter(|text| code.contains(text))
+            .map(str::to_owned),
+    );
     found
 }
 
@@ -110,13 +145,18 @@ fn this_crate_uses_only_data_types_the_basis_and_the_matrices_of_the_solver() {
                 None => refused.push(format!("{}: thermobeam::{of_solver}", path.display())),
             }
         }
-        let calls = methods().into_iter().filter(|name| code.contains(&format!(".{name}(")));
+        let calls = methods()
+            .into_iter()
+            .filter(|name| code.contains(&format!(".{name}(")));
         refused.extend(calls.map(|name| format!("{}: .{name}()", path.display())));
     }
     assert!(refused.is_empty(), "{}", refused.join("\n"));
     used.sort_unstable();
     used.dedup();
-    assert_eq!(used, ALLOWED, "each is used; otherwise it need not be allowed");
+    assert_eq!(
+        used, ALLOWED,
+        "each is used; otherwise it need not be allowed"
+    );
 }
 
 #[test]
@@ -130,25 +170,47 @@ fn studies_use_no_formula_of_the_solver_where_they_evaluate_exact_solutions() {
 #[test]
 fn a_use_of_the_solver_is_seen() {
     for (code, expected) in [
-        ("use thermobeam::norms::{TheoremSquares, l2_squared};", "norms::TheoremSquares norms::l2_squared"),
-        ("use thermobeam::dg::{Field,\n    Space};\nuse thermobeam_exact::norm::Norm;", "dg::Field dg::Space"),
-        ("fn f() { thermobeam::kirchhoff::BUCKLING }", "kirchhoff::BUCKLING"),
+        (
+            "use thermobeam::norms::{TheoremSquares, l2_squared};",
+            "norms::TheoremSquares norms::l2_squared",
+        ),
+        (
+            "use thermobeam::dg::{Field,\n    Space};\nuse thermobeam_exact::norm::Norm;",
+            "dg::Field dg::Space",
+        ),
+        (
+            "fn f() { thermobeam::kirchhoff::BUCKLING }",
+            "kirchhoff::BUCKLING",
+        ),
         ("use thermobeam::scheme::*;", "scheme::*"),
         ("use thermobeam as solver;", "itself"),
     ] {
         assert_eq!(paths(code).join(" "), expected, "{code}");
     }
     let all = methods();
-    for name in ["axial_force", "kirchhoff_energy", "force", "potential", "discrete_gradient", "solve_tip"] {
+    for name in [
+        "axial_force",
+        "kirchhoff_energy",
+        "force",
+        "potential",
+        "discrete_gradient",
+        "solve_tip",
+    ] {
         assert!(all.iter().any(|known| known == name), "{name} in {all:?}");
     }
     for (code, expected) in [
         ("obstacles.force(tip)", "force"),
-        ("self.obstacles\n    .discrete_gradient(u, u0)", "discrete_gradient"),
+        (
+            "self.obstacles\n    .discrete_gradient(u, u0)",
+            "discrete_gradient",
+        ),
         ("scheme.inertia / dt", ".inertia"),
         ("match refine.scheme.contact {", ".contact"),
         ("ContactRule::Implicit => 0.0", "ContactRule"),
-        ("scheme.inertia() / dt + contact(study, key) + sources.forces(u)", ""),
+        (
+            "scheme.inertia() / dt + contact(study, key) + sources.forces(u)",
+            "",
+        ),
     ] {
         assert_eq!(uses_of_formulas(code).join(" "), expected, "{code}");
     }

@@ -56,28 +56,44 @@ struct Function {
 impl Function {
     fn random(random: &mut Random, polynomial: [f64; 4]) -> Self {
         let wave = [random.between(0.5, 7.0), random.between(0.0, 2.0 * PI)];
-        Self { polynomial, wave, growth: random.between(-1.5, 1.5) }
+        Self {
+            polynomial,
+            wave,
+            growth: random.between(-1.5, 1.5),
+        }
     }
 
     fn text(&self, s: &str) -> String {
         let ([c0, c1, c2, c3], [k, d], m) = (self.polynomial, self.wave, self.growth);
-        format!("(({c0}) + ({c1})*{s} + ({c2})*{s}^2 + ({c3})*{s}^3)*sin({k}*{s} + {d})*exp(({m})*{s})")
+        format!(
+            "(({c0}) + ({c1})*{s} + ({c2})*{s}^2 + ({c3})*{s}^3)*sin({k}*{s} + {d})*exp(({m})*{s})"
+        )
     }
 
     /// Value, first and second derivative, in closed form.
     fn derivatives(&self, s: f64) -> [f64; 3] {
         let ([c0, c1, c2, c3], [k, d], m) = (self.polynomial, self.wave, self.growth);
-        let polynomial =
-            [c0 + s * (c1 + s * (c2 + s * c3)), c1 + s * (2.0 * c2 + 3.0 * s * c3), 2.0 * c2 + 6.0 * s * c3];
+        let polynomial = [
+            c0 + s * (c1 + s * (c2 + s * c3)),
+            c1 + s * (2.0 * c2 + 3.0 * s * c3),
+            2.0 * c2 + 6.0 * s * c3,
+        ];
         let (sin, cos) = (k * s + d).sin_cos();
         let e = (m * s).exp();
-        product(product(polynomial, [sin, k * cos, -k * k * sin]), [e, m * e, m * m * e])
+        product(
+            product(polynomial, [sin, k * cos, -k * k * sin]),
+            [e, m * e, m * m * e],
+        )
     }
 }
 
 /// Value, first and second derivative of a product.
 fn product(f: [f64; 3], g: [f64; 3]) -> [f64; 3] {
-    [f[0] * g[0], f[1] * g[0] + f[0] * g[1], f[2] * g[0] + 2.0 * f[1] * g[1] + f[0] * g[2]]
+    [
+        f[0] * g[0],
+        f[1] * g[0] + f[0] * g[1],
+        f[2] * g[0] + 2.0 * f[1] * g[1] + f[0] * g[2],
+    ]
 }
 
 /// A product X(x) T(t) at the time of its case.
@@ -92,10 +108,19 @@ impl Term {
     /// A product that meets the boundary conditions: zero at x = 0 for u and φ, at x = 1 for θ.
     fn random(random: &mut Random, is_heat: bool, t: f64) -> Self {
         let [b0, b1, b2] = [(); 3].map(|()| random.between(-1.0, 1.0));
-        let polynomial = if is_heat { [b0, b1 - b0, b2 - b1, -b2] } else { [0.0, b0, b1, b2] };
+        let polynomial = if is_heat {
+            [b0, b1 - b0, b2 - b1, -b2]
+        } else {
+            [0.0, b0, b1, b2]
+        };
         let of_time = [(); 4].map(|()| random.between(-1.0, 1.0));
-        let [x, of_time] = [polynomial, of_time].map(|polynomial| Function::random(random, polynomial));
-        Self { x, factors: of_time.derivatives(t), t: of_time }
+        let [x, of_time] =
+            [polynomial, of_time].map(|polynomial| Function::random(random, polynomial));
+        Self {
+            x,
+            factors: of_time.derivatives(t),
+            t: of_time,
+        }
     }
 }
 
@@ -120,7 +145,11 @@ impl Case {
             theta_a: 0.0,
         };
         let epsilon = 10f64.powf(random.between(-3.0, 0.0));
-        let obstacles = Obstacles { epsilon, g1: random.between(-0.4, 0.0), g2: random.between(0.0, 0.4) };
+        let obstacles = Obstacles {
+            epsilon,
+            g1: random.between(-0.4, 0.0),
+            g2: random.between(0.0, 0.4),
+        };
         let mut nodes = vec![0.0];
         for _ in 0..random.count(32, 48) {
             nodes.push(nodes[nodes.len() - 1] + random.between(0.5, 1.5));
@@ -130,9 +159,17 @@ impl Case {
         let t = random.between(0.0, 1.0);
         let fields = [false, false, true].map(|is_heat| {
             let count = random.count(1, 2);
-            (0..count).map(|_| Term::random(random, is_heat, t)).collect()
+            (0..count)
+                .map(|_| Term::random(random, is_heat, t))
+                .collect()
         });
-        Self { beam, obstacles, nodes, t, fields }
+        Self {
+            beam,
+            obstacles,
+            nodes,
+            t,
+            fields,
+        }
     }
 
     fn exact(&self) -> Manufactured {
@@ -168,7 +205,8 @@ impl Case {
         for ends in self.nodes.windows(2) {
             let half = 0.5 * (ends[1] - ends[0]);
             for (xi, weight) in points {
-                square += half * weight * self.at(0, ends[0] + half * (1.0 + xi), shape)[0][1].powi(2);
+                square +=
+                    half * weight * self.at(0, ends[0] + half * (1.0 + xi), shape)[0][1].powi(2);
             }
         }
         let Obstacles { epsilon, g1, g2 } = self.obstacles;
@@ -182,7 +220,13 @@ impl Case {
     /// The weak form for every basis function of degree p; NaN where no function belongs.
     ///
     /// * `place`: row and equation of basis function m of an element, in a list of `rows` rows.
-    fn weak_form(&self, degree: usize, shape: Shape<'_>, rows: usize, place: Place<'_>) -> (Vec<[f64; 3]>, Forces) {
+    fn weak_form(
+        &self,
+        degree: usize,
+        shape: Shape<'_>,
+        rows: usize,
+        place: Place<'_>,
+    ) -> (Vec<[f64; 3]>, Forces) {
         let Beam { zeta, a, .. } = self.beam;
         let (points, last) = (gauss(degree + 9), self.nodes.len() - 2);
         let forces = self.forces(&points, shape);
@@ -191,7 +235,11 @@ impl Case {
             let vanishes = element == 0 && m == 0 || equation == 2 && element == last && m == 1;
             if !vanishes {
                 let entry = &mut loads[place(equation, element, m)][equation];
-                *entry = if entry.is_nan() { value } else { *entry + value };
+                *entry = if entry.is_nan() {
+                    value
+                } else {
+                    *entry + value
+                };
             }
         };
         let bases: Vec<_> = points.iter().map(|(xi, _)| basis(degree, *xi)).collect();
@@ -206,7 +254,12 @@ impl Case {
                 for (m, [y, y_xi]) in basis.iter().enumerate() {
                     let (y, y_x) = (half * weight * y, weight * y_xi);
                     add(0, element, m, u_tt * y + (forces.axial * u_x + shear) * y_x);
-                    add(1, element, m, phi_tt * y + (phi_x + zeta * phi_xt) * y_x - shear * y - a * theta * y_x);
+                    add(
+                        1,
+                        element,
+                        m,
+                        phi_tt * y + (phi_x + zeta * phi_xt) * y_x - shear * y - a * theta * y_x,
+                    );
                     add(2, element, m, theta_t * y + theta_x * y_x + a * phi_xt * y);
                 }
             }
@@ -227,7 +280,10 @@ fn legendre(n: usize, xi: f64) -> Vec<[f64; 2]> {
     let mut p = vec![[1.0, 0.0], [xi, 1.0]];
     for k in 1..n {
         let (j, [[before, slope_before], [value, _]]) = (k as f64, [p[k - 1], p[k]]);
-        p.push([((2.0 * j + 1.0) * xi * value - j * before) / (j + 1.0), slope_before + (2.0 * j + 1.0) * value]);
+        p.push([
+            ((2.0 * j + 1.0) * xi * value - j * before) / (j + 1.0),
+            slope_before + (2.0 * j + 1.0) * value,
+        ]);
     }
     p
 }
@@ -251,24 +307,42 @@ fn basis(degree: usize, xi: f64) -> Vec<[f64; 2]> {
     let mut all = vec![[0.5 * (1.0 - xi), -0.5], [0.5 * (1.0 + xi), 0.5]];
     for m in 2..=degree {
         let root = (2.0 * (2 * m - 1) as f64).sqrt();
-        all.push([(p[m][0] - p[m - 2][0]) / root, (p[m][1] - p[m - 2][1]) / root]);
+        all.push([
+            (p[m][0] - p[m - 2][0]) / root,
+            (p[m][1] - p[m - 2][1]) / root,
+        ]);
     }
     all
 }
 
 /// Compares the loads and forces of the library with those of the weak form.
-fn compare(case: &Case, sources: &Sources, (expected, forces): (Vec<[f64; 3]>, Forces), count: usize, what: &str) {
+fn compare(
+    case: &Case,
+    sources: &Sources,
+    (expected, forces): (Vec<[f64; 3]>, Forces),
+    count: usize,
+    what: &str,
+) {
     let mut factors = Factors::default();
     factors.at(&case.exact(), case.t);
     let own = sources.forces(&factors.u, Some(&case.obstacles), None);
     let near = |found: f64, expected: f64, size: f64| (found - expected).abs() <= AGREEMENT * size;
-    assert!(near(own.axial, forces.axial, 1.0 + forces.axial.abs()), "{what}: {own:?}, not {forces:?}");
-    assert!(near(own.contact, forces.contact, 1.0 + forces.contact.abs()), "{what}: {own:?}, not {forces:?}");
+    assert!(
+        near(own.axial, forces.axial, 1.0 + forces.axial.abs()),
+        "{what}: {own:?}, not {forces:?}"
+    );
+    assert!(
+        near(own.contact, forces.contact, 1.0 + forces.contact.abs()),
+        "{what}: {own:?}, not {forces:?}"
+    );
     let mut load = vec![[f64::NAN; 3]; expected.len()];
     sources.fill(&factors, own, None, &mut load);
     let mut compared = 0;
     for equation in 0..3 {
-        let largest = expected.iter().map(|row| row[equation].abs()).fold(0.0, f64::max);
+        let largest = expected
+            .iter()
+            .map(|row| row[equation].abs())
+            .fold(0.0, f64::max);
         for (row, (found, expected)) in load.iter().zip(&expected).enumerate() {
             let (found, expected) = (found[equation], expected[equation]);
             if !expected.is_nan() {
@@ -285,8 +359,17 @@ fn compare(case: &Case, sources: &Sources, (expected, forces): (Vec<[f64; 3]>, F
 
 /// The space of the solver of any order.
 fn space(mesh: Mesh, degree: usize) -> Space {
-    let problem = Problem { beam: Beam::default(), obstacles: None, mesh, degree, initial: Initial::at_rest(0.0) };
-    Simulation::new(problem, Stepping::default()).unwrap().space().clone()
+    let problem = Problem {
+        beam: Beam::default(),
+        obstacles: None,
+        mesh,
+        degree,
+        initial: Initial::at_rest(0.0),
+    };
+    Simulation::new(problem, Stepping::default())
+        .unwrap()
+        .space()
+        .clone()
 }
 
 #[test]
@@ -302,27 +385,52 @@ fn loads_are_those_of_the_weak_form_for_random_solutions_coefficients_and_meshes
         };
         let interpolant = |of_x: &Function, x: f64| {
             let i = case.nodes.partition_point(|node| *node <= x).clamp(1, n) - 1;
-            let (left, h) = (of_x.derivatives(case.nodes[i])[0], case.nodes[i + 1] - case.nodes[i]);
+            let (left, h) = (
+                of_x.derivatives(case.nodes[i])[0],
+                case.nodes[i + 1] - case.nodes[i],
+            );
             let slope = (of_x.derivatives(case.nodes[i + 1])[0] - left) / h;
             [left + slope * (x - case.nodes[i]), slope]
         };
         let node = |_: usize, element: usize, m: usize| element + m;
         let hats = case.weak_form(1, &itself, n + 1, &node);
         phases[usize::from(hats.1.contact > 0.0) + 2 * usize::from(hats.1.contact < 0.0)] += 1;
-        compare(&case, &Sources::strong(&exact, &case.beam, &mesh), hats, 3 * n - 1, &format!("case {seed}, P1"));
+        compare(
+            &case,
+            &Sources::strong(&exact, &case.beam, &mesh),
+            hats,
+            3 * n - 1,
+            &format!("case {seed}, P1"),
+        );
         let interpolated = case.weak_form(1, &interpolant, n + 1, &node);
         let sources = Sources::discrete(&exact, &case.beam, &mesh);
-        compare(&case, &sources, interpolated, 3 * n - 1, &format!("case {seed}, matrices"));
+        compare(
+            &case,
+            &sources,
+            interpolated,
+            3 * n - 1,
+            &format!("case {seed}, matrices"),
+        );
         let degree = 2 + seed as usize % 6;
         let space = space(mesh, degree);
         let of_degree = |equation: usize, element: usize, m: usize| {
-            let (row, place) = space.place([Field::U, Field::Phi, Field::Theta][equation], element, m);
+            let (row, place) =
+                space.place([Field::U, Field::Phi, Field::Theta][equation], element, m);
             assert_eq!(place, equation);
             row
         };
         let expected = case.weak_form(degree, &itself, space.blocks(), &of_degree);
         let sources = Sources::any_order(&exact, &case.beam, &space);
-        compare(&case, &sources, expected, 3 * n * degree - 1, &format!("case {seed}, degree {degree}"));
+        compare(
+            &case,
+            &sources,
+            expected,
+            3 * n * degree - 1,
+            &format!("case {seed}, degree {degree}"),
+        );
     }
-    assert!(phases.iter().all(|count| *count > 20), "free, upper and lower contact all occur: {phases:?}");
+    assert!(
+        phases.iter().all(|count| *count > 20),
+        "free, upper and lower contact all occur: {phases:?}"
+    );
 }

@@ -30,7 +30,10 @@ const MINE: Scheme = Scheme {
 };
 
 /// The same as formulas of the loads: a wrong entry in either changes the order.
-const FORMULAS: SchemeFormulas = SchemeFormulas::Own { inertia: 4.0 / 3.0, has_discrete_gradient: true };
+const FORMULAS: SchemeFormulas = SchemeFormulas::Own {
+    inertia: 4.0 / 3.0,
+    has_discrete_gradient: true,
+};
 
 const STUDY: &str = r#"
     study = { id = "my-scheme", claim = "The order of a scheme in time", tier = "quick" }
@@ -53,9 +56,22 @@ fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error
 /// The largest residual of the energy's balance over a swing between the obstacles.
 fn balance(scheme: Scheme) -> Result<f64, Box<dyn Error>> {
     let mesh = Mesh::uniform(50)?;
-    let initial = Initial { u_t: mesh.nodes().to_vec(), ..Initial::at_rest(&mesh, 0.0) };
-    let problem = Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial };
-    let stepping = Stepping { scheme, settings: Settings::default(), dt: 1e-3, loaded: false };
+    let initial = Initial {
+        u_t: mesh.nodes().to_vec(),
+        ..Initial::at_rest(&mesh, 0.0)
+    };
+    let problem = Problem {
+        beam: Beam::default(),
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        initial,
+    };
+    let stepping = Stepping {
+        scheme,
+        settings: Settings::default(),
+        dt: 1e-3,
+        loaded: false,
+    };
     let mut simulation = Simulation::new(problem, stepping)?;
     let (mut old, mut largest) = (simulation.level(), 0.0_f64);
     for _ in 0..2000 {
@@ -69,7 +85,10 @@ fn balance(scheme: Scheme) -> Result<f64, Box<dyn Error>> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (first, second) = (judged(MINE, 1.0)?, judged(MINE, 2.0)?);
-    println!("claimed 1: {}, {}\nclaimed 2: {}, {}", first.0, first.1, second.0, second.1);
+    println!(
+        "claimed 1: {}, {}\nclaimed 2: {}, {}",
+        first.0, first.1, second.0, second.1
+    );
     let residual = balance(MINE)?;
     println!("balance of the energy: {residual:.1e}");
     assert!((first.0, second.0) == (Verdict::Pass, Verdict::Fail) && residual < 1e-11);

@@ -25,12 +25,22 @@ const TOML: &str = r#"
 "#;
 
 fn product(x: &str, t: &str) -> Result<Vec<Product>, ExpressionError> {
-    let (x, t) = (Expression::parse(x, Variable::X)?, Expression::parse(t, Variable::T)?);
-    Ok(vec![Product { x: x.into(), t: t.into() }])
+    let (x, t) = (
+        Expression::parse(x, Variable::X)?,
+        Expression::parse(t, Variable::T)?,
+    );
+    Ok(vec![Product {
+        x: x.into(),
+        t: t.into(),
+    }])
 }
 
 fn in_rust() -> Result<Convergence, ExpressionError> {
-    let exact = Manufactured { u: product("sin(2*x)", "cos(t)")?, phi: product("x^2", "exp(-t)")?, theta: vec![] };
+    let exact = Manufactured {
+        u: product("sin(2*x)", "cos(t)")?,
+        phi: product("x^2", "exp(-t)")?,
+        theta: vec![],
+    };
     let refine = Refine {
         axis: Axis::Space,
         isolate: true,
@@ -41,9 +51,15 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         t_end: 1.0,
         layout: Layout::default(),
         scheme: EULER_CRANK_NICOLSON,
-        settings: Settings { stopping: Stopping::below(1e-13), ..Settings::default() },
+        settings: Settings {
+            stopping: Stopping::below(1e-13),
+            ..Settings::default()
+        },
     };
-    let theory = Coefficients { beam: Beam::default(), obstacles: None };
+    let theory = Coefficients {
+        beam: Beam::default(),
+        obstacles: None,
+    };
     Ok(Convergence {
         theory,
         solver: theory,
@@ -55,11 +71,21 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (rust, toml) = (in_rust()?, Convergence::parse(TOML, "my-own.toml".as_ref())?);
+    let (rust, toml) = (
+        in_rust()?,
+        Convergence::parse(TOML, "my-own.toml".as_ref())?,
+    );
     // Cases are pure: they may run in any order, on any thread.
     let (rust, toml) = (run_one(&rust), run_one(&toml));
-    for (level, error) in rust.levels.iter().map(|level| (level, level.error("superclose"))) {
-        println!("n = {:3}   superclose {error:.4e}", level.parameter("elements").unwrap_or(f64::NAN));
+    for (level, error) in rust
+        .levels
+        .iter()
+        .map(|level| (level, level.error("superclose")))
+    {
+        println!(
+            "n = {:3}   superclose {error:.4e}",
+            level.parameter("elements").unwrap_or(f64::NAN)
+        );
     }
     println!("{}: {}", rust.verdict, rust.rates[0].1.reason);
     assert_eq!(rust.levels, toml.levels);

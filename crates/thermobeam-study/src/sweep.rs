@@ -93,7 +93,9 @@ impl Sweep {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = input::read_text(path)?;
-        input::parse_beside(&text, path, |root, folder| reader::read(root, &text, path, folder))
+        input::parse_beside(&text, path, |root, folder| {
+            reader::read(root, &text, path, folder)
+        })
     }
 
     /// Number of cases.

@@ -39,7 +39,12 @@ pub struct Timed {
 
 impl Timed {
     fn of_tip(method: &'static str, resolution: String, error: f64, seconds: f64) -> Self {
-        Self { method, resolution, errors: [f64::NAN, f64::NAN, error], seconds }
+        Self {
+            method,
+            resolution,
+            errors: [f64::NAN, f64::NAN, error],
+            seconds,
+        }
     }
 
     fn cell(&self, places: usize) -> String {
@@ -48,9 +53,16 @@ impl Timed {
 }
 
 /// The fastest run of a method whose error is at most `error`.
-fn fastest<'r>(runs: &'r [Timed], method: &str, quantity: ErrorMeasure, error: f64) -> Option<&'r Timed> {
+fn fastest<'r>(
+    runs: &'r [Timed],
+    method: &str,
+    quantity: ErrorMeasure,
+    error: f64,
+) -> Option<&'r Timed> {
     let is_good = |run: &&Timed| run.method == method && run.errors[quantity as usize] <= error;
-    runs.iter().filter(is_good).min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    runs.iter()
+        .filter(is_good)
+        .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
 /// All runs of a study with their seconds, one after the other on this thread; no outcome contains them.
@@ -64,12 +76,19 @@ pub fn timed(study: &WorkPrecision) -> Result<Vec<Timed>, CaseFailure> {
         for runs in study.runs() {
             for (k, measurement) in study.measure(runs)?.into_iter().enumerate() {
                 let (method, resolution) = match runs {
-                    Runs::OnMesh(method, _, n) => (method.name, format!("{n} x {}", study.steps_on(n)[k])),
+                    Runs::OnMesh(method, _, n) => {
+                        (method.name, format!("{n} x {}", study.steps_on(n)[k]))
+                    }
                     Runs::Dg(degrees) => ("dg", degrees.to_string()),
                 };
                 let seconds = measurement.spent.seconds;
                 if repeat == 0 {
-                    best.push(Timed { method, resolution, errors: measurement.errors, seconds });
+                    best.push(Timed {
+                        method,
+                        resolution,
+                        errors: measurement.errors,
+                        seconds,
+                    });
                 }
                 best[place].seconds = seconds.min(best[place].seconds);
                 place += 1;
@@ -83,15 +102,30 @@ pub fn timed(study: &WorkPrecision) -> Result<Vec<Timed>, CaseFailure> {
 pub fn table(id: &str, study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) -> Table {
     let methods: Vec<&str> = study.methods().map(|method| method.name).collect();
     let line = |error: f64| {
-        let runs = methods.iter().map(|method| fastest(timed, method, quantity, error));
-        let winner = runs.clone().flatten().min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
+        let runs = methods
+            .iter()
+            .map(|method| fastest(timed, method, quantity, error));
+        let winner = runs
+            .clone()
+            .flatten()
+            .min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
         let cells = runs.map(|run| run.map_or("-".to_owned(), |run| run.cell(3)));
-        Some([format!("{error:e}")].into_iter().chain(cells).chain([winner.method.to_owned()]).collect())
+        Some(
+            [format!("{error:e}")]
+                .into_iter()
+                .chain(cells)
+                .chain([winner.method.to_owned()])
+                .collect(),
+        )
     };
     let name = quantity.name();
-    let title =
-        format!("{id}: milliseconds (elements x steps) for an error in {name}, the fastest run that is as good");
-    let head = ["error"].into_iter().chain(methods.iter().copied()).chain(["fastest"]);
+    let title = format!(
+        "{id}: milliseconds (elements x steps) for an error in {name}, the fastest run that is as good"
+    );
+    let head = ["error"]
+        .into_iter()
+        .chain(methods.iter().copied())
+        .chain(["fastest"]);
     Table::new(title, head, TARGETS.into_iter().filter_map(line))
 }
 
@@ -102,7 +136,12 @@ pub fn figure(study: &WorkPrecision, quantity: ErrorMeasure, timed: &[Timed]) ->
         let points = front(own.map(|run| (run.seconds, run.errors[quantity as usize])));
         plots::Series::new(method.name, points)
     });
-    plots::work_precision("run time (s)", format!("error, {}", quantity.name()), &series.collect::<Vec<_>>()).draw()
+    plots::work_precision(
+        "run time (s)",
+        format!("error, {}", quantity.name()),
+        &series.collect::<Vec<_>>(),
+    )
+    .draw()
 }
 
 /// Viscosity, nodes, and a degree for which dG's error in space is negligible.
@@ -153,9 +192,18 @@ impl Rival {
     fn timed(&self, zeta: f64, exact: f64) -> Vec<Timed> {
         let timed = |run: &RivalRun| {
             let how = format!("p = {}, {:e}", run.degree, run.tolerance);
-            Timed::of_tip("CVODE", how, (run.u_tip - exact).abs(), 1e-3 * run.milliseconds)
+            Timed::of_tip(
+                "CVODE",
+                how,
+                (run.u_tip - exact).abs(),
+                1e-3 * run.milliseconds,
+            )
         };
-        self.runs.iter().filter(|run| run.zeta == zeta).map(timed).collect()
+        self.runs
+            .iter()
+            .filter(|run| run.zeta == zeta)
+            .map(timed)
+            .collect()
     }
 }
 
@@ -165,8 +213,21 @@ impl Rival {
 /// [`CaseFailure`] of a run that does not finish.
 pub fn beside(scene: &Scene, rival: Option<&Rival>) -> Result<Vec<Table>, CaseFailure> {
     let of_case = |&(zeta, nodes, degree): &(f64, &[f64], usize)| {
-        let family = Family::of_scene(&Scene { beam: Beam { zeta, ..scene.beam }, t_end: 1.0, ..scene.clone() });
-        let exact = seconds_and_tip(&family, nodes, Degrees { p: degree, q: 5, dt: 0.002 })?.1;
+        let family = Family::of_scene(&Scene {
+            beam: Beam { zeta, ..scene.beam },
+            t_end: 1.0,
+            ..scene.clone()
+        });
+        let exact = seconds_and_tip(
+            &family,
+            nodes,
+            Degrees {
+                p: degree,
+                q: 5,
+                dt: 0.002,
+            },
+        )?
+        .1;
         let mut runs = vec![];
         for (p, q, dt) in RUNS {
             let how = Degrees { p, q, dt };
@@ -174,7 +235,12 @@ pub fn beside(scene: &Scene, rival: Option<&Rival>) -> Result<Vec<Table>, CaseFa
             for _ in 1..SHORT_REPEATS {
                 best = best.min(seconds_and_tip(&family, nodes, how)?.0);
             }
-            runs.push(Timed::of_tip("dg", how.to_string(), (tip - exact).abs(), best));
+            runs.push(Timed::of_tip(
+                "dg",
+                how.to_string(),
+                (tip - exact).abs(),
+                best,
+            ));
         }
         runs.extend(rival.iter().flat_map(|rival| rival.timed(zeta, exact)));
         Ok(against(zeta, nodes.len() - 1, &runs, rival.is_some()))
@@ -183,30 +249,57 @@ pub fn beside(scene: &Scene, rival: Option<&Rival>) -> Result<Vec<Table>, CaseFa
 }
 
 /// Seconds, and u(1) at the end.
-fn seconds_and_tip(family: &Family, nodes: &[f64], how: Degrees) -> Result<(f64, f64), CaseFailure> {
+fn seconds_and_tip(
+    family: &Family,
+    nodes: &[f64],
+    how: Degrees,
+) -> Result<(f64, f64), CaseFailure> {
     let mut tip = f64::NAN;
-    let spent = how.run(family, nodes, 1, &mut |space, level, _| tip = nodal(space, level, &[1.0]).u[0])?;
+    let spent = how.run(family, nodes, 1, &mut |space, level, _| {
+        tip = nodal(space, level, &[1.0]).u[0]
+    })?;
     Ok((spent.seconds, tip))
 }
 
 /// * `is_measured`: whether the runs include those of the integrator.
 fn against(zeta: f64, elements: usize, runs: &[Timed], is_measured: bool) -> Table {
-    let theirs = |text: String| if is_measured { text } else { "not measured".to_owned() };
+    let theirs = |text: String| {
+        if is_measured {
+            text
+        } else {
+            "not measured".to_owned()
+        }
+    };
     let cell = |run: Option<&Timed>| run.map_or("-".to_owned(), |run| run.cell(2));
     let line = |error: f64| {
-        let [dg, cvode] = ["dg", "CVODE"].map(|method| fastest(runs, method, ErrorMeasure::Tip, error));
-        let ratio = dg.zip(cvode).map_or("-".to_owned(), |(dg, cvode)| format!("{:.0}", cvode.seconds / dg.seconds));
+        let [dg, cvode] =
+            ["dg", "CVODE"].map(|method| fastest(runs, method, ErrorMeasure::Tip, error));
+        let ratio = dg.zip(cvode).map_or("-".to_owned(), |(dg, cvode)| {
+            format!("{:.0}", cvode.seconds / dg.seconds)
+        });
         vec![format!("{error:e}"), cell(dg), theirs(cell(cvode)), ratio]
     };
     let smallest = |method: &str| {
-        let errors = runs.iter().filter(|run| run.method == method).map(|run| run.errors[ErrorMeasure::Tip as usize]);
+        let errors = runs
+            .iter()
+            .filter(|run| run.method == method)
+            .map(|run| run.errors[ErrorMeasure::Tip as usize]);
         format!("{:.1e}", errors.fold(f64::INFINITY, f64::min))
     };
-    let last = vec!["smallest".to_owned(), smallest("dg"), theirs(smallest("CVODE")), "-".to_owned()];
+    let last = vec![
+        "smallest".to_owned(),
+        smallest("dg"),
+        theirs(smallest("CVODE")),
+        "-".to_owned(),
+    ];
     let title = format!(
         "The paper's first experiment to t = 1, zeta = {zeta}, elements: {elements}: milliseconds for an error of u(1, 1)"
     );
-    Table::new(title, ["error", "dg", "CVODE", "ratio"], SMALL.into_iter().map(line).chain([last]))
+    Table::new(
+        title,
+        ["error", "dg", "CVODE", "ratio"],
+        SMALL.into_iter().map(line).chain([last]),
+    )
 }
 
 #[cfg(test)]
@@ -218,12 +311,27 @@ mod tests {
         let run = |method, milliseconds: f64, error: f64| {
             Timed::of_tip(method, format!("{error:e}"), error, 1e-3 * milliseconds)
         };
-        let dg = [run("dg", 1.0, 1e-7), run("dg", 0.5, 2e-7), run("dg", 3.0, 1e-13)];
+        let dg = [
+            run("dg", 1.0, 1e-7),
+            run("dg", 0.5, 2e-7),
+            run("dg", 3.0, 1e-13),
+        ];
         let with = |other: Timed| [&dg[..], &[other]].concat();
-        let row = |runs: &[Timed], k: usize| against(0.1, 1, runs, runs.len() > dg.len()).rows[k].join(" | ");
-        assert_eq!(row(&with(run("CVODE", 10.0, 3e-9)), 0), "1e-6 | 0.50 (2e-7) | 10.00 (3e-9) | 20");
-        assert_eq!(row(&with(run("CVODE", 10.0, 3e-9)), 3), "1e-9 | 3.00 (1e-13) | - | -");
-        assert_eq!(row(&with(run("CVODE", 10.0, 3e-9)), 7), "smallest | 1.0e-13 | 3.0e-9 | -");
+        let row = |runs: &[Timed], k: usize| {
+            against(0.1, 1, runs, runs.len() > dg.len()).rows[k].join(" | ")
+        };
+        assert_eq!(
+            row(&with(run("CVODE", 10.0, 3e-9)), 0),
+            "1e-6 | 0.50 (2e-7) | 10.00 (3e-9) | 20"
+        );
+        assert_eq!(
+            row(&with(run("CVODE", 10.0, 3e-9)), 3),
+            "1e-9 | 3.00 (1e-13) | - | -"
+        );
+        assert_eq!(
+            row(&with(run("CVODE", 10.0, 3e-9)), 7),
+            "smallest | 1.0e-13 | 3.0e-9 | -"
+        );
         assert_eq!(row(&dg, 1), "1e-7 | 1.00 (1e-7) | not measured | -");
     }
 }

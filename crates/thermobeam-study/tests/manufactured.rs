@@ -9,7 +9,9 @@ use thermobeam_study::exact::norm::{Norm, Norms};
 use thermobeam_study::kinds::convergence::{Convergence, Defect, Prepared};
 
 fn file(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../studies")
+        .join(name)
 }
 
 fn convergence(name: &str) -> Convergence {
@@ -17,7 +19,10 @@ fn convergence(name: &str) -> Convergence {
 }
 
 fn errors(study: &Convergence, elements: usize, steps: usize, defect: Option<Defect>) -> Norms {
-    Prepared::new(study, elements).unwrap().run(steps, study.solver, defect).unwrap()
+    Prepared::new(study, elements)
+        .unwrap()
+        .run(steps, study.solver, defect)
+        .unwrap()
 }
 
 /// Norms of the table, in its order; errors to the digits given.
@@ -34,16 +39,28 @@ const TABLE: [Norm; 7] = [
 fn meets(found: &Norms, expected: &[f64]) {
     for (norm, expected) in TABLE.into_iter().zip(expected) {
         let found = found[norm];
-        assert!((found - expected).abs() < 5e-4 * expected, "{}: {found} for {expected}", norm.name());
+        assert!(
+            (found - expected).abs() < 5e-4 * expected,
+            "{}: {found} for {expected}",
+            norm.name()
+        );
     }
 }
 
 #[test]
 fn the_errors_are_those_of_the_independent_implementation() {
-    let space = [4.454e-8, 2.341e-4, 1.437e-8, 4.662e-5, 6.309e-8, 2.349e-4, 2.879e-8];
-    meets(&errors(&convergence("theorem-3.4-space.toml"), 4096, 20, None), &space);
+    let space = [
+        4.454e-8, 2.341e-4, 1.437e-8, 4.662e-5, 6.309e-8, 2.349e-4, 2.879e-8,
+    ];
+    meets(
+        &errors(&convergence("theorem-3.4-space.toml"), 4096, 20, None),
+        &space,
+    );
     let time = [1.169e-3, 4.223e-4, 1.122e-4, 2.851e-4, 1.774e-5, 1.197e-3];
-    meets(&errors(&convergence("theorem-3.4-time.toml"), 8, 1024, None), &time);
+    meets(
+        &errors(&convergence("theorem-3.4-time.toml"), 8, 1024, None),
+        &time,
+    );
 }
 
 #[test]
@@ -63,7 +80,11 @@ fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
     let (few, many) = (errors(&study, 64, 4, None), errors(&study, 64, 40, None));
     for (norm, few) in few.iter() {
         let many = many[norm];
-        assert!(few / many < 3.0 && many / few < 3.0, "{}: {few} {many}", norm.name());
+        assert!(
+            few / many < 3.0 && many / few < 3.0,
+            "{}: {few} {many}",
+            norm.name()
+        );
     }
 }
 
@@ -76,7 +97,10 @@ fn every_defect_leaves_a_mark_that_no_refinement_removes() {
             let honest = errors(study, 512, 20, None)[Norm::Superclose];
             errors(study, 512, 20, Some(defect))[Norm::Superclose] / honest
         });
-        assert!(marks.iter().any(|mark| *mark > 20.0), "{name}: {marks:?} times the error without it");
+        assert!(
+            marks.iter().any(|mark| *mark > 20.0),
+            "{name}: {marks:?} times the error without it"
+        );
     }
 }
 
@@ -85,11 +109,18 @@ fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
     let mut study = convergence("theorem-3.4-space.toml");
     study.refine.elements = vec![64, 128, 256, 512];
     assert_eq!(run_one(&study).verdict, Verdict::Pass);
-    let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap() + "\n[control]\nzeta = 0.10001\n";
-    study.solver = Convergence::parse(&text, "wrong.toml".as_ref()).unwrap().solver;
+    let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap()
+        + "\n[control]\nzeta = 0.10001\n";
+    study.solver = Convergence::parse(&text, "wrong.toml".as_ref())
+        .unwrap()
+        .solver;
     let outcome = run_one(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
-    assert!(outcome.summary.contains("superclose"), "{}", outcome.summary);
+    assert!(
+        outcome.summary.contains("superclose"),
+        "{}",
+        outcome.summary
+    );
 }
 
 #[test]
@@ -103,9 +134,23 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
         ran[3].found = Err(CaseFailure::new("step 7 went astray"));
         let outcome = study.judge(&ran);
         assert_eq!(outcome.verdict, Verdict::Fail);
-        let failed = outcome.checks.iter().filter(|check| check.verdict == Verdict::Fail);
-        assert!(failed.into_iter().any(|check| check.evidence.contains("step 7 went astray")), "{:?}", outcome.checks);
-        assert!(outcome.levels[3].errors.iter().all(|(_, error)| error.is_nan()));
+        let failed = outcome
+            .checks
+            .iter()
+            .filter(|check| check.verdict == Verdict::Fail);
+        assert!(
+            failed
+                .into_iter()
+                .any(|check| check.evidence.contains("step 7 went astray")),
+            "{:?}",
+            outcome.checks
+        );
+        assert!(
+            outcome.levels[3]
+                .errors
+                .iter()
+                .all(|(_, error)| error.is_nan())
+        );
     }
 }
 

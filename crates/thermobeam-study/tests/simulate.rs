@@ -25,45 +25,104 @@ fn thrown(dt: &str, more: &str) -> Scene {
 }
 
 fn run(scene: &Scene, recording: Recording) -> Run {
-    Simulator::new(scene).unwrap().run(recording, &mut |_, _| ())
+    Simulator::new(scene)
+        .unwrap()
+        .run(recording, &mut |_, _| ())
 }
 
 #[test]
 fn recording_changes_nothing_but_the_record() {
     let scene = thrown("1e-3", "");
-    let (plain, recorded) = (run(&scene, Recording::Summary), run(&scene, Recording::History));
+    let (plain, recorded) = (
+        run(&scene, Recording::Summary),
+        run(&scene, Recording::History),
+    );
     assert_eq!(plain.history, None);
     let history = recorded.history.clone().unwrap();
-    assert_eq!(Run { history: None, wall: plain.wall, ..recorded.clone() }, plain);
+    assert_eq!(
+        Run {
+            history: None,
+            wall: plain.wall,
+            ..recorded.clone()
+        },
+        plain
+    );
 
     assert_eq!(history.rows.len(), 1001);
-    assert_eq!([history.rows[0].sample, history.rows[1000].sample], [plain.first, plain.last]);
+    assert_eq!(
+        [history.rows[0].sample, history.rows[1000].sample],
+        [plain.first, plain.last]
+    );
     let tips = history.rows.iter().map(|row| row.sample.u_tip);
-    assert_eq!(tips.clone().fold(f64::INFINITY, f64::min), plain.extremes.u_tip_min);
-    assert_eq!(tips.fold(f64::NEG_INFINITY, f64::max), plain.extremes.u_tip_max);
-    let worst = history.rows.iter().map(|row| row.balance.residual.abs()).fold(0.0, f64::max);
+    assert_eq!(
+        tips.clone().fold(f64::INFINITY, f64::min),
+        plain.extremes.u_tip_min
+    );
+    assert_eq!(
+        tips.fold(f64::NEG_INFINITY, f64::max),
+        plain.extremes.u_tip_max
+    );
+    let worst = history
+        .rows
+        .iter()
+        .map(|row| row.balance.residual.abs())
+        .fold(0.0, f64::max);
     assert_eq!(worst, plain.energy.largest_balance_residual);
-    assert_eq!(history.rows.iter().filter(|row| row.sample.contact_force != 0.0).count(), plain.contact_steps);
+    assert_eq!(
+        history
+            .rows
+            .iter()
+            .filter(|row| row.sample.contact_force != 0.0)
+            .count(),
+        plain.contact_steps
+    );
 }
 
 #[test]
 fn the_steps_are_told_one_by_one() {
     let mut told = Vec::new();
-    Simulator::new(&thrown("0.1", "")).unwrap().run(Recording::Summary, &mut |step, t| told.push((step, t)));
-    assert_eq!(told, (1..=10).map(|step| (step, step as f64 * 0.1)).collect::<Vec<_>>());
+    Simulator::new(&thrown("0.1", ""))
+        .unwrap()
+        .run(Recording::Summary, &mut |step, t| told.push((step, t)));
+    assert_eq!(
+        told,
+        (1..=10)
+            .map(|step| (step, step as f64 * 0.1))
+            .collect::<Vec<_>>()
+    );
 }
 
 #[test]
 fn both_schemes_keep_their_balance_and_lose_energy() {
     for scheme in ["euler-crank-nicolson", "midpoint"] {
         for solver in Solver::ALL {
-            let scene =
-                thrown("1e-3", &format!("scheme = \"{scheme}\"\nsolver = \"{}\"\ntolerance = 1e-13", solver.name()));
+            let scene = thrown(
+                "1e-3",
+                &format!(
+                    "scheme = \"{scheme}\"\nsolver = \"{}\"\ntolerance = 1e-13",
+                    solver.name()
+                ),
+            );
             let run = run(&scene, Recording::Summary);
-            assert_eq!((run.steps, &run.failure), (1000, &None), "{scheme} {solver:?}");
-            assert!(run.energy.largest_increase < 0.0, "{scheme} {solver:?}: {}", run.energy.largest_increase);
-            assert!(run.energy.largest_balance_residual < 2e-12, "{scheme} {solver:?}: {:?}", run.energy);
-            assert_eq!([run.energy.initial, run.energy.last], [run.first.energy, run.last.energy]);
+            assert_eq!(
+                (run.steps, &run.failure),
+                (1000, &None),
+                "{scheme} {solver:?}"
+            );
+            assert!(
+                run.energy.largest_increase < 0.0,
+                "{scheme} {solver:?}: {}",
+                run.energy.largest_increase
+            );
+            assert!(
+                run.energy.largest_balance_residual < 2e-12,
+                "{scheme} {solver:?}: {:?}",
+                run.energy
+            );
+            assert_eq!(
+                [run.energy.initial, run.energy.last],
+                [run.first.energy, run.last.energy]
+            );
             assert!(run.contact_steps > 100);
         }
     }
@@ -88,9 +147,17 @@ fn a_long_history_is_thinned_and_loses_no_energy() {
 fn what_could_be_done_before_a_failure_is_kept() {
     let scene = thrown("1e-2", "solver = \"fixed-point\"");
     let run = run(&scene, Recording::History);
-    let failure = run.failure.as_ref().expect("the contact force lags too far behind");
-    let RunError::Step(failure) = failure else { panic!("{failure}") };
-    assert!(matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0), "{failure}");
+    let failure = run
+        .failure
+        .as_ref()
+        .expect("the contact force lags too far behind");
+    let RunError::Step(failure) = failure else {
+        panic!("{failure}")
+    };
+    assert!(
+        matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0),
+        "{failure}"
+    );
     assert!(run.steps > 0 && run.steps + 1 == failure.step);
     assert!((run.last.t - 0.01 * run.steps as f64).abs() < 1e-15);
     let history = run.history.as_ref().unwrap();
@@ -111,15 +178,25 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
     let scene = thrown("1e-4", "");
     let limit = Duration::from_millis(3);
     let (stopped, up) = within_by(ticking, Some(limit), || run(&scene, Recording::Summary));
-    let Some(RunError::TimeUp(told)) = stopped.failure else { panic!("{:?}", stopped.failure) };
+    let Some(RunError::TimeUp(told)) = stopped.failure else {
+        panic!("{:?}", stopped.failure)
+    };
     assert_eq!(Some(told), up);
-    assert_eq!((told.step, told.t, told.limit), (stopped.steps, stopped.last.t, limit));
+    assert_eq!(
+        (told.step, told.t, told.limit),
+        (stopped.steps, stopped.last.t, limit)
+    );
     assert!(0 < stopped.steps && stopped.steps < scene.steps());
     let json = serde_json::to_value(Object::new(&scene, &stopped)).unwrap();
     assert_eq!(json["failure"]["kind"], "time-limit");
     assert_eq!(json["failure"]["limit_seconds"], 3e-3);
-    let (whole, up) = within_by(ticking, Some(Duration::from_secs(600)), || run(&scene, Recording::Summary));
-    assert_eq!((whole.steps, whole.failure, up), (scene.steps(), None, None));
+    let (whole, up) = within_by(ticking, Some(Duration::from_secs(600)), || {
+        run(&scene, Recording::Summary)
+    });
+    assert_eq!(
+        (whole.steps, whole.failure, up),
+        (scene.steps(), None, None)
+    );
 }
 
 #[test]
@@ -129,7 +206,12 @@ fn a_run_that_fails_at_once_has_its_start_and_no_largest_increase() {
     assert_eq!((run.steps, run.iterations.total), (0, 0));
     assert_eq!(run.first, run.last);
     assert!(run.energy.largest_increase.is_nan());
-    assert_eq!(run.history.as_ref().map(|history| (history.rows.len(), history.frames.times.len())), Some((1, 1)));
+    assert_eq!(
+        run.history
+            .as_ref()
+            .map(|history| (history.rows.len(), history.frames.times.len())),
+        Some((1, 1))
+    );
     assert_eq!(run.pictures(&scene).len(), 5);
 }
 
@@ -139,8 +221,14 @@ fn the_temperature_is_the_physical_one_on_any_mesh() {
         let text = format!(
             "[beam]\na = 0\ntheta_a = 20\n[initial]\ntheta = \"20*(1-x)\"\n[mesh]\n{mesh}\n[time]\nt_end = 1\ndt = 0.1"
         );
-        let run = run(&Scene::parse(&text, "steady.toml").unwrap(), Recording::Summary);
-        assert!((run.first.theta_mid - 10.0).abs() < 1e-14 && (run.last.theta_mid - 10.0).abs() < 1e-14, "{mesh}");
+        let run = run(
+            &Scene::parse(&text, "steady.toml").unwrap(),
+            Recording::Summary,
+        );
+        assert!(
+            (run.first.theta_mid - 10.0).abs() < 1e-14 && (run.last.theta_mid - 10.0).abs() < 1e-14,
+            "{mesh}"
+        );
         assert!(!run.is_heated || run.work.passes > 0);
     }
 }
@@ -159,14 +247,47 @@ fn every_bit_of_the_history_can_be_read_back() {
     let csv = history.csv();
     let mut lines = csv.lines();
     let names: Vec<_> = lines.next().unwrap().split(',').collect();
-    assert_eq!(names[..8], ["t", "u_tip", "phi_tip", "u_t_tip", "phi_t_tip", "theta_mid", "contact_force", "energy"]);
-    assert_eq!(names[8..], ["energy_change", "viscous", "thermal", "inertial", "contact_gap", "residual"]);
+    assert_eq!(
+        names[..8],
+        [
+            "t",
+            "u_tip",
+            "phi_tip",
+            "u_t_tip",
+            "phi_t_tip",
+            "theta_mid",
+            "contact_force",
+            "energy"
+        ]
+    );
+    assert_eq!(
+        names[8..],
+        [
+            "energy_change",
+            "viscous",
+            "thermal",
+            "inertial",
+            "contact_gap",
+            "residual"
+        ]
+    );
     for (line, row) in lines.zip(&history.rows) {
-        let values: Vec<f64> = line.split(',').map(|value| value.parse().unwrap()).collect();
+        let values: Vec<f64> = line
+            .split(',')
+            .map(|value| value.parse().unwrap())
+            .collect();
         let (s, d) = (row.sample, row.balance);
         assert_eq!(values[..4], [s.t, s.u_tip, s.phi_tip, s.u_t_tip]);
-        assert_eq!(values[4..8], [s.phi_t_tip, s.theta_mid, s.contact_force, s.energy]);
-        assert_eq!(values[8..], [d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual]);
+        assert_eq!(
+            values[4..8],
+            [s.phi_t_tip, s.theta_mid, s.contact_force, s.energy]
+        );
+        assert_eq!(
+            values[8..],
+            [
+                d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual
+            ]
+        );
         assert!(values.iter().all(|value| value.is_finite()));
     }
 }
@@ -176,16 +297,29 @@ fn a_run_by_any_method_stops_at_the_step_that_breaks_the_law_of_the_energy() {
     let start = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[time]\nt_end = 2.0\ndt = 0.1\n";
     for method in ["scheme = \"dg\"\nrestart_dt = 0.1", "scheme = \"midpoint\""] {
         // Steps that cannot be solved.
-        let loose = Scene::parse(&format!("{start}{method}\ntolerance = 100.0"), "loose.toml").unwrap();
+        let loose =
+            Scene::parse(&format!("{start}{method}\ntolerance = 100.0"), "loose.toml").unwrap();
         let alone = run(&loose, Recording::Summary);
-        assert_eq!(serde_json::to_value(Object::new(&loose, &alone)).unwrap()["failure"]["kind"], "unsound");
-        for run in run_together(&[loose.clone(), loose]).unwrap().into_iter().chain([alone]) {
-            let Some(RunError::Unsound { step, t, dt, .. }) = run.failure else { panic!("{:?}", run.failure) };
+        assert_eq!(
+            serde_json::to_value(Object::new(&loose, &alone)).unwrap()["failure"]["kind"],
+            "unsound"
+        );
+        for run in run_together(&[loose.clone(), loose])
+            .unwrap()
+            .into_iter()
+            .chain([alone])
+        {
+            let Some(RunError::Unsound { step, t, dt, .. }) = run.failure else {
+                panic!("{:?}", run.failure)
+            };
             assert_eq!((step, t + dt), (run.steps, run.last.t));
             assert!(run.last.t < 2.0, "{:?}", run.last);
             let complaint = run.complaint().unwrap();
             let words = format!("step {step} (from t = {t}");
-            assert!(complaint.starts_with(&words) && complaint.contains("in a step"), "{complaint}");
+            assert!(
+                complaint.starts_with(&words) && complaint.contains("in a step"),
+                "{complaint}"
+            );
         }
     }
 }
@@ -224,7 +358,10 @@ fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
     let pressed = |t_end: &str| run(&located(t_end, "0.15*x^2"), Recording::Summary);
     let run = pressed("t_end = 0.005");
     let contact = run.contact.as_ref().unwrap();
-    assert_eq!((contact.started_in, contact.events.len()), (Phase::Upper, 0));
+    assert_eq!(
+        (contact.started_in, contact.events.len()),
+        (Phase::Upper, 0)
+    );
     assert_eq!(run.contact_phases(), [(0.0, 0.005)]);
     assert_eq!(run.contact_steps, run.steps);
     let run = pressed("t_end = 0.02");
@@ -246,7 +383,9 @@ fn a_step_by_dg_is_in_contact_if_the_free_end_touches_an_obstacle_in_all_of_it()
     let phases = run.contact_phases();
     assert!(phases.len() == 2 && steps.len() == run.steps, "{phases:?}");
     for (from, to, in_contact) in steps {
-        let is_inside = phases.iter().any(|(start, end)| start - 1e-12 <= from && to <= end + 1e-12);
+        let is_inside = phases
+            .iter()
+            .any(|(start, end)| start - 1e-12 <= from && to <= end + 1e-12);
         assert_eq!(in_contact, is_inside, "from {from} to {to}, {phases:?}");
     }
 }
@@ -256,25 +395,50 @@ fn the_first_experiment_by_dg_comes_out_to_seven_digits_with_its_events() {
     let scene = located("t_end = 1.0", "0.01*x*(x-2)");
     let run_curve = run(&scene, Recording::Curve(100));
     assert_eq!(run_curve.failure, None);
-    assert!((run_curve.last.u_tip - -0.011_764_243_810).abs() < 1e-7, "{:?}", run_curve.last);
+    assert!(
+        (run_curve.last.u_tip - -0.011_764_243_810).abs() < 1e-7,
+        "{:?}",
+        run_curve.last
+    );
     assert_eq!(run_curve.contact.as_ref().unwrap().events.len(), 3);
     let phases = run_curve.contact_phases();
-    assert!((phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7);
+    assert!(
+        (phases[0].0 - 0.203_413_276).abs() < 1e-7 && (phases[0].1 - 0.648_169_461).abs() < 1e-7
+    );
     assert_eq!(phases[1].1, 1.0);
     // Each time once, for any steps.
     let rows = &run_curve.history.as_ref().unwrap().rows;
     assert_eq!(rows.len(), 101);
-    assert!(rows.windows(2).all(|pair| (pair[1].sample.t - pair[0].sample.t - 0.01).abs() < 1e-12));
+    assert!(
+        rows.windows(2)
+            .all(|pair| (pair[1].sample.t - pair[0].sample.t - 0.01).abs() < 1e-12)
+    );
     assert_eq!(rows[100].sample, run_curve.last);
     // E falls in every step and its balance closes to round-off.
     let energy = run_curve.energy;
-    assert!(energy.largest_increase < 0.0 && energy.largest_balance_residual < 1e-12 * energy.initial);
+    assert!(
+        energy.largest_increase < 0.0 && energy.largest_balance_residual < 1e-12 * energy.initial
+    );
     let extremes = run_curve.extremes;
-    assert!(extremes.u_tip_max > 0.105 && extremes.u_tip_min < -0.011, "{extremes:?}");
-    let [drawn, plain] = [Recording::History, Recording::Summary].map(|recording| run(&scene, recording));
+    assert!(
+        extremes.u_tip_max > 0.105 && extremes.u_tip_min < -0.011,
+        "{extremes:?}"
+    );
+    let [drawn, plain] =
+        [Recording::History, Recording::Summary].map(|recording| run(&scene, recording));
     let history = drawn.history.as_ref().unwrap();
-    assert_eq!((history.frames.times.len(), history.frames.u.len(), history.rows.len()), (441, 441, 4001));
-    assert_eq!((plain.first, plain.last, plain.history), (drawn.first, drawn.last, None));
+    assert_eq!(
+        (
+            history.frames.times.len(),
+            history.frames.u.len(),
+            history.rows.len()
+        ),
+        (441, 441, 4001)
+    );
+    assert_eq!(
+        (plain.first, plain.last, plain.history),
+        (drawn.first, drawn.last, None)
+    );
     let lost: f64 = history.rows.iter().map(|row| row.balance.change).sum();
     assert!((lost - (energy.last - energy.initial)).abs() < 1e-12);
 }

@@ -37,17 +37,39 @@ fn simulation(run: usize) -> (Simulation, f64) {
         theta: Box::new(|x| (PI * x).sin()),
         ..Initial::at_rest(0.0)
     };
-    let nodes = if elements == 1 { vec![0.0, 1.0] } else { vec![0.0, 0.9, 1.0] };
+    let nodes = if elements == 1 {
+        vec![0.0, 1.0]
+    } else {
+        vec![0.0, 0.9, 1.0]
+    };
     let mesh = Mesh::from_nodes(nodes).expect("a mesh");
-    let problem = Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, degree, initial };
-    let stepping = Stepping { degree: q, dt, restart_dt, growth, tolerance: 1e-12, ..Stepping::default() };
-    (Simulation::new(problem, stepping).expect("a simulation"), end)
+    let problem = Problem {
+        beam: Beam::default(),
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        degree,
+        initial,
+    };
+    let stepping = Stepping {
+        degree: q,
+        dt,
+        restart_dt,
+        growth,
+        tolerance: 1e-12,
+        ..Stepping::default()
+    };
+    (
+        Simulation::new(problem, stepping).expect("a simulation"),
+        end,
+    )
 }
 
 #[divan::bench(args = 0..RUNS.len())]
 fn first_experiment(bencher: Bencher<'_, '_>, run: usize) {
-    bencher.with_inputs(|| simulation(run)).bench_local_values(|(mut simulation, end)| {
-        simulation.advance(end).expect("steps");
-        simulation
-    });
+    bencher
+        .with_inputs(|| simulation(run))
+        .bench_local_values(|(mut simulation, end)| {
+            simulation.advance(end).expect("steps");
+            simulation
+        });
 }

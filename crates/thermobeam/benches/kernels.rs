@@ -29,12 +29,29 @@ fn moving_beam(elements: usize) -> Problem {
         initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
         initial.theta[i] = x * (1.0 - x);
     }
-    Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial }
+    Problem {
+        beam: Beam::default(),
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        initial,
+    }
 }
 
 fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> Simulation {
-    let settings = Settings { solver, ..Settings::default() };
-    Simulation::new(moving_beam(elements), Stepping { scheme, settings, dt: DT, loaded: false }).expect("a simulation")
+    let settings = Settings {
+        solver,
+        ..Settings::default()
+    };
+    Simulation::new(
+        moving_beam(elements),
+        Stepping {
+            scheme,
+            settings,
+            dt: DT,
+            loaded: false,
+        },
+    )
+    .expect("a simulation")
 }
 
 /// A simulation after eleven steps, and its last two levels.
@@ -51,12 +68,17 @@ fn moved(elements: usize) -> (Simulation, Level, Level) {
 
 fn steps(bencher: Bencher<'_, '_>, mut simulation: Simulation) {
     let elements = simulation.lengths().len();
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.advance());
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.advance());
 }
 
 #[divan::bench(args = SIZES)]
 fn step_newton(bencher: Bencher<'_, '_>, elements: usize) {
-    steps(bencher, simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton));
+    steps(
+        bencher,
+        simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton),
+    );
 }
 
 #[divan::bench(args = SIZES)]
@@ -66,70 +88,106 @@ fn step_midpoint(bencher: Bencher<'_, '_>, elements: usize) {
 
 #[divan::bench(args = SIZES)]
 fn step_fixed_point(bencher: Bencher<'_, '_>, elements: usize) {
-    steps(bencher, simulation(elements, EULER_CRANK_NICOLSON, Solver::FixedPoint));
+    steps(
+        bencher,
+        simulation(elements, EULER_CRANK_NICOLSON, Solver::FixedPoint),
+    );
 }
 
 /// Items are the elements of all four cases.
 #[divan::bench(args = SIZES)]
 fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
     let problems = vec![moving_beam(elements); 4];
-    let mut ensemble =
-        Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
-    bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.advance());
+    let mut ensemble = Ensemble::new(
+        problems,
+        &[DT; 4],
+        EULER_CRANK_NICOLSON,
+        Settings::default(),
+    )
+    .expect("an ensemble");
+    bencher
+        .counter(ItemsCount::new(elements * 4))
+        .bench_local(|| ensemble.advance());
 }
 
 /// Items are the elements of all four cases.
 #[divan::bench(args = SIZES)]
 fn balances_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
     let problems = vec![moving_beam(elements); 4];
-    let mut ensemble =
-        Ensemble::new(problems, &[DT; 4], EULER_CRANK_NICOLSON, Settings::default()).expect("an ensemble");
+    let mut ensemble = Ensemble::new(
+        problems,
+        &[DT; 4],
+        EULER_CRANK_NICOLSON,
+        Settings::default(),
+    )
+    .expect("an ensemble");
     ensemble.advance();
     let mut balances = vec![];
-    bencher.counter(ItemsCount::new(elements * 4)).bench_local(|| ensemble.balances(black_box(&mut balances)));
+    bencher
+        .counter(ItemsCount::new(elements * 4))
+        .bench_local(|| ensemble.balances(black_box(&mut balances)));
 }
 
 #[divan::bench(args = SIZES)]
 fn set_up(bencher: Bencher<'_, '_>, elements: usize) {
     let build = || simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
-    bencher.counter(ItemsCount::new(elements)).bench_local(build);
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(build);
 }
 
 #[divan::bench(args = SIZES)]
 fn observe(bencher: Bencher<'_, '_>, elements: usize) {
     let (mut simulation, _, mut level) = moved(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.observe(black_box(&mut level)));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.observe(black_box(&mut level)));
 }
 
 #[divan::bench(args = SIZES)]
 fn energy(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, _, level) = moved(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.energy(black_box(&level)));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.energy(black_box(&level)));
 }
 
 #[divan::bench(args = SIZES)]
 fn energy_scale(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, _, level) = moved(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.energy_scale(black_box(&level)));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.energy_scale(black_box(&level)));
 }
 
 #[divan::bench(args = SIZES)]
 fn balance(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, old, new) = moved(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.balance(black_box(&old), black_box(&new)));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.balance(black_box(&old), black_box(&new)));
 }
 
 #[divan::bench(args = SIZES)]
 fn rounding(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, old, new) = moved(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| simulation.rounding(black_box(&old), black_box(&new)));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| simulation.rounding(black_box(&old), black_box(&new)));
 }
 
 #[divan::bench(args = SIZES)]
 fn norm_of_theorem_3_4(bencher: Bencher<'_, '_>, elements: usize) {
     let (simulation, _, level) = moved(elements);
     bencher.counter(ItemsCount::new(elements)).bench_local(|| {
-        let Level { u, v, phi, w, theta, .. } = black_box(&level);
+        let Level {
+            u,
+            v,
+            phi,
+            w,
+            theta,
+            ..
+        } = black_box(&level);
         TheoremSquares::of(simulation.lengths(), v, u, w, phi, theta).norm()
     });
 }
@@ -138,14 +196,20 @@ fn norm_of_theorem_3_4(bencher: Bencher<'_, '_>, elements: usize) {
 fn tridiagonal_factorize(bencher: Bencher<'_, '_>, elements: usize) {
     let lengths = vec![1.0 / elements as f64; elements];
     let mut factor = TridiagonalFactor::new(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| factor.factorize(black_box(&lengths), 1.0, 0.0, 1.0));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| factor.factorize(black_box(&lengths), 1.0, 0.0, 1.0));
 }
 
 #[divan::bench(args = SIZES)]
 fn tridiagonal_solve(bencher: Bencher<'_, '_>, elements: usize) {
     let lengths = vec![1.0 / elements as f64; elements];
     let mut factor = TridiagonalFactor::new(elements);
-    factor.factorize(&lengths, 1.0, 0.0, 0.0).expect("a definite matrix");
+    factor
+        .factorize(&lengths, 1.0, 0.0, 0.0)
+        .expect("a definite matrix");
     let mut right = vec![1.0; elements + 1];
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| factor.solve_in_place(black_box(&mut right)));
+    bencher
+        .counter(ItemsCount::new(elements))
+        .bench_local(|| factor.solve_in_place(black_box(&mut right)));
 }

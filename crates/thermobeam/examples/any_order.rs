@@ -21,17 +21,39 @@ fn experiment(degree: usize) -> Result<Problem, Box<dyn Error>> {
         ..Initial::at_rest(0.0)
     };
     let mesh = Mesh::uniform(1)?;
-    Ok(Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, degree, initial })
+    Ok(Problem {
+        beam: Beam::default(),
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        degree,
+        initial,
+    })
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("   p  q     dt           u(1, 1)    error  steps  solves  factors   ms");
-    for (p, q, dt) in [(10, 1, 0.02), (12, 2, 0.02), (14, 2, 0.02), (16, 2, 0.02), (16, 2, 0.01), (16, 3, 0.02)] {
-        let mut simulation = Simulation::new(experiment(p)?, Stepping { degree: q, dt, ..Stepping::default() })?;
+    for (p, q, dt) in [
+        (10, 1, 0.02),
+        (12, 2, 0.02),
+        (14, 2, 0.02),
+        (16, 2, 0.02),
+        (16, 2, 0.01),
+        (16, 3, 0.02),
+    ] {
+        let mut simulation = Simulation::new(
+            experiment(p)?,
+            Stepping {
+                degree: q,
+                dt,
+                ..Stepping::default()
+            },
+        )?;
         let start = Instant::now();
         simulation.advance(1.0)?;
         let time = start.elapsed().as_secs_f64();
-        let u = simulation.value(Field::U, 1.0, 1.0).ok_or("the last step ends at 1")?;
+        let u = simulation
+            .value(Field::U, 1.0, 1.0)
+            .ok_or("the last step ends at 1")?;
         let work = simulation.work();
         println!(
             "{p:4} {q:2} {dt:6} {u:17.12} {:8.1e} {:6} {:7} {:8} {:6.2}",
@@ -42,7 +64,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             1e3 * time
         );
     }
-    let mut simulation = Simulation::new(experiment(16)?, Stepping { degree: 3, ..Stepping::default() })?;
+    let mut simulation = Simulation::new(
+        experiment(16)?,
+        Stepping {
+            degree: 3,
+            ..Stepping::default()
+        },
+    )?;
     simulation.advance(10.0)?;
     for event in simulation.events() {
         println!("t = {:.10}   {:?} -> {:?}", event.t, event.from, event.to);

@@ -33,9 +33,22 @@ impl Impacts {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mesh = Mesh::uniform(50)?;
-    let initial = Initial { u_t: mesh.nodes().to_vec(), ..Initial::at_rest(&mesh, 0.0) };
-    let problem = Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial };
-    let stepping = Stepping { scheme: MIDPOINT, settings: Settings::default(), dt: 1e-3, loaded: false };
+    let initial = Initial {
+        u_t: mesh.nodes().to_vec(),
+        ..Initial::at_rest(&mesh, 0.0)
+    };
+    let problem = Problem {
+        beam: Beam::default(),
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        initial,
+    };
+    let stepping = Stepping {
+        scheme: MIDPOINT,
+        settings: Settings::default(),
+        dt: 1e-3,
+        loaded: false,
+    };
 
     let (mut simulation, mut impacts) = (Simulation::new(problem, stepping)?, Impacts::default());
     let mut level = simulation.level();

@@ -12,11 +12,31 @@ use thermobeam::solve::Settings;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mesh = Mesh::uniform(100)?;
-    let beam = Beam { beta: 0.5, ..Beam::default() };
-    let u_t = mesh.nodes().iter().map(|x| 20.0 * x * (x - 1.0) * (x - 1.0)).collect();
-    let initial = Initial { u_t, ..Initial::at_rest(&mesh, beam.theta_a) };
-    let problem = Problem { beam, obstacles: Some(Obstacles::default()), mesh, initial };
-    let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings: Settings::default(), dt: 1e-3, loaded: false };
+    let beam = Beam {
+        beta: 0.5,
+        ..Beam::default()
+    };
+    let u_t = mesh
+        .nodes()
+        .iter()
+        .map(|x| 20.0 * x * (x - 1.0) * (x - 1.0))
+        .collect();
+    let initial = Initial {
+        u_t,
+        ..Initial::at_rest(&mesh, beam.theta_a)
+    };
+    let problem = Problem {
+        beam,
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        initial,
+    };
+    let stepping = Stepping {
+        scheme: EULER_CRANK_NICOLSON,
+        settings: Settings::default(),
+        dt: 1e-3,
+        loaded: false,
+    };
 
     let mut simulation = Simulation::new(problem, stepping)?;
     let mut level = simulation.level();
@@ -24,7 +44,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         simulation.advance()?;
         if step % 100 == 0 {
             simulation.observe(&mut level);
-            let (tip, energy) = (level.u[level.u.len() - 1], simulation.energy(&level).total());
+            let (tip, energy) = (
+                level.u[level.u.len() - 1],
+                simulation.energy(&level).total(),
+            );
             println!(
                 "t = {:.1}   u(1) = {tip:9.6}   contact force {:8.3}   energy {energy:.6}",
                 simulation.t(),

@@ -20,7 +20,11 @@ impl Tridiagonal {
     /// Assembles the 2 x 2 matrices that `local` returns for an element of length h.
     fn assemble(mesh: &Mesh, local: impl Fn(f64) -> [[f64; 2]; 2]) -> Self {
         let zeros = vec![0.0; mesh.nodes().len()];
-        let mut matrix = Self { lower: zeros.clone(), diagonal: zeros.clone(), upper: zeros };
+        let mut matrix = Self {
+            lower: zeros.clone(),
+            diagonal: zeros.clone(),
+            upper: zeros,
+        };
         for (i, h) in mesh.lengths().enumerate() {
             let block = local(h);
             matrix.diagonal[i] += block[0][0];
@@ -35,8 +39,16 @@ impl Tridiagonal {
     pub fn multiply_into(&self, vector: &[f64], product: &mut [f64]) {
         let last = self.diagonal.len() - 1;
         for i in 0..=last {
-            let left = if i > 0 { self.lower[i] * vector[i - 1] } else { 0.0 };
-            let right = if i < last { self.upper[i] * vector[i + 1] } else { 0.0 };
+            let left = if i > 0 {
+                self.lower[i] * vector[i - 1]
+            } else {
+                0.0
+            };
+            let right = if i < last {
+                self.upper[i] * vector[i + 1]
+            } else {
+                0.0
+            };
             product[i] = left + self.diagonal[i] * vector[i] + right;
         }
     }
@@ -54,7 +66,11 @@ impl Tridiagonal {
         lower.rotate_right(1);
         let mut upper = self.lower.clone();
         upper.rotate_left(1);
-        Self { lower, diagonal: self.diagonal.clone(), upper }
+        Self {
+            lower,
+            diagonal: self.diagonal.clone(),
+            upper,
+        }
     }
 }
 
@@ -98,7 +114,10 @@ mod tests {
 
     /// ∫ p q over the mesh for polynomials of low degree, by Simpson's rule on each element (exact to degree 3).
     fn integral(mesh: &Mesh, f: impl Fn(f64) -> f64) -> f64 {
-        mesh.nodes().windows(2).map(|x| (x[1] - x[0]) / 6.0 * (f(x[0]) + 4.0 * f(0.5 * (x[0] + x[1])) + f(x[1]))).sum()
+        mesh.nodes()
+            .windows(2)
+            .map(|x| (x[1] - x[0]) / 6.0 * (f(x[0]) + 4.0 * f(0.5 * (x[0] + x[1])) + f(x[1])))
+            .sum()
     }
 
     fn graded() -> Mesh {
@@ -110,7 +129,12 @@ mod tests {
     }
 
     fn form(matrix: &Tridiagonal, test: &[f64], trial: &[f64]) -> f64 {
-        matrix.multiply(trial).iter().zip(test).map(|(a, b)| a * b).sum()
+        matrix
+            .multiply(trial)
+            .iter()
+            .zip(test)
+            .map(|(a, b)| a * b)
+            .sum()
     }
 
     #[test]
@@ -118,10 +142,19 @@ mod tests {
         let mesh = graded();
         let (p, q) = (interpolate(&mesh, 2.0, -0.3), interpolate(&mesh, -1.5, 0.7));
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-15 * 16.0, "{a} {b}");
-        close(form(&mass(&mesh), &p, &q), integral(&mesh, |x| (2.0 * x - 0.3) * (-1.5 * x + 0.7)));
+        close(
+            form(&mass(&mesh), &p, &q),
+            integral(&mesh, |x| (2.0 * x - 0.3) * (-1.5 * x + 0.7)),
+        );
         close(form(&stiffness(&mesh), &p, &q), -3.0);
-        close(form(&coupling(&mesh), &p, &q), integral(&mesh, |x| 2.0 * (-1.5 * x + 0.7)));
-        close(form(&coupling(&mesh).transpose(), &p, &q), integral(&mesh, |x| (2.0 * x - 0.3) * -1.5));
+        close(
+            form(&coupling(&mesh), &p, &q),
+            integral(&mesh, |x| 2.0 * (-1.5 * x + 0.7)),
+        );
+        close(
+            form(&coupling(&mesh).transpose(), &p, &q),
+            integral(&mesh, |x| (2.0 * x - 0.3) * -1.5),
+        );
     }
 
     #[test]
@@ -148,7 +181,10 @@ mod tests {
                 assert!((m.entry(i, j) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
                 // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i times the mean of
                 // N_j.
-                let exact: f64 = x.windows(2).map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1]))).sum();
+                let exact: f64 = x
+                    .windows(2)
+                    .map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1])))
+                    .sum();
                 assert!((c.entry(i, j) - exact).abs() < 1e-15);
             }
         }

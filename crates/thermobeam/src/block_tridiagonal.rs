@@ -38,7 +38,11 @@ pub(crate) fn times<T: Lane, const B: usize>(matrix: &Block<T, B>, vector: [T; B
 
 /// `start - matrix * vector`.
 #[inline(always)]
-pub(crate) fn minus_times<T: Lane, const B: usize>(start: [T; B], matrix: &Block<T, B>, vector: [T; B]) -> [T; B] {
+pub(crate) fn minus_times<T: Lane, const B: usize>(
+    start: [T; B],
+    matrix: &Block<T, B>,
+    vector: [T; B],
+) -> [T; B] {
     let mut result = start;
     for row in 0..B {
         for column in 0..B {
@@ -99,7 +103,13 @@ fn signs<const B: usize>() -> [f64; B] {
 /// An uninitialised factorisation for n elements: a [`Node`] for each unknown node 1..n; entry 0 is unused.
 pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<Node<T, B>> {
     let zero = [[T::splat(0.0); B]; B];
-    vec![Node { multiplier: zero, inverse: zero }; elements + 1]
+    vec![
+        Node {
+            multiplier: zero,
+            inverse: zero
+        };
+        elements + 1
+    ]
 }
 
 /// Factorises the matrix of case `lane`; `blocks(i)` gives `(O_i, D_i)` for node i = 1..n.
@@ -128,7 +138,11 @@ pub(crate) fn factorize<T: Lane, const B: usize>(
                 pivot_block[row][column] -= update;
             }
         }
-        inverse = invert(pivot_block, signs()).map_err(|pivot| StepFailure::Indefinite { node, pivot, n_value })?;
+        inverse = invert(pivot_block, signs()).map_err(|pivot| StepFailure::Indefinite {
+            node,
+            pivot,
+            n_value,
+        })?;
         for row in 0..B {
             for column in 0..B {
                 stored.multiplier[row][column].set_lane(lane, multiplier[row][column]);
@@ -151,7 +165,8 @@ mod tests {
     fn blocks(seed: &[f64]) -> impl Fn(usize) -> (Block<f64, 3>, Block<f64, 3>) + '_ {
         move |node| {
             let at = |k: usize| seed[(node * 15 + k) % seed.len()];
-            let lower = std::array::from_fn(|row| std::array::from_fn(|column| at(3 * row + column)));
+            let lower =
+                std::array::from_fn(|row| std::array::from_fn(|column| at(3 * row + column)));
             let mut diagonal = [[0.0; 3]; 3];
             for row in 0..3 {
                 for column in 0..3 {
@@ -169,7 +184,10 @@ mod tests {
             let refused = invert([[1.0, 0.0], [0.0, pivot]], [1.0, 1.0]).unwrap_err();
             assert_eq!(refused.to_bits(), pivot.to_bits());
         }
-        assert_eq!(invert([[1.0, 0.0], [0.0, -4.0]], [1.0, -1.0]), Ok([[1.0, 0.0], [0.0, -0.25]]));
+        assert_eq!(
+            invert([[1.0, 0.0], [0.0, -4.0]], [1.0, -1.0]),
+            Ok([[1.0, 0.0], [0.0, -0.25]])
+        );
     }
 
     proptest! {
@@ -216,6 +234,13 @@ mod tests {
             let d = if node == 3 { -1.0 } else { 1.0 };
             ([[0.0; 2]; 2], [[d, 0.0], [0.0, 1.0]])
         });
-        assert_eq!(failure, Err(StepFailure::Indefinite { node: 3, pivot: -1.0, n_value: -0.9 }));
+        assert_eq!(
+            failure,
+            Err(StepFailure::Indefinite {
+                node: 3,
+                pivot: -1.0,
+                n_value: -0.9
+            })
+        );
     }
 }

@@ -68,7 +68,10 @@ mod tests {
     fn bisection_treats_zero_as_negative() {
         let above = |x: f64| (x - 1.0).max(0.0);
         for (lo, hi) in [(0.0, 2.0), (0.0, 3.0), (2.0, 0.0), (3.0, -1.0)] {
-            assert!((bisect(above, lo, hi) - 1.0).abs() <= 2.0 * f64::EPSILON, "{lo} {hi}");
+            assert!(
+                (bisect(above, lo, hi) - 1.0).abs() <= 2.0 * f64::EPSILON,
+                "{lo} {hi}"
+            );
         }
     }
 

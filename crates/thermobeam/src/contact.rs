@@ -65,7 +65,9 @@ impl Obstacles {
     /// The penetration is largest at 1.65 t*; contact lasts longer, for every ε. `THEORY.md`, "Penetration of an impact";
     /// without viscosity the penetration δ of the tip obeys `δ' = ν - δ/ε`, with the velocity ν of the impact.
     pub fn impact_time(&self, zeta: f64) -> f64 {
-        (self.epsilon * zeta.sqrt()).powf(2.0 / 3.0).max(self.epsilon)
+        (self.epsilon * zeta.sqrt())
+            .powf(2.0 / 3.0)
+            .max(self.epsilon)
     }
 
     /// Contact energy G(u(1)) of (2.5).
@@ -122,17 +124,33 @@ impl Obstacles {
         } else if r < self.g1 {
             self.g1
         } else {
-            return Tip { u: r, force: 0.0 * r, stiffness: 0.0 };
+            return Tip {
+                u: r,
+                force: 0.0 * r,
+                stiffness: 0.0,
+            };
         };
         // With ε + c the force has full relative accuracy for small ε.
         let force = (r - wall) / (self.epsilon + c);
-        Tip { u: wall + self.epsilon * force, force, stiffness: 1.0 / self.epsilon }
+        Tip {
+            u: wall + self.epsilon * force,
+            force,
+            stiffness: 1.0 / self.epsilon,
+        }
     }
 
     /// F = discrete gradient: the values of the left-hand side at both obstacles select the piece.
     fn solve_gradient(&self, r: f64, c: f64, u0: f64) -> Tip {
-        let mirrored = Obstacles { epsilon: self.epsilon, g1: -self.g2, g2: -self.g1 };
-        let flip = |tip: Tip| Tip { u: -tip.u, force: -tip.force, stiffness: tip.stiffness };
+        let mirrored = Obstacles {
+            epsilon: self.epsilon,
+            g1: -self.g2,
+            g2: -self.g1,
+        };
+        let flip = |tip: Tip| Tip {
+            u: -tip.u,
+            force: -tip.force,
+            stiffness: tip.stiffness,
+        };
         if r >= self.g2 + c * self.discrete_gradient(self.g2, u0) {
             self.solve_above(r, c, u0)
         } else if r <= self.g1 + c * self.discrete_gradient(self.g1, u0) {
@@ -142,7 +160,11 @@ impl Obstacles {
         } else if u0 < self.g1 {
             flip(mirrored.solve_leaving(-r, c, -u0))
         } else {
-            Tip { u: r, force: 0.0 * r, stiffness: 0.0 }
+            Tip {
+                u: r,
+                force: 0.0 * r,
+                stiffness: 0.0,
+            }
         }
     }
 
@@ -153,7 +175,11 @@ impl Obstacles {
         if p0 >= 0.0 {
             // Above g2 before and after the step: F = (p + p0)/(2ε), linear in p.
             let force = (r - self.g2 + p0) / (double + c);
-            return Tip { u: self.g2 + (double * force - p0), force, stiffness: 1.0 / double };
+            return Tip {
+                u: self.g2 + (double * force - p0),
+                force,
+                stiffness: 1.0 / double,
+            };
         }
         // From d = -p0 below g2: F = (p² - q²)/(2ε (p + d)), q the depth of u0 below g1. With s = r - g2 = p + c F
         //   (2ε + c) p² + 2ε (d - s) p - (2ε s d + c q²) = 0, of which p is the root >= 0.
@@ -161,11 +187,23 @@ impl Obstacles {
         //   c (2ε + c) F² - 2 b F + (s - q) (s + q) = 0,   2 b = 2ε (s + d) + 2 c s,
         // with the same discriminant as p.
         let (d, s, q) = (-p0, r - self.g2, (self.g1 - u0).max(0.0));
-        let p = positive_root(double + c, double * (d - s), (double * s * d + c * q * q).max(0.0));
+        let p = positive_root(
+            double + c,
+            double * (d - s),
+            (double * s * d + c * q * q).max(0.0),
+        );
         let root = (double + c) * p + self.epsilon * (d - s);
         let b = self.epsilon * (s + d) + c * s;
-        let force = if b > 0.0 { (s - q) * (s + q) / (b + root) } else { (b - root) / (c * (double + c)) };
-        Tip { u: self.g2 + p, force, stiffness: (p / self.epsilon - force) / (p + d) }
+        let force = if b > 0.0 {
+            (s - q) * (s + q) / (b + root)
+        } else {
+            (b - root) / (c * (double + c))
+        };
+        Tip {
+            u: self.g2 + p,
+            force,
+            stiffness: (p / self.epsilon - force) / (p + d),
+        }
     }
 
     /// The tip starts above g2 and ends between the obstacles, d below its start: F = G0/d, d² - (u0 - r) d = c G0.
@@ -173,14 +211,22 @@ impl Obstacles {
         let g0 = self.potential(u0);
         let d = positive_root(1.0, r - u0, c * g0);
         let force = g0 / d;
-        Tip { u: u0 - d, force, stiffness: force / d }
+        Tip {
+            u: u0 - d,
+            force,
+            stiffness: force / d,
+        }
     }
 }
 
 /// The root x >= 0 of `a x² + b x - c = 0` for a > 0, c >= 0, without cancellation.
 fn positive_root(a: f64, b: f64, c: f64) -> f64 {
     let root = (b * b + 4.0 * a * c).sqrt();
-    if b > 0.0 { 2.0 * c / (b + root) } else { (root - b) / (2.0 * a) }
+    if b > 0.0 {
+        2.0 * c / (b + root)
+    } else {
+        (root - b) / (2.0 * a)
+    }
 }
 
 #[cfg(test)]
@@ -191,8 +237,9 @@ mod tests {
     /// The tip at the start of a step: arbitrary, or within a few rounding errors of an obstacle of the default pair.
     fn start() -> impl Strategy<Value = f64> {
         let Obstacles { g1, g2, .. } = Obstacles::default();
-        let near = (any::<bool>(), -4..5i32)
-            .prop_map(move |(upper, ulps)| (if upper { g2 } else { g1 }) * (1.0 + f64::from(ulps) * f64::EPSILON));
+        let near = (any::<bool>(), -4..5i32).prop_map(move |(upper, ulps)| {
+            (if upper { g2 } else { g1 }) * (1.0 + f64::from(ulps) * f64::EPSILON)
+        });
         prop_oneof![3 => -0.3..0.3f64, 1 => near]
     }
 
@@ -246,10 +293,18 @@ mod tests {
     #[test]
     fn the_positive_root_is_computed_without_cancellation() {
         // x² + b x = c, for large b of either sign.
-        for (b, c, root) in
-            [(1e9, 1.0, 1e-9), (-1e9, 1.0, 1e9), (0.0, 4.0, 2.0), (0.0, 0.0, 0.0), (3.0, 0.0, 0.0), (3.0, 4.0, 1.0)]
-        {
-            assert!((positive_root(1.0, b, c) - root).abs() <= 1e-15 * root, "{b} {c}");
+        for (b, c, root) in [
+            (1e9, 1.0, 1e-9),
+            (-1e9, 1.0, 1e9),
+            (0.0, 4.0, 2.0),
+            (0.0, 0.0, 0.0),
+            (3.0, 0.0, 0.0),
+            (3.0, 4.0, 1.0),
+        ] {
+            assert!(
+                (positive_root(1.0, b, c) - root).abs() <= 1e-15 * root,
+                "{b} {c}"
+            );
         }
         assert_eq!(positive_root(2.0, 2.0, 12.0), 2.0);
     }

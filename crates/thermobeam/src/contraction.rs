@@ -28,13 +28,21 @@ const RELATIVE_CHANGE: f64 = 1e-13;
 impl Case {
     /// κ = inertia/dt and σ = ζ + dt/2.
     fn kappa_and_sigma(&self) -> (f64, f64) {
-        (self.scheme.inertia / self.dt, self.beam.zeta + 0.5 * self.dt)
+        (
+            self.scheme.inertia / self.dt,
+            self.beam.zeta + 0.5 * self.dt,
+        )
     }
 
     /// `A_u = κ M + (ζ + dt (1 + N)/2) K`, the matrix of the first equation of (4.2); `None` if it is not positive definite.
     fn matrix_of_u(&self, n_value: f64) -> Option<Operator> {
         let stiffness = self.beam.zeta + 0.5 * self.dt * (1.0 + n_value);
-        Operator::new(self.lengths.len(), &self.lengths, self.scheme.inertia / self.dt, stiffness)
+        Operator::new(
+            self.lengths.len(),
+            &self.lengths,
+            self.scheme.inertia / self.dt,
+            stiffness,
+        )
     }
 
     /// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`; 0 without obstacles.
@@ -44,12 +52,16 @@ impl Case {
     ///
     /// * Returns infinity if A_u is not positive definite: then the fixed point cannot perform the step.
     pub fn contact_contraction(&self, n_value: f64) -> f64 {
-        let Some(obstacles) = &self.obstacles else { return 0.0 };
+        let Some(obstacles) = &self.obstacles else {
+            return 0.0;
+        };
         let slope = match self.scheme.contact {
             ContactRule::Implicit => 1.0 / obstacles.epsilon,
             ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
         };
-        self.matrix_of_u(n_value).map_or(f64::INFINITY, |of_u| self.dt * slope * of_u.factor.last_of_inverse())
+        self.matrix_of_u(n_value).map_or(f64::INFINITY, |of_u| {
+            self.dt * slope * of_u.factor.last_of_inverse()
+        })
     }
 
     /// Contraction factor of the fixed point due to the coupling of rotation and displacement.
@@ -67,10 +79,13 @@ impl Case {
     ///
     /// * Returns infinity if A_u is not positive definite.
     pub fn coupling_contraction(&self, n_value: f64) -> f64 {
-        let (n, lengths, (kappa, sigma)) = (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
+        let (n, lengths, (kappa, sigma)) =
+            (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
         let of_u = Operator::new(n, lengths, kappa, sigma + 0.5 * self.dt * n_value);
         let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
-        of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| round_trip(lengths, sigma, &of_u, &of_phi))
+        of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| {
+            round_trip(lengths, sigma, &of_u, &of_phi)
+        })
     }
 
     /// Contraction factor of the fixed point due to the coupling of rotation and temperature.
@@ -80,7 +95,8 @@ impl Case {
     /// sign. A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + σ (1 + k²)))`, at most about `a² dt/(√I + √(2σ))²` with
     /// the inertia I: larger than that of rotation and displacement where `a² > σ (1 + √(2σ))²/2` (I = 1), and above 1 for a large a.
     pub fn heat_contraction(&self) -> f64 {
-        let (n, lengths, (kappa, sigma)) = (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
+        let (n, lengths, (kappa, sigma)) =
+            (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
         if n == 1 || self.beam.a == 0.0 {
             return 0.0;
         }
@@ -98,11 +114,19 @@ impl Case {
     /// * `u`: the displacement at the nodes, used for both the old and the new level.
     /// * Returns infinity if A_u is not positive definite.
     pub fn axial_contraction(&self, n_value: f64, u: &[f64]) -> f64 {
-        let Some(of_u) = self.matrix_of_u(n_value) else { return f64::INFINITY };
+        let Some(of_u) = self.matrix_of_u(n_value) else {
+            return f64::INFINITY;
+        };
         let bent = stiffness_times(&self.lengths, u);
         let mut moved = bent.clone();
         of_u.factor.solve_in_place(&mut moved);
-        self.beam.rho * self.dt * bent.iter().zip(&moved).map(|(bent, moved)| bent * moved).sum::<f64>()
+        self.beam.rho
+            * self.dt
+            * bent
+                .iter()
+                .zip(&moved)
+                .map(|(bent, moved)| bent * moved)
+                .sum::<f64>()
     }
 
     /// The largest factor of the four loops: about the contraction factor of the fixed point if the others are small.
@@ -116,7 +140,9 @@ impl Case {
             (self.heat_contraction(), Loop::Heat),
             (self.axial_contraction(n_value, u), Loop::AxialForce),
         ];
-        loops.into_iter().fold((0.0, Loop::Contact), |most, next| if next.0 > most.0 { next } else { most })
+        loops.into_iter().fold((0.0, Loop::Contact), |most, next| {
+            if next.0 > most.0 { next } else { most }
+        })
     }
 }
 
@@ -143,7 +169,14 @@ impl Operator {
     /// For the nodes 1..=last; `None` if it is not positive definite.
     pub(crate) fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
         let mut factor = TridiagonalFactor::new(last);
-        factor.factorize(lengths, mass, stiffness, 0.0).ok().map(|()| Self { mass, stiffness, factor })
+        factor
+            .factorize(lengths, mass, stiffness, 0.0)
+            .ok()
+            .map(|()| Self {
+                mass,
+                stiffness,
+                factor,
+            })
     }
 
     /// Solves for the nodes, zero where the value is prescribed.
@@ -167,7 +200,9 @@ fn round_trip(lengths: &[f64], b: f64, outer: &Operator, inner: &Operator) -> f6
     let (mut w, mut image) = (vec![0.0; n + 1], vec![0.0; n + 1]);
     let mut factor = 0.0;
     for _ in 0..ITERATIONS {
-        let size = (outer.mass * l2_squared(lengths, &v) + outer.stiffness * slope_squared(lengths, &v)).sqrt();
+        let size = (outer.mass * l2_squared(lengths, &v)
+            + outer.stiffness * slope_squared(lengths, &v))
+        .sqrt();
         v.iter_mut().for_each(|v| *v /= size);
         transposed_coupling(b, &v, &mut w);
         inner.solve(&mut w);
@@ -214,7 +249,13 @@ mod tests {
     /// Without obstacles, by the paper's scheme.
     fn case(beam: Beam, elements: usize, dt: f64) -> Case {
         let lengths = vec![1.0 / elements as f64; elements];
-        Case { beam, obstacles: None, scheme: EULER_CRANK_NICOLSON, dt, lengths }
+        Case {
+            beam,
+            obstacles: None,
+            scheme: EULER_CRANK_NICOLSON,
+            dt,
+            lengths,
+        }
     }
 
     #[test]
@@ -228,36 +269,77 @@ mod tests {
             (1e-3, 0.01, 1e-3, 0.230, 5e-4),
         ];
         for (epsilon, zeta, dt, expected, half_a_digit) in rows {
-            let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
-            let case = Case { obstacles, ..case(Beam { zeta, ..Beam::default() }, 100, dt) };
+            let obstacles = Some(Obstacles {
+                epsilon,
+                ..Obstacles::default()
+            });
+            let case = Case {
+                obstacles,
+                ..case(
+                    Beam {
+                        zeta,
+                        ..Beam::default()
+                    },
+                    100,
+                    dt,
+                )
+            };
             let alpha = case.contact_contraction(0.0);
-            assert!((alpha - expected).abs() <= 1.5 * half_a_digit, "{alpha} for {expected}");
+            assert!(
+                (alpha - expected).abs() <= 1.5 * half_a_digit,
+                "{alpha} for {expected}"
+            );
         }
     }
 
     #[test]
     fn on_one_element_the_contact_factor_is_the_closed_formula() {
         let dt = 0.1;
-        let obstacles = Some(Obstacles { epsilon: 0.01, ..Obstacles::default() });
+        let obstacles = Some(Obstacles {
+            epsilon: 0.01,
+            ..Obstacles::default()
+        });
         for (scheme, slope) in [(EULER_CRANK_NICOLSON, 100.0), (MIDPOINT, 50.0)] {
             // The tip's hat function has the mass 1/3 and the stiffness 1.
             let operator = scheme.inertia / dt / 3.0 + 0.3 + 0.5 * dt * 3.0;
-            let case = Case { obstacles, scheme, ..case(Beam { zeta: 0.3, ..Beam::default() }, 1, dt) };
+            let case = Case {
+                obstacles,
+                scheme,
+                ..case(
+                    Beam {
+                        zeta: 0.3,
+                        ..Beam::default()
+                    },
+                    1,
+                    dt,
+                )
+            };
             let found = case.contact_contraction(2.0);
-            assert!((found / (dt * slope / operator) - 1.0).abs() < 1e-14, "{found}");
+            assert!(
+                (found / (dt * slope / operator) - 1.0).abs() < 1e-14,
+                "{found}"
+            );
         }
     }
 
     #[test]
     fn the_coupling_factor_is_that_of_a_thin_layer_at_the_free_end() {
-        let beam = Beam { zeta: 0.1, ..Beam::default() };
+        let beam = Beam {
+            zeta: 0.1,
+            ..Beam::default()
+        };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for (dt, n_value) in [(1e-3, 0.0), (1e-3, 200.0), (1e-2, -0.5)] {
                 let (kappa, sigma) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
                 let stiffness_u = sigma + 0.5 * dt * n_value;
                 let layer = sigma * sigma
-                    / (stiffness_u * (kappa + sigma) + (sigma * stiffness_u * kappa * (kappa + sigma)).sqrt());
-                let found = Case { scheme, ..case(beam, 1000, dt) }.coupling_contraction(n_value);
+                    / (stiffness_u * (kappa + sigma)
+                        + (sigma * stiffness_u * kappa * (kappa + sigma)).sqrt());
+                let found = Case {
+                    scheme,
+                    ..case(beam, 1000, dt)
+                }
+                .coupling_contraction(n_value);
                 assert!((found - layer).abs() <= 0.01 * layer, "{found} for {layer}");
             }
         }
@@ -279,11 +361,19 @@ mod tests {
     #[test]
     fn the_factors_of_heat_and_axial_force_are_those_of_waves_and_layers() {
         let bent: Vec<f64> = (0..=1000).map(|i| (f64::from(i) * 1e-3).powi(2)).collect();
-        let beam = Beam { zeta: 0.1, a: 1.0, rho: 1.0, ..Beam::default() };
+        let beam = Beam {
+            zeta: 0.1,
+            a: 1.0,
+            rho: 1.0,
+            ..Beam::default()
+        };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for dt in [1e-3_f64, 1e-4] {
                 let wave = dt / (scheme.inertia.sqrt() + (2.0 * beam.zeta + dt).sqrt()).powi(2);
-                let case = Case { scheme, ..case(beam, 1000, dt) };
+                let case = Case {
+                    scheme,
+                    ..case(beam, 1000, dt)
+                };
                 let heat = case.heat_contraction();
                 assert!((heat - wave).abs() <= 0.01 * wave, "{heat} for {wave}");
                 let layer = 4.0 * dt.powf(1.5) / (scheme.inertia * beam.zeta).sqrt();
@@ -297,10 +387,23 @@ mod tests {
     fn the_largest_loop_is_named() {
         let largest = |beam: Beam, obstacles: Option<Obstacles>, slope: f64| {
             let u: Vec<f64> = (0..=50).map(|i| slope * f64::from(i) / 50.0).collect();
-            Case { obstacles, ..case(beam, 50, 1e-2) }.contraction(&u)
+            Case {
+                obstacles,
+                ..case(beam, 50, 1e-2)
+            }
+            .contraction(&u)
         };
         let obstacles = Some(Obstacles::default());
-        let (hot, stiff) = (Beam { a: 20.0, ..Beam::default() }, Beam { rho: 1e3, ..Beam::default() });
+        let (hot, stiff) = (
+            Beam {
+                a: 20.0,
+                ..Beam::default()
+            },
+            Beam {
+                rho: 1e3,
+                ..Beam::default()
+            },
+        );
         for (beam, obstacles, slope, factor, of) in [
             (Beam::default(), obstacles, 0.0, 3.038, Loop::Contact),
             (Beam::default(), None, 0.0, 5.08e-4, Loop::Rotation),
@@ -308,13 +411,25 @@ mod tests {
             (stiff, None, 1.0, 0.44232, Loop::AxialForce),
         ] {
             let (found, named) = largest(beam, obstacles, slope);
-            assert!(named == of && (found - factor).abs() <= 1e-3 * factor, "{named}: {found} for {factor}");
+            assert!(
+                named == of && (found - factor).abs() <= 1e-3 * factor,
+                "{named}: {found} for {factor}"
+            );
         }
     }
 
     #[test]
     fn the_contraction_factor_of_an_indefinite_operator_is_infinite() {
-        let case = Case { obstacles: Some(Obstacles::default()), ..case(Beam::default(), 10, 10.0) };
-        assert_eq!([case.contact_contraction(-3.0), case.coupling_contraction(-3.0)], [f64::INFINITY; 2]);
+        let case = Case {
+            obstacles: Some(Obstacles::default()),
+            ..case(Beam::default(), 10, 10.0)
+        };
+        assert_eq!(
+            [
+                case.contact_contraction(-3.0),
+                case.coupling_contraction(-3.0)
+            ],
+            [f64::INFINITY; 2]
+        );
     }
 }

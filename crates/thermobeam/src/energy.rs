@@ -49,13 +49,23 @@ pub struct Energy {
 impl Energy {
     /// E^n, the sum of the terms.
     pub fn total(&self) -> f64 {
-        self.kinetic + self.shear + self.bending + self.thermal + self.kirchhoff + self.contact + self.lifting
+        self.kinetic
+            + self.shear
+            + self.bending
+            + self.thermal
+            + self.kirchhoff
+            + self.contact
+            + self.lifting
     }
 }
 
 /// ∫ y of a P1 function.
 fn mean(lengths: &[f64], y: &[f64]) -> f64 {
-    lengths.iter().zip(y.windows(2)).map(|(h, y)| 0.5 * h * (y[0] + y[1])).sum()
+    lengths
+        .iter()
+        .zip(y.windows(2))
+        .map(|(h, y)| 0.5 * h * (y[0] + y[1]))
+        .sum()
 }
 
 /// The balance of one step, of a one-step scheme or of [`dg`](crate::dg); `residual` is the sum of the other terms, and round-off
@@ -108,7 +118,13 @@ impl Balance {
     /// * `tip`: u0(1) and u(1).
     /// * `force`: the contact force of the step.
     pub(crate) fn from_sums(case: &Case, sums: &Sums<f64>, [u0, u]: [f64; 2], force: f64) -> Self {
-        let Case { beam, obstacles, scheme, dt, .. } = case;
+        let Case {
+            beam,
+            obstacles,
+            scheme,
+            dt,
+            ..
+        } = case;
         let stored = contact_change(obstacles.as_ref(), u0, u);
         let change = change(case, sums, stored);
         let gap = obstacles.map_or(0.0, |_| force * (u - u0) - stored);
@@ -118,14 +134,27 @@ impl Balance {
         // nothing.
         let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
         let residual = change + viscous + thermal + inertial + gap;
-        Self { change, viscous, thermal, inertial, contact: gap, load: 0.0, residual }
+        Self {
+            change,
+            viscous,
+            thermal,
+            inertial,
+            contact: gap,
+            load: 0.0,
+            residual,
+        }
     }
 }
 
 impl Case {
     /// The energy (3.9) of a level.
     pub fn energy(&self, level: &Level) -> Energy {
-        let Self { beam, obstacles, lengths, .. } = self;
+        let Self {
+            beam,
+            obstacles,
+            lengths,
+            ..
+        } = self;
         Energy {
             kinetic: 0.5 * (l2_squared(lengths, &level.v) + l2_squared(lengths, &level.w)),
             shear: 0.5 * shear_squared(lengths, &level.u, &level.phi),
@@ -147,19 +176,27 @@ impl Case {
     pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
         let stored = contact_change(self.obstacles.as_ref(), tip(old), tip(new));
         // The weight only enters the dissipation, which is not computed here.
-        change(self, &Sums::over::<false>(&self.lengths, 0.5, old, new), stored)
+        change(
+            self,
+            &Sums::over::<false>(&self.lengths, 0.5, old, new),
+            stored,
+        )
     }
 }
 
 /// E^n - E^{n-1}; `stored` is the change of the contact energy.
 fn change(Case { beam, .. }: &Case, sums: &Sums<f64>, stored: f64) -> f64 {
-    sums.quadratic + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0]) + stored
+    sums.quadratic
+        + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0])
+        + stored
         - beam.a * beam.theta_a * sums.rotation_change
 }
 
 /// G(u(1)) - G(u0(1)), without cancellation.
 fn contact_change(obstacles: Option<&Obstacles>, u0: f64, u: f64) -> f64 {
-    obstacles.map_or(0.0, |obstacles| obstacles.discrete_gradient(u, u0) * (u - u0))
+    obstacles.map_or(0.0, |obstacles| {
+        obstacles.discrete_gradient(u, u0) * (u - u0)
+    })
 }
 
 fn tip(level: &Level) -> f64 {

@@ -42,34 +42,79 @@ impl Ensemble {
     /// # Errors
     /// [`SetupError`] as for a single simulation, for the first invalid case; [`SetupError::Length`] if the numbers of
     /// elements differ, if there is no problem, or if the number of time steps differs from that of the problems.
-    pub fn new(mut problems: Vec<Problem>, dt: &[f64], scheme: Scheme, settings: Settings) -> Result<Self, SetupError> {
+    pub fn new(
+        mut problems: Vec<Problem>,
+        dt: &[f64],
+        scheme: Scheme,
+        settings: Settings,
+    ) -> Result<Self, SetupError> {
         if dt.len() != problems.len() {
-            return Err(SetupError::Length { field: "dt", found: dt.len(), expected: problems.len() });
+            return Err(SetupError::Length {
+                field: "dt",
+                found: dt.len(),
+                expected: problems.len(),
+            });
         }
         let Some(first) = problems.first() else {
-            return Err(SetupError::Length { field: "problems", found: 0, expected: 1 });
+            return Err(SetupError::Length {
+                field: "problems",
+                found: 0,
+                expected: 1,
+            });
         };
         let nodes = first.mesh.nodes().len();
         let mut starts = vec![];
         for (problem, &dt) in problems.iter_mut().zip(dt) {
-            let level = prepare(problem, &Stepping { scheme, settings, dt, loaded: false })?;
+            let level = prepare(
+                problem,
+                &Stepping {
+                    scheme,
+                    settings,
+                    dt,
+                    loaded: false,
+                },
+            )?;
             if level.u.len() != nodes {
-                return Err(SetupError::Length { field: "nodes", found: level.u.len(), expected: nodes });
+                return Err(SetupError::Length {
+                    field: "nodes",
+                    found: level.u.len(),
+                    expected: nodes,
+                });
             }
             starts.push((problem.case(scheme, dt), level));
         }
-        let heated: Vec<bool> = starts.iter().map(|(case, level)| is_heated(&case.beam, level)).collect();
+        let heated: Vec<bool> = starts
+            .iter()
+            .map(|(case, level)| is_heated(&case.beam, level))
+            .collect();
         let group = |(starts, heated): (&[(Case, Level)], &[bool])| {
             let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
             let cases = lanes().map(|(case, _)| case.clone()).collect();
             let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
             newton(cases, settings, &levels, heated.contains(&true))
         };
-        let groups: Vec<_> = starts.chunks(WIDTH).zip(heated.chunks(WIDTH)).map(group).collect();
-        let outcomes = vec![Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN }); WIDTH * groups.len()];
+        let groups: Vec<_> = starts
+            .chunks(WIDTH)
+            .zip(heated.chunks(WIDTH))
+            .map(group)
+            .collect();
+        let outcomes = vec![
+            Err(StepFailure::NonFinite {
+                iterations: 0,
+                increment: f64::NAN
+            });
+            WIDTH * groups.len()
+        ];
         let failed = vec![None; starts.len()];
         let cases = starts.into_iter().map(|(case, _)| case).collect();
-        Ok(Self { cases, groups, outcomes, step: 0, failed, heated })
+        Ok(Self {
+            cases,
+            groups,
+            outcomes,
+            step: 0,
+            failed,
+            heated,
+        })
     }
 
     /// The cases, which compute energies, and scales for them.
@@ -103,7 +148,12 @@ impl Ensemble {
         self.outcomes[k].clone().map_err(|failure| {
             let step = self.failed[k].unwrap_or(self.step);
             let dt = self.cases[k].dt;
-            StepError { step, t: (step - 1) as f64 * dt, dt, failure }
+            StepError {
+                step,
+                t: (step - 1) as f64 * dt,
+                dt,
+                failure,
+            }
         })
     }
 
@@ -136,8 +186,13 @@ impl Ensemble {
 
     /// Counts of the work done so far for all cases; a pass of a group counts once.
     pub fn work(&self) -> Work {
-        let sum = |count: fn(Work) -> usize| self.groups.iter().map(|group| count(group.work())).sum();
-        Work { passes: sum(|work| work.passes), factorizations: sum(|work| work.factorizations), ..Work::default() }
+        let sum =
+            |count: fn(Work) -> usize| self.groups.iter().map(|group| count(group.work())).sum();
+        Work {
+            passes: sum(|work| work.passes),
+            factorizations: sum(|work| work.factorizations),
+            ..Work::default()
+        }
     }
 
     /// Counts of the work for case k so far, the same as in a single run.

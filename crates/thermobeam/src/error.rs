@@ -155,7 +155,9 @@ pub enum SetupError {
         found: f64,
     },
     /// Initial data of any degree that are not finite.
-    #[error("initial {field} between x = {from} and x = {to}: expected finite numbers, found {found}")]
+    #[error(
+        "initial {field} between x = {from} and x = {to}: expected finite numbers, found {found}"
+    )]
     NotFiniteBetween {
         /// Name of the field.
         field: &'static str,
@@ -167,7 +169,9 @@ pub enum SetupError {
         to: f64,
     },
     /// Initial data that violate a boundary condition of (1.3).
-    #[error("initial {field} at x = {x}: expected {allowed} from the boundary condition, found {found}")]
+    #[error(
+        "initial {field} at x = {x}: expected {allowed} from the boundary condition, found {found}"
+    )]
     Boundary {
         /// Name of the field.
         field: &'static str,
@@ -218,11 +222,26 @@ mod tests {
 
     #[test]
     fn buckling_is_blamed_for_a_pivot_of_the_wrong_sign_only() {
-        let said = |pivot| StepFailure::Indefinite { node: 1, pivot, n_value: 0.0 }.to_string();
-        assert!(said(-1.0).ends_with("the beam is loaded beyond its buckling force"), "{}", said(-1.0));
+        let said = |pivot| {
+            StepFailure::Indefinite {
+                node: 1,
+                pivot,
+                n_value: 0.0,
+            }
+            .to_string()
+        };
+        assert!(
+            said(-1.0).ends_with("the beam is loaded beyond its buckling force"),
+            "{}",
+            said(-1.0)
+        );
         for pivot in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let said = said(pivot);
-            assert!(!said.contains("buckling") && said.contains("too large for a floating-point number"), "{said}");
+            assert!(
+                !said.contains("buckling")
+                    && said.contains("too large for a floating-point number"),
+                "{said}"
+            );
         }
     }
 }

@@ -44,13 +44,23 @@ impl Case {
     /// * `u`: n + 1 nodal values; the state is in contact if the contact force of u(1) is not zero.
     /// * Returns `None` if a matrix of (4.2) is not positive definite: then the iteration cannot perform the step.
     pub fn linearized_iteration(&self, u: &[f64]) -> Option<LinearizedIteration> {
-        let Self { beam, obstacles, scheme, dt, lengths } = self;
+        let Self {
+            beam,
+            obstacles,
+            scheme,
+            dt,
+            lengths,
+        } = self;
         let n = lengths.len();
         let axial_force = beam.axial_force(slope_squared(lengths, u));
         let kappa = scheme.inertia / dt;
         let sigma = beam.zeta + 0.5 * dt;
         let is_coupled = n > 1 && beam.a != 0.0;
-        let of_theta = if is_coupled { Some(Operator::new(n - 1, lengths, 2.0 / dt, 1.0)?) } else { None };
+        let of_theta = if is_coupled {
+            Some(Operator::new(n - 1, lengths, 2.0 / dt, 1.0)?)
+        } else {
+            None
+        };
         let touched = obstacles.filter(|obstacles| obstacles.force(u[n]) != 0.0);
         let slope = touched.map_or(0.0, |obstacles| match scheme.contact {
             ContactRule::Implicit => 1.0 / obstacles.epsilon,
@@ -83,7 +93,13 @@ impl LinearizedIteration {
     /// * `v`, `w`: δV and δW at the n + 1 nodes, zero at the clamped end.
     pub fn apply(&mut self, v: &mut [f64], w: &mut [f64]) {
         let n = self.lengths.len();
-        let axial_force = self.axial * self.bent.iter().zip(&*v).map(|(bent, v)| bent * v).sum::<f64>();
+        let axial_force = self.axial
+            * self
+                .bent
+                .iter()
+                .zip(&*v)
+                .map(|(bent, v)| bent * v)
+                .sum::<f64>();
         let contact_force = self.contact * v[n];
         self.theta.fill(0.0);
         if let Some(of_theta) = &self.of_theta {
@@ -92,10 +108,14 @@ impl LinearizedIteration {
         }
         transposed_coupling(self.sigma, v, w);
         coupling(self.a, &self.theta, &mut self.right);
-        w.iter_mut().zip(&self.right).for_each(|(w, moment)| *w += moment);
+        w.iter_mut()
+            .zip(&self.right)
+            .for_each(|(w, moment)| *w += moment);
         self.of_phi.solve(w);
         coupling(self.sigma, w, v);
-        v.iter_mut().zip(&self.bent).for_each(|(v, bent)| *v -= axial_force * bent);
+        v.iter_mut()
+            .zip(&self.bent)
+            .for_each(|(v, bent)| *v -= axial_force * bent);
         v[n] -= contact_force;
         self.of_u.solve(v);
     }

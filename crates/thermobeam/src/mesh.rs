@@ -71,7 +71,9 @@ impl Mesh {
         if elements == 0 {
             return Err(MeshError::TooFew { elements });
         }
-        let mut nodes: Vec<f64> = (0..=elements).map(|i| map(i as f64 / elements as f64)).collect();
+        let mut nodes: Vec<f64> = (0..=elements)
+            .map(|i| map(i as f64 / elements as f64))
+            .collect();
         // A map such as s + sin(2 pi s)/10 misses the ends by a few rounding errors.
         let slack = 8.0 * f64::EPSILON;
         for (index, end) in [(0, 0.0), (elements, 1.0)] {
@@ -88,22 +90,36 @@ impl Mesh {
     /// [`MeshError`] for fewer than two nodes, wrong ends, nodes that do not increase, or an element whose 1/h overflows.
     pub fn from_nodes(nodes: Vec<f64>) -> Result<Self, MeshError> {
         if nodes.len() < 2 {
-            return Err(MeshError::TooFew { elements: nodes.len().saturating_sub(1) });
+            return Err(MeshError::TooFew {
+                elements: nodes.len().saturating_sub(1),
+            });
         }
         let last = nodes.len() - 1;
         for (index, expected) in [(0, 0.0), (last, 1.0)] {
             if nodes[index] != expected {
-                return Err(MeshError::Ends { index, found: nodes[index], expected });
+                return Err(MeshError::Ends {
+                    index,
+                    found: nodes[index],
+                    expected,
+                });
             }
         }
         for index in 1..nodes.len() {
             let (previous, found) = (nodes[index - 1], nodes[index]);
             // NaN is not ordered, and is rejected here too.
             if previous.partial_cmp(&found) != Some(std::cmp::Ordering::Less) {
-                return Err(MeshError::NotIncreasing { index, previous, found });
+                return Err(MeshError::NotIncreasing {
+                    index,
+                    previous,
+                    found,
+                });
             }
             if !(found - previous).recip().is_finite() {
-                return Err(MeshError::TooClose { index, previous, found });
+                return Err(MeshError::TooClose {
+                    index,
+                    previous,
+                    found,
+                });
             }
         }
         Ok(Self { nodes })
@@ -137,22 +153,39 @@ mod tests {
     #[test]
     fn mesh_ends_are_corrected_by_round_off_only() {
         let ends = |miss: f64| {
-            let mesh = Mesh::mapped(4, |s| miss * f64::EPSILON * (1.0 - s) + s * (1.0 + miss * f64::EPSILON));
+            let mesh = Mesh::mapped(4, |s| {
+                miss * f64::EPSILON * (1.0 - s) + s * (1.0 + miss * f64::EPSILON)
+            });
             mesh.map(|mesh| [mesh.nodes()[0], mesh.nodes()[4]])
         };
-        assert_eq!([ends(0.0), ends(4.0), ends(8.0)], [Ok([0.0, 1.0]), Ok([0.0, 1.0]), Ok([0.0, 1.0])]);
+        assert_eq!(
+            [ends(0.0), ends(4.0), ends(8.0)],
+            [Ok([0.0, 1.0]), Ok([0.0, 1.0]), Ok([0.0, 1.0])]
+        );
         assert!(matches!(ends(16.0), Err(MeshError::Ends { index: 0, .. })));
         let beyond = Mesh::mapped(4, |s| s * (1.0 + 16.0 * f64::EPSILON));
-        assert!(matches!(beyond, Err(MeshError::Ends { index: 4, .. })), "{beyond:?}");
+        assert!(
+            matches!(beyond, Err(MeshError::Ends { index: 4, .. })),
+            "{beyond:?}"
+        );
     }
 
     #[test]
     fn an_element_whose_inverse_length_overflows_is_refused() {
         for length in [5e-324, 1e-310] {
             let mesh = Mesh::from_nodes(vec![0.0, length, 0.5, 1.0]);
-            assert_eq!(mesh, Err(MeshError::TooClose { index: 1, previous: 0.0, found: length }));
+            assert_eq!(
+                mesh,
+                Err(MeshError::TooClose {
+                    index: 1,
+                    previous: 0.0,
+                    found: length
+                })
+            );
             assert!(
-                mesh.unwrap_err().to_string().starts_with("nodes 0 and 1: expected a distance whose inverse is finite")
+                mesh.unwrap_err()
+                    .to_string()
+                    .starts_with("nodes 0 and 1: expected a distance whose inverse is finite")
             );
         }
         assert!(Mesh::from_nodes(vec![0.0, 1e-300, 1.0]).is_ok());

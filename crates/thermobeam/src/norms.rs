@@ -14,12 +14,20 @@ pub(crate) fn element_product<T: Lane>(sixth: T, p: [T; 2], q: [T; 2]) -> T {
 
 /// `‖y‖²` of a P1 function; `lengths` are the n element lengths, `y` the n + 1 nodal values.
 pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
-    lengths.iter().zip(y.windows(2)).map(|(&h, y)| element_product(h / 6.0, [y[0], y[1]], [y[0], y[1]])).sum()
+    lengths
+        .iter()
+        .zip(y.windows(2))
+        .map(|(&h, y)| element_product(h / 6.0, [y[0], y[1]], [y[0], y[1]]))
+        .sum()
 }
 
 /// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
 pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
-    lengths.iter().zip(y.windows(2)).map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h).sum()
+    lengths
+        .iter()
+        .zip(y.windows(2))
+        .map(|(&h, y)| (y[1] - y[0]) * (y[1] - y[0]) / h)
+        .sum()
 }
 
 /// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
@@ -57,7 +65,14 @@ pub struct TheoremSquares {
 
 impl TheoremSquares {
     /// Computes them for the P1 functions with these nodal values, n + 1 each.
-    pub fn of(lengths: &[f64], v: &[f64], u: &[f64], w: &[f64], phi: &[f64], theta: &[f64]) -> Self {
+    pub fn of(
+        lengths: &[f64],
+        v: &[f64],
+        u: &[f64],
+        w: &[f64],
+        phi: &[f64],
+        theta: &[f64],
+    ) -> Self {
         Self {
             velocity: l2_squared(lengths, v),
             shear: shear_squared(lengths, u, phi),
@@ -92,13 +107,33 @@ mod tests {
     fn the_theorems_norm_is_the_root_of_the_sum_of_five_squares() {
         let lengths = [1.0];
         // ‖û‖² = 3, ‖u_x - φ‖² = 27, ‖φ̂‖² = 12, ‖φ_x‖² = 0, ‖θ‖² = 48, from linear functions 3x and the like.
-        let (v, u, w, phi, theta) = ([0.0, 3.0], [0.0, 0.0], [0.0, 6.0], [27.0_f64.sqrt(); 2], [0.0, 12.0]);
+        let (v, u, w, phi, theta) = (
+            [0.0, 3.0],
+            [0.0, 0.0],
+            [0.0, 6.0],
+            [27.0_f64.sqrt(); 2],
+            [0.0, 12.0],
+        );
         let squares = TheoremSquares::of(&lengths, &v, &u, &w, &phi, &theta);
-        let found = [squares.velocity, squares.shear, squares.rotation_rate, squares.curvature, squares.temperature];
+        let found = [
+            squares.velocity,
+            squares.shear,
+            squares.rotation_rate,
+            squares.curvature,
+            squares.temperature,
+        ];
         let close = |found: f64, expected: f64| (found - expected).abs() < 1e-13 * (1.0 + expected);
-        assert!(found.iter().zip([3.0, 27.0, 12.0, 0.0, 48.0]).all(|(&found, expected)| close(found, expected)));
+        assert!(
+            found
+                .iter()
+                .zip([3.0, 27.0, 12.0, 0.0, 48.0])
+                .all(|(&found, expected)| close(found, expected))
+        );
         assert!(close(squares.norm(), 90.0_f64.sqrt()));
-        let bent = TheoremSquares { curvature: 10.0, ..squares };
+        let bent = TheoremSquares {
+            curvature: 10.0,
+            ..squares
+        };
         assert!(close(bent.norm(), 10.0));
     }
 }

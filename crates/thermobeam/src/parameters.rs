@@ -35,7 +35,13 @@ pub struct Beam {
 
 impl Default for Beam {
     fn default() -> Self {
-        Self { zeta: 0.1, a: 0.017, rho: 1.0, beta: 0.0, theta_a: 0.0 }
+        Self {
+            zeta: 0.1,
+            a: 0.017,
+            rho: 1.0,
+            beta: 0.0,
+            theta_a: 0.0,
+        }
     }
 }
 
@@ -54,13 +60,22 @@ pub struct Obstacles {
 
 impl Default for Obstacles {
     fn default() -> Self {
-        Self { epsilon: 1e-3, g1: -0.01, g2: 0.1 }
+        Self {
+            epsilon: 1e-3,
+            g1: -0.01,
+            g2: 0.1,
+        }
     }
 }
 
 /// Refuses a value that is not a finite number > 0.
 pub(crate) fn check_positive(name: &'static str, found: f64) -> Result<(), ParameterError> {
-    check(name, found, found > 0.0 && found.is_finite(), "a finite number > 0")
+    check(
+        name,
+        found,
+        found > 0.0 && found.is_finite(),
+        "a finite number > 0",
+    )
 }
 
 /// Refuses a value that is not allowed; `is_allowed` is false for NaN, as every comparison with NaN is.
@@ -70,7 +85,15 @@ pub(crate) fn check(
     is_allowed: bool,
     allowed: impl Into<Cow<'static, str>>,
 ) -> Result<(), ParameterError> {
-    if is_allowed { Ok(()) } else { Err(ParameterError { name, found, allowed: allowed.into() }) }
+    if is_allowed {
+        Ok(())
+    } else {
+        Err(ParameterError {
+            name,
+            found,
+            allowed: allowed.into(),
+        })
+    }
 }
 
 impl Beam {
@@ -80,9 +103,19 @@ impl Beam {
     /// [`ParameterError`] for the first coefficient out of range.
     pub fn validate(&self) -> Result<(), ParameterError> {
         let finite = "a finite number";
-        check("zeta", self.zeta, self.zeta >= 0.0 && self.zeta.is_finite(), "a finite number >= 0")?;
+        check(
+            "zeta",
+            self.zeta,
+            self.zeta >= 0.0 && self.zeta.is_finite(),
+            "a finite number >= 0",
+        )?;
         check("a", self.a, self.a.is_finite(), finite)?;
-        check("rho", self.rho, self.rho >= 0.0 && self.rho.is_finite(), "a finite number >= 0")?;
+        check(
+            "rho",
+            self.rho,
+            self.rho >= 0.0 && self.rho.is_finite(),
+            "a finite number >= 0",
+        )?;
         check("beta", self.beta, self.beta.is_finite(), finite)?;
         check("theta_a", self.theta_a, self.theta_a.is_finite(), finite)
     }
@@ -95,7 +128,17 @@ impl Obstacles {
     /// [`ParameterError`] for the first coefficient out of range.
     pub fn validate(&self) -> Result<(), ParameterError> {
         check_positive("epsilon", self.epsilon)?;
-        check("g1", self.g1, self.g1 <= 0.0 && self.g1.is_finite(), "a finite number <= 0")?;
-        check("g2", self.g2, self.g2 >= 0.0 && self.g2.is_finite(), "a finite number >= 0")
+        check(
+            "g1",
+            self.g1,
+            self.g1 <= 0.0 && self.g1.is_finite(),
+            "a finite number <= 0",
+        )?;
+        check(
+            "g2",
+            self.g2,
+            self.g2 >= 0.0 && self.g2.is_finite(),
+            "a finite number >= 0",
+        )
     }
 }

@@ -36,7 +36,13 @@ impl Initial {
     pub fn at_rest(mesh: &Mesh, theta_a: f64) -> Self {
         let zeros = vec![0.0; mesh.nodes().len()];
         let theta = mesh.nodes().iter().map(|x| theta_a * (1.0 - x)).collect();
-        Self { u: zeros.clone(), u_t: zeros.clone(), phi: zeros.clone(), phi_t: zeros, theta }
+        Self {
+            u: zeros.clone(),
+            u_t: zeros.clone(),
+            phi: zeros.clone(),
+            phi_t: zeros,
+            theta,
+        }
     }
 }
 
@@ -56,7 +62,13 @@ pub struct Problem {
 impl Problem {
     /// The problem, stepped by a scheme.
     pub fn case(&self, scheme: Scheme, dt: f64) -> Case {
-        Case { beam: self.beam, obstacles: self.obstacles, scheme, dt, lengths: self.mesh.lengths().collect() }
+        Case {
+            beam: self.beam,
+            obstacles: self.obstacles,
+            scheme,
+            dt,
+            lengths: self.mesh.lengths().collect(),
+        }
     }
 }
 
@@ -100,10 +112,20 @@ impl Simulation {
     pub fn new(mut problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let level = prepare(&mut problem, &stepping)?;
         let case = problem.case(stepping.scheme, stepping.dt);
-        let heated =
-            stepping.loaded || stepping.settings.solver == Solver::FixedPoint || is_heated(&problem.beam, &level);
+        let heated = stepping.loaded
+            || stepping.settings.solver == Solver::FixedPoint
+            || is_heated(&problem.beam, &level);
         let stepper = choose(case.clone(), stepping.settings, &level, heated)?;
-        Ok(Self { problem, case, loaded: stepping.loaded, heated, stepper, step: 0, loads: 0, observations: 0 })
+        Ok(Self {
+            problem,
+            case,
+            loaded: stepping.loaded,
+            heated,
+            stepper,
+            step: 0,
+            loads: 0,
+            observations: 0,
+        })
     }
 
     /// Number n of the current time level.
@@ -137,11 +159,19 @@ impl Simulation {
     /// # Errors
     /// [`StepError`] with step, time and cause. The simulation then stays at its old level.
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
-        let mut outcome = [Err(StepFailure::NonFinite { iterations: 0, increment: f64::NAN })];
+        let mut outcome = [Err(StepFailure::NonFinite {
+            iterations: 0,
+            increment: f64::NAN,
+        })];
         self.stepper.advance(&mut outcome);
         let [outcome] = outcome;
         let (step, dt) = (self.step + 1, self.case.dt);
-        let report = outcome.map_err(|failure| StepError { step, t: self.t(), dt, failure })?;
+        let report = outcome.map_err(|failure| StepError {
+            step,
+            t: self.t(),
+            dt,
+            failure,
+        })?;
         self.step = step;
         Ok(report)
     }
@@ -196,7 +226,11 @@ impl Simulation {
 
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
-        Work { loads: self.loads, observations: self.observations, ..self.stepper.work() }
+        Work {
+            loads: self.loads,
+            observations: self.observations,
+            ..self.stepper.work()
+        }
     }
 
     /// Whether the temperature is computed. Newton's method omits it if nothing heats the beam and there are no loads.
@@ -217,11 +251,20 @@ pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
 }
 
 /// The solver of the steps.
-fn choose(case: Case, settings: Settings, level: &Level, heated: bool) -> Result<Box<dyn Stepper<f64>>, SetupError> {
+fn choose(
+    case: Case,
+    settings: Settings,
+    level: &Level,
+    heated: bool,
+) -> Result<Box<dyn Stepper<f64>>, SetupError> {
     Ok(match settings.solver {
         Solver::Newton => newton(vec![case], settings, &[level], heated),
         Solver::FixedPoint => {
-            let refused = ParameterError { name: "dt", found: case.dt, allowed: "a finite number > 0".into() };
+            let refused = ParameterError {
+                name: "dt",
+                found: case.dt,
+                allowed: "a finite number > 0".into(),
+            };
             Box::new(FixedPoint::new(case, settings, level).map_err(|_| refused)?)
         }
     })
@@ -229,17 +272,37 @@ fn choose(case: Case, settings: Settings, level: &Level, heated: bool) -> Result
 
 fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupError> {
     problem.beam.validate()?;
-    problem.obstacles.as_ref().map_or(Ok(()), Obstacles::validate)?;
+    problem
+        .obstacles
+        .as_ref()
+        .map_or(Ok(()), Obstacles::validate)?;
     check_positive("dt", stepping.dt)?;
     match stepping.settings.stopping {
-        Stopping::Converged { tolerance, max_iterations } => {
+        Stopping::Converged {
+            tolerance,
+            max_iterations,
+        } => {
             check_positive("tolerance", tolerance)?;
-            check("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1")?;
+            check(
+                "max_iterations",
+                max_iterations as f64,
+                max_iterations > 0,
+                "an integer >= 1",
+            )?;
         }
         Stopping::Iterations(iterations) => {
             let is_fixed_point = stepping.settings.solver == Solver::FixedPoint;
-            let allowed = if is_fixed_point { "an integer >= 1" } else { "no such setting for Newton's method" };
-            check("iterations", iterations as f64, is_fixed_point && iterations > 0, allowed)?;
+            let allowed = if is_fixed_point {
+                "an integer >= 1"
+            } else {
+                "no such setting for Newton's method"
+            };
+            check(
+                "iterations",
+                iterations as f64,
+                is_fixed_point && iterations > 0,
+                allowed,
+            )?;
         }
     }
     Ok(())
@@ -250,7 +313,13 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
 fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;
-    let Initial { u, u_t, phi, phi_t, theta } = &mut problem.initial;
+    let Initial {
+        u,
+        u_t,
+        phi,
+        phi_t,
+        theta,
+    } = &mut problem.initial;
     let last = nodes.len() - 1;
     check_field("u", u, nodes, &[(0, 0.0)])?;
     check_field("u_t", u_t, nodes, &[(0, 0.0)])?;
@@ -265,7 +334,9 @@ fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     for ((lifted, theta), x) in level.theta.iter_mut().zip(theta.iter()).zip(nodes) {
         *lifted = theta - theta_a * (1.0 - x);
     }
-    level.contact_force = problem.obstacles.map_or(0.0, |obstacles| obstacles.force(u[last]));
+    level.contact_force = problem
+        .obstacles
+        .map_or(0.0, |obstacles| obstacles.force(u[last]));
     Ok(level)
 }
 
@@ -277,15 +348,30 @@ fn check_field(
     boundary: &[(usize, f64)],
 ) -> Result<(), SetupError> {
     if values.len() != nodes.len() {
-        return Err(SetupError::Length { field, found: values.len(), expected: nodes.len() });
+        return Err(SetupError::Length {
+            field,
+            found: values.len(),
+            expected: nodes.len(),
+        });
     }
     if let Some(node) = values.iter().position(|value| !value.is_finite()) {
-        return Err(SetupError::NotFinite { field, node, found: values[node] });
+        return Err(SetupError::NotFinite {
+            field,
+            node,
+            found: values[node],
+        });
     }
-    let scale = values.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
+    let scale = values
+        .iter()
+        .fold(0.0, |scale: f64, value| scale.max(value.abs()));
     for &(node, allowed) in boundary {
         if (values[node] - allowed).abs() > BOUNDARY_SLACK * scale {
-            return Err(SetupError::Boundary { field, x: nodes[node], found: values[node], allowed });
+            return Err(SetupError::Boundary {
+                field,
+                x: nodes[node],
+                found: values[node],
+                allowed,
+            });
         }
         values[node] = allowed;
     }
@@ -299,7 +385,13 @@ mod tests {
     #[test]
     fn a_beam_at_rest_is_straight_and_has_the_steady_temperature() {
         let mesh = Mesh::from_nodes(vec![0.0, 0.25, 1.0]).unwrap();
-        let Initial { u, u_t, phi, phi_t, theta } = Initial::at_rest(&mesh, 2.0);
+        let Initial {
+            u,
+            u_t,
+            phi,
+            phi_t,
+            theta,
+        } = Initial::at_rest(&mesh, 2.0);
         assert_eq!(theta, [2.0, 1.5, 0.0]);
         assert!([u, u_t, phi, phi_t].iter().all(|field| *field == [0.0; 3]));
     }

@@ -16,7 +16,11 @@ const TERMS: usize = 24;
 
 /// `cos √x`, or `cosh √-x`.
 pub(crate) fn c0(x: f64) -> f64 {
-    if x >= 0.0 { x.sqrt().cos() } else { (-x).sqrt().cosh() }
+    if x >= 0.0 {
+        x.sqrt().cos()
+    } else {
+        (-x).sqrt().cosh()
+    }
 }
 
 /// `sin √x / √x`, or `sinh √-x / √-x`; 1 at 0.
@@ -39,12 +43,20 @@ pub(crate) fn c2(x: f64) -> f64 {
 
 /// `(1 - c_1(x)) / x`; 1/6 at 0.
 pub(crate) fn c3(x: f64) -> f64 {
-    if x.abs() <= SERIES_UP_TO { series(1.0 / 6.0, 3.0, x) } else { (1.0 - c1(x)) / x }
+    if x.abs() <= SERIES_UP_TO {
+        series(1.0 / 6.0, 3.0, x)
+    } else {
+        (1.0 - c1(x)) / x
+    }
 }
 
 /// `(1/6 - c_3(x)) / x`; 1/120 at 0.
 pub(crate) fn c5(x: f64) -> f64 {
-    if x.abs() <= SERIES_UP_TO { series(1.0 / 120.0, 5.0, x) } else { (1.0 / 6.0 - c3(x)) / x }
+    if x.abs() <= SERIES_UP_TO {
+        series(1.0 / 120.0, 5.0, x)
+    } else {
+        (1.0 / 6.0 - c3(x)) / x
+    }
 }
 
 /// The defining series, from its first term 1/k!.
@@ -64,7 +76,10 @@ mod tests {
 
     #[track_caller]
     fn close(found: f64, expected: f64, tolerance: f64) {
-        assert!((found - expected).abs() <= tolerance, "{found} is not {expected} to {tolerance}");
+        assert!(
+            (found - expected).abs() <= tolerance,
+            "{found} is not {expected} to {tolerance}"
+        );
     }
 
     #[test]

@@ -14,7 +14,10 @@ pub struct TridiagonalFactor {
 impl TridiagonalFactor {
     /// An uninitialised factorisation for the nodes 1..=last; `last` is n, or n - 1 for a prescribed value at the tip.
     pub fn new(last: usize) -> Self {
-        Self { multiplier: vec![0.0; last + 1], inverse: vec![0.0; last + 1] }
+        Self {
+            multiplier: vec![0.0; last + 1],
+            inverse: vec![0.0; last + 1],
+        }
     }
 
     /// Factorises `mass M + stiffness K`, rows and columns 1..=last.
@@ -24,7 +27,13 @@ impl TridiagonalFactor {
     ///
     /// # Errors
     /// [`StepFailure::Indefinite`] at the first pivot that is not positive.
-    pub fn factorize(&mut self, lengths: &[f64], mass: f64, stiffness: f64, n_value: f64) -> Result<(), StepFailure> {
+    pub fn factorize(
+        &mut self,
+        lengths: &[f64],
+        mass: f64,
+        stiffness: f64,
+        n_value: f64,
+    ) -> Result<(), StepFailure> {
         let mut previous_inverse = 0.0;
         for i in 1..self.inverse.len() {
             let left = lengths[i - 1];
@@ -36,7 +45,11 @@ impl TridiagonalFactor {
             self.multiplier[i] = lower * previous_inverse;
             pivot -= self.multiplier[i] * lower;
             if !(pivot > 0.0) {
-                return Err(StepFailure::Indefinite { node: i, pivot, n_value });
+                return Err(StepFailure::Indefinite {
+                    node: i,
+                    pivot,
+                    n_value,
+                });
             }
             previous_inverse = 1.0 / pivot;
             self.inverse[i] = previous_inverse;
@@ -80,7 +93,9 @@ mod tests {
         let lengths: Vec<f64> = mesh.lengths().collect();
         let (m, k) = (mass(&mesh), stiffness(&mesh));
         for last in [5, 6] {
-            let dense = DMatrix::from_fn(last, last, |i, j| 7.0 * m.entry(i + 1, j + 1) + 0.3 * k.entry(i + 1, j + 1));
+            let dense = DMatrix::from_fn(last, last, |i, j| {
+                7.0 * m.entry(i + 1, j + 1) + 0.3 * k.entry(i + 1, j + 1)
+            });
             let right = DVector::from_fn(last, |i, _| (i as f64 + 1.0).sin());
             let expected = dense.lu().solve(&right).unwrap();
             let mut factor = TridiagonalFactor::new(last);
@@ -97,7 +112,14 @@ mod tests {
     #[test]
     fn an_indefinite_matrix_is_reported() {
         let failure = TridiagonalFactor::new(2).factorize(&[0.5, 0.5], 1.0, -5.0, -5.0);
-        assert!(matches!(failure, Err(StepFailure::Indefinite { node: 1, n_value: -5.0, .. })));
+        assert!(matches!(
+            failure,
+            Err(StepFailure::Indefinite {
+                node: 1,
+                n_value: -5.0,
+                ..
+            })
+        ));
     }
 
     #[test]
@@ -105,7 +127,14 @@ mod tests {
         let mut factor = TridiagonalFactor::new(1);
         // One element of length 1: mass/3 + stiffness = 0, exact in binary.
         let refused = factor.factorize(&[1.0], 0.75, -0.25, -2.0);
-        assert_eq!(refused, Err(StepFailure::Indefinite { node: 1, pivot: 0.0, n_value: -2.0 }));
+        assert_eq!(
+            refused,
+            Err(StepFailure::Indefinite {
+                node: 1,
+                pivot: 0.0,
+                n_value: -2.0
+            })
+        );
         assert_eq!(factor.factorize(&[1.0], 0.75, -0.125, -2.0), Ok(()));
     }
 }

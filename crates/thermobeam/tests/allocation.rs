@@ -22,7 +22,12 @@ fn moving_beam(heated: bool) -> Problem {
     if !heated {
         beam.a = 0.0;
     }
-    Problem { beam, obstacles: Some(Obstacles::default()), mesh, initial }
+    Problem {
+        beam,
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        initial,
+    }
 }
 
 /// Number of allocations in 500 steps with their energies and balances, and number of steps that end in contact.
@@ -51,12 +56,23 @@ fn the_time_loop_allocates_nothing() {
     for scheme in SCHEMES {
         for solver in Solver::ALL {
             for heated in [false, true] {
-                let settings = Settings { solver, ..Settings::default() };
-                let stepping = Stepping { scheme, settings, dt: 1e-3, loaded: false };
+                let settings = Settings {
+                    solver,
+                    ..Settings::default()
+                };
+                let stepping = Stepping {
+                    scheme,
+                    settings,
+                    dt: 1e-3,
+                    loaded: false,
+                };
                 let simulation = Simulation::new(moving_beam(heated), stepping).unwrap();
                 let (count, touching) = allocations(simulation);
                 assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
-                assert!(touching > 10, "expected contact in more than 10 steps, found {touching}");
+                assert!(
+                    touching > 10,
+                    "expected contact in more than 10 steps, found {touching}"
+                );
             }
         }
     }
@@ -64,7 +80,10 @@ fn the_time_loop_allocates_nothing() {
 
 #[test]
 fn lanes_with_their_balances_allocate_nothing() {
-    let (problems, dt) = ([true, false, true, true, false].map(moving_beam).to_vec(), [1e-3; 5]);
+    let (problems, dt) = (
+        [true, false, true, true, false].map(moving_beam).to_vec(),
+        [1e-3; 5],
+    );
     let mut ensemble = Ensemble::new(problems, &dt, SCHEMES[0], Settings::default()).unwrap();
     let mut balances = Vec::with_capacity(5);
     let info = allocation_counter::measure(|| {
@@ -80,8 +99,16 @@ fn lanes_with_their_balances_allocate_nothing() {
 #[test]
 fn loads_are_allocated_once() {
     for solver in Solver::ALL {
-        let settings = Settings { solver, ..Settings::default() };
-        let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: true };
+        let settings = Settings {
+            solver,
+            ..Settings::default()
+        };
+        let stepping = Stepping {
+            scheme: SCHEMES[0],
+            settings,
+            dt: 1e-3,
+            loaded: true,
+        };
         let mut simulation = Simulation::new(moving_beam(true), stepping).unwrap();
         simulation.load_mut();
         assert_eq!(allocations(simulation).0, 0, "{solver:?}");
@@ -101,8 +128,16 @@ fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
         initial: Initial::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
         ..moving_beam(heated)
     };
-    let settings = Settings { solver, ..Settings::default() };
-    let stepping = Stepping { scheme: SCHEMES[0], settings, dt: 1e-3, loaded: false };
+    let settings = Settings {
+        solver,
+        ..Settings::default()
+    };
+    let stepping = Stepping {
+        scheme: SCHEMES[0],
+        settings,
+        dt: 1e-3,
+        loaded: false,
+    };
     let mut kept = None;
     let info = allocation_counter::measure(|| {
         kept = Some(Simulation::new(problem.clone(), stepping).unwrap());
@@ -113,10 +148,16 @@ fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
 
 #[test]
 fn memory_grows_with_the_elements_as_documented() {
-    for (solver, heated, documented) in
-        [(Solver::Newton, true, BYTES_PER_ELEMENT), (Solver::Newton, false, 256), (Solver::FixedPoint, true, 248)]
-    {
-        let per_element = (bytes(3000, solver, heated) - bytes(1000, solver, heated)) as f64 / 2000.0;
-        assert!((per_element - documented as f64).abs() < 1.0, "{solver:?}, heated: {heated}: {per_element}");
+    for (solver, heated, documented) in [
+        (Solver::Newton, true, BYTES_PER_ELEMENT),
+        (Solver::Newton, false, 256),
+        (Solver::FixedPoint, true, 248),
+    ] {
+        let per_element =
+            (bytes(3000, solver, heated) - bytes(1000, solver, heated)) as f64 / 2000.0;
+        assert!(
+            (per_element - documented as f64).abs() < 1.0,
+            "{solver:?}, heated: {heated}: {per_element}"
+        );
     }
 }

@@ -34,7 +34,10 @@ const EQUATIONS: [(&str, &str); 44] = [
     ("3.8", "update of displacement and rotation"),
     ("3.9", "discrete energy"),
     ("3.10", "the discrete energy decreases"),
-    ("3.11", "regularity of the initial data of the discrete problem"),
+    (
+        "3.11",
+        "regularity of the initial data of the discrete problem",
+    ),
     ("3.12", "stability of the discrete solution"),
     ("3.13", "regularity for the error estimate"),
     ("3.14", "error estimate of Theorem 3.4"),
@@ -77,7 +80,10 @@ fn numbers(text: &str) -> impl Iterator<Item = &str> {
         let (inside, _) = text[at + 1..].split_once(')')?;
         let (chapter, number) = inside.split_once('.')?;
         let is_chapter = matches!(chapter.as_bytes(), [b'1'..=b'9']);
-        let is_number = matches!(number.as_bytes(), [b'1'..=b'9'] | [b'1'..=b'9', b'0'..=b'9']);
+        let is_number = matches!(
+            number.as_bytes(),
+            [b'1'..=b'9'] | [b'1'..=b'9', b'0'..=b'9']
+        );
         (!is_call && is_chapter && is_number).then_some(inside)
     })
 }
@@ -88,15 +94,26 @@ fn prose(path: &Path) -> String {
     if path.extension().is_none_or(|extension| extension != "rs") {
         return text;
     }
-    text.lines().filter_map(|line| line.split_once("//")).map(|(_, comment)| format!("{comment}\n")).collect()
+    text.lines()
+        .filter_map(|line| line.split_once("//"))
+        .map(|(_, comment)| format!("{comment}\n"))
+        .collect()
 }
 
 /// The Rust sources and Markdown files of a folder.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+    for path in fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+    {
         if path.is_dir() {
             files(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "rs" || extension == "md") {
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "rs" || extension == "md")
+        {
             found.push(path);
         }
     }
@@ -119,7 +136,10 @@ fn citations() -> BTreeMap<PathBuf, BTreeSet<String>> {
 
 /// Citations of numbers that the paper does not have.
 fn unknown<'a>(cited: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
-    cited.into_iter().filter(|number| EQUATIONS.iter().all(|(known, _)| known != number)).collect()
+    cited
+        .into_iter()
+        .filter(|number| EQUATIONS.iter().all(|(known, _)| known != number))
+        .collect()
 }
 
 #[test]
@@ -127,11 +147,18 @@ fn every_cited_equation_is_in_the_paper() {
     let mut count = 0;
     for (path, cited) in citations() {
         count += cited.len();
-        assert_eq!(unknown(cited.iter().map(String::as_str)), [""; 0], "{}", path.display());
+        assert_eq!(
+            unknown(cited.iter().map(String::as_str)),
+            [""; 0],
+            "{}",
+            path.display()
+        );
     }
     assert!(count > 50, "{count} citations");
     assert_eq!(
-        unknown(numbers("the scheme (3.7), its limit (3.17), and (4.6); f(2.5), (12.5), (0.5)")),
+        unknown(numbers(
+            "the scheme (3.7), its limit (3.17), and (4.6); f(2.5), (12.5), (0.5)"
+        )),
         ["3.17", "4.6"]
     );
 }
@@ -141,6 +168,9 @@ fn every_implemented_equation_is_cited_where_it_is_implemented() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let citations = citations();
     for (number, file) in IMPLEMENTED {
-        assert!(citations[&source.join(file)].contains(number), "({number}) is not cited in src/{file}");
+        assert!(
+            citations[&source.join(file)].contains(number),
+            "({number}) is not cited in src/{file}"
+        );
     }
 }

@@ -8,5 +8,8 @@ use proptest::test_runner::Config;
 pub(crate) fn at_least(cases: u32) -> Config {
     let config = Config::default();
     let more = std::env::var_os("PROPTEST_CASES").map_or(0, |_| config.cases);
-    Config { cases: cases.max(more), ..config }
+    Config {
+        cases: cases.max(more),
+        ..config
+    }
 }

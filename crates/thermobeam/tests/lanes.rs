@@ -14,7 +14,15 @@ const N: usize = 22;
 
 /// The bits of a balance.
 fn bits(balance: &Balance) -> [u64; 6] {
-    let Balance { change, viscous, thermal, inertial, contact, residual, .. } = *balance;
+    let Balance {
+        change,
+        viscous,
+        thermal,
+        inertial,
+        contact,
+        residual,
+        ..
+    } = *balance;
     [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
 }
 
@@ -31,9 +39,19 @@ fn problem(k: usize) -> Problem {
         theta: on(&|x| theta_a * (1.0 - x) + (3.0 * x * (1.0 - x))),
         ..Initial::at_rest(&mesh, 0.0)
     };
-    let beam = Beam { beta: [-0.5, 0.0, 5.0, 1.0][k], rho: [1.0, 0.0, 1e4, 10.0][k], theta_a, ..Beam::default() };
+    let beam = Beam {
+        beta: [-0.5, 0.0, 5.0, 1.0][k],
+        rho: [1.0, 0.0, 1e4, 10.0][k],
+        theta_a,
+        ..Beam::default()
+    };
     let obstacles = (k != 3).then(Obstacles::default);
-    Problem { beam, obstacles, mesh, initial }
+    Problem {
+        beam,
+        obstacles,
+        mesh,
+        initial,
+    }
 }
 
 const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
@@ -42,34 +60,74 @@ const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
     for scheme in SCHEMES {
         let settings = Settings::default();
-        let mut ensemble = Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
+        let mut ensemble =
+            Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
         let mut alone: Vec<Simulation> = (0..4)
-            .map(|k| Simulation::new(problem(k), Stepping { scheme, settings, dt: DT[k], loaded: false }).unwrap())
+            .map(|k| {
+                Simulation::new(
+                    problem(k),
+                    Stepping {
+                        scheme,
+                        settings,
+                        dt: DT[k],
+                        loaded: false,
+                    },
+                )
+                .unwrap()
+            })
             .collect();
         let mut balances = vec![];
         ensemble.balances(&mut balances);
         assert_eq!(balances.len(), 4);
-        assert!(balances.iter().all(|balance| balance.residual.is_nan()), "no step has been done");
+        assert!(
+            balances.iter().all(|balance| balance.residual.is_nan()),
+            "no step has been done"
+        );
         for _ in 0..200 {
             ensemble.advance();
             ensemble.balances(&mut balances);
             for (k, simulation) in alone.iter_mut().enumerate() {
                 let old = simulation.level();
                 let report = simulation.advance().unwrap();
-                assert_eq!(ensemble.report(k).unwrap(), report, "{}: case {k}", scheme.name);
+                assert_eq!(
+                    ensemble.report(k).unwrap(),
+                    report,
+                    "{}: case {k}",
+                    scheme.name
+                );
                 let level = simulation.level();
                 let mut lane = level.clone();
                 lane.u[3] = f64::NAN;
                 ensemble.observe(k, &mut lane);
                 assert_eq!(lane, level, "{}: case {k}", scheme.name);
-                assert_eq!([ensemble.tip(k), ensemble.contact_force(k)], [level.u[N], level.contact_force]);
-                assert_eq!(bits(&balances[k]), bits(&simulation.balance(&old, &level)), "{}: case {k}", scheme.name);
-                assert_eq!(ensemble.cases()[k].energy_scale(&level), simulation.energy_scale(&level));
-                assert_eq!(ensemble.cases()[k].energy(&level), simulation.energy(&level));
-                assert_eq!(ensemble.cases()[k].rounding(&old, &level), simulation.rounding(&old, &level));
+                assert_eq!(
+                    [ensemble.tip(k), ensemble.contact_force(k)],
+                    [level.u[N], level.contact_force]
+                );
+                assert_eq!(
+                    bits(&balances[k]),
+                    bits(&simulation.balance(&old, &level)),
+                    "{}: case {k}",
+                    scheme.name
+                );
+                assert_eq!(
+                    ensemble.cases()[k].energy_scale(&level),
+                    simulation.energy_scale(&level)
+                );
+                assert_eq!(
+                    ensemble.cases()[k].energy(&level),
+                    simulation.energy(&level)
+                );
+                assert_eq!(
+                    ensemble.cases()[k].rounding(&old, &level),
+                    simulation.rounding(&old, &level)
+                );
                 let alone = simulation.work();
                 assert_eq!(
-                    (ensemble.work_of(k).passes, ensemble.work_of(k).factorizations),
+                    (
+                        ensemble.work_of(k).passes,
+                        ensemble.work_of(k).factorizations
+                    ),
                     (alone.passes, alone.factorizations)
                 );
             }
@@ -82,14 +140,21 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
 fn an_ensemble_counts_a_pass_once_per_group() {
     let dt = [DT, DT].concat();
     let problems = (0..8).map(|k| problem(k % 4)).collect();
-    let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
+    let mut ensemble =
+        Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
     (0..20).for_each(|_| ensemble.advance());
     let of = |k: usize| ensemble.work_of(k);
-    assert_eq!(ensemble.work().factorizations, (0..8).map(|k| of(k).factorizations).sum());
+    assert_eq!(
+        ensemble.work().factorizations,
+        (0..8).map(|k| of(k).factorizations).sum()
+    );
     let longest = (0..4).map(|k| of(k).passes).max().unwrap();
     let all: usize = (0..8).map(|k| of(k).passes).sum();
     let passes = ensemble.work().passes;
-    assert!((2 * longest..all).contains(&passes), "{passes} passes, {longest} of one case, {all} of all");
+    assert!(
+        (2 * longest..all).contains(&passes),
+        "{passes} passes, {longest} of one case, {all} of all"
+    );
 }
 
 #[test]
@@ -102,7 +167,12 @@ fn any_number_of_cases_agrees_bitwise_with_single_runs() {
         (0..50).for_each(|_| ensemble.advance());
         assert_eq!((ensemble.cases().len(), ensemble.step()), (count, 50));
         for (k, &dt) in dt.iter().enumerate() {
-            let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
+            let stepping = Stepping {
+                scheme: EULER_CRANK_NICOLSON,
+                settings,
+                dt,
+                loaded: false,
+            };
             let mut alone = Simulation::new(problem(k % 4), stepping).unwrap();
             for _ in 0..50 {
                 alone.advance().unwrap();
@@ -119,15 +189,32 @@ fn any_number_of_cases_agrees_bitwise_with_single_runs() {
 fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
     let cold = |k: usize| {
         let mut problem = problem(k);
-        problem.beam = Beam { a: 0.0, theta_a: 0.0, ..problem.beam };
+        problem.beam = Beam {
+            a: 0.0,
+            theta_a: 0.0,
+            ..problem.beam
+        };
         problem.initial.theta.fill(0.0);
         problem
     };
     let settings = Settings::default();
     for scheme in SCHEMES {
-        let mut ensemble = Ensemble::new(vec![cold(0), problem(1)], &DT[..2], scheme, settings).unwrap();
-        let mut alone = Simulation::new(cold(0), Stepping { scheme, settings, dt: DT[0], loaded: false }).unwrap();
-        assert_eq!([0, 1].map(|k| ensemble.is_heated(k)), [alone.is_heated(), true]);
+        let mut ensemble =
+            Ensemble::new(vec![cold(0), problem(1)], &DT[..2], scheme, settings).unwrap();
+        let mut alone = Simulation::new(
+            cold(0),
+            Stepping {
+                scheme,
+                settings,
+                dt: DT[0],
+                loaded: false,
+            },
+        )
+        .unwrap();
+        assert_eq!(
+            [0, 1].map(|k| ensemble.is_heated(k)),
+            [alone.is_heated(), true]
+        );
         let mut old = alone.level();
         let mut balances = vec![];
         let mut lane = old.clone();
@@ -138,7 +225,12 @@ fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
             let level = alone.level();
             ensemble.observe(0, &mut lane);
             assert_eq!(lane, level, "{}", scheme.name);
-            assert_eq!(bits(&balances[0]), bits(&alone.balance(&old, &level)), "{}", scheme.name);
+            assert_eq!(
+                bits(&balances[0]),
+                bits(&alone.balance(&old, &level)),
+                "{}",
+                scheme.name
+            );
             old = level;
         }
     }
@@ -146,14 +238,30 @@ fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
 
 #[test]
 fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
-    let new = |problems, dt: &[f64]| Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err();
+    let new = |problems, dt: &[f64]| {
+        Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err()
+    };
     let short = Mesh::uniform(3).unwrap();
     let initial = Initial::at_rest(&short, 0.0);
-    let other = Problem { mesh: short, initial, beam: Beam::default(), obstacles: None };
-    let found = |field, found, expected| Some(SetupError::Length { field, found, expected });
+    let other = Problem {
+        mesh: short,
+        initial,
+        beam: Beam::default(),
+        obstacles: None,
+    };
+    let found = |field, found, expected| {
+        Some(SetupError::Length {
+            field,
+            found,
+            expected,
+        })
+    };
     assert_eq!(new(vec![], &[]), found("problems", 0, 1));
     assert_eq!(new(vec![problem(0)], &DT), found("dt", 4, 1));
-    assert_eq!(new(vec![problem(0), other], &[0.1, 0.1]), found("nodes", 4, N + 1));
+    assert_eq!(
+        new(vec![problem(0), other], &[0.1, 0.1]),
+        found("nodes", 4, N + 1)
+    );
     let refused = new(vec![problem(0)], &[f64::NAN]);
     assert!(matches!(refused, Some(SetupError::Parameter(parameter)) if parameter.name == "dt"));
 }
@@ -164,32 +272,60 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
     let buckled = |k: usize| {
         let mut problem = problem(k);
         if k == 2 {
-            problem.beam = Beam { beta: -0.8, theta_a: problem.beam.theta_a, ..Beam::default() };
+            problem.beam = Beam {
+                beta: -0.8,
+                theta_a: problem.beam.theta_a,
+                ..Beam::default()
+            };
         }
         problem
     };
     let dt = [1e-4, 1e-3, 10.0, 0.1];
     let settings = Settings::default();
-    let mut ensemble = Ensemble::new((0..4).map(buckled).collect(), &dt, EULER_CRANK_NICOLSON, settings).unwrap();
-    let mut before =
-        Simulation::new(buckled(2), Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt: 10.0, loaded: false })
-            .unwrap();
+    let mut ensemble = Ensemble::new(
+        (0..4).map(buckled).collect(),
+        &dt,
+        EULER_CRANK_NICOLSON,
+        settings,
+    )
+    .unwrap();
+    let mut before = Simulation::new(
+        buckled(2),
+        Stepping {
+            scheme: EULER_CRANK_NICOLSON,
+            settings,
+            dt: 10.0,
+            loaded: false,
+        },
+    )
+    .unwrap();
     for _ in 0..50 {
         ensemble.advance();
     }
     let error = ensemble.report(2).unwrap_err();
     assert_eq!((error.step, error.dt), (1, 10.0));
-    assert!(matches!(error.failure, StepFailure::Indefinite { .. }), "{error}");
+    assert!(
+        matches!(error.failure, StepFailure::Indefinite { .. }),
+        "{error}"
+    );
     let mut lane = before.level();
     ensemble.observe(2, &mut lane);
     assert_eq!(lane, before.level());
     assert_eq!(ensemble.tip(2), lane.u[N]);
     let mut balances = vec![];
     ensemble.balances(&mut balances);
-    let open: Vec<bool> = balances.iter().map(|balance| balance.residual.is_nan()).collect();
+    let open: Vec<bool> = balances
+        .iter()
+        .map(|balance| balance.residual.is_nan())
+        .collect();
     assert_eq!(open, [false, false, true, false]);
     for k in [0, 1, 3] {
-        let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt: dt[k], loaded: false };
+        let stepping = Stepping {
+            scheme: EULER_CRANK_NICOLSON,
+            settings,
+            dt: dt[k],
+            loaded: false,
+        };
         let mut alone = Simulation::new(problem(k), stepping).unwrap();
         for _ in 0..50 {
             alone.advance().unwrap();

@@ -22,7 +22,11 @@ const BALANCE_TOLERANCE: f64 = 1e-12;
 
 /// η* of each solver, small because the balance holds for exactly solved steps only.
 fn tolerance(solver: Solver) -> f64 {
-    if solver == Solver::Newton { 1e-14 } else { 1e-11 }
+    if solver == Solver::Newton {
+        1e-14
+    } else {
+        1e-11
+    }
 }
 
 fn log(low: f64, high: f64) -> impl Strategy<Value = f64> {
@@ -36,13 +40,29 @@ fn or_zero(strategy: impl Strategy<Value = f64> + 'static) -> impl Strategy<Valu
 fn beam() -> impl Strategy<Value = Beam> {
     let coupling = or_zero(prop_oneof![log(-3.0, 0.0), log(-3.0, 0.0).prop_map(|a| -a)]);
     let beta = prop_oneof![-2.0..2.0, log(0.0, 3.0)];
-    (or_zero(log(-6.0, 1.0)), coupling, or_zero(log(-2.0, 6.0)), beta, or_zero(-50.0..50.0))
-        .prop_map(|(zeta, a, rho, beta, theta_a)| Beam { zeta, a, rho, beta, theta_a })
+    (
+        or_zero(log(-6.0, 1.0)),
+        coupling,
+        or_zero(log(-2.0, 6.0)),
+        beta,
+        or_zero(-50.0..50.0),
+    )
+        .prop_map(|(zeta, a, rho, beta, theta_a)| Beam {
+            zeta,
+            a,
+            rho,
+            beta,
+            theta_a,
+        })
 }
 
 fn obstacles() -> impl Strategy<Value = Option<Obstacles>> {
     let gap = || or_zero(log(-6.0, 0.0));
-    let pair = (log(-8.0, 1.0), gap(), gap()).prop_map(|(epsilon, below, g2)| Obstacles { epsilon, g1: -below, g2 });
+    let pair = (log(-8.0, 1.0), gap(), gap()).prop_map(|(epsilon, below, g2)| Obstacles {
+        epsilon,
+        g1: -below,
+        g2,
+    });
     prop_oneof![1 => Just(None), 8 => pair.prop_map(Some)]
 }
 
@@ -79,24 +99,45 @@ impl Field {
 }
 
 fn field(size: f64) -> impl Strategy<Value = Field> {
-    (prop::array::uniform4(-size..size), any::<bool>()).prop_map(|(factors, rough)| Field { factors, rough })
+    (prop::array::uniform4(-size..size), any::<bool>())
+        .prop_map(|(factors, rough)| Field { factors, rough })
 }
 
 fn problem() -> impl Strategy<Value = Problem> {
     let fields = (field(0.1), field(2.0), field(0.1), field(2.0), field(5.0));
-    (beam(), obstacles(), mesh(), fields).prop_map(|(beam, obstacles, mesh, (u, u_t, phi, phi_t, theta))| {
-        let nodes = mesh.nodes();
-        let values = |field: &Field| {
-            let mut values: Vec<f64> = nodes.iter().enumerate().map(|(i, &x)| field.at(x, i)).collect();
-            values[0] = 0.0;
-            values
-        };
-        let mut theta = values(&theta);
-        theta.iter_mut().zip(nodes).for_each(|(theta, x)| *theta += beam.theta_a * (1.0 - x));
-        theta[nodes.len() - 1] = 0.0;
-        let initial = Initial { u: values(&u), u_t: values(&u_t), phi: values(&phi), phi_t: values(&phi_t), theta };
-        Problem { beam, obstacles, mesh, initial }
-    })
+    (beam(), obstacles(), mesh(), fields).prop_map(
+        |(beam, obstacles, mesh, (u, u_t, phi, phi_t, theta))| {
+            let nodes = mesh.nodes();
+            let values = |field: &Field| {
+                let mut values: Vec<f64> = nodes
+                    .iter()
+                    .enumerate()
+                    .map(|(i, &x)| field.at(x, i))
+                    .collect();
+                values[0] = 0.0;
+                values
+            };
+            let mut theta = values(&theta);
+            theta
+                .iter_mut()
+                .zip(nodes)
+                .for_each(|(theta, x)| *theta += beam.theta_a * (1.0 - x));
+            theta[nodes.len() - 1] = 0.0;
+            let initial = Initial {
+                u: values(&u),
+                u_t: values(&u_t),
+                phi: values(&phi),
+                phi_t: values(&phi_t),
+                theta,
+            };
+            Problem {
+                beam,
+                obstacles,
+                mesh,
+                initial,
+            }
+        },
+    )
 }
 
 /// Bound on the residual of the balance that the fixed point leaves, from its last increment η in the norm of (3.14):
@@ -109,30 +150,64 @@ fn lag(simulation: &Simulation, dt: f64, eta: f64, old: &Level, new: &Level) -> 
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
     let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();
     let norm = |y: &[f64]| thermobeam::norms::l2_squared(lengths, y).sqrt();
-    let stretch = max_or_nan(slope_squared(lengths, &new.u), slope_squared(lengths, &old.u));
+    let stretch = max_or_nan(
+        slope_squared(lengths, &new.u),
+        slope_squared(lengths, &old.u),
+    );
     let (moved, turned) = (minus(&new.u, &old.u), minus(&new.phi, &old.phi));
     let kirchhoff = 2.0 * beam.rho * stretch * slope_squared(lengths, &moved).sqrt();
     let rotation = (1.0 + 2.0 * beam.zeta / dt) * norm(&turned);
     let heat = beam.a.abs() * max_or_nan(norm(&new.theta), norm(&old.theta));
     let tip = moved.last().unwrap().abs();
-    let contact = simulation.problem().obstacles.map_or(0.0, |obstacles| 2.0 * tip / obstacles.epsilon);
+    let contact = simulation
+        .problem()
+        .obstacles
+        .map_or(0.0, |obstacles| 2.0 * tip / obstacles.epsilon);
     eta * (kirchhoff + rotation + heat + contact)
 }
 
 /// Checks the balance and the decay of the energy in one step.
 fn check(balance: &Balance, scale: f64, allowed: f64) -> Result<(), TestCaseError> {
     let largest = max_or_nan(BALANCE_TOLERANCE * scale, allowed);
-    prop_assert!(balance.residual.abs() <= largest, "expected a residual of at most {:e}: {:?}", largest, balance);
+    prop_assert!(
+        balance.residual.abs() <= largest,
+        "expected a residual of at most {:e}: {:?}",
+        largest,
+        balance
+    );
     // The dissipative terms have a sign.
-    prop_assert!(balance.change <= allowed, "expected an energy change of at most {:e}: {:?}", allowed, balance);
-    prop_assert!(balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.inertial >= 0.0, "{:?}", balance);
+    prop_assert!(
+        balance.change <= allowed,
+        "expected an energy change of at most {:e}: {:?}",
+        allowed,
+        balance
+    );
+    prop_assert!(
+        balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.inertial >= 0.0,
+        "{:?}",
+        balance
+    );
     Ok(())
 }
 
 /// Runs a scene to its end or to its first error, which is returned.
-fn run(problem: &Problem, scheme: Scheme, solver: Solver, dt: f64) -> Result<Option<StepError>, TestCaseError> {
-    let settings = Settings { solver, stopping: Stopping::below(tolerance(solver)), ..Settings::default() };
-    let stepping = Stepping { scheme, settings, dt, loaded: false };
+fn run(
+    problem: &Problem,
+    scheme: Scheme,
+    solver: Solver,
+    dt: f64,
+) -> Result<Option<StepError>, TestCaseError> {
+    let settings = Settings {
+        solver,
+        stopping: Stopping::below(tolerance(solver)),
+        ..Settings::default()
+    };
+    let stepping = Stepping {
+        scheme,
+        settings,
+        dt,
+        loaded: false,
+    };
     let mut simulation = Simulation::new(problem.clone(), stepping).expect("a valid scene");
     let mut old = simulation.level();
     let mut scale = simulation.energy_scale(&old);
@@ -140,14 +215,22 @@ fn run(problem: &Problem, scheme: Scheme, solver: Solver, dt: f64) -> Result<Opt
         let report = match simulation.advance() {
             Ok(report) => report,
             Err(error) => {
-                prop_assert_eq!(simulation.level(), old, "a failed step leaves the level before");
+                prop_assert_eq!(
+                    simulation.level(),
+                    old,
+                    "a failed step leaves the level before"
+                );
                 return Ok(Some(error));
             }
         };
         prop_assert!(report.iterations <= settings.stopping.max_iterations());
         let new = simulation.level();
         let fields = [&new.u, &new.v, &new.phi, &new.w, &new.theta];
-        prop_assert!(fields.iter().all(|field| field.iter().all(|value| value.is_finite())));
+        prop_assert!(
+            fields
+                .iter()
+                .all(|field| field.iter().all(|value| value.is_finite()))
+        );
         scale = max_or_nan(scale, simulation.energy_scale(&new));
         let mut allowed = simulation.rounding(&old, &new).total();
         if solver == Solver::FixedPoint {

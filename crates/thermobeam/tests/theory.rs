@@ -18,14 +18,24 @@ fn cited(text: &str) -> Vec<(&str, Vec<&str>)> {
     sections
         .map(|section| {
             let title = section.lines().next().unwrap_or_default();
-            let held = section.split("\n\n").filter(|paragraph| paragraph.trim_start().starts_with("**Checked by**"));
-            (title, held.flat_map(|paragraph| paragraph.split('`').skip(1).step_by(2)).collect())
+            let held = section
+                .split("\n\n")
+                .filter(|paragraph| paragraph.trim_start().starts_with("**Checked by**"));
+            (
+                title,
+                held.flat_map(|paragraph| paragraph.split('`').skip(1).step_by(2))
+                    .collect(),
+            )
         })
         .collect()
 }
 
 fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let entries = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
     for path in entries {
         if path.is_dir() {
             files(&path, extension, found);
@@ -47,13 +57,24 @@ fn tests_of(source: &str) -> impl Iterator<Item = String> {
 /// Names of all tests and studies of the workspace.
 fn known(root: &Path) -> BTreeSet<String> {
     let mut sources = vec![];
-    for part in ["thermobeam", "thermobeam-exact", "thermobeam-study", "convergence-study"] {
+    for part in [
+        "thermobeam",
+        "thermobeam-exact",
+        "thermobeam-study",
+        "convergence-study",
+    ] {
         for folder in ["src", "tests"] {
-            files(&root.join("crates").join(part).join(folder), "rs", &mut sources);
+            files(
+                &root.join("crates").join(part).join(folder),
+                "rs",
+                &mut sources,
+            );
         }
     }
     let read = |path: &PathBuf| fs::read_to_string(path).expect("a source file");
-    let tests = sources.iter().flat_map(|path| tests_of(&read(path)).collect::<Vec<_>>());
+    let tests = sources
+        .iter()
+        .flat_map(|path| tests_of(&read(path)).collect::<Vec<_>>());
     let mut studies = vec![];
     files(&root.join("studies"), "toml", &mut studies);
     let id = |path: &PathBuf| {
@@ -67,7 +88,10 @@ fn known(root: &Path) -> BTreeSet<String> {
 /// Names that are neither tests nor studies.
 fn missing(text: &str, known: &BTreeSet<String>) -> Vec<String> {
     let names = cited(text).into_iter().flat_map(|(_, names)| names);
-    names.filter(|&name| !known.contains(name)).map(str::to_owned).collect()
+    names
+        .filter(|&name| !known.contains(name))
+        .map(str::to_owned)
+        .collect()
 }
 
 #[test]
@@ -78,16 +102,26 @@ fn every_result_names_tests_and_studies_that_exist() {
     let Some(root) = workspace() else { return };
     let known = known(&root);
     assert_eq!(missing(THEORY, &known), Vec::<String>::new());
-    let renamed = THEORY.replace("`energy-decay`", "`energy-rise`").replace("`no_frequency_is_missed`", "`none_is`");
+    let renamed = THEORY
+        .replace("`energy-decay`", "`energy-rise`")
+        .replace("`no_frequency_is_missed`", "`none_is`");
     assert_eq!(missing(&renamed, &known), ["energy-rise", "none_is"]);
 }
 
 /// Titles in quotes after the word "section" that no heading has.
 fn lost_sections(text: &str) -> Vec<String> {
-    let titles: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("## ")).collect();
+    let titles: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("## "))
+        .collect();
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let quoted = words.split("section \"").skip(1).filter_map(|rest| rest.split('"').next().map(str::to_owned));
-    quoted.filter(|title| !titles.contains(&title.as_str())).collect()
+    let quoted = words
+        .split("section \"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next().map(str::to_owned));
+    quoted
+        .filter(|title| !titles.contains(&title.as_str()))
+        .collect()
 }
 
 #[test]
@@ -99,7 +133,6 @@ fn every_section_that_is_referred_to_exists() {
 
 #[test]
 fn only_functions_marked_as_tests_are_found() {
-    let source =
-        "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
+    let source = "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";
     assert_eq!(tests_of(source).collect::<Vec<_>>(), ["a_law", "another"]);
 }

@@ -7,7 +7,10 @@ use crate::p1_matrices::P1Matrices;
 
 #[track_caller]
 fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{found} is not {expected} to {tolerance:e}");
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} is not {expected} to {tolerance:e}"
+    );
 }
 
 fn uniform(elements: usize) -> Mesh {
@@ -19,11 +22,21 @@ fn dense_frequencies(elements: usize) -> Vec<f64> {
     let beam = P1Matrices::new(elements);
     let mut mass = nalgebra::DMatrix::zeros(2 * elements, 2 * elements);
     for block in [0, elements] {
-        mass.view_mut((block, block), (elements, elements)).copy_from(&beam.mass);
+        mass.view_mut((block, block), (elements, elements))
+            .copy_from(&beam.mass);
     }
-    let inverse = mass.cholesky().expect("a positive mass").l().try_inverse().expect("regular");
+    let inverse = mass
+        .cholesky()
+        .expect("a positive mass")
+        .l()
+        .try_inverse()
+        .expect("regular");
     let standard = &inverse * beam.stiffness_form(0.0) * inverse.transpose();
-    let mut all: Vec<f64> = standard.symmetric_eigenvalues().iter().map(|lambda| lambda.sqrt()).collect();
+    let mut all: Vec<f64> = standard
+        .symmetric_eigenvalues()
+        .iter()
+        .map(|lambda| lambda.sqrt())
+        .collect();
     all.sort_by(f64::total_cmp);
     all
 }
@@ -31,8 +44,17 @@ fn dense_frequencies(elements: usize) -> Vec<f64> {
 /// ∫₀¹ f by Simpson's rule.
 fn integral(f: impl Fn(f64) -> f64) -> f64 {
     let n = 4000;
-    let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
-    (0..=n).map(|i| weight(i) * f(f64::from(i) / f64::from(n))).sum::<f64>() / (3.0 * f64::from(n))
+    let weight = |i: i32| {
+        if i == 0 || i == n {
+            1.0
+        } else {
+            f64::from(2 + 2 * (i % 2))
+        }
+    };
+    (0..=n)
+        .map(|i| weight(i) * f(f64::from(i) / f64::from(n)))
+        .sum::<f64>()
+        / (3.0 * f64::from(n))
 }
 
 #[test]
@@ -44,8 +66,12 @@ fn the_lowest_frequency_is_the_reference() {
 fn frequencies_are_the_zeros_of_the_determinant() {
     let all = frequencies(60);
     for (i, &omega) in all.iter().enumerate() {
-        let (plus, minus) = ((omega * omega - omega).sqrt(), (omega * omega + omega).sqrt());
-        let determinant = 1.0 + plus.cos() * minus.cos() - omega * omega * (plus.sin() / plus) * (minus.sin() / minus);
+        let (plus, minus) = (
+            (omega * omega - omega).sqrt(),
+            (omega * omega + omega).sqrt(),
+        );
+        let determinant = 1.0 + plus.cos() * minus.cos()
+            - omega * omega * (plus.sin() / plus) * (minus.sin() / minus);
         close(determinant, 0.0, 4e-15 * (1.0 + omega));
         assert!(i == 0 || omega > all[i - 1]);
     }
@@ -64,7 +90,11 @@ fn no_frequency_is_missed() {
     for (i, omega) in frequencies(24).into_iter().enumerate() {
         let error = dense[i] - omega;
         let expected = omega.powi(3) / (24.0 * (elements * elements) as f64);
-        assert!(error > 0.0 && error < 1.5 * expected + 1e-4, "{i}: {omega} {} {expected:e}", dense[i]);
+        assert!(
+            error > 0.0 && error < 1.5 * expected + 1e-4,
+            "{i}: {omega} {} {expected:e}",
+            dense[i]
+        );
     }
 }
 
@@ -76,10 +106,21 @@ fn the_determinant_is_positive_below_the_first_bracket() {
         let omega = end * f64::from(i) / 20_000.0;
         let (plus, minus) = (omega * omega - omega, (omega * omega + omega).sqrt());
         let root = plus.abs().sqrt();
-        let (c, s) = if plus < 0.0 { (root.cosh(), root.sinh()) } else { (root.cos(), root.sin()) };
+        let (c, s) = if plus < 0.0 {
+            (root.cosh(), root.sinh())
+        } else {
+            (root.cos(), root.sin())
+        };
         let sine = if root == 0.0 { 1.0 } else { s / root };
-        let lower = if minus == 0.0 { 1.0 } else { minus.sin() / minus };
-        assert!(1.0 + c * minus.cos() - omega * omega * sine * lower > 0.09, "{omega}");
+        let lower = if minus == 0.0 {
+            1.0
+        } else {
+            minus.sin() / minus
+        };
+        assert!(
+            1.0 + c * minus.cos() - omega * omega * sine * lower > 0.09,
+            "{omega}"
+        );
     }
 }
 
@@ -96,13 +137,21 @@ fn modes_solve_the_equations_and_the_boundary_conditions() {
             close(slope(&|x| mode.u(x)), mode.u_x(x), truncation);
             close(slope(&|x| mode.phi(x)), mode.phi_x(x), truncation);
             let force = slope(&|x| mode.u_x(x)) - mode.phi_x(x) + omega * omega * mode.u(x);
-            let moment = slope(&|x| mode.phi_x(x)) + mode.u_x(x) + (omega * omega - 1.0) * mode.phi(x);
+            let moment =
+                slope(&|x| mode.phi_x(x)) + mode.u_x(x) + (omega * omega - 1.0) * mode.phi(x);
             close(force, 0.0, truncation * size);
             close(moment, 0.0, truncation * size);
         }
         close(mode.u(1.0), 1.0, 1e-14);
-        let at_ends = [mode.u(0.0), mode.phi(0.0), mode.u_x(1.0) - mode.phi(1.0), mode.phi_x(1.0)];
-        at_ends.iter().for_each(|value| close(*value, 0.0, 1e-14 * size));
+        let at_ends = [
+            mode.u(0.0),
+            mode.phi(0.0),
+            mode.u_x(1.0) - mode.phi(1.0),
+            mode.phi_x(1.0),
+        ];
+        at_ends
+            .iter()
+            .for_each(|value| close(*value, 0.0, 1e-14 * size));
     }
 }
 
@@ -112,7 +161,9 @@ fn modes_are_orthogonal_and_their_rayleigh_quotient_is_the_frequency() {
     for (i, a) in modes.iter().enumerate() {
         for (j, b) in modes.iter().enumerate() {
             let mass = integral(|x| a.u(x) * b.u(x) + a.phi(x) * b.phi(x));
-            let energy = integral(|x| (a.u_x(x) - a.phi(x)) * (b.u_x(x) - b.phi(x)) + a.phi_x(x) * b.phi_x(x));
+            let energy = integral(|x| {
+                (a.u_x(x) - a.phi(x)) * (b.u_x(x) - b.phi(x)) + a.phi_x(x) * b.phi_x(x)
+            });
             if i == j {
                 close(energy / mass, a.omega().powi(2), 1e-10 * a.omega().powi(2));
             } else {
@@ -145,7 +196,15 @@ fn by_taylor(omega: f64, zeta: f64, start: (f64, f64), t: f64) -> (f64, f64) {
 fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
     let omega = Mode::new(0).omega();
     let critical = 2.0 / omega;
-    for zeta in [0.0, 0.1, critical * (1.0 - 1e-9), critical, critical * (1.0 + 1e-9), 2.0 * critical, 40.0] {
+    for zeta in [
+        0.0,
+        0.1,
+        critical * (1.0 - 1e-9),
+        critical,
+        critical * (1.0 + 1e-9),
+        2.0 * critical,
+        40.0,
+    ] {
         for start in [(1.0, 0.0), (0.3, -2.0)] {
             let damped = TimeFactor::new(omega, zeta, start.0, start.1).expect("a viscosity");
             close(damped.value(0.0), start.0, 0.0);
@@ -196,9 +255,18 @@ fn discrete_frequencies_are_those_of_the_dense_pencil() {
         }
     }
     let too_many = discrete_frequencies(&uniform(3), 1, 7);
-    assert_eq!(too_many, Err(SpectrumError::Count { count: 7, available: 6 }));
+    assert_eq!(
+        too_many,
+        Err(SpectrumError::Count {
+            count: 7,
+            available: 6
+        })
+    );
     for degree in [0, 41] {
-        assert_eq!(discrete_frequencies(&uniform(3), degree, 1), Err(SpectrumError::Degree(degree)));
+        assert_eq!(
+            discrete_frequencies(&uniform(3), degree, 1),
+            Err(SpectrumError::Degree(degree))
+        );
     }
 }
 
@@ -207,24 +275,36 @@ fn a_single_element_of_high_degree_has_the_frequencies_of_the_beam() {
     let exact = frequencies(6);
     for (degree, tolerance) in [(14, 1e-5), (20, 1e-12), (40, 1e-12)] {
         let found = discrete_frequencies(&uniform(1), degree, 6).expect("six of them");
-        found.iter().zip(&exact).for_each(|(found, exact)| close(*found, *exact, tolerance));
+        found
+            .iter()
+            .zip(&exact)
+            .for_each(|(found, exact)| close(*found, *exact, tolerance));
     }
 }
 
 #[test]
 fn the_first_eight_discrete_frequencies_converge_at_second_order_from_above() {
     let exact = frequencies(8);
-    let meshes: [&dyn Fn(usize) -> Mesh; 2] =
-        [&uniform, &|n| Mesh::mapped(n, |s| s + 0.1 * (2.0 * std::f64::consts::PI * s).sin()).expect("a graded mesh")];
+    let meshes: [&dyn Fn(usize) -> Mesh; 2] = [&uniform, &|n| {
+        Mesh::mapped(n, |s| s + 0.1 * (2.0 * std::f64::consts::PI * s).sin())
+            .expect("a graded mesh")
+    }];
     for mesh in meshes {
         let errors = |n: usize| -> Vec<f64> {
             let found = discrete_frequencies(&mesh(n), 1, 8).expect("eight of them");
-            found.iter().zip(&exact).map(|(found, exact)| found - exact).collect()
+            found
+                .iter()
+                .zip(&exact)
+                .map(|(found, exact)| found - exact)
+                .collect()
         };
         for (coarse, fine) in errors(256).iter().zip(errors(512)) {
             assert!(fine > 0.0);
             let rate = (coarse / fine).log2();
-            assert!((1.99..2.01).contains(&rate), "rate {rate}, errors {coarse:e} {fine:e}");
+            assert!(
+                (1.99..2.01).contains(&rate),
+                "rate {rate}, errors {coarse:e} {fine:e}"
+            );
         }
     }
 }

@@ -6,7 +6,9 @@ use std::path::Path;
 
 use convergence_study::cli::exit::Unusable;
 use convergence_study::cli::workspace;
-use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose, names};
+use convergence_study::store::diagnosis::{
+    Diagnosis, Fingerprint, Fingerprints, Known, diagnose, names,
+};
 use convergence_study::study::header::Setting;
 
 use super::list::Regression;
@@ -33,25 +35,41 @@ pub(super) struct Judged<'r> {
 ///
 /// # Errors
 /// Study files that cannot be read.
-pub(super) fn judged<'r>(root: &Path, found: Vec<(&'r Regression, Found)>) -> Result<Vec<Judged<'r>>, Unusable> {
+pub(super) fn judged<'r>(
+    root: &Path,
+    found: Vec<(&'r Regression, Found)>,
+) -> Result<Vec<Judged<'r>>, Unusable> {
     let files = workspace::studies(&crate::PROJECT, root)?;
-    let settings: BTreeMap<&str, &Vec<Setting>> =
-        files.iter().map(|file| file.study.header()).map(|header| (header.id.as_str(), &header.settings)).collect();
+    let settings: BTreeMap<&str, &Vec<Setting>> = files
+        .iter()
+        .map(|file| file.study.header())
+        .map(|header| (header.id.as_str(), &header.settings))
+        .collect();
     let mut all: Vec<Judged<'r>> = vec![];
     for (regression, mut found) in found {
         for study in &mut found.record.studies {
-            study.header.settings = settings.get(study.header.id.as_str()).map_or(vec![], |known| (*known).clone());
+            study.header.settings = settings
+                .get(study.header.id.as_str())
+                .map_or(vec![], |known| (*known).clone());
         }
         let print = Fingerprint::of(&found.record.studies, found.record.moves());
         let place = regression.place(root);
-        all.push(Judged { regression, found, place, print, diagnosis: Diagnosis::default(), right: [None; 3] });
+        all.push(Judged {
+            regression,
+            found,
+            place,
+            print,
+            diagnosis: Diagnosis::default(),
+            right: [None; 3],
+        });
     }
     let threshold = threshold(&all);
     for k in 0..all.len() {
         let known = known(&all, threshold, &all[k].place);
         let record = &all[k].found.record;
         let changes = record.moves();
-        all[k].diagnosis = diagnose(&crate::PROJECT, &record.studies, changes, &known).unwrap_or_default();
+        all[k].diagnosis =
+            diagnose(&crate::PROJECT, &record.studies, changes, &known).unwrap_or_default();
         all[k].right = right(all[k].regression, &all[k].diagnosis);
     }
     Ok(all)
@@ -60,12 +78,19 @@ pub(super) fn judged<'r>(root: &Path, found: Vec<(&'r Regression, Found)>) -> Re
 /// The fingerprints of all mistakes except those in the function `place`.
 fn known(all: &[Judged<'_>], threshold: f64, place: &str) -> Fingerprints {
     let others = all.iter().filter(|one| one.place != place);
-    let known = others.map(|Judged { regression, print, .. }| Known {
-        mistake: regression.name.clone(),
-        file: regression.file.clone(),
-        items: print.clone(),
-    });
-    Fingerprints { threshold, known: known.collect() }
+    let known = others.map(
+        |Judged {
+             regression, print, ..
+         }| Known {
+            mistake: regression.name.clone(),
+            file: regression.file.clone(),
+            items: print.clone(),
+        },
+    );
+    Fingerprints {
+        threshold,
+        known: known.collect(),
+    }
 }
 
 /// The smallest likeness above which the nearest other mistake is more often in the same module than not.
@@ -74,7 +99,10 @@ fn threshold(all: &[Judged<'_>]) -> f64 {
     for one in all {
         let others = known(all, 0.0, &one.place);
         if let Some(first) = others.nearest(&one.print).first() {
-            nearest.push((first.likeness, first.file.starts_with(one.regression.module())));
+            nearest.push((
+                first.likeness,
+                first.file.starts_with(one.regression.module()),
+            ));
         }
     }
     nearest.sort_by(|(one, _), (next, _)| next.total_cmp(one));
@@ -89,7 +117,11 @@ fn threshold(all: &[Judged<'_>]) -> f64 {
 }
 
 fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
-    let settings = diagnosis.contrast.settings.iter().chain(&diagnosis.contrast.shared);
+    let settings = diagnosis
+        .contrast
+        .settings
+        .iter()
+        .chain(&diagnosis.contrast.shared);
     let values: Vec<&str> = settings.map(|(_, value)| value.as_str()).collect();
     let named = |word: &String| match word.as_str() {
         "both" => !values.iter().any(|value| METHODS.contains(value)),
@@ -99,9 +131,18 @@ fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
     let about = |word: &String| named(word) || field == Some(word.as_str());
     let module = regression.module();
     let place = diagnosis.look_at.iter().any(|place| place.contains(module))
-        || diagnosis.resembles.iter().any(|one| one.file.starts_with(module));
-    let of = |words: &[String], names: &dyn Fn(&String) -> bool| (!words.is_empty()).then(|| words.iter().any(names));
-    [of(&regression.method, &named), of(&regression.about, &about), Some(place)]
+        || diagnosis
+            .resembles
+            .iter()
+            .any(|one| one.file.starts_with(module));
+    let of = |words: &[String], names: &dyn Fn(&String) -> bool| {
+        (!words.is_empty()).then(|| words.iter().any(names))
+    };
+    [
+        of(&regression.method, &named),
+        of(&regression.about, &about),
+        Some(place),
+    ]
 }
 
 /// The fingerprints in the form in which they are committed.
@@ -113,8 +154,11 @@ pub(super) fn fingerprints(all: &[Judged<'_>]) -> Fingerprints {
 ///
 /// * `passing`: seconds of a run without a mistake.
 pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
-    let [written, drawn] =
-        [false, true].map(|mutant| -> Vec<_> { all.iter().filter(|one| one.regression.mutant == mutant).collect() });
+    let [written, drawn] = [false, true].map(|mutant| -> Vec<_> {
+        all.iter()
+            .filter(|one| one.regression.mutant == mutant)
+            .collect()
+    });
     let mut page = "## How well causes are named\n\n| mistakes | noticed | method | term or field | module | commonest answers | lines, at most | times a passing run, median | worst |\n| --- | --: | --: | --: | --: | --- | --: | --: | --: |\n".to_owned();
     page += &(scores("written", &written, passing) + &scores("drawn at random", &drawn, passing));
     page += "\nRight are those of which the diagnosis names what was declared beside the mistake. \"Commonest answers\" is the score of always giving the commonest one.\n\n## What is said of each\n\n";
@@ -123,24 +167,40 @@ pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
 
 fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
     // The diagnosis is that of `verify`; it says nothing of what only a test notices.
-    let noticed: Vec<&&Judged<'_>> = all.iter().filter(|one| !one.found.record.verdict.is_pass()).collect();
+    let noticed: Vec<&&Judged<'_>> = all
+        .iter()
+        .filter(|one| !one.found.record.verdict.is_pass())
+        .collect();
     let score = |which: usize| {
         let judged: Vec<bool> = noticed.iter().filter_map(|one| one.right[which]).collect();
         percent(judged.iter().filter(|right| **right).count(), judged.len())
     };
     let of = |words: &dyn Fn(&Regression) -> Vec<String>| {
-        let declared: Vec<Vec<String>> =
-            noticed.iter().map(|one| words(one.regression)).filter(|words| !words.is_empty()).collect();
+        let declared: Vec<Vec<String>> = noticed
+            .iter()
+            .map(|one| words(one.regression))
+            .filter(|words| !words.is_empty())
+            .collect();
         let mut counts: BTreeMap<&String, usize> = BTreeMap::new();
-        declared.iter().flatten().for_each(|word| *counts.entry(word).or_default() += 1);
+        declared
+            .iter()
+            .flatten()
+            .for_each(|word| *counts.entry(word).or_default() += 1);
         percent(counts.values().max().copied().unwrap_or(0), declared.len())
     };
-    let commonest =
-        [of(&|one| one.method.clone()), of(&|one| one.about.clone()), of(&|one| vec![one.module().to_owned()])];
-    let mut times: Vec<f64> = noticed.iter().map(|one| one.found.seconds / passing).collect();
+    let commonest = [
+        of(&|one| one.method.clone()),
+        of(&|one| one.about.clone()),
+        of(&|one| vec![one.module().to_owned()]),
+    ];
+    let mut times: Vec<f64> = noticed
+        .iter()
+        .map(|one| one.found.seconds / passing)
+        .collect();
     times.sort_by(f64::total_cmp);
     let lines = noticed.iter().map(|one| one.found.lines).max().unwrap_or(0);
-    let [median, worst] = [times.get(times.len() / 2), times.last()].map(|time| time.copied().unwrap_or(f64::NAN));
+    let [median, worst] =
+        [times.get(times.len() / 2), times.last()].map(|time| time.copied().unwrap_or(f64::NAN));
     format!(
         "| {name} | {} of {} | {} | {} | {} | {} | {lines} | {median:.1} | {worst:.1} |\n",
         noticed.len(),
@@ -153,19 +213,37 @@ fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
 }
 
 fn percent(part: usize, whole: usize) -> String {
-    format!("{part}/{whole} ({:.0} %)", 100.0 * part as f64 / whole.max(1) as f64)
+    format!(
+        "{part}/{whole} ({:.0} %)",
+        100.0 * part as f64 / whole.max(1) as f64
+    )
 }
 
 fn said(one: &Judged<'_>) -> String {
-    let Judged { regression, found, diagnosis, right, .. } = one;
-    let is_right = right.map(|right| right.map_or("-", |right| if right { "right" } else { "wrong" }));
+    let Judged {
+        regression,
+        found,
+        diagnosis,
+        right,
+        ..
+    } = one;
+    let is_right =
+        right.map(|right| right.map_or("-", |right| if right { "right" } else { "wrong" }));
     let head = format!("- **{}**, `{}`: ", regression.name, regression.file);
     if found.is_unnoticed() {
         return head + "not noticed\n";
     } else if found.record.verdict.is_pass() {
         return format!("{head}by a test, `cargo test {}`\n", regression.test);
     }
-    let head = format!("{head}method {}, term or field {}, module {}\n", is_right[0], is_right[1], is_right[2]);
-    let lines = diagnosis.lines().into_iter().filter(|(word, _)| SHOWN.contains(word));
-    lines.fold(head, |text, (word, words)| format!("{text}  - {word}: {words}\n"))
+    let head = format!(
+        "{head}method {}, term or field {}, module {}\n",
+        is_right[0], is_right[1], is_right[2]
+    );
+    let lines = diagnosis
+        .lines()
+        .into_iter()
+        .filter(|(word, _)| SHOWN.contains(word));
+    lines.fold(head, |text, (word, words)| {
+        format!("{text}  - {word}: {words}\n")
+    })
 }

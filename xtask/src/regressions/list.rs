@@ -60,10 +60,17 @@ pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
     }
     let path = root.join(FILE);
     let text = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;
-    let List { regression: all } = toml::from_str(&text).map_err(|error| Unusable::file(&path, &error))?;
-    let second = all.iter().enumerate().find(|(k, one)| all[..*k].iter().any(|earlier| earlier.name == one.name));
+    let List { regression: all } =
+        toml::from_str(&text).map_err(|error| Unusable::file(&path, &error))?;
+    let second = all
+        .iter()
+        .enumerate()
+        .find(|(k, one)| all[..*k].iter().any(|earlier| earlier.name == one.name));
     match second {
-        Some((_, one)) => Err(Unusable::because(&format!("{FILE}: found a second \"{}\"", one.name))),
+        Some((_, one)) => Err(Unusable::because(&format!(
+            "{FILE}: found a second \"{}\"",
+            one.name
+        ))),
         None => Ok(all),
     }
 }
@@ -72,8 +79,14 @@ impl Regression {
     /// File and function of the first edit.
     pub(super) fn place(&self, root: &Path) -> String {
         let text = fs::read_to_string(root.join(&self.file)).unwrap_or_default();
-        let before = self.edits.first().and_then(|edit| text.find(&edit.old)).map_or("", |at| &text[..at]);
-        let name = before.rsplit_once("fn ").map_or("", |(_, rest)| rest.split(['(', '<']).next().unwrap_or(rest));
+        let before = self
+            .edits
+            .first()
+            .and_then(|edit| text.find(&edit.old))
+            .map_or("", |at| &text[..at]);
+        let name = before.rsplit_once("fn ").map_or("", |(_, rest)| {
+            rest.split(['(', '<']).next().unwrap_or(rest)
+        });
         format!("{} {name}", self.file)
     }
 
@@ -122,16 +135,25 @@ mod tests {
     /// Whether some source of the package has the test that the last argument names.
     fn has_test(root: &Path, arguments: &str) -> bool {
         let words: Vec<&str> = arguments.split_whitespace().collect();
-        let ["--package", package, "--lib" | "--test", .., path] = words[..] else { return false };
+        let ["--package", package, "--lib" | "--test", .., path] = words[..] else {
+            return false;
+        };
         let name = path.rsplit("::").next().unwrap_or(path);
         let package = root.join("crates").join(package);
-        let sources = ["src", "tests"].into_iter().flat_map(|folder| sources(&package.join(folder)));
-        sources.into_iter().any(|text| text.contains(&format!("fn {name}(")))
+        let sources = ["src", "tests"]
+            .into_iter()
+            .flat_map(|folder| sources(&package.join(folder)));
+        sources
+            .into_iter()
+            .any(|text| text.contains(&format!("fn {name}(")))
     }
 
     /// The texts of all files below a folder.
     fn sources(folder: &Path) -> Vec<String> {
-        let entries = fs::read_dir(folder).into_iter().flatten().map(|entry| entry.expect("an entry").path());
+        let entries = fs::read_dir(folder)
+            .into_iter()
+            .flatten()
+            .map(|entry| entry.expect("an entry").path());
         let texts = |path: std::path::PathBuf| match path.is_dir() {
             true => sources(&path),
             false => fs::read_to_string(path).into_iter().collect(),
@@ -144,14 +166,24 @@ mod tests {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let all = read(&root).unwrap_or_else(|error| panic!("{}", error.message()));
         assert!(all.len() >= 130, "{}", all.len());
-        let studies = workspace::studies(&crate::PROJECT, &root).unwrap_or_else(|error| panic!("{}", error.message()));
+        let studies = workspace::studies(&crate::PROJECT, &root)
+            .unwrap_or_else(|error| panic!("{}", error.message()));
         let quick = |id: &str| {
-            studies.iter().map(|file| file.study.header()).any(|header| header.id == id && header.tier == Tier::Quick)
+            studies
+                .iter()
+                .map(|file| file.study.header())
+                .any(|header| header.id == id && header.tier == Tier::Quick)
         };
         for regression in &all {
-            let planted = regression.planted(&root).unwrap_or_else(|error| panic!("{}", error.message()));
+            let planted = regression
+                .planted(&root)
+                .unwrap_or_else(|error| panic!("{}", error.message()));
             let is_there = |edit: &Edit| planted.contains(&edit.new);
-            assert!(!regression.edits.is_empty() && regression.edits.iter().all(is_there), "{}", regression.name);
+            assert!(
+                !regression.edits.is_empty() && regression.edits.iter().all(is_there),
+                "{}",
+                regression.name
+            );
             assert!(
                 regression.study.is_empty() || quick(&regression.study),
                 "{}: {}",
@@ -164,10 +196,18 @@ mod tests {
                 "{}: a study and a test",
                 regression.name
             );
-            assert!(regression.test.is_empty() || has_test(&root, &regression.test), "{}", regression.test);
+            assert!(
+                regression.test.is_empty() || has_test(&root, &regression.test),
+                "{}",
+                regression.test
+            );
             // Each line about the study begins with its name.
             let head = format!("{}: ", regression.study);
-            assert!(regression.study.is_empty() || !head.contains(&regression.says), "{}", regression.name);
+            assert!(
+                regression.study.is_empty() || !head.contains(&regression.says),
+                "{}",
+                regression.name
+            );
         }
     }
 }

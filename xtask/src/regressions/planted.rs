@@ -19,7 +19,8 @@ use super::list::Regression;
 /// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No run may know in advance what
 /// these mistakes did.
 fn is_left_out(name: &str) -> bool {
-    matches!(name, "target" | "reports" | "fingerprints.json") || (name.starts_with('.') && name != ".cargo")
+    matches!(name, "target" | "reports" | "fingerprints.json")
+        || (name.starts_with('.') && name != ".cargo")
 }
 
 /// Profile of `cargo build`: optimised enough that the quick tier takes seconds, and compiled incrementally.
@@ -57,7 +58,10 @@ impl Copy {
     /// # Errors
     /// Errors of the operating system.
     pub(super) fn of(root: &Path) -> Result<Self, Unusable> {
-        let mut copy = Self { folder: root.join("target/regressions"), hash: 0 };
+        let mut copy = Self {
+            folder: root.join("target/regressions"),
+            hash: 0,
+        };
         made_alike(root, &copy.tree(), &mut copy.hash)?;
         Ok(copy)
     }
@@ -75,7 +79,10 @@ impl Copy {
         if found.record.verdict.is_pass() {
             return Ok(found);
         }
-        Err(Unusable::because(&format!("without a mistake `verify` does not pass:\n{}", found.said().join("\n"))))
+        Err(Unusable::because(&format!(
+            "without a mistake `verify` does not pass:\n{}",
+            found.said().join("\n")
+        )))
     }
 
     /// Results of `verify`, and of the test named for the mistake, with another text in its file, which is restored afterwards; known
@@ -85,8 +92,15 @@ impl Copy {
     ///
     /// # Errors
     /// A text that does not compile, a test that fails without the mistake, and errors of the operating system.
-    pub(super) fn with(&self, regression: &Regression, text: &str, recorded: bool) -> Result<Found, Unusable> {
-        let Regression { name, file, test, .. } = regression;
+    pub(super) fn with(
+        &self,
+        regression: &Regression,
+        text: &str,
+        recorded: bool,
+    ) -> Result<Found, Unusable> {
+        let Regression {
+            name, file, test, ..
+        } = regression;
         let hash = self.hash ^ content_hash(format!("{file}\n{text}\n{test}").as_bytes());
         self.kept(name, hash, recorded, |key| {
             if let Some(failed) = self.failed_test(test)? {
@@ -108,19 +122,27 @@ impl Copy {
     /// # Errors
     /// A test that is not found, that does not compile, or that ends without a result.
     fn failed_test(&self, arguments: &str) -> Result<Option<String>, Unusable> {
-        let Some((options, name)) = arguments.rsplit_once(' ') else { return Ok(None) };
+        let Some((options, name)) = arguments.rsplit_once(' ') else {
+            return Ok(None);
+        };
         let mut test = self.cargo("test");
-        test.args(options.split(' ')).args(["--", "--exact", name]).current_dir(self.tree());
+        test.args(options.split(' '))
+            .args(["--", "--exact", name])
+            .current_dir(self.tree());
         let output = test.output()?;
         let text = String::from_utf8_lossy(&output.stdout);
         let passed = format!("test {name} ... ok");
-        let result = text.lines().find(|line| line.starts_with(&format!("test {name} ... ")));
+        let result = text
+            .lines()
+            .find(|line| line.starts_with(&format!("test {name} ... ")));
         match result {
             Some(line) if line == passed && output.status.success() => Ok(None),
             Some(line) if line.ends_with("FAILED") => Ok(Some(line.to_owned())),
             _ => {
                 let why = String::from_utf8_lossy(&output.stderr);
-                Err(Unusable::because(&format!("`cargo test {arguments}` has no result:\n{why}")))
+                Err(Unusable::because(&format!(
+                    "`cargo test {arguments}` has no result:\n{why}"
+                )))
             }
         }
     }
@@ -128,7 +150,9 @@ impl Copy {
     /// Cargo with a command, for the copy.
     fn cargo(&self, command: &str) -> Command {
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.args([command, "--quiet", "--profile", PROFILE, "--target-dir"]).arg(self.folder.join("build"));
+        cargo
+            .args([command, "--quiet", "--profile", PROFILE, "--target-dir"])
+            .arg(self.folder.join("build"));
         cargo.current_dir(self.tree());
         cargo
     }
@@ -142,9 +166,14 @@ impl Copy {
         find: impl FnOnce(String) -> Result<Found, Unusable>,
     ) -> Result<Found, Unusable> {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
-        let kept = self.folder.join("records").join(name.chars().map(plain).collect::<String>() + ".json");
+        let kept = self
+            .folder
+            .join("records")
+            .join(name.chars().map(plain).collect::<String>() + ".json");
         let key = format!("{hash:016x}");
-        let known = fs::read_to_string(&kept).ok().and_then(|text| serde_json::from_str::<Found>(&text).ok());
+        let known = fs::read_to_string(&kept)
+            .ok()
+            .and_then(|text| serde_json::from_str::<Found>(&text).ok());
         if let Some(known) = known.filter(|known| recorded || known.key == key) {
             return Ok(known);
         }
@@ -165,10 +194,18 @@ impl Copy {
         }
         let program = build.join(format!("{PROFILE}/xtask{}", env::consts::EXE_SUFFIX));
         let mut verify = Command::new(&program);
-        verify.args(["verify", "--case-limit", CASE_LIMIT, "--out"]).arg(&out).current_dir(self.tree());
-        verify.env_remove("CARGO_MANIFEST_DIR").env_remove("GITHUB_STEP_SUMMARY").env_remove("GITHUB_ACTIONS");
+        verify
+            .args(["verify", "--case-limit", CASE_LIMIT, "--out"])
+            .arg(&out)
+            .current_dir(self.tree());
+        verify
+            .env_remove("CARGO_MANIFEST_DIR")
+            .env_remove("GITHUB_STEP_SUMMARY")
+            .env_remove("GITHUB_ACTIONS");
         let started = Instant::now();
-        let output = verify.output().map_err(|error| Unusable::file(&program, &error))?;
+        let output = verify
+            .output()
+            .map_err(|error| Unusable::file(&program, &error))?;
         let seconds = started.elapsed().as_secs_f64();
         let is_judged = output.status.code().is_some_and(|status| status <= 1);
         if !is_judged && test.is_empty() {
@@ -178,12 +215,22 @@ impl Copy {
         let lines = output.stdout.iter().filter(|byte| **byte == b'\n').count();
         // With a mistake in a reader `verify` may refuse the studies; the test decides.
         let refused = || Ok(Record::new("quick", "verify", Verdict::Fail, None, vec![]));
-        let mut record = if is_judged { Record::read(&out.join("results.json")) } else { refused() }?;
+        let mut record = if is_judged {
+            Record::read(&out.join("results.json"))
+        } else {
+            refused()
+        }?;
         for study in &mut record.studies {
             study.outcome.tables.clear();
             study.outcome.figures.clear();
         }
-        Ok(Found { key, seconds, lines, record, failed_test: self.failed_test(test)? })
+        Ok(Found {
+            key,
+            seconds,
+            lines,
+            record,
+            failed_test: self.failed_test(test)?,
+        })
     }
 }
 
@@ -196,22 +243,41 @@ impl Found {
     /// The output, with a line for each reason of a study and each changed number; the study comes before a colon. The line of the
     /// test comes first.
     pub(super) fn said(&self) -> Vec<String> {
-        let reasons = not_passed(&self.record.studies).into_iter().flat_map(|study| {
-            let line = move |reason: String| format!("{}: {reason}", study.id);
-            study.reasons.into_iter().map(line).collect::<Vec<_>>()
-        });
-        self.failed_test.iter().cloned().chain(reasons).chain(self.record.baseline_changes.iter().cloned()).collect()
+        let reasons = not_passed(&self.record.studies)
+            .into_iter()
+            .flat_map(|study| {
+                let line = move |reason: String| format!("{}: {reason}", study.id);
+                study.reasons.into_iter().map(line).collect::<Vec<_>>()
+            });
+        self.failed_test
+            .iter()
+            .cloned()
+            .chain(reasons)
+            .chain(self.record.baseline_changes.iter().cloned())
+            .collect()
     }
 
     /// Whether the test named for the mistake fails; otherwise, whether `verify` fails and its output about the study contains the
     /// expected words; about any study if none is named.
-    pub(super) fn is_named_by(&self, Regression { study, test, says, .. }: &Regression) -> bool {
+    pub(super) fn is_named_by(
+        &self,
+        Regression {
+            study, test, says, ..
+        }: &Regression,
+    ) -> bool {
         if !test.is_empty() {
             return self.failed_test.is_some();
         }
-        let head = if study.is_empty() { String::new() } else { format!("{study}: ") };
+        let head = if study.is_empty() {
+            String::new()
+        } else {
+            format!("{study}: ")
+        };
         !self.record.verdict.is_pass()
-            && self.said().iter().any(|line| line.starts_with(&head) && line.contains(says.as_str()))
+            && self
+                .said()
+                .iter()
+                .any(|line| line.starts_with(&head) && line.contains(says.as_str()))
     }
 }
 
@@ -245,7 +311,11 @@ fn made_alike(from: &Path, to: &Path, hash: &mut u64) -> io::Result<()> {
         if from.join(&name).exists() || is_left_out(&name.to_string_lossy()) {
             continue;
         }
-        if entry.file_type()?.is_dir() { fs::remove_dir_all(entry.path())? } else { fs::remove_file(entry.path())? }
+        if entry.file_type()?.is_dir() {
+            fs::remove_dir_all(entry.path())?
+        } else {
+            fs::remove_file(entry.path())?
+        }
     }
     Ok(())
 }
@@ -262,22 +332,42 @@ mod tests {
             fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
             fs::write(path, text).expect("a file");
         };
-        let younger = |name: &str| fs::metadata(to.join(name)).and_then(|file| file.modified()).expect("a time");
-        for (name, text) in [("src/a.rs", "a"), ("b", "b"), ("target/c", "c"), (".git/d", "d")] {
+        let younger = |name: &str| {
+            fs::metadata(to.join(name))
+                .and_then(|file| file.modified())
+                .expect("a time")
+        };
+        for (name, text) in [
+            ("src/a.rs", "a"),
+            ("b", "b"),
+            ("target/c", "c"),
+            (".git/d", "d"),
+        ] {
             write(from.join(name), text);
         }
-        for (name, text) in [("src/a.rs", "planted"), ("b", "b"), ("src/gone.rs", "e"), ("gone/f", "f")] {
+        for (name, text) in [
+            ("src/a.rs", "planted"),
+            ("b", "b"),
+            ("src/gone.rs", "e"),
+            ("gone/f", "f"),
+        ] {
             write(to.join(name), text);
         }
         let before = younger("b");
         let mut hashes = [0, 0, 0];
         made_alike(&from, &to, &mut hashes[0]).expect("a copy");
-        assert_eq!(fs::read_to_string(to.join("src/a.rs")).expect("a file"), "a");
+        assert_eq!(
+            fs::read_to_string(to.join("src/a.rs")).expect("a file"),
+            "a"
+        );
         assert_eq!(younger("b"), before);
         made_alike(&from, &to, &mut hashes[1]).expect("a copy");
         write(from.join("b"), "c");
         made_alike(&from, &to, &mut hashes[2]).expect("a copy");
-        assert!(hashes[0] == hashes[1] && hashes[1] != hashes[2], "{hashes:?}");
+        assert!(
+            hashes[0] == hashes[1] && hashes[1] != hashes[2],
+            "{hashes:?}"
+        );
         for name in ["src/gone.rs", "gone", "target", ".git"] {
             assert!(!to.join(name).exists(), "{name}");
         }

@@ -52,26 +52,52 @@ fn entry(name: &str, [old, new]: [&str; 2], [study, says]: [&str; 2]) -> String 
 fn regressions(root: &Path, list: &str, arguments: &[&str]) -> Ended {
     fs::write(root.join(".cargo/regressions.toml"), list).expect("a file");
     let mut command = xtask();
-    command.args(["dev", "regressions"]).args(arguments).current_dir(root);
-    ended(command.env("CARGO", root.join("cargo")).env_remove("CARGO_MANIFEST_DIR"))
+    command
+        .args(["dev", "regressions"])
+        .args(arguments)
+        .current_dir(root);
+    ended(
+        command
+            .env("CARGO", root.join("cargo"))
+            .env_remove("CARGO_MANIFEST_DIR"),
+    )
 }
 
 #[test]
 fn a_mistake_is_noticed_only_where_its_study_names_it() {
     let folder = TempDir::new().expect("a folder");
     let root = workspace(&folder);
-    let noticed =
-        entry("two for one", ["1", "2"], ["s", "velocity"]) + &entry("moved", ["1", "3"], ["t", "error moved"]);
+    let noticed = entry("two for one", ["1", "2"], ["s", "velocity"])
+        + &entry("moved", ["1", "3"], ["t", "error moved"]);
     let ended = regressions(&root, &noticed, &["--write"]);
     assert_eq!(ended.status, Some(0), "{}{}", ended.stdout, ended.stderr);
-    assert!(ended.stdout.contains("2 of 2 mistakes are noticed"), "{}", ended.stdout);
+    assert!(
+        ended.stdout.contains("2 of 2 mistakes are noticed"),
+        "{}",
+        ended.stdout
+    );
     let page = fs::read_to_string(root.join("reports/regressions.md")).expect("a report");
-    assert!(page.contains("| two for one") && page.contains("s: velocity: the rate is low"), "{page}");
-    assert!(page.contains("| written | 2 of 2 |") && page.contains("- **moved**, `src/a.rs`: method right"), "{page}");
+    assert!(
+        page.contains("| two for one") && page.contains("s: velocity: the rate is low"),
+        "{page}"
+    );
+    assert!(
+        page.contains("| written | 2 of 2 |")
+            && page.contains("- **moved**, `src/a.rs`: method right"),
+        "{page}"
+    );
     let prints = fs::read_to_string(root.join(".cargo/fingerprints.json")).expect("fingerprints");
-    assert!(prints.contains(r#""items":{"s: velocity fails":1.0}"#), "{prints}");
+    assert!(
+        prints.contains(r#""items":{"s: velocity fails":1.0}"#),
+        "{prints}"
+    );
     // Results are kept, and nothing is run again.
-    let runs = || fs::read_to_string(root.join("target/regressions/runs")).expect("runs").lines().count();
+    let runs = || {
+        fs::read_to_string(root.join("target/regressions/runs"))
+            .expect("runs")
+            .lines()
+            .count()
+    };
     assert_eq!(runs(), 3);
     assert_eq!(regressions(&root, &noticed, &[]).status, Some(0));
     assert_eq!(runs(), 3);
@@ -80,11 +106,27 @@ fn a_mistake_is_noticed_only_where_its_study_names_it() {
         let list = noticed.clone() + &entry("unseen", ["1", "4"], unnoticed);
         let ended = regressions(&root, &list, &["--only", "unseen"]);
         assert_eq!(ended.status, Some(1), "{}", ended.stdout);
-        assert!(ended.stdout.contains("0 of 1") && ended.stderr.contains("unseen: not noticed"), "{}", ended.stderr);
+        assert!(
+            ended.stdout.contains("0 of 1") && ended.stderr.contains("unseen: not noticed"),
+            "{}",
+            ended.stderr
+        );
     }
-    let harmless = regressions(&root, &entry("harmless", ["one", "two"], ["s", "velocity"]), &[]);
-    assert!(harmless.status == Some(1) && harmless.stderr.contains("harmless: not noticed"), "{}", harmless.stderr);
-    assert_eq!(fs::read_to_string(root.join("src/a.rs")).expect("a file"), "one = 1;", "the work tree is not touched");
+    let harmless = regressions(
+        &root,
+        &entry("harmless", ["one", "two"], ["s", "velocity"]),
+        &[],
+    );
+    assert!(
+        harmless.status == Some(1) && harmless.stderr.contains("harmless: not noticed"),
+        "{}",
+        harmless.stderr
+    );
+    assert_eq!(
+        fs::read_to_string(root.join("src/a.rs")).expect("a file"),
+        "one = 1;",
+        "the work tree is not touched"
+    );
 }
 
 #[test]
@@ -93,21 +135,42 @@ fn a_list_that_cannot_be_planted_is_refused_by_name() {
     let root = workspace(&folder);
     let s = ["s", "velocity"];
     for (list, words) in [
-        (entry("gone", ["two", "three"], s), "\"gone\": found 0 times in src/a.rs"),
-        (entry("twice", ["e", "f"], s) + &entry("twice", ["e", "f"], s), "found a second \"twice\""),
-        (entry("nothing", ["1", "1"], s), "\"nothing\": found 1 times"),
+        (
+            entry("gone", ["two", "three"], s),
+            "\"gone\": found 0 times in src/a.rs",
+        ),
+        (
+            entry("twice", ["e", "f"], s) + &entry("twice", ["e", "f"], s),
+            "found a second \"twice\"",
+        ),
+        (
+            entry("nothing", ["1", "1"], s),
+            "\"nothing\": found 1 times",
+        ),
         (entry("torn", ["1", "{"], s), "mismatched brackets"),
         ("[[regression]]\nname = 3\n".to_owned(), "regressions.toml"),
     ] {
         let ended = regressions(&root, &list, &[]);
-        assert!(ended.status == Some(2) && ended.stderr.contains(words), "{}", ended.stderr);
+        assert!(
+            ended.status == Some(2) && ended.stderr.contains(words),
+            "{}",
+            ended.stderr
+        );
         assert_eq!(ended.stdout, "");
     }
     let none = regressions(&root, &entry("two", ["1", "2"], s), &["--only", "three"]);
-    assert!(none.status == Some(2) && none.stderr.contains("no regression with three"), "{}", none.stderr);
+    assert!(
+        none.status == Some(2) && none.stderr.contains("no regression with three"),
+        "{}",
+        none.stderr
+    );
     // If `verify` fails without a mistake, it would seem to notice every mistake.
     fs::write(root.join("src/a.rs"), "one = 7;").expect("a file");
     let failing = regressions(&root, &entry("seven", ["7", "1"], s), &["--write"]);
-    assert!(failing.status == Some(2) && failing.stderr.contains("without a mistake"), "{}", failing.stderr);
+    assert!(
+        failing.status == Some(2) && failing.stderr.contains("without a mistake"),
+        "{}",
+        failing.stderr
+    );
     assert!(!root.join("reports").exists());
 }

@@ -43,11 +43,16 @@
 use thiserror::Error;
 
 use self::held_out::HELD_OUT;
-use self::laws::{Group, HIDDEN_SHARES, LAWS, Law, Meshes, Table, USUAL, WIDE, hidden_term, three_terms, wrong_limit};
+use self::laws::{
+    Group, HIDDEN_SHARES, LAWS, Law, Meshes, Table, USUAL, WIDE, hidden_term, three_terms,
+    wrong_limit,
+};
 use crate::judge::claims;
 use crate::judge::fit::{Level, fit_line, pairwise_rates};
 use crate::judge::random::SplitMix;
-use crate::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, JudgeError, Reading, Reason, Verdict};
+use crate::judge::verdict::{
+    DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, JudgeError, Reading, Reason, Verdict,
+};
 use crate::time_limit::{Patience, TimeUp};
 
 pub mod bars;
@@ -56,13 +61,27 @@ pub mod held_out;
 pub mod laws;
 
 /// Tolerances, each with the distance of the wrong claims from the order.
-pub const CLAIMS: [(f64, f64); 3] = [(0.05, 0.1), (0.1, 0.2), (DEFAULT_TOLERANCE, 2.0 * DEFAULT_TOLERANCE)];
+pub const CLAIMS: [(f64, f64); 3] = [
+    (0.05, 0.1),
+    (0.1, 0.2),
+    (DEFAULT_TOLERANCE, 2.0 * DEFAULT_TOLERANCE),
+];
 
 /// The rules, ours first.
-pub const RULES: [&str; 5] = ["this rule", "this rule, levels added", "least squares", "last pair", "physverify 0.6"];
+pub const RULES: [&str; 5] = [
+    "this rule",
+    "this rule, levels added",
+    "least squares",
+    "last pair",
+    "physverify 0.6",
+];
 
 /// Tolerances and numbers of levels at which hidden terms are tested.
-const HIDDEN: [(&str, f64, usize); 3] = [("hidden-6", 0.1, 6), ("hidden-8", 0.1, 8), ("hidden-wide", 0.2, 8)];
+const HIDDEN: [(&str, f64, usize); 3] = [
+    ("hidden-6", 0.1, 6),
+    ("hidden-8", 0.1, 8),
+    ("hidden-wide", 0.2, 8),
+];
 
 /// Tables of hidden terms for each table of a law.
 const HIDDEN_TABLES: usize = 20;
@@ -114,14 +133,28 @@ pub struct Row {
 }
 
 impl Sheet {
-    fn new(key: &'static str, title: &str, columns: &[&str], rows: impl IntoIterator<Item = Row>) -> Self {
+    fn new(
+        key: &'static str,
+        title: &str,
+        columns: &[&str],
+        rows: impl IntoIterator<Item = Row>,
+    ) -> Self {
         let columns = columns.iter().map(|&column| column.to_owned()).collect();
-        Self { key, title: title.to_owned(), columns, rows: rows.into_iter().collect() }
+        Self {
+            key,
+            title: title.to_owned(),
+            columns,
+            rows: rows.into_iter().collect(),
+        }
     }
 }
 
 fn row(name: impl Into<String>, declared: bool, shares: &[Share]) -> Row {
-    Row { name: name.into(), declared, values: shares.iter().map(|share| share.value()).collect() }
+    Row {
+        name: name.into(),
+        declared,
+        values: shares.iter().map(|share| share.value()).collect(),
+    }
 }
 
 /// How often something was true.
@@ -166,7 +199,11 @@ struct Draw {
 
 impl Draw {
     fn new(seed: u64) -> Self {
-        Self { random: SplitMix::new(seed), patience: Patience::new(ELEMENTS_OF_A_TABLE), drawn: 0 }
+        Self {
+            random: SplitMix::new(seed),
+            patience: Patience::new(ELEMENTS_OF_A_TABLE),
+            drawn: 0,
+        }
     }
 
     fn next(&mut self) -> Result<&mut SplitMix, TimeUp> {
@@ -195,15 +232,33 @@ fn wrong(table: &Table, off: f64) -> [f64; 2] {
 pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError> {
     let seed = |part: u64| seed.wrapping_add(part);
     let mut sheets = vec![
-        rules("rules", "4 to 8 levels, ratios 1.5 to 3", USUAL, tables, &mut Draw::new(seed(0)))?,
-        rules("rules-wide", "3 to 12 levels, ratios 1.1 to 4", WIDE, tables, &mut Draw::new(seed(1)))?,
+        rules(
+            "rules",
+            "4 to 8 levels, ratios 1.5 to 3",
+            USUAL,
+            tables,
+            &mut Draw::new(seed(0)),
+        )?,
+        rules(
+            "rules-wide",
+            "3 to 12 levels, ratios 1.1 to 4",
+            WIDE,
+            tables,
+            &mut Draw::new(seed(1)),
+        )?,
         levels("levels", &LAWS, 10 * tables, &mut Draw::new(seed(2)))?,
         levels("held-out", &HELD_OUT, 10 * tables, &mut Draw::new(seed(7)))?,
         three(40 * tables, &mut Draw::new(seed(8)))?,
         intervals(20 * tables, &mut Draw::new(seed(3)))?,
     ];
     for (key, tolerance, levels) in HIDDEN {
-        sheets.push(hidden(key, tolerance, levels, HIDDEN_TABLES * tables, &mut Draw::new(seed(4)))?);
+        sheets.push(hidden(
+            key,
+            tolerance,
+            levels,
+            HIDDEN_TABLES * tables,
+            &mut Draw::new(seed(4)),
+        )?);
     }
     sheets.push(limits(HIDDEN_TABLES * tables, &mut Draw::new(seed(5)))?);
     sheets.push(other_claims(10 * tables, &mut Draw::new(seed(6)))?);
@@ -223,9 +278,13 @@ struct Evidence<'a> {
 impl<'a> Evidence<'a> {
     fn new(judge: &Judge, levels: &'a [Level]) -> Self {
         let fewest = FIRST_LOOK.min(levels.len());
-        let [.., before, finest] = levels else { unreachable!("a mesh has three levels at least") };
+        let [.., before, finest] = levels else {
+            unreachable!("a mesh has three levels at least")
+        };
         Self {
-            looks: (fewest..=levels.len()).map(|count| judge.read(&levels[..count])).collect(),
+            looks: (fewest..=levels.len())
+                .map(|count| judge.read(&levels[..count]))
+                .collect(),
             line: slope(levels),
             last: pairwise_rates(&[*before, *finest])[0],
             four: slope(&levels[levels.len() - fewest..]),
@@ -241,7 +300,11 @@ impl<'a> Evidence<'a> {
     /// The verdict of the rule at this place in [`RULES`].
     fn decide(&self, rule: usize, judge: &Judge, order: f64) -> Verdict {
         let inside = |rate: f64, [low, high]: [f64; 2]| {
-            if order - low <= rate && rate <= order + high { Verdict::Pass } else { Verdict::Fail }
+            if order - low <= rate && rate <= order + high {
+                Verdict::Pass
+            } else {
+                Verdict::Fail
+            }
         };
         let band = [judge.tolerance(); 2];
         match rule {
@@ -256,9 +319,16 @@ impl<'a> Evidence<'a> {
 
     /// The verdict when levels are added while it is inconclusive, and how many were added.
     fn added(&self, judge: &Judge, order: f64) -> (Verdict, usize) {
-        let mut looks = self.looks.iter().map(|look| judge.decide(look, order)).enumerate();
+        let mut looks = self
+            .looks
+            .iter()
+            .map(|look| judge.decide(look, order))
+            .enumerate();
         let decided = looks.find(|(_, verdict)| *verdict != Verdict::Inconclusive);
-        decided.map_or((Verdict::Inconclusive, self.looks.len() - 1), |(added, verdict)| (verdict, added))
+        decided.map_or(
+            (Verdict::Inconclusive, self.looks.len() - 1),
+            |(added, verdict)| (verdict, added),
+        )
     }
 }
 
@@ -276,7 +346,10 @@ fn rules(
 ) -> Result<Sheet, CalibrationError> {
     let judges = CLAIMS.map(|(tolerance, _)| judge(tolerance));
     let mut shares = [[Share::default(); 3 * CLAIMS.len()]; RULES.len()];
-    for ((levels, ratio), law) in meshes.each().flat_map(|mesh| LAWS.iter().map(move |law| (mesh, law))) {
+    for ((levels, ratio), law) in meshes
+        .each()
+        .flat_map(|mesh| LAWS.iter().map(move |law| (mesh, law)))
+    {
         for _ in 0..tables {
             let table = law.draw(levels, ratio, draw.next()?);
             let evidence = Evidence::new(&Judge::default().with_floor(0.0)?, &table.levels);
@@ -284,7 +357,9 @@ fn rules(
                 let judge = judge.as_ref().map_err(|error| *error)?;
                 for (rule, shares) in shares.iter_mut().enumerate() {
                     let verdict = |order| evidence.decide(rule, judge, order);
-                    wrong(&table, off).into_iter().for_each(|claim| shares[3 * place].count(verdict(claim).is_pass()));
+                    wrong(&table, off)
+                        .into_iter()
+                        .for_each(|claim| shares[3 * place].count(verdict(claim).is_pass()));
                     if let Some(order) = table.order {
                         shares[3 * place + 1].count(verdict(order).is_pass());
                         shares[3 * place + 2].count(verdict(order) == Verdict::Fail);
@@ -304,8 +379,15 @@ fn rules(
             ]
         })
         .collect();
-    let rows = RULES.iter().zip(&shares).enumerate().map(|(rule, (name, shares))| row(*name, rule == 0, shares));
-    Ok(Sheet { columns, ..Sheet::new(key, &title, &[], rows) })
+    let rows = RULES
+        .iter()
+        .zip(&shares)
+        .enumerate()
+        .map(|(rule, (name, shares))| row(*name, rule == 0, shares));
+    Ok(Sheet {
+        columns,
+        ..Sheet::new(key, &title, &[], rows)
+    })
 }
 
 /// Numbers of levels, or to how many levels are added.
@@ -320,7 +402,12 @@ const LOOKS: [(&str, usize, bool); 7] = [
 ];
 
 /// Steps halved, at the default tolerance: a fixed number of levels, or levels added up to that number.
-fn levels(key: &'static str, laws: &[Law], tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+fn levels(
+    key: &'static str,
+    laws: &[Law],
+    tables: usize,
+    draw: &mut Draw,
+) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for (name, levels, is_added) in LOOKS {
@@ -334,9 +421,15 @@ fn levels(key: &'static str, laws: &[Law], tables: usize, draw: &mut Draw) -> Re
                     let verdict = decide(order);
                     shares[0].count(verdict.is_pass());
                     shares[1].count(verdict == Verdict::Fail);
-                    work.hits += if is_added { FIRST_LOOK + evidence.added(&judge, order).1 } else { levels };
+                    work.hits += if is_added {
+                        FIRST_LOOK + evidence.added(&judge, order).1
+                    } else {
+                        levels
+                    };
                     work.of += 1;
-                    if let (Some(fit), false, false) = (evidence.all().fit, is_added, law.group == Group::Emerging) {
+                    if let (Some(fit), false, false) =
+                        (evidence.all().fit, is_added, law.group == Group::Emerging)
+                    {
                         shares[4].count(fit.interval[0] <= order && order <= fit.interval[1]);
                     }
                 }
@@ -379,11 +472,18 @@ fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
         let random = draw.next()?;
         let part = random.within([0.05, 0.6]);
         let table = hidden_term(FEWEST_LEVELS, part, random);
-        let passes = judge.decide(&judge.read(&table.levels), table.shown).is_pass();
+        let passes = judge
+            .decide(&judge.read(&table.levels), table.shown)
+            .is_pass();
         shares[usize::from(table.order.is_some())].count(passes);
     }
     let title = "Share of tables with three levels that pass at ±0.25 although something else makes up 5 to 60 % of the finest error";
-    Ok(Sheet::new("three", title, &["wrong limit passes", "lower order passes"], [row("3 levels", true, &shares)]))
+    Ok(Sheet::new(
+        "three",
+        title,
+        &["wrong limit passes", "lower order passes"],
+        [row("3 levels", true, &shares)],
+    ))
 }
 
 /// What each law does to claims 0.1 off at ±0.05 and to intervals.
@@ -419,14 +519,23 @@ fn intervals(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> 
             }
         }
     }
-    let columns = ["wrong pass", "true fail", "inconclusive", "interval holds the order"];
+    let columns = [
+        "wrong pass",
+        "true fail",
+        "inconclusive",
+        "interval holds the order",
+    ];
     let title = "Claims 0.1 off at ±0.05, 3 to 8 levels, equal and unequal ratios";
-    let laws = LAWS.iter().zip(&of_laws).map(|(law, shares)| row(law.name, is_declared(law, &NO_INTERVAL), shares));
+    let laws = LAWS
+        .iter()
+        .zip(&of_laws)
+        .map(|(law, shares)| row(law.name, is_declared(law, &NO_INTERVAL), shares));
     Ok(Sheet::new(
         "laws",
         title,
         &columns,
-        laws.chain(by_levels("levels", &of_levels)).chain([row(ALL, true, &of_all)]),
+        laws.chain(by_levels("levels", &of_levels))
+            .chain([row(ALL, true, &of_all)]),
     ))
 }
 
@@ -439,7 +548,10 @@ fn is_declared(law: &Law, not: &[&str]) -> bool {
 
 fn by_levels<'s>(what: &str, shares: &'s [[Share; 4]]) -> impl Iterator<Item = Row> + use<'s> {
     let what = what.to_owned();
-    shares.iter().zip(FEWEST_LEVELS..).map(move |(shares, count)| row(format!("{count} {what}"), false, shares))
+    shares
+        .iter()
+        .zip(FEWEST_LEVELS..)
+        .map(move |(shares, count)| row(format!("{count} {what}"), false, shares))
 }
 
 /// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in [1.4, 2.5] each time.
@@ -475,9 +587,19 @@ fn hidden(
     let title = format!(
         "Share of tables that pass although a term of lower order makes up so much of the finest error, {levels} levels, ±{tolerance}"
     );
-    let columns: Vec<String> = HIDDEN_SHARES.iter().map(|share| format!("{:.0} %", 100.0 * share)).collect();
-    let rows = RULES.iter().zip(&shares).enumerate().map(|(rule, (name, shares))| row(*name, rule == 0, shares));
-    Ok(Sheet { columns, ..Sheet::new(key, &title, &[], rows) })
+    let columns: Vec<String> = HIDDEN_SHARES
+        .iter()
+        .map(|share| format!("{:.0} %", 100.0 * share))
+        .collect();
+    let rows = RULES
+        .iter()
+        .zip(&shares)
+        .enumerate()
+        .map(|(rule, (name, shares))| row(*name, rule == 0, shares));
+    Ok(Sheet {
+        columns,
+        ..Sheet::new(key, &title, &[], rows)
+    })
 }
 
 fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
@@ -487,16 +609,33 @@ fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
         let mut shares = [Share::default(); 3];
         for _ in 0..tables {
             let table = wrong_limit(draw.next()?);
-            let passes = judge.decide(&judge.read(&table.levels), table.shown).is_pass();
+            let passes = judge
+                .decide(&judge.read(&table.levels), table.shown)
+                .is_pass();
             shares[0].count(passes);
-            shares[1].count(passes && judge.judge(&table.levels[3..], table.shown).kind == Reason::Departs);
+            shares[1].count(
+                passes && judge.judge(&table.levels[3..], table.shown).kind == Reason::Departs,
+            );
             let table = three_terms(draw.next()?);
-            shares[2].count(judge.decide(&judge.read(&table.levels), table.shown).is_pass());
+            shares[2].count(
+                judge
+                    .decide(&judge.read(&table.levels), table.shown)
+                    .is_pass(),
+            );
         }
         rows.push(row(format!("±{tolerance}"), true, &shares));
     }
-    let columns = ["wrong limit passes", "and departs without its coarsest levels", "three terms pass"];
-    Ok(Sheet::new("limits", "Share of wrong claims that pass with 8 levels, steps halved", &columns, rows))
+    let columns = [
+        "wrong limit passes",
+        "and departs without its coarsest levels",
+        "three terms pass",
+    ];
+    Ok(Sheet::new(
+        "limits",
+        "Share of wrong claims that pass with 8 levels, steps halved",
+        &columns,
+        rows,
+    ))
 }
 
 /// Laws that are h^p to leading order.
@@ -519,7 +658,8 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
             for _ in 0..tables {
                 let table = law.draw(levels, 2.0, draw.next()?);
                 let reading = judge.read(&table.levels);
-                let least = |order: f64| claims::at_least(judge.judge_read(&reading, order)).verdict;
+                let least =
+                    |order: f64| claims::at_least(judge.judge_read(&reading, order)).verdict;
                 let Some(order) = table.order else {
                     shares[0].count(least(table.shown + 2.0 * DEFAULT_TOLERANCE).is_pass());
                     continue;
@@ -533,7 +673,9 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
                         // A pure power is known to the last digit.
                         shares[3].count(low <= 1.0 + 1e-12 && 1.0 - 1e-12 <= high);
                     }
-                    let with = |between| claims::with_constant(&table.levels, rate.clone(), between).verdict;
+                    let with = |between| {
+                        claims::with_constant(&table.levels, rate.clone(), between).verdict
+                    };
                     shares[4].count(with([0.8, 1.25]).is_pass());
                     shares[5].count(with([0.8, 1.25]) == Verdict::Fail);
                     shares[6].count(with([1.25, 2.0]).is_pass());
@@ -551,7 +693,12 @@ fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationErro
         "right constant fails",
         "wrong constant passes",
     ];
-    Ok(Sheet::new("claims", "Other claims at ±0.25, steps halved", &columns, rows))
+    Ok(Sheet::new(
+        "claims",
+        "Other claims at ±0.25, steps halved",
+        &columns,
+        rows,
+    ))
 }
 
 #[cfg(test)]
@@ -564,27 +711,55 @@ mod tests {
         let levels: Vec<Level> = [0.0, -1.0, -3.0, -7.0_f64]
             .iter()
             .zip(0..)
-            .map(|(exponent, k)| Level { step: 0.5_f64.powi(k), error: exponent.exp2() })
+            .map(|(exponent, k)| Level {
+                step: 0.5_f64.powi(k),
+                error: exponent.exp2(),
+            })
             .collect();
         let judge = judge(0.1).expect("a tolerance");
         let evidence = Evidence::new(&judge, &levels);
-        for (found, expected) in [(evidence.line, 2.3), (evidence.last, 4.0), (evidence.four, 2.3)] {
+        for (found, expected) in [
+            (evidence.line, 2.3),
+            (evidence.last, 4.0),
+            (evidence.four, 2.3),
+        ] {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
         for (order, expected) in [(1.31, true), (2.59, true), (1.29, false), (2.61, false)] {
-            assert_eq!(evidence.decide(4, &judge, order).is_pass(), expected, "{order}");
+            assert_eq!(
+                evidence.decide(4, &judge, order).is_pass(),
+                expected,
+                "{order}"
+            );
         }
-        assert!(evidence.decide(2, &judge, 2.35).is_pass() && !evidence.decide(2, &judge, 2.45).is_pass());
-        assert!(evidence.decide(3, &judge, 4.05).is_pass() && !evidence.decide(3, &judge, 4.15).is_pass());
-        let stopped =
-            [1.0, 0.25, 0.06, 0.055].iter().zip(0..).map(|(&error, k)| Level { step: 0.5_f64.powi(k), error });
+        assert!(
+            evidence.decide(2, &judge, 2.35).is_pass()
+                && !evidence.decide(2, &judge, 2.45).is_pass()
+        );
+        assert!(
+            evidence.decide(3, &judge, 4.05).is_pass()
+                && !evidence.decide(3, &judge, 4.15).is_pass()
+        );
+        let stopped = [1.0, 0.25, 0.06, 0.055]
+            .iter()
+            .zip(0..)
+            .map(|(&error, k)| Level {
+                step: 0.5_f64.powi(k),
+                error,
+            });
         let stopped: Vec<Level> = stopped.collect();
-        assert_eq!(Evidence::new(&judge, &stopped).decide(4, &judge, slope(&stopped)), Verdict::Fail);
+        assert_eq!(
+            Evidence::new(&judge, &stopped).decide(4, &judge, slope(&stopped)),
+            Verdict::Fail
+        );
     }
 
     #[test]
     fn levels_are_added_while_nothing_is_decided() {
-        let law = |h: f64| Level { step: h, error: h * h * (1.0 + 2.0 * h) };
+        let law = |h: f64| Level {
+            step: h,
+            error: h * h * (1.0 + 2.0 * h),
+        };
         let levels: Vec<Level> = (0..8).map(|k| law(0.5_f64.powi(k))).collect();
         let judge = judge(0.25).expect("a tolerance");
         let evidence = Evidence::new(&judge, &levels);
@@ -598,6 +773,10 @@ mod tests {
     #[test]
     fn a_share_of_nothing_is_none_and_each_law_that_is_excepted_is_a_law() {
         assert!(Share::default().value().is_nan());
-        assert!(NO_INTERVAL.iter().all(|name| LAWS.iter().any(|law| law.name == *name)));
+        assert!(
+            NO_INTERVAL
+                .iter()
+                .all(|name| LAWS.iter().any(|law| law.name == *name))
+        );
     }
 }

@@ -23,7 +23,12 @@ pub struct Claim {
 impl Claim {
     /// An order within a tolerance.
     pub const fn new(order: f64, tolerance: f64) -> Self {
-        Self { order, tolerance, at_least: false, constant: None }
+        Self {
+            order,
+            tolerance,
+            at_least: false,
+            constant: None,
+        }
     }
 
     /// The rate of these levels, held against everything claimed. (The tolerance of `judge` is not used.)
@@ -47,7 +52,9 @@ impl fmt::Display for Claim {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let least = if self.at_least { "at least " } else { "" };
         write!(f, "{least}{} ± {}", self.order, self.tolerance)?;
-        self.constant.map_or(Ok(()), |[least, most]| write!(f, ", constant {least} to {most}"))
+        self.constant.map_or(Ok(()), |[least, most]| {
+            write!(f, ", constant {least} to {most}")
+        })
     }
 }
 
@@ -79,7 +86,11 @@ pub fn order_of_factor(factor: f64) -> f64 {
 /// The interval must lie above the band's lower end; rates that move upwards do not depart.
 pub fn at_least(rate: RateVerdict) -> RateVerdict {
     let least = rate.order - rate.tolerance;
-    let kind = match (rate.kind, rate.interval, &rate.pairwise[..rate.used.end.saturating_sub(1)]) {
+    let kind = match (
+        rate.kind,
+        rate.interval,
+        &rate.pairwise[..rate.used.end.saturating_sub(1)],
+    ) {
         (
             Reason::TooHigh | Reason::AtTheEdge | Reason::IntervalTooWide | Reason::Departs,
             Some([low, _]),
@@ -96,7 +107,9 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
 /// that `log C` changes by `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower pollution and for scatter.
 pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
     let [low, high] = rate.interval?;
-    let [.., before, finest] = levels.get(rate.used.clone())? else { return None };
+    let [.., before, finest] = levels.get(rate.used.clone())? else {
+        return None;
+    };
     let ratio = (before.step / finest.step).ln();
     let last = (before.error / finest.error).ln() / ratio;
     let middle = finest.error.ln() - rate.order * finest.step.ln() + (rate.order - last) * ratio;
@@ -106,7 +119,9 @@ pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
 
 /// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own order changes nothing else.
 pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2]) -> RateVerdict {
-    let (true, Some([low, high])) = (rate.verdict.is_pass(), constant(levels, &rate)) else { return rate };
+    let (true, Some([low, high])) = (rate.verdict.is_pass(), constant(levels, &rate)) else {
+        return rate;
+    };
     let kind = if high < least || low > most {
         Reason::ConstantOff
     } else if low < least || high > most {
@@ -114,12 +129,21 @@ pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2
     } else {
         return rate;
     };
-    rate.with_reason(kind, &format!("{} ({low:.4} to {high:.4}, claimed {least} to {most})", kind.text()))
+    rate.with_reason(
+        kind,
+        &format!(
+            "{} ({low:.4} to {high:.4}, claimed {least} to {most})",
+            kind.text()
+        ),
+    )
 }
 
 /// The largest error, and whether all errors are at most `bound`, for results that are exact up to round-off. NaN never passes.
 pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
-    let largest = errors.into_iter().map(f64::abs).fold(f64::NEG_INFINITY, crate::text::number::max_or_nan);
+    let largest = errors
+        .into_iter()
+        .map(f64::abs)
+        .fold(f64::NEG_INFINITY, crate::text::number::max_or_nan);
     (largest, largest <= bound && largest >= 0.0)
 }
 
@@ -129,7 +153,13 @@ mod tests {
     use super::*;
 
     fn levels(error: impl Fn(f64) -> f64) -> Vec<Level> {
-        (1..7).map(|k| 0.5_f64.powi(k)).map(|step| Level { step, error: error(step) }).collect()
+        (1..7)
+            .map(|k| 0.5_f64.powi(k))
+            .map(|step| Level {
+                step,
+                error: error(step),
+            })
+            .collect()
     }
 
     fn judged(levels: &[Level], order: f64) -> RateVerdict {
@@ -138,7 +168,8 @@ mod tests {
 
     #[test]
     fn a_higher_rate_is_at_least_the_order_and_a_lower_one_is_not() {
-        let least = |order: f64, error: fn(f64) -> f64| at_least(judged(&levels(error), order)).kind;
+        let least =
+            |order: f64, error: fn(f64) -> f64| at_least(judged(&levels(error), order)).kind;
         assert_eq!(least(2.0, |h| h.powi(3)), Reason::Agrees);
         assert_eq!(least(2.0, |h| h * h), Reason::Agrees);
         assert_eq!(least(2.0, |h| h.powf(1.5)), Reason::TooLow);
@@ -155,18 +186,31 @@ mod tests {
     #[test]
     fn errors_over_degrees_have_a_factor() {
         let by_factor = |factor: f64| {
-            let levels = (1..6).map(f64::from).map(|p| Level { step: step_of_degree(p), error: 3.0 * factor.powf(-p) });
+            let levels = (1..6).map(f64::from).map(|p| Level {
+                step: step_of_degree(p),
+                error: 3.0 * factor.powf(-p),
+            });
             levels.collect::<Vec<_>>()
         };
-        assert_eq!(judged(&by_factor(5.0), order_of_factor(5.0)).verdict, Verdict::Pass);
-        assert_eq!(judged(&by_factor(3.0), order_of_factor(5.0)).kind, Reason::TooLow);
-        assert_eq!(at_least(judged(&by_factor(9.0), order_of_factor(5.0))).verdict, Verdict::Pass);
+        assert_eq!(
+            judged(&by_factor(5.0), order_of_factor(5.0)).verdict,
+            Verdict::Pass
+        );
+        assert_eq!(
+            judged(&by_factor(3.0), order_of_factor(5.0)).kind,
+            Reason::TooLow
+        );
+        assert_eq!(
+            at_least(judged(&by_factor(9.0), order_of_factor(5.0))).verdict,
+            Verdict::Pass
+        );
     }
 
     #[test]
     fn a_constant_is_held_against_its_interval() {
-        let with =
-            |levels: &[Level], least: f64, most: f64| with_constant(levels, judged(levels, 2.0), [least, most]).kind;
+        let with = |levels: &[Level], least: f64, most: f64| {
+            with_constant(levels, judged(levels, 2.0), [least, most]).kind
+        };
         let smooth = levels(|h| 3.0 * h * h * (1.0 + 0.3 * h));
         let [low, high] = constant(&smooth, &judged(&smooth, 2.0)).expect("a rate");
         assert!(low < 3.0 && 3.0 < high && high / low < 1.1, "{low} {high}");

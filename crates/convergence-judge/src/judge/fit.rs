@@ -19,7 +19,8 @@ mod interval;
 mod range;
 
 pub use interval::{
-    CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION, rate_interval,
+    CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION,
+    rate_interval,
 };
 pub(crate) use range::changes;
 pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range, scatter};
@@ -71,7 +72,8 @@ const STUDENT: [f64; 30] = [
 ///
 /// Above 30 degrees of freedom it returns the last entry of the table, which is larger and therefore safe.
 pub fn student_t(dof: usize) -> f64 {
-    dof.checked_sub(1).map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
+    dof.checked_sub(1)
+        .map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
 }
 
 /// Rate between each level and the next: `(log e_k - log e_{k+1}) / (log h_k - log h_{k+1})`.
@@ -81,7 +83,9 @@ pub fn student_t(dof: usize) -> f64 {
 ///
 /// * Returns one rate fewer than there are levels.
 pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
-    let rate = |pair: &[Level]| (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln());
+    let rate = |pair: &[Level]| {
+        (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln())
+    };
     levels.windows(2).map(rate).collect()
 }
 
@@ -111,14 +115,32 @@ pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     let n = x.len() as f64;
     let (x_mean, y_mean) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
     let sxx: f64 = x.iter().map(|x| (x - x_mean).powi(2)).sum();
-    let sxy: f64 = x.iter().zip(&y).map(|(x, y)| (x - x_mean) * (y - y_mean)).sum();
+    let sxy: f64 = x
+        .iter()
+        .zip(&y)
+        .map(|(x, y)| (x - x_mean) * (y - y_mean))
+        .sum();
     let slope = sxy / sxx;
-    let rss: f64 = x.iter().zip(&y).map(|(x, y)| (y - y_mean - slope * (x - x_mean)).powi(2)).sum();
+    let rss: f64 = x
+        .iter()
+        .zip(&y)
+        .map(|(x, y)| (y - y_mean - slope * (x - x_mean)).powi(2))
+        .sum();
     let dof = x.len() - 2;
     let deviation = (rss / dof as f64).sqrt();
-    let half = if dof == 0 { f64::INFINITY } else { student_t(dof) * deviation / sxx.sqrt() };
+    let half = if dof == 0 {
+        f64::INFINITY
+    } else {
+        student_t(dof) * deviation / sxx.sqrt()
+    };
     let interval = [slope - half, slope + half];
-    slope.is_finite().then_some(LineFit { slope, intercept: y_mean - slope * x_mean, deviation, dof, interval })
+    slope.is_finite().then_some(LineFit {
+        slope,
+        intercept: y_mean - slope * x_mean,
+        deviation,
+        dof,
+        interval,
+    })
 }
 
 /// (log h, log e) of the levels, or `None` when a value is not finite or there are fewer than two.
@@ -184,7 +206,11 @@ fn solve_exponent(tail: &[Level], contraction: f64) -> Option<f64> {
     // 50 halvings of an interval of length 8 reach the spacing of doubles.
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        if excess(middle) > 0.0 { low = middle } else { high = middle }
+        if excess(middle) > 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     Some(0.5 * (low + high))
 }

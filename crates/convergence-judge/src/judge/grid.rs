@@ -151,9 +151,15 @@ impl GridErrors<'_> {
             // In units of the error itself, so that no power overflows.
             let share = |error: f64| (error / at(j, k)).powf(power);
             let sum = share(at(j, last)) + share(at(last_row, k)) - share(at(last_row, last));
-            if sum <= 0.0 { f64::INFINITY } else { (sum.ln() / power).powi(2) }
+            if sum <= 0.0 {
+                f64::INFINITY
+            } else {
+                (sum.ln() / power).powi(2)
+            }
         };
-        let squares = (0..last_row).flat_map(|j| (0..last).map(move |k| (j, k))).map(|(j, k)| square(j, k));
+        let squares = (0..last_row)
+            .flat_map(|j| (0..last).map(move |k| (j, k)))
+            .map(|(j, k)| square(j, k));
         (squares.sum::<f64>() / (last_row * last) as f64).sqrt()
     }
 
@@ -163,9 +169,17 @@ impl GridErrors<'_> {
     ///
     /// # Errors
     /// [`JudgeError`] for a meaningless tolerance.
-    pub fn judge(&self, adding: Adding, orders: [f64; 2], tolerance: f64) -> Result<[RateVerdict; 2], JudgeError> {
+    pub fn judge(
+        &self,
+        adding: Adding,
+        orders: [f64; 2],
+        tolerance: f64,
+    ) -> Result<[RateVerdict; 2], JudgeError> {
         let [p, q] = orders;
-        let both = [self.judge_one(true, adding, p, tolerance)?, self.judge_one(false, adding, q, tolerance)?];
+        let both = [
+            self.judge_one(true, adding, p, tolerance)?,
+            self.judge_one(false, adding, q, tolerance)?,
+        ];
         if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
             return Ok(both);
         }
@@ -178,7 +192,12 @@ impl GridErrors<'_> {
         };
         let finest = self.errors.last().copied().unwrap_or(f64::NAN);
         let size = (power * rest.abs()).powf(1.0 / power) * finest;
-        let because = format!("{} ({} of {})", kind.text(), error_text(size), error_text(finest));
+        let because = format!(
+            "{} ({} of {})",
+            kind.text(),
+            error_text(size),
+            error_text(finest)
+        );
         Ok(both.map(|rate| rate.with_reason(kind, &because)))
     }
 
@@ -187,36 +206,61 @@ impl GridErrors<'_> {
         let power = adding.power();
         let (mut rest, mut known) = (1.0 / power, MISFITS_OF_REST * self.misfit(adding));
         for (in_space, judged) in [true, false].into_iter().zip(judged) {
-            let [.., before, finest] = self.line(in_space, 0)[..] else { return [f64::NAN; 2] };
+            let [.., before, finest] = self.line(in_space, 0)[..] else {
+                return [f64::NAN; 2];
+            };
             let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
-            let off: Vec<f64> = judged.pairwise[..judged.used.end - 1].iter().map(|rate| rate - judged.order).collect();
+            let off: Vec<f64> = judged.pairwise[..judged.used.end - 1]
+                .iter()
+                .map(|rate| rate - judged.order)
+                .collect();
             let fade = match off[..] {
                 // Both rates equal the order: nothing fades.
                 [.., before, last] if before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
                 _ => 0.5,
             };
             let last = off.last().copied().unwrap_or(0.0);
-            let beyond = |fade: f64| difference * tail(before.step / finest.step, power, judged.order, last, fade);
+            let beyond = |fade: f64| {
+                difference * tail(before.step / finest.step, power, judged.order, last, fade)
+            };
             rest -= beyond(fade);
-            known += (beyond(fade) - beyond(0.5)).abs().max(0.1 * (beyond(fade) - beyond(0.0)).abs());
+            known += (beyond(fade) - beyond(0.5))
+                .abs()
+                .max(0.1 * (beyond(fade) - beyond(0.0)).abs());
         }
         [rest, known]
     }
 
     /// Judges one of the two orders by itself, that in h or that in dt.
-    fn judge_one(&self, in_space: bool, adding: Adding, order: f64, tolerance: f64) -> Result<RateVerdict, JudgeError> {
+    fn judge_one(
+        &self,
+        in_space: bool,
+        adding: Adding,
+        order: f64,
+        tolerance: f64,
+    ) -> Result<RateVerdict, JudgeError> {
         let (judge, misfit, power) = (Judge::new(tolerance)?, self.misfit(adding), adding.power());
         let lines = [0, 1].map(|from_finest| self.line(in_space, from_finest));
-        let [finest, next] = lines.each_ref().map(|errors| judge.clone().with_floor(floor(errors, misfit, power)));
+        let [finest, next] = lines
+            .each_ref()
+            .map(|errors| judge.clone().with_floor(floor(errors, misfit, power)));
         let (finest, next) = (finest?, next?);
         let levels = reduced(&finest, &lines[0], power, order);
         let mut reading = finest.read(&levels);
-        if let (Some(fit), Some(other)) = (reading.fit, next.read(&reduced(&next, &lines[1], power, order)).fit) {
+        if let (Some(fit), Some(other)) = (
+            reading.fit,
+            next.read(&reduced(&next, &lines[1], power, order)).fit,
+        ) {
             reading.widen((fit.rate - other.rate).abs());
         }
         let judged = finest.judge_read(&reading, order);
-        let doubtful = judged.verdict == Verdict::Pass && (turns(&lines[0], &judged) || leaves(&judged));
-        Ok(if doubtful { finest.judge_as(&reading, order, Reason::NotAsymptotic) } else { judged })
+        let doubtful =
+            judged.verdict == Verdict::Pass && (turns(&lines[0], &judged) || leaves(&judged));
+        Ok(if doubtful {
+            finest.judge_as(&reading, order, Reason::NotAsymptotic)
+        } else {
+            judged
+        })
     }
 
     /// The errors over the refined levels, at the finest level of the other step or this many before it; NaN if there is none.
@@ -227,8 +271,20 @@ impl GridErrors<'_> {
             true => ((k + 1) * columns).checked_sub(1 + from_finest),
             false => (rows * columns + k).checked_sub((1 + from_finest) * columns),
         };
-        let error = |k: usize| index(k).and_then(|index| self.errors.get(index)).copied().unwrap_or(f64::NAN);
-        steps.iter().enumerate().map(|(k, &step)| Level { step, error: error(k) }).collect()
+        let error = |k: usize| {
+            index(k)
+                .and_then(|index| self.errors.get(index))
+                .copied()
+                .unwrap_or(f64::NAN)
+        };
+        steps
+            .iter()
+            .enumerate()
+            .map(|(k, &step)| Level {
+                step,
+                error: error(k),
+            })
+            .collect()
     }
 }
 
@@ -255,7 +311,10 @@ fn alone(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
     let level = |pair: &[Level]| {
         let difference = (pair[0].error.powf(power) - pair[1].error.powf(power)).abs();
         let share = 1.0 - (pair[1].step / pair[0].step).powf(power * rate);
-        Level { step: pair[0].step, error: (difference / share).powf(1.0 / power) }
+        Level {
+            step: pair[0].step,
+            error: (difference / share).powf(1.0 / power),
+        }
     };
     errors.windows(2).map(level).collect()
 }
@@ -286,5 +345,6 @@ fn leaves(judged: &RateVerdict) -> bool {
     let rates = &judged.pairwise[judged.used.start..judged.used.end - 1];
     let [first, second] = rates else { return false };
     let off = |rate: &f64| (rate - judged.order).abs();
-    judged.used.len() == FEWEST_LEVELS && off(second) > off(first) + DEPARTURE_OF_TWO_RATES * judged.tolerance
+    judged.used.len() == FEWEST_LEVELS
+        && off(second) > off(first) + DEPARTURE_OF_TWO_RATES * judged.tolerance
 }

@@ -48,7 +48,14 @@ mod tests {
     fn the_generator_gives_the_published_numbers() {
         // Reference output of the authors' program for the seed 1234567.
         let mut random = SplitMix::new(1_234_567);
-        let expected = [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423];
-        assert_eq!([random.next_u64(), random.next_u64(), random.next_u64()], expected);
+        let expected = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+        ];
+        assert_eq!(
+            [random.next_u64(), random.next_u64(), random.next_u64()],
+            expected
+        );
     }
 }

@@ -83,11 +83,23 @@ impl Gci {
     fn of(values: &[Value], order: f64, tolerance: f64) -> Result<Self, Refusal> {
         let observed = observed_order(values)?;
         let confirmed = (observed - order).abs() <= tolerance;
-        let factor = if confirmed { SAFETY_CONFIRMED } else { SAFETY_UNCONFIRMED };
+        let factor = if confirmed {
+            SAFETY_CONFIRMED
+        } else {
+            SAFETY_UNCONFIRMED
+        };
         let used = observed.max(LOWEST_ORDER).min(order);
-        let [.., middle, fine] = values else { return Err(Refusal::TooFewValues(values.len())) };
-        let half_width = factor * (middle.value - fine.value).abs() / growth(middle.step / fine.step, used);
-        Ok(Self { observed, order: used, factor, half_width })
+        let [.., middle, fine] = values else {
+            return Err(Refusal::TooFewValues(values.len()));
+        };
+        let half_width =
+            factor * (middle.value - fine.value).abs() / growth(middle.step / fine.step, used);
+        Ok(Self {
+            observed,
+            order: used,
+            factor,
+            half_width,
+        })
     }
 }
 
@@ -100,7 +112,9 @@ impl Gci {
 /// The iteration that the standard suggests, right side into left, diverges if the coarse ratio is much the larger (4 and 1.2 with p = 1). The equation is equivalent to
 /// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p, from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
 fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
-    let [.., coarse, middle, fine] = values else { return Err(Refusal::TooFewValues(values.len())) };
+    let [.., coarse, middle, fine] = values else {
+        return Err(Refusal::TooFewValues(values.len()));
+    };
     let quotient = (coarse.value - middle.value) / (middle.value - fine.value);
     let [wide, narrow] = [coarse.step / middle.step, middle.step / fine.step];
     if !quotient.is_finite() {

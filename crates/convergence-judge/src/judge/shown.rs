@@ -27,12 +27,20 @@ impl Shown<'_> {
         if self.rate.order.is_nan() {
             return format!("{rate}: no order is claimed");
         }
-        let why = if self.rate.verdict.is_pass() { self.rate.excludes() } else { self.rate.because.clone() };
+        let why = if self.rate.verdict.is_pass() {
+            self.rate.excludes()
+        } else {
+            self.rate.because.clone()
+        };
         format!("{rate}, claimed {}: {why}", self.rate.claim())
     }
 
     fn because(&self, level: usize) -> Option<Aside> {
-        self.rate.set_aside.iter().find(|aside| aside.level == level).map(|aside| aside.because)
+        self.rate
+            .set_aside
+            .iter()
+            .find(|aside| aside.level == level)
+            .map(|aside| aside.because)
     }
 
     /// The error at a level, with a mark if it was not used.
@@ -49,8 +57,13 @@ impl Shown<'_> {
     /// The rate between a level and the one before; a dash if there is none.
     fn pairwise(&self, level: usize) -> String {
         let before = level.checked_sub(1 + self.late);
-        let places = self.rate.interval.map_or(3, |interval| interval_places(interval, MOST_PLACES));
-        let rate = before.and_then(|before| self.rate.pairwise.get(before)).filter(|rate| rate.is_finite());
+        let places = self
+            .rate
+            .interval
+            .map_or(3, |interval| interval_places(interval, MOST_PLACES));
+        let rate = before
+            .and_then(|before| self.rate.pairwise.get(before))
+            .filter(|rate| rate.is_finite());
         rate.map_or_else(|| "-".to_owned(), |rate| decimals(*rate, places))
     }
 }
@@ -60,16 +73,42 @@ impl Shown<'_> {
 /// * `step`: the name of the step.
 /// * `floor`: of the rule that judged; 0 if it had none, or several.
 pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
-    let names = columns.iter().flat_map(|shown| [shown.name.to_owned(), "rate".to_owned()]);
-    let mut rows = vec![std::iter::once(step.to_owned()).chain(names).collect::<Vec<_>>()];
-    for (k, level) in columns.first().map_or(&[][..], |shown| shown.levels).iter().enumerate() {
-        let cells = columns.iter().flat_map(|shown| [shown.error(k), shown.pairwise(k)]);
-        rows.push(std::iter::once(plain_text(level.step)).chain(cells).collect());
+    let names = columns
+        .iter()
+        .flat_map(|shown| [shown.name.to_owned(), "rate".to_owned()]);
+    let mut rows = vec![
+        std::iter::once(step.to_owned())
+            .chain(names)
+            .collect::<Vec<_>>(),
+    ];
+    for (k, level) in columns
+        .first()
+        .map_or(&[][..], |shown| shown.levels)
+        .iter()
+        .enumerate()
+    {
+        let cells = columns
+            .iter()
+            .flat_map(|shown| [shown.error(k), shown.pairwise(k)]);
+        rows.push(
+            std::iter::once(plain_text(level.step))
+                .chain(cells)
+                .collect(),
+        );
     }
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
     let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
     let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
         cells.join("  ").trim_end().to_owned() + "\n"
     };
     rows.iter().map(line).collect::<String>() + &legend(columns, floor)
@@ -78,7 +117,13 @@ pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
 /// The meaning of the marks that occur.
 fn legend(columns: &[Shown<'_>], floor: f64) -> String {
     let occurs = |because: &Aside| {
-        columns.iter().any(|shown| shown.rate.set_aside.iter().any(|aside| aside.because == *because))
+        columns.iter().any(|shown| {
+            shown
+                .rate
+                .set_aside
+                .iter()
+                .any(|aside| aside.because == *because)
+        })
     };
     let marked = |because: Aside| match because {
         Aside::AtFloor if floor > 0.0 => format!("_ set aside: not above the floor {floor:e}\n"),
@@ -86,14 +131,23 @@ fn legend(columns: &[Shown<'_>], floor: f64) -> String {
         Aside::BeyondFive => format!("' set aside: {}\n", because.text()),
         _ => format!("~ set aside: {}\n", because.text()),
     };
-    [Aside::PreAsymptotic, Aside::BeyondFive, Aside::AtFloor].into_iter().filter(occurs).map(marked).collect()
+    [Aside::PreAsymptotic, Aside::BeyondFive, Aside::AtFloor]
+        .into_iter()
+        .filter(occurs)
+        .map(marked)
+        .collect()
 }
 
 /// Table, findings and advice, for the message of a failing test.
 pub fn explained(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
     let mut text = table(step, columns, floor);
     for shown in columns {
-        text += &format!("{}: {}: {}\n", shown.name, shown.rate.verdict, shown.found());
+        text += &format!(
+            "{}: {}: {}\n",
+            shown.name,
+            shown.rate.verdict,
+            shown.found()
+        );
         if let (true, Some(advice)) = (shown.rate.verdict != Verdict::Pass, shown.rate.advice()) {
             text += &format!("  {}: {advice}\n", shown.rate.kind.code());
         }

@@ -59,7 +59,10 @@ pub struct Judge {
 impl Default for Judge {
     /// The rule with [`DEFAULT_TOLERANCE`] and without a floor.
     fn default() -> Self {
-        Self { tolerance: DEFAULT_TOLERANCE, floor: 0.0 }
+        Self {
+            tolerance: DEFAULT_TOLERANCE,
+            floor: 0.0,
+        }
     }
 }
 
@@ -74,7 +77,10 @@ impl Judge {
         if tolerance <= 0.0 || tolerance.is_nan() {
             return Err(JudgeError::ToleranceNotPositive(tolerance));
         }
-        Ok(Self { tolerance, floor: 0.0 })
+        Ok(Self {
+            tolerance,
+            floor: 0.0,
+        })
     }
 
     /// The same rule with another floor, in the unit of the errors: fine levels with errors up to the floor are not used. 0 drops no level.
@@ -82,7 +88,11 @@ impl Judge {
     /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
     /// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the data. [`RateVerdict::set_aside`] names the levels.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
-        if floor >= 0.0 && floor.is_finite() { Ok(Self { floor, ..self }) } else { Err(JudgeError::Floor(floor)) }
+        if floor >= 0.0 && floor.is_finite() {
+            Ok(Self { floor, ..self })
+        } else {
+            Err(JudgeError::Floor(floor))
+        }
     }
 
     /// Half-width of the band about the order.
@@ -109,11 +119,21 @@ impl Judge {
 
     /// The same for levels already read by a judge with the same floor and confidence.
     pub(crate) fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
-        RateVerdict::new(reading, order, self.tolerance, reading.reason(order, self.tolerance))
+        RateVerdict::new(
+            reading,
+            order,
+            self.tolerance,
+            reading.reason(order, self.tolerance),
+        )
     }
 
     /// The same with a reason found by another rule.
-    pub(crate) fn judge_as(&self, reading: &Reading<'_>, order: f64, reason: Reason) -> RateVerdict {
+    pub(crate) fn judge_as(
+        &self,
+        reading: &Reading<'_>,
+        order: f64,
+        reason: Reason,
+    ) -> RateVerdict {
         RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
@@ -128,8 +148,15 @@ impl Judge {
     }
 
     /// The same for (step, error) pairs from any source, such as a CSV file.
-    pub fn judge_pairs(&self, pairs: impl IntoIterator<Item = (f64, f64)>, order: f64) -> RateVerdict {
-        let levels: Vec<Level> = pairs.into_iter().map(|(step, error)| Level { step, error }).collect();
+    pub fn judge_pairs(
+        &self,
+        pairs: impl IntoIterator<Item = (f64, f64)>,
+        order: f64,
+    ) -> RateVerdict {
+        let levels: Vec<Level> = pairs
+            .into_iter()
+            .map(|(step, error)| Level { step, error })
+            .collect();
         self.judge(&levels, order)
     }
 }
@@ -147,7 +174,14 @@ pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
 }
 
 /// [`judge`] for (step, error) pairs.
-pub fn judge_pairs(pairs: impl IntoIterator<Item = (f64, f64)>, order: f64, tolerance: f64) -> RateVerdict {
-    let levels: Vec<Level> = pairs.into_iter().map(|(step, error)| Level { step, error }).collect();
+pub fn judge_pairs(
+    pairs: impl IntoIterator<Item = (f64, f64)>,
+    order: f64,
+    tolerance: f64,
+) -> RateVerdict {
+    let levels: Vec<Level> = pairs
+        .into_iter()
+        .map(|(step, error)| Level { step, error })
+        .collect();
     judge(&levels, order, tolerance)
 }

@@ -11,9 +11,18 @@ impl Columns {
     /// Measures a table: the head gives the number of columns; a column that holds only numbers is aligned right.
     pub fn of(head: &[String], rows: &[Vec<String>]) -> Self {
         let column = |i: usize| rows.iter().filter_map(move |row| row.get(i));
-        let width = |i: usize| column(i).chain(head.get(i)).map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let width = |i: usize| {
+            column(i)
+                .chain(head.get(i))
+                .map(|cell| cell.chars().count())
+                .max()
+                .unwrap_or(0)
+        };
         let numeric = |i: usize| !rows.is_empty() && column(i).all(|cell| is_number(cell));
-        Self { widths: (0..head.len()).map(width).collect(), numeric: (0..head.len()).map(numeric).collect() }
+        Self {
+            widths: (0..head.len()).map(width).collect(),
+            numeric: (0..head.len()).map(numeric).collect(),
+        }
     }
 
     /// Number of columns.
@@ -36,7 +45,11 @@ impl Columns {
         (0..self.count()).map(|i| {
             let cell = row.get(i).map_or("", String::as_str);
             let width = self.widths[i];
-            if self.numeric[i] { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+            if self.numeric[i] {
+                format!("{cell:>width$}")
+            } else {
+                format!("{cell:<width$}")
+            }
         })
     }
 }

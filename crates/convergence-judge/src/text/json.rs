@@ -11,7 +11,10 @@ pub fn nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> 
 /// The same for each number of a list.
 pub fn nans<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let numbers: Vec<Option<f64>> = Vec::deserialize(deserializer)?;
-    Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
+    Ok(numbers
+        .into_iter()
+        .map(|number| number.unwrap_or(f64::NAN))
+        .collect())
 }
 
 /// The same for both ends of an interval.
@@ -28,9 +31,14 @@ pub mod named {
     ///
     /// # Errors
     /// Those of the serializer.
-    pub fn serialize<S: Serializer>(numbers: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<S: Serializer>(
+        numbers: &[(String, f64)],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(numbers.len()))?;
-        numbers.iter().try_for_each(|(name, number)| map.serialize_entry(name, number))?;
+        numbers
+            .iter()
+            .try_for_each(|(name, number)| map.serialize_entry(name, number))?;
         map.end()
     }
 
@@ -38,7 +46,9 @@ pub mod named {
     ///
     /// # Errors
     /// Those of the deserializer.
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(String, f64)>, D::Error> {
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<(String, f64)>, D::Error> {
         deserializer.deserialize_map(Named)
     }
 }
@@ -53,7 +63,10 @@ pub mod counted {
     ///
     /// # Errors
     /// Those of the serializer.
-    pub fn serialize<S: Serializer>(numbers: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    pub fn serialize<S: Serializer>(
+        numbers: &[(String, f64)],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(numbers.len()))?;
         for (name, number) in numbers {
             let whole = *number as i64;

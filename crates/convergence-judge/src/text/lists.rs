@@ -25,5 +25,9 @@ pub fn grouped<K: PartialEq, T>(items: impl IntoIterator<Item = (K, T)>) -> Vec<
 
 /// ` and 3 more`, if `shown` of `count` are shown; empty if all are.
 pub fn and_more(count: usize, shown: usize) -> String {
-    if count > shown { format!(" and {} more", count - shown) } else { String::new() }
+    if count > shown {
+        format!(" and {} more", count - shown)
+    } else {
+        String::new()
+    }
 }

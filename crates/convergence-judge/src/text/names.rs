@@ -5,7 +5,10 @@ const LONGEST: usize = 40;
 
 /// The second half of a message about an unknown name; empty without a suggestion.
 pub fn did_you_mean(suggestion: &Option<String>) -> String {
-    suggestion.as_ref().map(|name| format!(", did you mean `{name}`?")).unwrap_or_default()
+    suggestion
+        .as_ref()
+        .map(|name| format!(", did you mean `{name}`?"))
+        .unwrap_or_default()
 }
 
 /// The candidate closest to `name`, or `None` if none is close enough to be a typing error.
@@ -21,9 +24,16 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     let granted = (letters / 3).max(1);
     candidates
         .into_iter()
-        .map(|candidate| (strsim::osa_distance(&name, &candidate.to_lowercase()), candidate))
+        .map(|candidate| {
+            (
+                strsim::osa_distance(&name, &candidate.to_lowercase()),
+                candidate,
+            )
+        })
         // A distance as long as the candidate itself means that none of its letters was written.
-        .filter(|&(distance, candidate)| distance <= granted && distance < candidate.chars().count())
+        .filter(|&(distance, candidate)| {
+            distance <= granted && distance < candidate.chars().count()
+        })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
@@ -32,7 +42,11 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
 pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
     let is_whole = !word.is_empty() && word.chars().all(is_plain);
-    if is_whole { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+    if is_whole {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 #[cfg(test)]
@@ -42,8 +56,13 @@ mod tests {
     #[test]
     fn a_typing_error_finds_the_name_and_a_different_word_does_not() {
         let names = ["tier", "tolerance", "order", "kind"];
-        let cases =
-            [("teir", Some("tier")), ("tear", None), ("TIER", Some("tier")), ("odrer", Some("order")), ("size", None)];
+        let cases = [
+            ("teir", Some("tier")),
+            ("tear", None),
+            ("TIER", Some("tier")),
+            ("odrer", Some("order")),
+            ("size", None),
+        ];
         for (written, meant) in cases {
             assert_eq!(nearest(written, names), meant, "{written}");
         }

@@ -48,7 +48,11 @@ fn reread(text: String, value: f64) -> f64 {
 /// An error as reports show it: four significant digits, `4.454e-8`.
 pub fn error_text(value: f64) -> String {
     let value = committed(value);
-    if value == 0.0 || !value.is_finite() { value.to_string() } else { format!("{value:.3e}") }
+    if value == 0.0 || !value.is_finite() {
+        value.to_string()
+    } else {
+        format!("{value:.3e}")
+    }
 }
 
 /// A rate as reports show it: three decimals; a dash if there is none.
@@ -62,7 +66,11 @@ pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
     if width.is_nan() || width.is_infinite() {
         return most.min(3);
     }
-    let needed = if width > 0.0 { (1.0 - width.log10().floor()) as usize } else { most };
+    let needed = if width > 0.0 {
+        (1.0 - width.log10().floor()) as usize
+    } else {
+        most
+    };
     needed.clamp(most.min(2), most)
 }
 
@@ -71,18 +79,30 @@ pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
 pub fn interval_text(interval: [f64; 2], most: usize) -> String {
     let places = interval_places(interval, most);
     let [low, high] = interval.map(|end| decimals(end, places));
-    if low == high { format!("{low} ± 0.{}5", "0".repeat(places)) } else { format!("{low} to {high}") }
+    if low == high {
+        format!("{low} ± 0.{}5", "0".repeat(places))
+    } else {
+        format!("{low} to {high}")
+    }
 }
 
 /// A count with its noun: `1 element`, `2 elements`.
 pub fn counted(count: usize, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+    if count == 1 {
+        format!("1 {noun}")
+    } else {
+        format!("{count} {noun}s")
+    }
 }
 
 /// A number with `places` decimals; without a sign if it is rounded to zero.
 pub fn decimals(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
-    if text.parse() == Ok(0.0) { text.replace('-', "") } else { text }
+    if text.parse() == Ok(0.0) {
+        text.replace('-', "")
+    } else {
+        text
+    }
 }
 
 /// Any other number as reports show it: like an error if it is very small or large, plainly otherwise.
@@ -102,7 +122,11 @@ fn written(value: f64) -> String {
 /// An order as claimed: four decimals without trailing zeros: `2`, `0.6667`.
 pub fn order_text(order: f64) -> String {
     let rounded = committed_rate(order);
-    if rounded == 0.0 { plain_text(order) } else { rounded.to_string() }
+    if rounded == 0.0 {
+        plain_text(order)
+    } else {
+        rounded.to_string()
+    }
 }
 
 /// A number whose size alone matters, with two digits: `0.52`, `2.3e11`.
@@ -113,12 +137,17 @@ pub fn short_text(value: f64) -> String {
 /// Two numbers as [`plain_text`] writes them; if they would look alike or almost alike, with enough digits to differ,
 /// and one more.
 pub fn pair_text(pair: [f64; 2]) -> [String; 2] {
-    let rounded = |digits: usize| pair.map(|value| reread(format!("{value:.*e}", digits - 1), value));
+    let rounded =
+        |digits: usize| pair.map(|value| reread(format!("{value:.*e}", digits - 1), value));
     let differs = |digits: &usize| rounded(*digits)[0] != rounded(*digits)[1];
     // Seventeen digits distinguish any two numbers.
     let needed = (1..=17).find(differs).unwrap_or(1);
     let plain = pair.map(plain_text);
-    if needed < DIGITS && plain[0] != plain[1] { plain } else { rounded(needed + 1).map(written) }
+    if needed < DIGITS && plain[0] != plain[1] {
+        plain
+    } else {
+        rounded(needed + 1).map(written)
+    }
 }
 
 #[cfg(test)]
@@ -128,7 +157,11 @@ mod tests {
     #[test]
     fn a_maximum_keeps_nan() {
         assert_eq!([0.0, 2.0, 1.0].into_iter().fold(0.0, max_or_nan), 2.0);
-        for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+        for values in [
+            [f64::NAN, 1.0, 2.0],
+            [1.0, f64::NAN, 2.0],
+            [1.0, 2.0, f64::NAN],
+        ] {
             assert!(values.into_iter().fold(0.0, max_or_nan).is_nan());
         }
     }
@@ -142,7 +175,10 @@ mod tests {
 
     #[test]
     fn one_of_a_kind_has_no_s() {
-        assert_eq!([0, 1, 2].map(|n| counted(n, "element")), ["0 elements", "1 element", "2 elements"]);
+        assert_eq!(
+            [0, 1, 2].map(|n| counted(n, "element")),
+            ["0 elements", "1 element", "2 elements"]
+        );
     }
 
     #[test]
@@ -157,7 +193,10 @@ mod tests {
         ] {
             assert_eq!(interval_text(interval, 4), text);
         }
-        assert_eq!(interval_text([0.999_99, 1.000_01], 6), "0.999990 to 1.000010");
+        assert_eq!(
+            interval_text([0.999_99, 1.000_01], 6),
+            "0.999990 to 1.000010"
+        );
         assert_eq!(interval_text([f64::NAN, 1.0], 4), "NaN to 1.000");
     }
 
@@ -190,7 +229,10 @@ mod tests {
     fn two_numbers_that_differ_look_different() {
         for (pair, texts) in [
             ([1.0, 1.01], ["1", "1.01"]),
-            ([0.008_482_598_7, 0.008_482_598_4], ["0.0084825987", "0.0084825984"]),
+            (
+                [0.008_482_598_7, 0.008_482_598_4],
+                ["0.0084825987", "0.0084825984"],
+            ),
             ([1.994_05, 1.994_06], ["1.99405", "1.99406"]),
             ([1.994_051, 1.994_059], ["1.994051", "1.994059"]),
             ([1e-9, 1.000_000_2e-9], ["1e-9", "1.0000002e-9"]),
@@ -204,7 +246,10 @@ mod tests {
 
     #[test]
     fn an_order_has_four_decimals_at_most() {
-        assert_eq!([2.0, 2.0 / 3.0, 1.5, 1e-6, f64::NAN].map(order_text), ["2", "0.6667", "1.5", "1e-6", "NaN"]);
+        assert_eq!(
+            [2.0, 2.0 / 3.0, 1.5, 1e-6, f64::NAN].map(order_text),
+            ["2", "0.6667", "1.5", "1e-6", "NaN"]
+        );
     }
 
     #[test]
@@ -215,7 +260,10 @@ mod tests {
         assert_eq!(rate_text(Some(1.99996)), "2.000");
         assert_eq!(rate_text(Some(-1e-9)), "0.000");
         assert_eq!(rate_text(None), "-");
-        assert_eq!([0.5249, 226_297_294_514.99, 2.2e-16, 0.0].map(short_text), ["0.52", "2.3e11", "2.2e-16", "0"]);
+        assert_eq!(
+            [0.5249, 226_297_294_514.99, 2.2e-16, 0.0].map(short_text),
+            ["0.52", "2.3e11", "2.2e-16", "0"]
+        );
         assert_eq!(plain_text(1e-3), "0.001");
         assert_eq!(plain_text(2.5e-7), "2.5e-7");
         assert_eq!(plain_text(-0.0), "-0");

@@ -4,7 +4,15 @@ use std::path::Path;
 
 /// Text on one line: every control character, line ends included, is replaced by U+FFFD.
 pub fn visible(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+    text.chars()
+        .map(|c| {
+            if c.is_control() {
+                char::REPLACEMENT_CHARACTER
+            } else {
+                c
+            }
+        })
+        .collect()
 }
 
 /// A path for messages, [`visible`].
@@ -15,7 +23,15 @@ pub fn path(path: &Path) -> String {
 /// Text of several lines without control characters other than line ends and tabs.
 pub fn lines(text: &str) -> String {
     let is_shown = |c: char| !c.is_control() || c == '\n' || c == '\t';
-    text.chars().map(|c| if is_shown(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
+    text.chars()
+        .map(|c| {
+            if is_shown(c) {
+                c
+            } else {
+                char::REPLACEMENT_CHARACTER
+            }
+        })
+        .collect()
 }
 
 /// Text without lines that are commands to GitHub Actions, which obeys lines of a log that begin with `::`.
@@ -24,7 +40,13 @@ pub fn without_commands(text: &str) -> String {
     if !text.contains("::") || !text.split(['\n', '\r']).any(is_command) {
         return text.to_owned();
     }
-    let tamed = |line: &str| if is_command(line) { line.replacen("::", ": :", 1) } else { line.to_owned() };
+    let tamed = |line: &str| {
+        if is_command(line) {
+            line.replacen("::", ": :", 1)
+        } else {
+            line.to_owned()
+        }
+    };
     text.split_inclusive(['\n', '\r']).map(tamed).collect()
 }
 
@@ -34,14 +56,20 @@ mod tests {
 
     #[test]
     fn control_characters_are_replaced() {
-        assert_eq!(visible("a\x1b[31m\nb\u{9b}é"), "a\u{fffd}[31m\u{fffd}b\u{fffd}é");
+        assert_eq!(
+            visible("a\x1b[31m\nb\u{9b}é"),
+            "a\u{fffd}[31m\u{fffd}b\u{fffd}é"
+        );
         assert_eq!(path(Path::new("a\r/b\x07")), "a\u{fffd}/b\u{fffd}");
         assert_eq!(lines("a\n\tb\x1bc\r"), "a\n\tb\u{fffd}c\u{fffd}");
     }
 
     #[test]
     fn no_line_is_a_command() {
-        assert_eq!(without_commands("a::b\n::error::c\n  ::d::\r::e"), "a::b\n: :error::c\n  : :d::\r: :e");
+        assert_eq!(
+            without_commands("a::b\n::error::c\n  ::d::\r::e"),
+            "a::b\n: :error::c\n  : :d::\r: :e"
+        );
         assert_eq!(without_commands("plain\ntext\n"), "plain\ntext\n");
     }
 }

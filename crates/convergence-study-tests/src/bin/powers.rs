@@ -13,7 +13,16 @@ use convergence_study::study::{Claim, Header, KindRow, Study, erased, levels};
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
 
 const PROJECT: Project = Project {
-    kinds: &[KindRow { name: "power", read, why: "", judged: "", failure: "" }, program::ROW],
+    kinds: &[
+        KindRow {
+            name: "power",
+            read,
+            why: "",
+            judged: "",
+            failure: "",
+        },
+        program::ROW,
+    ],
     templates: &[program::TEMPLATE],
     ..Project::new("powers", "powers")
 };
@@ -21,10 +30,15 @@ const PROJECT: Project = Project {
 /// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no baseline.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
-    let exponent = root.require("exponent", "a number > 0")?.number_where("a number > 0", |value| value > 0.0)?;
+    let exponent = root
+        .require("exponent", "a number > 0")?
+        .number_where("a number > 0", |value| value > 0.0)?;
     let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
-    Ok(erased(header, study.claiming("error", Claim::new(order, 0.05))))
+    Ok(erased(
+        header,
+        study.claiming("error", Claim::new(order, 0.05)),
+    ))
 }
 
 fn main() -> ExitCode {

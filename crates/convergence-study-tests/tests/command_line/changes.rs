@@ -21,22 +21,43 @@ fn records_are_compared_with_0_1_or_2() {
     let (status, out, err) = run(&root, &["compare", "old.json", "new.json"]);
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
     let (finding, rest) = out.split_once('\n').unwrap();
-    assert!(finding.starts_with("one: error: worse: order 1.000 (1.000 to 1.000) → 0.800"), "{out}");
+    assert!(
+        finding.starts_with("one: error: worse: order 1.000 (1.000 to 1.000) → 0.800"),
+        "{out}"
+    );
     assert_eq!(rest, "worse: 1 worse, 0 better, 1 the same, in 2 studies\n");
     let (status, out, _) = run(&root, &["compare", "new.json", "old.json"]);
-    assert!(status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"), "{out}");
+    assert!(
+        status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"),
+        "{out}"
+    );
     let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
     let named = "one: lost: the new record does not have the study\n";
     let all = "lost: 1 lost, 0 worse, 0 better, 1 the same, in 1 studies\n";
     assert_eq!((status, out.as_str()), (Some(1), &*format!("{named}{all}")));
     let (status, out, _) = run(&root, &["compare", "part.json", "old.json"]);
-    assert!(status == Some(0) && out.starts_with("note: only the new record has the study one\nsame: "), "{out}");
-    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--format", "json"]);
+    assert!(
+        status == Some(0) && out.starts_with("note: only the new record has the study one\nsame: "),
+        "{out}"
+    );
+    let (_, out, _) = run(
+        &root,
+        &["compare", "old.json", "new.json", "--format", "json"],
+    );
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&object["change"], &object["findings"][0]["change"]), (&"worse".into(), &"worse".into()));
-    assert!(object["findings"][0]["orders"][1]["interval"].is_array(), "{out}");
+    assert_eq!(
+        (&object["change"], &object["findings"][0]["change"]),
+        (&"worse".into(), &"worse".into())
+    );
+    assert!(
+        object["findings"][0]["orders"][1]["interval"].is_array(),
+        "{out}"
+    );
     let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);
-    assert!(out.contains("two: error: same: errors the same at 5 levels"), "{out}");
+    assert!(
+        out.contains("two: error: same: errors the same at 5 levels"),
+        "{out}"
+    );
     fs::write(root.path().join("bad.json"), "{\n}").unwrap();
     write("other.json", &["studies/one.toml"]);
     for (arguments, message) in [
@@ -44,13 +65,28 @@ fn records_are_compared_with_0_1_or_2() {
             &["compare", "old.json", "bad.json"][..],
             "bad.json: missing field `schema` at line 2 column 1; expected a record",
         ),
-        (&["compare", "old.json", "none.json"], "none.json: No such file"),
-        (&["compare", "part.json", "other.json"], "other.json: found no study that part.json has, too"),
-        (&["compare", "old.json", "new.json", "--within", "-1"], "expected a number >= 0"),
-        (&["compare", "old.json", "new.json", "--floor", "-1"], "floor = -1: expected a finite number >= 0"),
+        (
+            &["compare", "old.json", "none.json"],
+            "none.json: No such file",
+        ),
+        (
+            &["compare", "part.json", "other.json"],
+            "other.json: found no study that part.json has, too",
+        ),
+        (
+            &["compare", "old.json", "new.json", "--within", "-1"],
+            "expected a number >= 0",
+        ),
+        (
+            &["compare", "old.json", "new.json", "--floor", "-1"],
+            "floor = -1: expected a finite number >= 0",
+        ),
     ] {
         let (status, out, err) = run(&root, arguments);
-        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(message),
+            "{err}"
+        );
     }
 }
 
@@ -59,8 +95,15 @@ fn records_are_compared_with_0_1_or_2() {
 fn a_report_is_made_anew_from_its_record() {
     let root = workspace(true);
     let files = |folder: &str| {
-        let names =
-            ["README.md", "index.html", "summary.md", "junit.xml", "errors.csv", "results.json", "manifest.txt"];
+        let names = [
+            "README.md",
+            "index.html",
+            "summary.md",
+            "junit.xml",
+            "errors.csv",
+            "results.json",
+            "manifest.txt",
+        ];
         let figures = ["figures/one-errors.svg", "figures/rates.svg"];
         let read = |name: &&str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();
         names.iter().chain(&figures).map(read).collect::<Vec<_>>()
@@ -68,46 +111,92 @@ fn a_report_is_made_anew_from_its_record() {
     assert_eq!(run(&root, &["verify"]).0, Some(1));
     let written = files("reports");
     let remove = |path: &str| fs::remove_file(root.path().join(path)).unwrap();
-    ["studies/one.toml", "studies/two.toml", "reports/README.md", "reports/index.html"]
-        .iter()
-        .for_each(|path| remove(path));
+    [
+        "studies/one.toml",
+        "studies/two.toml",
+        "reports/README.md",
+        "reports/index.html",
+    ]
+    .iter()
+    .for_each(|path| remove(path));
     let (status, out, err) = run(&root, &["report", "reports/results.json"]);
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
-    assert!(out.starts_with("fail: 1 of 2 fail (two)") && out.ends_with("reports/README.md\n"), "{out}");
+    assert!(
+        out.starts_with("fail: 1 of 2 fail (two)") && out.ends_with("reports/README.md\n"),
+        "{out}"
+    );
     assert_eq!(files("reports"), written);
     // Elsewhere a report needs a destination, and does without missing pictures.
-    fs::copy(root.path().join("reports/results.json"), root.path().join("r.json")).unwrap();
+    fs::copy(
+        root.path().join("reports/results.json"),
+        root.path().join("r.json"),
+    )
+    .unwrap();
     let (status, _, err) = run(&root, &["report", "r.json"]);
     assert!(
-        status == Some(2) && err.contains("r.json: found outside of a report's folder; expected --out DIR"),
+        status == Some(2)
+            && err.contains("r.json: found outside of a report's folder; expected --out DIR"),
         "{err}"
     );
     let (status, _, err) = run(&root, &["report", "r.json", "--out", "new"]);
     assert_eq!(status, Some(1));
-    assert!(err.contains("note: no picture figures/one-errors.svg"), "{err}");
+    assert!(
+        err.contains("note: no picture figures/one-errors.svg"),
+        "{err}"
+    );
     let (status, _, err) = run(&root, &["report", "studies/baseline.json", "--out", "new"]);
-    assert!(status == Some(2) && err.contains("studies/baseline.json: No such file"), "{err}");
+    assert!(
+        status == Some(2) && err.contains("studies/baseline.json: No such file"),
+        "{err}"
+    );
 }
 
 #[test]
 fn one_some_or_all_changes_are_blessed_with_a_reason() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.01)).unwrap();
+    fs::write(
+        root.path().join("studies/one.toml"),
+        study("one", "c", 1.01),
+    )
+    .unwrap();
     let file = root.path().join("studies/baseline.json");
     let before = fs::read_to_string(&file).unwrap();
-    let none = "--only: found `two:*`, which matches no change; expected one of 7, `one:claim exponent`, ";
+    let none =
+        "--only: found `two:*`, which matches no change; expected one of 7, `one:claim exponent`, ";
     for (arguments, message) in [
-        (&["verify", "--bless", "--only", "one:rate *"][..], "--reason"),
-        (&["verify", "--only", "one:rate *", "--reason", "x"], "--bless"),
-        (&["verify", "--bless", "--only", "one:*", "--only", "two:*", "--reason", "x"], none),
-        (&["verify", "--bless", "--only", "*", "--reason", "a\nb"], "expected one line of text"),
+        (
+            &["verify", "--bless", "--only", "one:rate *"][..],
+            "--reason",
+        ),
+        (
+            &["verify", "--only", "one:rate *", "--reason", "x"],
+            "--bless",
+        ),
+        (
+            &[
+                "verify", "--bless", "--only", "one:*", "--only", "two:*", "--reason", "x",
+            ],
+            none,
+        ),
+        (
+            &["verify", "--bless", "--only", "*", "--reason", "a\nb"],
+            "expected one line of text",
+        ),
     ] {
         let (status, out, err) = run(&root, arguments);
-        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{err}");
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(message),
+            "{err}"
+        );
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), before);
-    let bless = |only: &str, reason: &str| run(&root, &["verify", "--bless", "--only", only, "--reason", reason]);
+    let bless = |only: &str, reason: &str| {
+        run(
+            &root,
+            &["verify", "--bless", "--only", only, "--reason", reason],
+        )
+    };
     let baseline = |path: &[&str]| {
         let text = fs::read_to_string(&file).unwrap();
         let object: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -115,19 +204,39 @@ fn one_some_or_all_changes_are_blessed_with_a_reason() {
     };
     // The others still differ.
     let (status, out, _) = bless("one:rate error", "new mesh");
-    assert!(status == Some(1) && out.contains("baseline: blessed") && out.contains("exponent 1, now 1.01"), "{out}");
-    assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
-    assert_eq!(baseline(&["studies", "one", "error error, n = 8", "value"]), 0.125);
+    assert!(
+        status == Some(1)
+            && out.contains("baseline: blessed")
+            && out.contains("exponent 1, now 1.01"),
+        "{out}"
+    );
+    assert_eq!(
+        baseline(&["studies", "one", "rate error", "reason"]),
+        "new mesh"
+    );
+    assert_eq!(
+        baseline(&["studies", "one", "error error, n = 8", "value"]),
+        0.125
+    );
     assert_eq!(bless("one:*", "and all the rest").0, Some(0));
-    assert_eq!(baseline(&["claims", "one", "exponent", "reason"]), "and all the rest");
+    assert_eq!(
+        baseline(&["claims", "one", "exponent", "reason"]),
+        "and all the rest"
+    );
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     // Blessing unmoved numbers keeps their reasons.
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    assert_eq!(baseline(&["studies", "one", "rate error", "reason"]), "new mesh");
+    assert_eq!(
+        baseline(&["studies", "one", "rate error", "reason"]),
+        "new mesh"
+    );
     // The baseline accepts no number of a failing study.
     fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.5)).unwrap();
     let (status, out, _) = bless("*", "x");
-    assert!(status == Some(1) && out.contains("not blessed: the verdict on `one` is fail"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("not blessed: the verdict on `one` is fail"),
+        "{out}"
+    );
     assert_eq!(baseline(&["claims", "one", "exponent", "value"]), "1.01");
 }
 
@@ -137,8 +246,7 @@ fn a_run_fails_where_a_study_does_and_nothing_differs() {
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
     let (status, out, _) = texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2"));
     assert_eq!(status, Some(1), "{out}");
-    let failed =
-        "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\ntoo-low: The whole interval";
+    let failed = "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\ntoo-low: The whole interval";
     assert!(out.contains(failed) && !out.contains("baseline: "), "{out}");
 }
 
@@ -148,36 +256,59 @@ fn blessings_at_once_are_all_kept() {
     let root = workspace(false);
     let ids: Vec<String> = (0..8).map(|k| format!("s{k}")).collect();
     for id in &ids {
-        fs::write(root.path().join(format!("studies/{id}.toml")), study(id, "c", 1.0)).unwrap();
+        fs::write(
+            root.path().join(format!("studies/{id}.toml")),
+            study(id, "c", 1.0),
+        )
+        .unwrap();
     }
     let bless = |id: &String| {
-        let mut command = command(root.path(), &["verify", "--bless", "--quiet", "--out", id, id]);
-        command.stdin(Stdio::null()).stdout(Stdio::null()).spawn().unwrap()
+        let mut command = command(
+            root.path(),
+            &["verify", "--bless", "--quiet", "--out", id, id],
+        );
+        command
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap()
     };
     for run in ids.iter().map(bless).collect::<Vec<_>>() {
         assert_eq!(finished(run).status.code(), Some(0));
     }
     let text = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
     let baseline: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let missing: Vec<&String> = ids.iter().filter(|id| baseline["studies"].get(id.as_str()).is_none()).collect();
+    let missing: Vec<&String> = ids
+        .iter()
+        .filter(|id| baseline["studies"].get(id.as_str()).is_none())
+        .collect();
     assert!(missing.is_empty(), "{missing:?}");
     // Another name of the folder of the project's own reports: it has the same lock, which is taken only once.
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();
-        assert_eq!(run(&root, &["verify", "--bless", "--out", "link"]).0, Some(0));
+        assert_eq!(
+            run(&root, &["verify", "--bless", "--out", "link"]).0,
+            Some(0)
+        );
     }
 }
 
 #[test]
 fn a_study_with_a_near_extension_is_named() {
     let root = workspace(false);
-    let write = |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
+    let write =
+        |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
     write("two.TOML", &study("two", "c", 0.5));
     write("notes.tml", "# [study]\n");
     write("three.txt", &study("three", "c", 0.5));
-    let told = "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
-    for (arguments, status) in [(&["verify", "--bless"][..], 0), (&["verify", "--quiet"], 0), (&["list"], 0)] {
+    let told =
+        "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
+    for (arguments, status) in [
+        (&["verify", "--bless"][..], 0),
+        (&["verify", "--quiet"], 0),
+        (&["list"], 0),
+    ] {
         let (ended, _, err) = run(&root, arguments);
         assert_eq!((ended, err.as_str()), (Some(status), told), "{arguments:?}");
     }

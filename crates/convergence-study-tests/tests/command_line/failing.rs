@@ -22,15 +22,30 @@ fn a_changed_claim_fails_until_it_is_blessed_with_a_reason() {
         ),
         "{out}"
     );
-    assert!(out.contains(&format!("::error title=baseline::{change}\n")), "{out}");
+    assert!(
+        out.contains(&format!("::error title=baseline::{change}\n")),
+        "{out}"
+    );
     let (status, out, _) = run(&root, &["verify", "--bless"]);
-    assert!(status == Some(1) && out.contains(&format!("--bless --reason TEXT\n  {change}\n")), "{out}");
-    for arguments in [&["verify", "--bless", "--reason", " "][..], &["verify", "--reason", "because"]] {
+    assert!(
+        status == Some(1) && out.contains(&format!("--bless --reason TEXT\n  {change}\n")),
+        "{out}"
+    );
+    for arguments in [
+        &["verify", "--bless", "--reason", " "][..],
+        &["verify", "--reason", "because"],
+    ] {
         assert_eq!(run(&root, arguments).0, Some(2), "{arguments:?}");
     }
-    assert_eq!(run(&root, &["verify", "--bless", "--reason", "said better"]).0, Some(0));
+    assert_eq!(
+        run(&root, &["verify", "--bless", "--reason", "said better"]).0,
+        Some(0)
+    );
     let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
-    assert!(baseline.contains("\"reason\": \"said better\""), "{baseline}");
+    assert!(
+        baseline.contains("\"reason\": \"said better\""),
+        "{baseline}"
+    );
     assert_eq!(run(&root, &["verify"]).0, Some(0));
 }
 
@@ -40,63 +55,135 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     let file = root.path().join("studies/two.toml");
     let full = |exponent| study("two", "c", exponent).replace("\"quick\"", "\"full\"");
     fs::write(&file, full(1.0)).unwrap();
-    assert_eq!(run(&root, &["verify", "--tier", "full", "--bless"]).0, Some(0));
+    assert_eq!(
+        run(&root, &["verify", "--tier", "full", "--bless"]).0,
+        Some(0)
+    );
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     fs::write(&file, full(1.001)).unwrap();
     let (status, out, _) = run(&root, &["verify"]);
-    assert!(status == Some(1) && out.contains("claims changed\n  two: exponent 1, now 1.001\n"), "{out}");
-    assert!(out.contains("if that is meant: powers verify --tier full --bless --reason TEXT\n"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("claims changed\n  two: exponent 1, now 1.001\n"),
+        "{out}"
+    );
+    assert!(
+        out.contains("if that is meant: powers verify --tier full --bless --reason TEXT\n"),
+        "{out}"
+    );
     // Blessing the quick tier does not change the claim of a study that was not run.
-    assert_eq!(run(&root, &["verify", "--bless", "--reason", "x"]).0, Some(1));
+    assert_eq!(
+        run(&root, &["verify", "--bless", "--reason", "x"]).0,
+        Some(1)
+    );
     // Moved to another tier.
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0).replace("\"quick\"", "\"full\"")).unwrap();
+    fs::write(
+        root.path().join("studies/one.toml"),
+        study("one", "c", 1.0).replace("\"quick\"", "\"full\""),
+    )
+    .unwrap();
     fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
     let (status, out, _) = run(&root, &["verify"]);
-    assert!(status == Some(1) && out.contains("  one: study.tier \"quick\", now \"full\"\n"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("  one: study.tier \"quick\", now \"full\"\n"),
+        "{out}"
+    );
 }
 
 /// All of it fits on a screen.
 #[test]
 fn the_cause_is_printed_first_and_what_passes_is_counted() {
     let root = workspace(true);
-    fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
-    assert_eq!(run(&root, &["verify", "one", "three", "--bless"]).0, Some(0));
+    fs::write(
+        root.path().join("studies/three.toml"),
+        study("three", "c", 1.0),
+    )
+    .unwrap();
+    assert_eq!(
+        run(&root, &["verify", "one", "three", "--bless"]).0,
+        Some(0)
+    );
     let (status, out, _) = run(&root, &["verify"]);
     let lines: Vec<&str> = out.lines().collect();
     assert_eq!(status, Some(1), "{out}");
-    assert!(lines[0].starts_with("fail in ") && lines[0].contains(" s: 1 of 3 fail (two); "), "{out}");
-    assert_eq!(lines[2..4], ["what fails and what does not", "  fails      two alone: 1 of 1"], "{out}");
-    assert!(lines[4].starts_with("  passes     the others: 2 of 2"), "{out}");
+    assert!(
+        lines[0].starts_with("fail in ") && lines[0].contains(" s: 1 of 3 fail (two); "),
+        "{out}"
+    );
+    assert_eq!(
+        lines[2..4],
+        [
+            "what fails and what does not",
+            "  fails      two alone: 1 of 1"
+        ],
+        "{out}"
+    );
+    assert!(
+        lines[4].starts_with("  passes     the others: 2 of 2"),
+        "{out}"
+    );
     let end = &lines[lines.len() - 6..];
-    assert_eq!(end[..2], ["two: fail", "  error: 0.5000 ± 0.00005, claimed 1 ± 0.05: too low (too-low)"], "{out}");
-    assert!(end[2].starts_with("too-low: The whole interval lies below the band") && end[3].is_empty(), "{out}");
+    assert_eq!(
+        end[..2],
+        [
+            "two: fail",
+            "  error: 0.5000 ± 0.00005, claimed 1 ± 0.05: too low (too-low)"
+        ],
+        "{out}"
+    );
+    assert!(
+        end[2].starts_with("too-low: The whole interval lies below the band") && end[3].is_empty(),
+        "{out}"
+    );
     assert_eq!(end[5], "report: reports/index.html, reports/README.md");
     let (_, out, _) = run(&root, &["verify", "--verbose"]);
-    assert!(out.contains("\none    pass") && out.contains("\nthree  pass") && !out.contains("--verbose"), "{out}");
+    assert!(
+        out.contains("\none    pass")
+            && out.contains("\nthree  pass")
+            && !out.contains("--verbose"),
+        "{out}"
+    );
 }
 
 #[test]
 fn what_failed_is_repeated_alone_and_the_slowest_are_listed() {
     let root = workspace(true);
     let (status, out, err) = run(&root, &["verify", "--failed"]);
-    assert!(status == Some(2) && out.is_empty() && err.contains("found no record of a run"), "{err}");
+    assert!(
+        status == Some(2) && out.is_empty() && err.contains("found no record of a run"),
+        "{err}"
+    );
     assert_eq!(run(&root, &["verify"]).0, Some(1));
     fs::write(root.path().join("studies/two.toml"), study("two", "c", 1.0)).unwrap();
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
     let (status, _, err) = run(&root, &["verify", "--failed"]);
-    assert!(status == Some(2) && err.contains("nothing failed in the newest record"), "{err}");
+    assert!(
+        status == Some(2) && err.contains("nothing failed in the newest record"),
+        "{err}"
+    );
     fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
     let (status, out, _) = run(&root, &["verify", "--fail-fast", "--durations"]);
-    assert!(status == Some(1) && out.contains("seconds  slowest studies\n") && out.contains("partial/index"), "{out}");
+    assert!(
+        status == Some(1)
+            && out.contains("seconds  slowest studies\n")
+            && out.contains("partial/index"),
+        "{out}"
+    );
     assert_eq!(run(&root, &["verify"]).0, Some(1));
     let (status, out, _) = run(&root, &["verify", "--failed"]);
-    assert!(status == Some(1) && out.contains(": 1 of 1 fail (two); "), "{out}");
+    assert!(
+        status == Some(1) && out.contains(": 1 of 1 fail (two); "),
+        "{out}"
+    );
 }
 
 #[test]
 fn a_deleted_study_is_one_change_and_is_named() {
     let root = workspace(false);
-    fs::write(root.path().join("studies/three.toml"), study("three", "c", 1.0)).unwrap();
+    fs::write(
+        root.path().join("studies/three.toml"),
+        study("three", "c", 1.0),
+    )
+    .unwrap();
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
     fs::remove_file(root.path().join("studies/three.toml")).unwrap();
     let (status, out, _) = run(&root, &["verify", "--quiet"]);
@@ -106,15 +193,38 @@ fn a_deleted_study_is_one_change_and_is_named() {
     for file in ["README.md", "summary.md"] {
         let page = fs::read_to_string(root.path().join("reports").join(file)).unwrap();
         assert!(page.contains("; 1 study deleted\n"), "{page}");
-        assert!(page.contains("\n## Claims changed\n\n- three: deleted\n\n") && !page.contains("Moved from"), "{page}");
+        assert!(
+            page.contains("\n## Claims changed\n\n- three: deleted\n\n")
+                && !page.contains("Moved from"),
+            "{page}"
+        );
     }
     let page = fs::read_to_string(root.path().join("reports/index.html")).unwrap();
-    assert!(page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: deleted</li>\n</ul>"), "{page}");
-    let (status, out, _) = run(&root, &["verify", "--bless", "--only", "three:study file", "--reason", "as one"]);
-    assert!(status == Some(0) && out.contains("baseline: blessed"), "{out}");
+    assert!(
+        page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: deleted</li>\n</ul>"),
+        "{page}"
+    );
+    let (status, out, _) = run(
+        &root,
+        &[
+            "verify",
+            "--bless",
+            "--only",
+            "three:study file",
+            "--reason",
+            "as one",
+        ],
+    );
+    assert!(
+        status == Some(0) && out.contains("baseline: blessed"),
+        "{out}"
+    );
     let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
     let baseline: serde_json::Value = serde_json::from_str(&baseline).unwrap();
-    assert!(baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(), "{baseline}");
+    assert!(
+        baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(),
+        "{baseline}"
+    );
 }
 
 #[test]
@@ -128,7 +238,10 @@ fn the_page_links_to_what_is_there_of_the_full_tier() {
     assert!(!page().0.contains("full/"));
     assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
     let (with, committed) = page();
-    assert!(with.contains("href=\"full/index.html\"") && committed.contains("](full/README.md)"), "{committed}");
+    assert!(
+        with.contains("href=\"full/index.html\"") && committed.contains("](full/README.md)"),
+        "{committed}"
+    );
     // As in a fresh checkout: pages are not committed.
     fs::remove_file(root.path().join("reports/full/index.html")).unwrap();
     let (without, same) = page();

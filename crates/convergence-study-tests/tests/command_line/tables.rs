@@ -8,15 +8,25 @@ use super::{run, workspace};
 
 /// A table of one column of errors with seven digits, over halved steps.
 fn table(name: &str, first: f64, errors: &[f64]) -> String {
-    let row = |(k, error): (usize, &f64)| format!("{},{error:.6e}\n", first / f64::powi(2.0, k as i32));
-    format!("h,{name}\n{}", errors.iter().enumerate().map(row).collect::<String>())
+    let row =
+        |(k, error): (usize, &f64)| format!("{},{error:.6e}\n", first / f64::powi(2.0, k as i32));
+    format!(
+        "h,{name}\n{}",
+        errors.iter().enumerate().map(row).collect::<String>()
+    )
 }
 
 /// The exit status, and everything printed, with single blanks.
 fn told(root: &TempDir, table: &str, options: &[&str]) -> (Option<i32>, String) {
     fs::write(root.path().join("TABLE"), table).unwrap();
     let (status, out, err) = run(root, &[&["rates", "TABLE"], options].concat());
-    (status, (out + &err).split_whitespace().collect::<Vec<_>>().join(" "))
+    (
+        status,
+        (out + &err)
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" "),
+    )
 }
 
 #[test]
@@ -27,10 +37,19 @@ fn rates_says_how_it_read_a_table() {
     let rates = |more: &[&str]| run(&root, &[&["rates", "t"], more].concat());
     let reading = "step: `spam`, by its ratio 2; errors: `L2`; left out: `other` (whole numbers that do not fall)";
     let (status, out, _) = rates(&["--order", "2", "--quiet"]);
-    assert_eq!((status, out.as_str()), (Some(0), &*format!("{reading}\npass: 1 of 1 column agrees with its order\n")));
+    assert_eq!(
+        (status, out.as_str()),
+        (
+            Some(0),
+            &*format!("{reading}\npass: 1 of 1 column agrees with its order\n")
+        )
+    );
     let (_, out, _) = rates(&["--order", "2", "--format", "json"]);
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!((&object["notes"][0], &object["not_errors"][0]["column"]), (&reading.into(), &"other".into()));
+    assert_eq!(
+        (&object["notes"][0], &object["not_errors"][0]["column"]),
+        (&reading.into(), &"other".into())
+    );
     let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]);
     let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
     assert!(page.contains(reading), "{err}{page}");
@@ -38,40 +57,77 @@ fn rates_says_how_it_read_a_table() {
     let (status, out, _) = rates(&["--order", "L2=2", "--step", "spam", "--quiet"]);
     assert!(status == Some(0) && !out.contains("step: "), "{out}");
     let (status, _, err) = rates(&["--order", "spam=2"]);
-    assert!(status == Some(2) && err.contains("expected --dim D for h = other^(-1/D)"), "{err}");
+    assert!(
+        status == Some(2) && err.contains("expected --dim D for h = other^(-1/D)"),
+        "{err}"
+    );
     // A column left out is judged if its name is claimed or chosen.
     for more in [&["--order", "other=2"][..], &["--columns", "L2,other"]] {
         let (status, out, _) = rates(&[&["--order", "2"], more].concat());
         assert_eq!(status, Some(1), "{more:?}: {out}");
     }
-    let utf_16: Vec<u8> = "\u{feff}h,L2\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let utf_16: Vec<u8> = "\u{feff}h,L2\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
     fs::write(root.path().join("t"), utf_16).unwrap();
-    assert!(rates(&[]).2.contains("found UTF-16; expected UTF-8 text: save the file as UTF-8"));
+    assert!(
+        rates(&[])
+            .2
+            .contains("found UTF-16; expected UTF-8 text: save the file as UTF-8")
+    );
 }
 
 #[test]
 fn claims_that_contradict_each_other_are_refused() {
     let root = workspace(false);
     let rows = "0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n";
-    fs::write(root.path().join("t"), format!("h [m],L2 [Pa],H1 (Pa)\n{rows}")).unwrap();
+    fs::write(
+        root.path().join("t"),
+        format!("h [m],L2 [Pa],H1 (Pa)\n{rows}"),
+    )
+    .unwrap();
     for (options, says) in [
         (
             &["--order", "2", "--order", "3"][..],
             "one order for all columns, and --order NAME=P for others; found --order 2 and --order 3",
         ),
-        (&["--order", "L2=2", "--order", "L2 [Pa]=3"], "each column once; found `L2 [Pa]` a second time"),
-        (&["--order", "L2=2,H1=1"], "found `L2=2,H1`; repeat --order for each column"),
-        (&["--order", "l2 [pa]=2"], "found `l2 [pa]`, did you mean `L2 [Pa]`?"),
-        (&["--order", "-2"], "expected a number > 0, or NAME= and a number > 0"),
-        (&["--floor", "-1"], "floor = -1: expected a finite number >= 0"),
+        (
+            &["--order", "L2=2", "--order", "L2 [Pa]=3"],
+            "each column once; found `L2 [Pa]` a second time",
+        ),
+        (
+            &["--order", "L2=2,H1=1"],
+            "found `L2=2,H1`; repeat --order for each column",
+        ),
+        (
+            &["--order", "l2 [pa]=2"],
+            "found `l2 [pa]`, did you mean `L2 [Pa]`?",
+        ),
+        (
+            &["--order", "-2"],
+            "expected a number > 0, or NAME= and a number > 0",
+        ),
+        (
+            &["--floor", "-1"],
+            "floor = -1: expected a finite number >= 0",
+        ),
         (&["--dim", "-1"], "expected a number > 0"),
-        (&["--columns", "2", "--values", "2"], "each column of --columns and --values once, found twice `L2 [Pa]`"),
+        (
+            &["--columns", "2", "--values", "2"],
+            "each column of --columns and --values once, found twice `L2 [Pa]`",
+        ),
     ] {
         let (status, out, err) = run(&root, &[&["rates", "t"], options].concat());
         assert_eq!((status, out.as_str()), (Some(2), ""), "{options:?}");
         assert!(err.contains(says), "{options:?}: {err}");
     }
-    let (status, out, err) = run(&root, &["rates", "t", "--order", "2", "--order", "H1=1", "--step", "1"]);
+    let (status, out, err) = run(
+        &root,
+        &[
+            "rates", "t", "--order", "2", "--order", "H1=1", "--step", "1",
+        ],
+    );
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }
 
@@ -81,33 +137,89 @@ fn wrong_claims_are_answered_with_what_to_do() {
     let first = [0.0412, 0.0203, 0.010075, 0.0050188, 0.0025047];
     let second = [0.00412, 0.001015, 0.00025188, 6.2734e-05, 1.5654e-05];
     let halved = |levels: i32, error: &dyn Fn(f64) -> f64| {
-        (0..levels).map(|k| error(0.1 / f64::powi(2.0, k))).collect::<Vec<_>>()
+        (0..levels)
+            .map(|k| error(0.1 / f64::powi(2.0, k)))
+            .collect::<Vec<_>>()
     };
     let says = |name: &str, errors: &[f64], order: &str, words: &[&str]| {
-        let (status, told) = told(&root, &table(name, 0.1, errors), &["--order", order, "--tolerance", "0.05"]);
+        let (status, told) = told(
+            &root,
+            &table(name, 0.1, errors),
+            &["--order", order, "--tolerance", "0.05"],
+        );
         assert_eq!(status, Some(1), "{told}");
-        words.iter().for_each(|words| assert!(told.contains(words), "{words}\n{told}"));
+        words
+            .iter()
+            .for_each(|words| assert!(told.contains(words), "{words}\n{told}"));
     };
-    says("L2", &first, "2", &["L2: fail: 1.0001", "too low", "an order is lost"]);
+    says(
+        "L2",
+        &first,
+        "2",
+        &["L2: fail: 1.0001", "too low", "an order is lost"],
+    );
     says("L2", &second, "1", &["L2: fail: 2.0001", "too high"]);
     says(
         "L2",
         &[0.010824, 0.01079, 0.010749, 0.010725, 0.010712],
         "2",
-        &["fail", "would tend to 0.0106966, not to zero", "--values 'L2'"],
+        &[
+            "fail",
+            "would tend to 0.0106966, not to zero",
+            "--values 'L2'",
+        ],
     );
-    says("L2", &[4e-3, 1e-3, 2.5e-4, f64::NAN, 1.5625e-5], "2", &["fail", "NaN or infinite"]);
-    let tiny = table("L2", 0.1, &[4.03e-12, 1.0366e-12, 2.8991e-13, 1.0087e-13, 4.8334e-14]);
+    says(
+        "L2",
+        &[4e-3, 1e-3, 2.5e-4, f64::NAN, 1.5625e-5],
+        "2",
+        &["fail", "NaN or infinite"],
+    );
+    let tiny = table(
+        "L2",
+        0.1,
+        &[4.03e-12, 1.0366e-12, 2.8991e-13, 1.0087e-13, 4.8334e-14],
+    );
     let (status, text) = told(&root, &tiny, &["--order", "2", "--floor", "1e-10"]);
-    assert!(status == Some(1) && text.contains("round-off floor") && text.contains("_ set aside"), "{text}");
+    assert!(
+        status == Some(1) && text.contains("round-off floor") && text.contains("_ set aside"),
+        "{text}"
+    );
     // Without a floor no error is too small.
-    says("L2", &halved(5, &|h| 1e-30 * h * h), "1", &["L2: fail: 2.0000", "too high"]);
-    says("L2", &[4e-3, 1e-3], "2", &["inconclusive", "too few levels"]);
-    says("L2", &[1.5625e-5, 6.25e-5, 2.5e-4, 1e-3, 4e-3], "2", &["fail", "The errors fall as `h` grows."]);
-    let noise = [0.0056829, 0.0006216, 0.00033212, 4.5499e-05, 1.8908e-05, 3.3439e-06];
+    says(
+        "L2",
+        &halved(5, &|h| 1e-30 * h * h),
+        "1",
+        &["L2: fail: 2.0000", "too high"],
+    );
+    says(
+        "L2",
+        &[4e-3, 1e-3],
+        "2",
+        &["inconclusive", "too few levels"],
+    );
+    says(
+        "L2",
+        &[1.5625e-5, 6.25e-5, 2.5e-4, 1e-3, 4e-3],
+        "2",
+        &["fail", "The errors fall as `h` grows."],
+    );
+    let noise = [
+        0.0056829, 0.0006216, 0.00033212, 4.5499e-05, 1.8908e-05, 3.3439e-06,
+    ];
     says("L2", &noise, "2", &["inconclusive"]);
-    says("L2", &halved(6, &|h| 0.4 * h * h + 2e-4), "2", &["fail", "L2: fail"]);
-    says("L2", &halved(6, &|h| 0.5 * h * h + 0.01 * h), "2", &["L2: fail"]);
+    says(
+        "L2",
+        &halved(6, &|h| 0.4 * h * h + 2e-4),
+        "2",
+        &["fail", "L2: fail"],
+    );
+    says(
+        "L2",
+        &halved(6, &|h| 0.5 * h * h + 0.01 * h),
+        "2",
+        &["L2: fail"],
+    );
     says(
         "L2",
         &[0.01, 0.0025, 0.000625, 0.00015625, 3.9e-5, 4.3e-5],
@@ -120,24 +232,52 @@ fn wrong_claims_are_answered_with_what_to_do() {
         "2",
         &["zero on the finest level only. Is that level its own reference?"],
     );
-    says("L2", &[0.01, 0.0025, 6.25e-7, 1.5625e-7], "2", &["inconclusive", "not yet asymptotic"]);
+    says(
+        "L2",
+        &[0.01, 0.0025, 6.25e-7, 1.5625e-7],
+        "2",
+        &["inconclusive", "not yet asymptotic"],
+    );
     // A least order, for all columns and for one; other notations are refused.
     for (order, status, words) in [
         (">=1", Some(0), "claimed at least 1 ± 0.05: at least 0.95"),
         ("L2=>=1.5", Some(0), "L2: pass"),
         (">=3", Some(1), "claimed at least 3 ± 0.05: too low"),
-        ("L2=>1", Some(2), "expected a number > 0, or NAME= and a number > 0"),
+        (
+            "L2=>1",
+            Some(2),
+            "expected a number > 0, or NAME= and a number > 0",
+        ),
     ] {
-        let (found, told) = told(&root, &table("L2", 0.1, &second), &["--order", order, "--tolerance", "0.05"]);
+        let (found, told) = told(
+            &root,
+            &table("L2", 0.1, &second),
+            &["--order", order, "--tolerance", "0.05"],
+        );
         assert!(found == status && told.contains(words), "{order}: {told}");
     }
     // Rates that approach the order slowly, and the level that would decide.
     let slow = halved(4, &|h| h * h * (1.0 + 2.0 * h));
-    says("L2", &slow, "2", &["inconclusive", "likely to decide (L2: interval ±", "now, about ±"]);
+    says(
+        "L2",
+        &slow,
+        "2",
+        &[
+            "inconclusive",
+            "likely to decide (L2: interval ±",
+            "now, about ±",
+        ],
+    );
     // An error that grows next to one that falls, or in the only column.
-    let (status, told) =
-        told(&root, "h,L2_u,p\n0.4,1.60e-1,1.00e-1\n0.2,4.00e-2,2.00e-1\n0.1,1.00e-2,4.00e-1\n", &["--order", "2"]);
-    assert!(status == Some(1) && told.contains("p: fail: -1.0") && told.contains("L2_u: pass"), "{told}");
+    let (status, told) = told(
+        &root,
+        "h,L2_u,p\n0.4,1.60e-1,1.00e-1\n0.2,4.00e-2,2.00e-1\n0.1,1.00e-2,4.00e-1\n",
+        &["--order", "2"],
+    );
+    assert!(
+        status == Some(1) && told.contains("p: fail: -1.0") && told.contains("L2_u: pass"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -145,30 +285,68 @@ fn values_and_rounded_numbers_are_told_from_errors() {
     let root = workspace(false);
     let drag = "h, drag\n0.1, 5.577\n0.05, 5.5718\n0.025, 5.5704\n";
     let (status, text) = told(&root, drag, &["--order", "2"]);
-    assert!(status == Some(2) && text.contains("`drag` (tends to 5.56988: a value, not an error)"), "{text}");
-    assert!(text.ends_with("powers rates TABLE --order 2 --values drag"), "{text}");
+    assert!(
+        status == Some(2) && text.contains("`drag` (tends to 5.56988: a value, not an error)"),
+        "{text}"
+    );
+    assert!(
+        text.ends_with("powers rates TABLE --order 2 --values drag"),
+        "{text}"
+    );
     let value = |h: f64| 5.5699 + 0.45 * h * h + 0.1 * h.powi(3);
-    let rows: String = [0.1, 0.05, 0.025, 0.0125].map(|h| format!("{h},{:.9}\n", value(h))).concat();
+    let rows: String = [0.1, 0.05, 0.025, 0.0125]
+        .map(|h| format!("{h},{:.9}\n", value(h)))
+        .concat();
     let options = ["--order", "2", "--values", "drag"];
     let (status, text) = told(&root, &format!("h,drag\n{rows}"), &options);
-    assert!(status == Some(0) && text.contains("limit 5.569") && text.contains("GCI ± "), "{text}");
+    assert!(
+        status == Some(0) && text.contains("limit 5.569") && text.contains("GCI ± "),
+        "{text}"
+    );
     // Six decimals of errors of second order.
-    let rows: String = (0..6).map(|k| 0.25 / f64::powi(2.0, k)).map(|h| format!("{h} {:.6}\n", 0.11 * h * h)).collect();
+    let rows: String = (0..6)
+        .map(|k| 0.25 / f64::powi(2.0, k))
+        .map(|h| format!("{h} {:.6}\n", 0.11 * h * h))
+        .collect();
     let (status, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
-    assert!(status == Some(1) && text.contains("inconclusive") && text.contains("1 digit: print more"), "{text}");
+    assert!(
+        status == Some(1) && text.contains("inconclusive") && text.contains("1 digit: print more"),
+        "{text}"
+    );
     // The same rounded to three digits passes, with a wider interval.
-    let rows: String =
-        (0..6).map(|k| 0.25 / f64::powi(2.0, k)).map(|h| format!("{h} {:.2e}\n", 0.11 * h * h)).collect();
+    let rows: String = (0..6)
+        .map(|k| 0.25 / f64::powi(2.0, k))
+        .map(|h| format!("{h} {:.2e}\n", 0.11 * h * h))
+        .collect();
     let (status, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
-    assert!(status == Some(0) && !text.contains("±  0.0000005"), "{text}");
+    assert!(
+        status == Some(0) && !text.contains("±  0.0000005"),
+        "{text}"
+    );
     // Digits that decide, and digits that do not.
     for (rows, status, words) in [
         ("0.4 0.16\n0.2 0.04\n0.1 0.01\n", 1, "1 digit: print more"),
-        ("0.4 12.5\n0.2 3.1\n0.1 0.78\n0.05 0.2\n", 1, "2 digits: print more"),
+        (
+            "0.4 12.5\n0.2 3.1\n0.1 0.78\n0.05 0.2\n",
+            1,
+            "2 digits: print more",
+        ),
         ("0.4 16.0e-2\n0.2 4.00e-2\n0.1 1.00e-2\n", 0, "pass"),
-        ("0.1 0.0406\n0.05 0.0103\n0.025 0.00265\n0.0125 0.0007\n", 1, "inconclusive"),
-        ("0.05 0.0103\n0.025 0.00265\n0.0125 0.0007\n", 1, "inconclusive"),
-        ("0.1 0.0406\n0.05 0.0103\n0.025 0.00265\n", 1, "inconclusive"),
+        (
+            "0.1 0.0406\n0.05 0.0103\n0.025 0.00265\n0.0125 0.0007\n",
+            1,
+            "inconclusive",
+        ),
+        (
+            "0.05 0.0103\n0.025 0.00265\n0.0125 0.0007\n",
+            1,
+            "inconclusive",
+        ),
+        (
+            "0.1 0.0406\n0.05 0.0103\n0.025 0.00265\n",
+            1,
+            "inconclusive",
+        ),
     ] {
         let (found, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
         assert!(found == Some(status) && text.contains(words), "{text}");
@@ -179,7 +357,13 @@ fn values_and_rounded_numbers_are_told_from_errors() {
 fn a_column_has_one_interval_whatever_is_claimed() {
     let root = workspace(false);
     let rounded = "h e\n0.1 0.0102\n0.05 0.00508\n0.025 0.00253\n0.0125 0.00126\n";
-    for order in [&["--order", "1"][..], &["--order", "0.5"], &["--order", "1.3"], &["--order", ">=0.8"], &[]] {
+    for order in [
+        &["--order", "1"][..],
+        &["--order", "0.5"],
+        &["--order", "1.3"],
+        &["--order", ">=0.8"],
+        &[],
+    ] {
         let (_, text) = told(&root, rounded, order);
         assert!(text.contains("1.006 (0.997 to 1.015)"), "{order:?}: {text}");
     }
@@ -191,7 +375,12 @@ fn a_column_has_one_interval_whatever_is_claimed() {
             .and_then(|(_, rest)| rest.split_once(", claimed"))
             .map(|(rate, _)| rate.split_once(": ").expect("a verdict").1.to_owned())
     };
-    assert!(interval("2").is_some_and(|two| Some(two) == interval("1")), "{:?} {:?}", interval("2"), interval("1"));
+    assert!(
+        interval("2").is_some_and(|two| Some(two) == interval("1")),
+        "{:?} {:?}",
+        interval("2"),
+        interval("1")
+    );
 }
 
 #[test]
@@ -199,29 +388,54 @@ fn words_name_what_is_there() {
     let root = workspace(false);
     let slow = "h,e\n0.2,0.800000\n0.1,0.459479\n0.05,0.263902\n0.025,0.151572\n";
     let (status, text) = told(&root, slow, &["--order", ">=1"]);
-    assert!(status == Some(0) && text.contains("claimed at least 1 ± 0.25: at least 0.75"), "{text}");
+    assert!(
+        status == Some(0) && text.contains("claimed at least 1 ± 0.25: at least 0.75"),
+        "{text}"
+    );
     // Errors that are halved have the rate 1 and the factor 2.
     let order = "h,err,order\n0.1,0.1,\n0.05,0.05,2.00\n0.025,0.025,2.00\n0.0125,0.0125,2.00\n";
     let (_, text) = told(&root, order, &["--order", "1"]);
-    assert!(text.contains("left out: `order` (factors by which `err` falls, not its rates)"), "{text}");
+    assert!(
+        text.contains("left out: `order` (factors by which `err` falls, not its rates)"),
+        "{text}"
+    );
     // The last differences would end above zero, but the rate says that the error goes on falling.
-    let odd_even: Vec<f64> = (0..6).map(|k| 0.01 / f64::powi(4.0, k) * if k % 2 == 0 { 0.7 } else { 1.3 }).collect();
+    let odd_even: Vec<f64> = (0..6)
+        .map(|k| 0.01 / f64::powi(4.0, k) * if k % 2 == 0 { 0.7 } else { 1.3 })
+        .collect();
     let (_, text) = told(&root, &table("e", 0.1, &odd_even), &["--order", "2"]);
-    assert!(text.contains("inconclusive") && !text.contains("to zero"), "{text}");
+    assert!(
+        text.contains("inconclusive") && !text.contains("to zero"),
+        "{text}"
+    );
     // Causes with names.
     let turns = "h,e\n0.1,0.0142\n0.05,5.25e-4\n0.025,2.4688e-4\n0.0125,1.0898e-4\n";
     let (_, text) = told(&root, turns, &["--order", "2"]);
-    assert!(text.contains("The error may change its sign between levels"), "{text}");
-    let logarithm: Vec<f64> = (3..10).map(|k| f64::powi(4.0, -k) * f64::from(k) * std::f64::consts::LN_2).collect();
-    let (_, text) = told(&root, &table("e", 0.125, &logarithm), &["--order", "2", "--tolerance", "0.05"]);
-    assert!(text.contains("inconclusive") && text.contains("A logarithm may be at work"), "{text}");
+    assert!(
+        text.contains("The error may change its sign between levels"),
+        "{text}"
+    );
+    let logarithm: Vec<f64> = (3..10)
+        .map(|k| f64::powi(4.0, -k) * f64::from(k) * std::f64::consts::LN_2)
+        .collect();
+    let (_, text) = told(
+        &root,
+        &table("e", 0.125, &logarithm),
+        &["--order", "2", "--tolerance", "0.05"],
+    );
+    assert!(
+        text.contains("inconclusive") && text.contains("A logarithm may be at work"),
+        "{text}"
+    );
 }
 
 #[test]
 fn no_error_is_too_small_or_too_large() {
     let root = workspace(false);
     for unit in [1e-200, 1e-9, 1.0, 1e40, 1e200] {
-        let errors: Vec<f64> = [4.1e-3, 1.02e-3, 2.55e-4, 6.37e-5].map(|error| unit * error).into();
+        let errors: Vec<f64> = [4.1e-3, 1.02e-3, 2.55e-4, 6.37e-5]
+            .map(|error| unit * error)
+            .into();
         for (order, words) in [("2", "pass: 2.000"), ("1", "fail: 2.000")] {
             let (_, text) = told(&root, &table("e", 0.1, &errors), &["--order", order]);
             assert!(text.contains(words), "{unit}: {text}");

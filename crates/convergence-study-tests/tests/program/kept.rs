@@ -34,7 +34,10 @@ fn kept_results_are_used_until_something_changes() {
     // The expectation has changed: kept answers are judged by the new one.
     place.write_text(&text.replace("\"L2\"", "\"max\""));
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("its answer has no error `max`"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("its answer has no error `max`"),
+        "{out}"
+    );
     // A failed case is not kept.
     let failing = cached("status");
     assert_eq!((failing.study(&[]).0, failing.kept().len()), (Some(1), 4));
@@ -59,7 +62,11 @@ fn a_kept_result_depends_on_the_program_found_through_path() {
             fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
         }
         let (status, out, err) = study();
-        assert_eq!((status, place.runs()), (Some(0), runs), "{version}: {out}{err}");
+        assert_eq!(
+            (status, place.runs()),
+            (Some(0), runs),
+            "{version}: {out}{err}"
+        );
     }
 }
 
@@ -70,23 +77,42 @@ fn kept_results_are_counted_and_never_blessed() {
     let root = place.folder.path();
     fs::rename(root.join("data"), root.join("studies/data")).unwrap();
     let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
-    let runs = || fs::read_to_string(root.join("studies/runs")).unwrap().lines().count();
-    let reports = || ["README.md", "results.json"].map(|name| fs::read(root.join("reports").join(name)).unwrap());
+    let runs = || {
+        fs::read_to_string(root.join("studies/runs"))
+            .unwrap()
+            .lines()
+            .count()
+    };
+    let reports = || {
+        ["README.md", "results.json"].map(|name| fs::read(root.join("reports").join(name)).unwrap())
+    };
     let (status, out, err) = verify(&["--bless"]);
     assert_eq!((status, runs()), (Some(0), 5), "{out}{err}");
     let told = "s: 5 of 5 cases kept from an earlier run\n";
     assert!(!out.contains("kept"), "{out}");
     let computed = reports();
     let (status, out, _) = verify(&[]);
-    assert!(status == Some(0) && runs() == 5 && out.contains(told), "{out}");
+    assert!(
+        status == Some(0) && runs() == 5 && out.contains(told),
+        "{out}"
+    );
     let provenance = fs::read_to_string(root.join("reports/local/provenance.json")).unwrap();
     assert!(provenance.contains("\"kept_cases\": 5"), "{provenance}");
     assert_eq!(reports(), computed);
     let (status, out, _) = verify(&["--bless"]);
-    assert!(status == Some(0) && runs() == 10 && !out.contains("kept"), "{out}");
+    assert!(
+        status == Some(0) && runs() == 10 && !out.contains("kept"),
+        "{out}"
+    );
     assert_eq!(reports(), computed);
     let (_, out, _) = texts(&mut place.command(&["study", "studies/s.toml"]));
-    assert!(out.lines().next().unwrap().ends_with(" s, 5 of 5 cases kept from an earlier run"), "{out}");
+    assert!(
+        out.lines()
+            .next()
+            .unwrap()
+            .ends_with(" s, 5 of 5 cases kept from an earlier run"),
+        "{out}"
+    );
 }
 
 /// The word `{n}` of the command is the name of a file.
@@ -97,7 +123,11 @@ fn a_kept_result_depends_on_each_file_that_its_command_names() {
     fs::write(&mesh, "coarse").unwrap();
     for (content, runs) in [("coarse", 5), ("fine", 6), ("fine", 6)] {
         fs::write(&mesh, content).unwrap();
-        assert_eq!((place.study(&[]).0, place.runs()), (Some(0), runs), "{content}");
+        assert_eq!(
+            (place.study(&[]).0, place.runs()),
+            (Some(0), runs),
+            "{content}"
+        );
     }
 }
 
@@ -146,19 +176,30 @@ fn a_killed_harness_leaves_whole_results() {
         finished(harness);
         for path in place.kept() {
             let text = fs::read_to_string(&path).unwrap();
-            assert!(serde_json::from_str::<serde_json::Value>(&text).is_ok(), "{}: {text}", path.display());
+            assert!(
+                serde_json::from_str::<serde_json::Value>(&text).is_ok(),
+                "{}: {text}",
+                path.display()
+            );
         }
     }
     place.wait_for(|running| running == 0);
     let before = (place.kept().len(), place.runs());
     assert_eq!(place.study(&[]).0, Some(0));
-    assert_eq!((place.kept().len(), place.runs()), (5, before.1 + 5 - before.0));
+    assert_eq!(
+        (place.kept().len(), place.runs()),
+        (5, before.1 + 5 - before.0)
+    );
 }
 
 #[test]
 fn results_that_cannot_be_kept_are_judged() {
     let place = cached("count");
-    fs::write(place.folder.path().join(".convergence-study"), "a file, not a folder").unwrap();
+    fs::write(
+        place.folder.path().join(".convergence-study"),
+        "a file, not a folder",
+    )
+    .unwrap();
     let (status, out, _) = place.study(&[]);
     assert_eq!((status, place.runs()), (Some(0), 5), "{out}");
     assert_eq!((place.study(&[]).0, place.runs()), (Some(0), 10));

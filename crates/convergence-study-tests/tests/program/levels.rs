@@ -8,33 +8,61 @@ use super::Place;
 fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     let place = Place::new("abort", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
-    for levels in ["[4, 8, 16, 32, 64]", "[1, 2, 4, 8, 16]", "[16, 32, 64, 128, 256]"] {
+    for levels in [
+        "[4, 8, 16, 32, 64]",
+        "[1, 2, 4, 8, 16]",
+        "[16, 32, 64, 128, 256]",
+    ] {
         place.write_text(&text.replace("[4, 8, 16, 32, 64]", levels));
         let (status, out, err) = place.study(&[]);
         assert_eq!(status, Some(1), "{out}{err}");
-        let found = out.lines().find(|line| line.starts_with("L2: 2.0000 ± 0.00005")).unwrap();
-        assert!(found.ends_with(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"), "{out}");
-        assert!(!out.contains("NaN") && out.contains("a level has no result"), "{out}");
-        let row = out.lines().find(|line| line.trim_start().starts_with("16 ")).unwrap();
-        assert_eq!(row.split_whitespace().collect::<Vec<_>>(), ["16", "-", "-", "-"], "{out}");
+        let found = out
+            .lines()
+            .find(|line| line.starts_with("L2: 2.0000 ± 0.00005"))
+            .unwrap();
+        assert!(
+            found.ends_with(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"),
+            "{out}"
+        );
+        assert!(
+            !out.contains("NaN") && out.contains("a level has no result"),
+            "{out}"
+        );
+        let row = out
+            .lines()
+            .find(|line| line.trim_start().starts_with("16 "))
+            .unwrap();
+        assert_eq!(
+            row.split_whitespace().collect::<Vec<_>>(),
+            ["16", "-", "-", "-"],
+            "{out}"
+        );
     }
     // Two of three levels have a result: no interval, but the rate between them.
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8, 16]"));
     let (status, out, _) = place.study(&["--quiet"]);
-    let told =
-        "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
+    let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
     assert!(status == Some(1) && out.contains(told), "{out}");
     // A value, judged by differences.
     place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
     let (status, out, _) = place.study(&["--out", "report"]);
-    assert!(status == Some(1) && out.contains(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"), "{out}");
+    assert!(
+        status == Some(1)
+            && out.contains(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"),
+        "{out}"
+    );
     place.write_text(&text);
     assert_eq!(place.study(&["--out", "report"]).0, Some(1));
-    let drawn = fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
-    assert!(drawn.contains("n = 16: no result") && !drawn.contains("non-finite"), "{drawn}");
+    let drawn =
+        fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
+    assert!(
+        drawn.contains("n = 16: no result") && !drawn.contains("non-finite"),
+        "{drawn}"
+    );
     // On a grid.
-    let grid =
-        text.replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true").replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
+    let grid = text
+        .replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true")
+        .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
     place.write_text(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
     let (status, out, _) = place.study(&[]);
     assert!(
@@ -48,11 +76,17 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
 fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over() {
     let place = Place::new("cells", "");
     let (status, out, err) = place.study(&[]);
-    assert!(status == Some(0) && out.contains("2.0000 ± 0.00005"), "{out}{err}");
+    assert!(
+        status == Some(0) && out.contains("2.0000 ± 0.00005"),
+        "{out}{err}"
+    );
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("order = 2.0", "order = 1.0"));
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("too high"), "the error is 1/n: over 1/n its order would be 1\n{out}");
+    assert!(
+        status == Some(1) && out.contains("too high"),
+        "the error is 1/n: over 1/n its order would be 1\n{out}"
+    );
 }
 
 #[test]
@@ -76,12 +110,18 @@ fn other_claims_than_an_order_are_judged() {
         ),
     ] {
         let (found, out, err) = study("order = 2.0", claim);
-        assert!(found == Some(status) && out.contains(says), "{claim}\n{out}{err}");
+        assert!(
+            found == Some(status) && out.contains(says),
+            "{claim}\n{out}{err}"
+        );
     }
     // The finest error is 2.4e-4, the coarsest 6.25e-2.
     for (bound, status) in [("0.07", 0), ("0.06", 1)] {
         let (found, out, err) = study("order = 2.0\ntolerance = 0.05", &format!("exact = {bound}"));
-        assert!(found == Some(status) && out.contains("largest 6.250e-2"), "{bound}\n{out}{err}");
+        assert!(
+            found == Some(status) && out.contains("largest 6.250e-2"),
+            "{bound}\n{out}{err}"
+        );
     }
     for (claim, says) in [
         ("order = \"> 2\"", ">= 2"),
@@ -93,12 +133,27 @@ fn other_claims_than_an_order_are_judged() {
         ("exact = 1e-3", "exact alone"),
     ] {
         let (found, out, err) = study("order = 2.0", claim);
-        assert!(found == Some(2) && err.contains(says) && err.contains("s.toml:"), "{claim}\n{out}{err}");
+        assert!(
+            found == Some(2) && err.contains(says) && err.contains("s.toml:"),
+            "{claim}\n{out}{err}"
+        );
     }
-    let (found, _, err) = study("order = 2.0\ntolerance = 0.05", "exact = 0.07\nconstant = [1.0, 2.0]");
-    assert!(found == Some(2) && err.contains("constant beside exact") && err.contains("s.toml:"), "{err}");
-    let (found, _, err) = study("order = 2.0", "factor = 5\ntolerance = 0.1\n[[expect]]\nerror = \"H1\"\norder = 1.0");
-    assert!(found == Some(2) && err.contains("one of the two in all of a study"), "{err}");
+    let (found, _, err) = study(
+        "order = 2.0\ntolerance = 0.05",
+        "exact = 0.07\nconstant = [1.0, 2.0]",
+    );
+    assert!(
+        found == Some(2) && err.contains("constant beside exact") && err.contains("s.toml:"),
+        "{err}"
+    );
+    let (found, _, err) = study(
+        "order = 2.0",
+        "factor = 5\ntolerance = 0.1\n[[expect]]\nerror = \"H1\"\norder = 1.0",
+    );
+    assert!(
+        found == Some(2) && err.contains("one of the two in all of a study"),
+        "{err}"
+    );
 }
 
 #[test]
@@ -114,7 +169,10 @@ fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
     ] {
         place.write_text(&text.replace("order = 2.0", claim));
         let (found, out, err) = place.study(&[]);
-        assert!(found == Some(status) && out.contains(says), "{claim}\n{out}{err}");
+        assert!(
+            found == Some(status) && out.contains(says),
+            "{claim}\n{out}{err}"
+        );
     }
 }
 
@@ -122,7 +180,10 @@ fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
 fn a_name_that_an_answer_has_twice_is_refused() {
     let place = Place::new("twice", "");
     let (status, out, err) = place.study(&[]);
-    assert!(status == Some(1) && (out.clone() + &err).contains("`L2` occurs twice"), "{out}{err}");
+    assert!(
+        status == Some(1) && (out.clone() + &err).contains("`L2` occurs twice"),
+        "{out}{err}"
+    );
 }
 
 #[test]
@@ -132,12 +193,19 @@ fn what_is_finite_beside_a_nan_is_kept() {
     place.write_text(&(text + "[[expect]]\nerror = \"H1\"\norder = 1.0\ntolerance = 0.05\n"));
     let (status, out, err) = place.study(&[]);
     assert_eq!(status, Some(1), "{out}{err}");
-    assert!(out.contains("4 of 5 cases completed; n = 16: ") && out.contains("`L2` of its errors is NaN"), "{out}");
+    assert!(
+        out.contains("4 of 5 cases completed; n = 16: ")
+            && out.contains("`L2` of its errors is NaN"),
+        "{out}"
+    );
     // The pair 32, 64 is finer than the NaN.
     let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: an error is NaN or infinite";
     assert!(out.contains(told), "{out}");
     let rates = out.lines().find(|line| line.starts_with("H1 ")).unwrap();
-    assert!(rates.contains("pass") && rates.contains("1-5 of 5"), "{out}");
+    assert!(
+        rates.contains("pass") && rates.contains("1-5 of 5"),
+        "{out}"
+    );
 }
 
 #[test]
@@ -145,12 +213,19 @@ fn a_study_of_two_levels_has_the_rate_between_them() {
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
-    let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
+    let told =
+        "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
     let (status, out, _) = place.study(&["--quiet"]);
     assert!(status == Some(1) && out.contains(told), "{out}");
     let (status, out, _) = place.study(&[]);
-    let rates = out.lines().find(|line| line.starts_with("L2 ") && line.contains("2 ± 0.05")).unwrap();
-    assert!(status == Some(1) && rates.contains(" 2.000 ") && rates.contains("finest pair"), "{out}");
+    let rates = out
+        .lines()
+        .find(|line| line.starts_with("L2 ") && line.contains("2 ± 0.05"))
+        .unwrap();
+    assert!(
+        status == Some(1) && rates.contains(" 2.000 ") && rates.contains("finest pair"),
+        "{out}"
+    );
 }
 
 #[test]
@@ -170,9 +245,23 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
     place.write_text(&auto);
     let (status, out, err) = place.study(&["--out", "report"]);
     assert_eq!(status, Some(0), "{out}{err}");
-    let summary = out.lines().find(|line| line.contains("decided after")).unwrap_or_else(|| panic!("{out}"));
-    let levels: usize = summary.split("decided after ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    assert!((5..=8).contains(&levels) && summary.contains("; 4 were enough for L1"), "{out}");
+    let summary = out
+        .lines()
+        .find(|line| line.contains("decided after"))
+        .unwrap_or_else(|| panic!("{out}"));
+    let levels: usize = summary
+        .split("decided after ")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(
+        (5..=8).contains(&levels) && summary.contains("; 4 were enough for L1"),
+        "{out}"
+    );
     // The same levels are listed; a listed study of them has the same rate, and is undecided with one level fewer.
     let listed = |levels: usize| {
         let counts: Vec<String> = (0..levels).map(|level| (8 << level).to_string()).collect();
@@ -185,13 +274,26 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
     let (status, out, _) = place.study(&["--quiet"]);
     assert!(status == Some(1), "{out}");
     let (_, out, _) = place.study(&[]);
-    assert!(out.contains("undecided after 4 levels: the next would take about ") && out.contains("0.001 s"), "{out}");
+    assert!(
+        out.contains("undecided after 4 levels: the next would take about ")
+            && out.contains("0.001 s"),
+        "{out}"
+    );
     place.write_text(&auto.replace("order = 2.0", "order = 1.0"));
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("decided after 4 levels"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("decided after 4 levels"),
+        "{out}"
+    );
     for (written, told) in [
-        ("\"auto\"\nbudget = 0", "refine.budget: found 0; expected a number of seconds > 0"),
-        ("[8, 16]\nbudget = 3", "refine.budget: found a budget beside lists; expected lists alone, or \"auto\""),
+        (
+            "\"auto\"\nbudget = 0",
+            "refine.budget: found 0; expected a number of seconds > 0",
+        ),
+        (
+            "[8, 16]\nbudget = 3",
+            "refine.budget: found a budget beside lists; expected lists alone, or \"auto\"",
+        ),
         (
             "\"auto\"\nsteps = [1, 2, 3, 4]",
             "refine.steps: found the list [1, 2, 3, 4] beside \"auto\"; expected \"auto\"",
@@ -207,6 +309,9 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
     ] {
         place.write_text(&auto.replace("\"auto\"", written));
         let (status, out, err) = place.study(&[]);
-        assert!(status == Some(2) && out.is_empty() && err.contains(told), "{err}");
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(told),
+            "{err}"
+        );
     }
 }

@@ -24,7 +24,10 @@ pub(crate) struct Place {
 
 impl Place {
     pub(crate) fn new(mode: &str, more: &str) -> Self {
-        let place = Self { folder: tempfile::tempdir().unwrap(), more: more.to_owned() };
+        let place = Self {
+            folder: tempfile::tempdir().unwrap(),
+            more: more.to_owned(),
+        };
         place.write(mode);
         place
     }
@@ -32,7 +35,9 @@ impl Place {
     pub(crate) fn write(&self, mode: &str) {
         let command = [SOLVER, self.token(), mode, "{n}"].map(|word| format!("{word:?}"));
         // There is no placeholder if the case is read from standard input.
-        let command = command.join(", ").replace("{n}", if mode == "stdin" { "-" } else { "{n}" });
+        let command = command
+            .join(", ")
+            .replace("{n}", if mode == "stdin" { "-" } else { "{n}" });
         self.write_text(&format!(
             "[study]\nid = \"s\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
              [program]\ncommand = [{command}]\n{}\n[refine]\nn = [4, 8, 16, 32, 64]\n\
@@ -51,8 +56,13 @@ impl Place {
 
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(HARNESS);
-        command.args(arguments).current_dir(self.folder.path()).env_remove("CARGO_MANIFEST_DIR");
-        command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
+        command
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .env_remove("CARGO_MANIFEST_DIR");
+        command
+            .env_remove("GITHUB_ACTIONS")
+            .env_remove("GITHUB_STEP_SUMMARY");
         command
     }
 
@@ -72,14 +82,21 @@ impl Place {
             let bytes = fs::read(entry.path().join("cmdline")).ok()?;
             Some(String::from_utf8_lossy(&bytes).replace('\0', " "))
         };
-        processes.filter_map(command_line).filter(|line| line.contains(self.token())).collect()
+        processes
+            .filter_map(command_line)
+            .filter(|line| line.contains(self.token()))
+            .collect()
     }
 
     /// Waits until the number of running processes satisfies `so_many`.
     pub(crate) fn wait_for(&self, so_many: impl Fn(usize) -> bool) {
         let start = Instant::now();
         while !so_many(self.running().len()) {
-            assert!(start.elapsed() < PATIENCE, "still running: {:#?}", self.running());
+            assert!(
+                start.elapsed() < PATIENCE,
+                "still running: {:#?}",
+                self.running()
+            );
             sleep(Duration::from_millis(5));
         }
     }
@@ -90,14 +107,27 @@ impl Place {
 
     pub(crate) fn kept(&self) -> Vec<std::path::PathBuf> {
         let folder = self.folder.path().join(".convergence-study/s");
-        let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        files.filter(|path| path.extension().is_some_and(|extension| extension == "json")).collect()
+        let files = fs::read_dir(folder)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path());
+        files
+            .filter(|path| {
+                path.extension()
+                    .is_some_and(|extension| extension == "json")
+            })
+            .collect()
     }
 }
 
 /// Exit status, standard output and standard error.
 pub(crate) fn texts(command: &mut Command) -> (Option<i32>, String, String) {
-    let Ended { status, stdout, stderr } = output(command).into();
+    let Ended {
+        status,
+        stdout,
+        stderr,
+    } = output(command).into();
     (status, stdout, stderr)
 }
 
@@ -108,7 +138,9 @@ fn a_program_is_judged_by_its_errors() {
     assert_eq!(status, Some(0), "{out}{err}");
     assert!(out.contains("L2 2.0000 (order 2)"), "{out}");
     place.write_text(
-        &fs::read_to_string(place.folder.path().join("s.toml")).unwrap().replace("order = 2.0", "order = 1.0"),
+        &fs::read_to_string(place.folder.path().join("s.toml"))
+            .unwrap()
+            .replace("order = 2.0", "order = 1.0"),
     );
     assert_eq!(place.study(&[]).0, Some(1));
     // The same bytes for any number of simultaneous processes, except for the seconds.
@@ -117,22 +149,39 @@ fn a_program_is_judged_by_its_errors() {
     // `compare` needs this for the work at the same error.
     let object: serde_json::Value = serde_json::from_str(&record("1")).unwrap();
     let levels = object["studies"][0]["levels"].as_array().unwrap();
-    assert!(levels.iter().all(|level| level["work"].is_number() && level["step"].is_number()), "{levels:?}");
+    assert!(
+        levels
+            .iter()
+            .all(|level| level["work"].is_number() && level["step"].is_number()),
+        "{levels:?}"
+    );
 }
 
 #[test]
 fn a_value_is_judged_by_its_differences() {
     let place = Place::new("ok", "");
-    let text =
-        fs::read_to_string(place.folder.path().join("s.toml")).unwrap().replace("error = \"L2\"", "value = \"flux\"");
+    let text = fs::read_to_string(place.folder.path().join("s.toml"))
+        .unwrap()
+        .replace("error = \"L2\"", "value = \"flux\"");
     place.write_text(&text);
     let (status, out, err) = place.study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
     // 3 + 0.7 h^2.
-    assert!(out.contains("value flux 2.0000 (order 2); flux tends to 3.000"), "{out}");
+    assert!(
+        out.contains("value flux 2.0000 (order 2); flux tends to 3.000"),
+        "{out}"
+    );
     for (old, new, told) in [
-        ("order = 2.0", "order = 1.0", "value flux: 2.0000 ± 0.00005, claimed 1 ± "),
-        ("[4, 8, 16, 32, 64]", "[4, 8]", "none: 2 values; three are the fewest that tell an order"),
+        (
+            "order = 2.0",
+            "order = 1.0",
+            "value flux: 2.0000 ± 0.00005, claimed 1 ± ",
+        ),
+        (
+            "[4, 8, 16, 32, 64]",
+            "[4, 8]",
+            "none: 2 values; three are the fewest that tell an order",
+        ),
     ] {
         place.write_text(&text.replace(old, new));
         let (status, out, _) = place.study(&[]);
@@ -150,17 +199,35 @@ fn a_grid_finds_both_orders() {
     place.write_text(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
     let (status, out, err) = place.study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains("L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)"), "{out}");
+    assert!(
+        out.contains("L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)"),
+        "{out}"
+    );
     // The same order in both, which the error in time does not have.
     place.write_text(&text);
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low"),
+        "{out}"
+    );
     // Refined together, where nothing hides the error in time.
-    place.write_text(&text.replace("\ngrid = true", "").replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"));
+    place.write_text(
+        &text
+            .replace("\ngrid = true", "")
+            .replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"),
+    );
     assert_eq!(place.study(&[]).0, Some(1));
     for (old, new, message) in [
-        ("error = \"L2\"", "value = \"flux\"", "expect[0].value: found value with grid = true; expected error"),
-        ("grid = true", "", "refine.dt: found 4 values beside 5; expected lists of the same length"),
+        (
+            "error = \"L2\"",
+            "value = \"flux\"",
+            "expect[0].value: found value with grid = true; expected error",
+        ),
+        (
+            "grid = true",
+            "",
+            "refine.dt: found 4 values beside 5; expected lists of the same length",
+        ),
     ] {
         place.write_text(&text.replace(old, new));
         let (status, _, err) = place.study(&[]);
@@ -182,7 +249,10 @@ fn a_program_without_placeholders_reads_the_case() {
 fn complaint(place: &Place) -> String {
     let (status, out, err) = place.study(&["--jobs", "2"]);
     assert_eq!(status, Some(1), "{out}{err}");
-    assert!(!out.contains(|c: char| c.is_control() && c != '\n'), "{out:?}");
+    assert!(
+        !out.contains(|c: char| c.is_control() && c != '\n'),
+        "{out:?}"
+    );
     assert!(out.contains("4 of 5 cases completed"), "{out}");
     assert_eq!(place.running(), [""; 0]);
     let at = out.find("n = 16: ").unwrap_or_else(|| panic!("{out}"));
@@ -193,18 +263,30 @@ fn complaint(place: &Place) -> String {
 fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     for (mode, told) in [
         ("abort", "ended with signal 6 (SIGABRT)"),
-        ("status", "ended with exit status 3; its last words: reading the mesh | \u{fffd}[31mno such file: mesh.msh"),
+        (
+            "status",
+            "ended with exit status 3; its last words: reading the mesh | \u{fffd}[31mno such file: mesh.msh",
+        ),
         (
             "garbage",
             "answered nothing: no line of its standard output is a JSON object; the last line is `\u{fffd}\u{fffd}`",
         ),
         ("silent", "answered nothing: its standard output is empty"),
-        ("nan", "`L2` of its errors is NaN, infinite or null; expected a finite number"),
+        (
+            "nan",
+            "`L2` of its errors is NaN, infinite or null; expected a finite number",
+        ),
         ("missing", "its answer has no error `L2`; it has H1"),
-        ("cut", "it does not end on its line: print it with json.dumps(...) on one line"),
+        (
+            "cut",
+            "it does not end on its line: print it with json.dumps(...) on one line",
+        ),
     ] {
         let line = complaint(&Place::new(mode, ""));
-        assert!(line.contains(told) && line.contains(SOLVER), "{mode}: {line}");
+        assert!(
+            line.contains(told) && line.contains(SOLVER),
+            "{mode}: {line}"
+        );
     }
     // A missing program.
     let place = Place::new("ok", "");
@@ -213,7 +295,11 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     let (_, tail) = tail.split_once(']').unwrap();
     place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
     let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"), "{out}");
+    assert!(
+        status == Some(1)
+            && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"),
+        "{out}"
+    );
     // Children that outlive their program, inside or outside its group, harm neither this case nor the others.
     for mode in ["fork", "leave"] {
         let place = Place::new(mode, "");
@@ -232,7 +318,10 @@ fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
     }
     let place = Place::new("hang", "");
     let (status, out, _) = place.study(&["--case-limit", "3"]);
-    assert!(status == Some(1) && out.contains("was stopped at the limit of 3 s"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("was stopped at the limit of 3 s"),
+        "{out}"
+    );
     assert_eq!(place.running(), [""; 0]);
 }
 
@@ -242,7 +331,9 @@ fn much_output_takes_little_memory() {
     let mut harness = place.start();
     let peak = |pid: u32| {
         let status = fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
-        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+        let line = status
+            .lines()
+            .find_map(|line| line.strip_prefix("VmHWM:"))?;
         line.trim().trim_end_matches(" kB").parse::<u64>().ok()
     };
     let mut kilobytes = 0;
@@ -284,7 +375,9 @@ fn a_killed_harness_leaves_nothing() {
 #[test]
 fn an_interrupted_harness_leaves_nothing() {
     let place = Place::new("hang", "");
-    let harness = started(&mut interruptible(&place.command(&["study", "s.toml", "--jobs", "2"])));
+    let harness = started(&mut interruptible(
+        &place.command(&["study", "s.toml", "--jobs", "2"]),
+    ));
     place.wait_for(|running| running > 0);
     signal(harness.id(), "-INT");
     assert_eq!(finished(harness).status.code(), Some(130));
@@ -301,22 +394,69 @@ fn what_a_study_file_may_get_wrong_is_named() {
             "\"--dt={dt}\"",
             "program.command[3]: found the placeholder {dt}; expected one that `refine` gives",
         ),
-        ("command = [", "command = [] # [", "program.command: found the list []; expected a list of the program"),
-        ("timeout = 9", "timeout = 0", "s.toml:8:11: program.timeout: found 0; expected a number of seconds > 0"),
-        ("timeout = 9", "directory = \"x\"", "program.directory: found the text \"x\", but ./x is no folder"),
-        ("timeout = 9", "files = [\"x\"]", "program.files[0]: found the text \"x\", but "),
-        ("timeout = 9", "cache = true", "program.cache: found true without files; expected the list `files`"),
-        ("timeout = 9", "shell = true", "program.shell: unknown key `shell`; expected command, directory, timeout"),
-        ("n = [4, ", "n = [8, ", "refine.n[1]: found 8; expected a number > 8, the level before"),
-        ("error = \"L2\"", "norm = \"L2\"", "expect[0].norm: unknown key `norm`"),
-        ("tolerance = 0.05", "tolerance = 0.5", "expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5"),
-        ("kind = \"program\"", "", "s.toml:1:1: study.kind: missing; expected \"power\", \"program\""),
-        ("[[expect]]", "[[expct]]", "unknown key `expct`, did you mean `expect`?"),
+        (
+            "command = [",
+            "command = [] # [",
+            "program.command: found the list []; expected a list of the program",
+        ),
+        (
+            "timeout = 9",
+            "timeout = 0",
+            "s.toml:8:11: program.timeout: found 0; expected a number of seconds > 0",
+        ),
+        (
+            "timeout = 9",
+            "directory = \"x\"",
+            "program.directory: found the text \"x\", but ./x is no folder",
+        ),
+        (
+            "timeout = 9",
+            "files = [\"x\"]",
+            "program.files[0]: found the text \"x\", but ",
+        ),
+        (
+            "timeout = 9",
+            "cache = true",
+            "program.cache: found true without files; expected the list `files`",
+        ),
+        (
+            "timeout = 9",
+            "shell = true",
+            "program.shell: unknown key `shell`; expected command, directory, timeout",
+        ),
+        (
+            "n = [4, ",
+            "n = [8, ",
+            "refine.n[1]: found 8; expected a number > 8, the level before",
+        ),
+        (
+            "error = \"L2\"",
+            "norm = \"L2\"",
+            "expect[0].norm: unknown key `norm`",
+        ),
+        (
+            "tolerance = 0.05",
+            "tolerance = 0.5",
+            "expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5",
+        ),
+        (
+            "kind = \"program\"",
+            "",
+            "s.toml:1:1: study.kind: missing; expected \"power\", \"program\"",
+        ),
+        (
+            "[[expect]]",
+            "[[expct]]",
+            "unknown key `expct`, did you mean `expect`?",
+        ),
     ] {
         assert!(text.contains(old), "{old}");
         place.write_text(&text.replace(old, new));
         let (status, out, err) = place.study(&[]);
-        assert!(status == Some(2) && out.is_empty() && err.contains(message), "{new}: {err}");
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(message),
+            "{new}: {err}"
+        );
     }
 }
 
@@ -351,12 +491,19 @@ fn an_error_that_only_some_answers_have_is_guarded_there() {
         ("error H1, n = 16", false),
         ("error H1, n = 8", true),
     ] {
-        assert_eq!(baseline.contains(&format!("\"{name}\"")), is_guarded, "{name}: {baseline}");
+        assert_eq!(
+            baseline.contains(&format!("\"{name}\"")),
+            is_guarded,
+            "{name}: {baseline}"
+        );
     }
     // A guarded number that no longer exists.
     fs::remove_file(studies.join("all")).unwrap();
     let (status, out, _) = verify(&[]);
-    assert!(status == Some(1) && out.contains("error max, n = 16"), "{out}");
+    assert!(
+        status == Some(1) && out.contains("error max, n = 16"),
+        "{out}"
+    );
 }
 
 #[test]
@@ -367,11 +514,21 @@ fn a_study_of_a_program_is_guarded_and_explained() {
     assert_eq!(run(&["verify", "--bless"]).0, Some(0));
     assert_eq!(run(&["verify"]).0, Some(0));
     let baseline = fs::read_to_string(root.join("studies/baseline.json")).unwrap();
-    assert!(baseline.contains("error H1, n = 64") && baseline.contains("program.command"), "{baseline}");
+    assert!(
+        baseline.contains("error H1, n = 64") && baseline.contains("program.command"),
+        "{baseline}"
+    );
     let figures = Path::new("reports/figures");
-    assert!(["s-errors.svg", "s-work.svg"].iter().all(|name| root.join(figures).join(name).is_file()));
+    assert!(
+        ["s-errors.svg", "s-work.svg"]
+            .iter()
+            .all(|name| root.join(figures).join(name).is_file())
+    );
     let (status, out, _) = run(&["explain", "s"]);
-    assert!(status == Some(0) && out.contains("what is run") && out.contains("error L2 2 ± 0.05"), "{out}");
+    assert!(
+        status == Some(0) && out.contains("what is run") && out.contains("error L2 2 ± 0.05"),
+        "{out}"
+    );
     assert!(run(&["list"]).1.contains("program"), "the kind is listed");
     // Only the harness starts guards: one started by hand would end the group of its caller.
     assert!(!run(&["--help"]).1.contains("guard"));

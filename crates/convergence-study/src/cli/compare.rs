@@ -23,7 +23,12 @@ pub struct Arguments {
     #[arg(long, value_name = "SHARE", default_value_t = WITHIN, value_parser = share, allow_hyphen_values = true)]
     within: f64,
     /// Errors not above this are not used; 0 uses all
-    #[arg(long, value_name = "E", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 0.0,
+        allow_hyphen_values = true
+    )]
     floor: f64,
     /// Every error, not only those that differ
     #[arg(long)]
@@ -33,7 +38,10 @@ pub struct Arguments {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse().ok().filter(|share: &f64| *share >= 0.0 && share.is_finite());
+    let share = text
+        .parse()
+        .ok()
+        .filter(|share: &f64| *share >= 0.0 && share.is_finite());
     share.ok_or("expected a number >= 0, such as 0.01".to_owned())
 }
 
@@ -42,23 +50,47 @@ fn share(text: &str) -> Result<f64, String> {
 /// # Errors
 /// Files that are not records, and records without a common study.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let Arguments { old, new, within, floor, all, flags } = arguments;
+    let Arguments {
+        old,
+        new,
+        within,
+        floor,
+        all,
+        flags,
+    } = arguments;
     let rule = rule(*floor)?;
     let comparison = compare(&Record::read(old)?, &Record::read(new)?, &rule, *within);
     if comparison.studies == 0 {
         let [old, new] = [old, new].map(|path| visible::path(path));
-        return Err(Unusable::because(&format!("{new}: found no study that {old} has, too; expected at least one")));
+        return Err(Unusable::because(&format!(
+            "{new}: found no study that {old} has, too; expected at least one"
+        )));
     }
-    let verdict = if comparison.change >= Shift::Worse { Verdict::Fail } else { Verdict::Pass };
-    let words = flags.words(verdict, sentence(&comparison).trim_end(), || text(&comparison, *all));
+    let verdict = if comparison.change >= Shift::Worse {
+        Verdict::Fail
+    } else {
+        Verdict::Pass
+    };
+    let words = flags.words(verdict, sentence(&comparison).trim_end(), || {
+        text(&comparison, *all)
+    });
     Ok(flags.show("compare", verdict, &comparison, &words)?)
 }
 
 fn text(comparison: &Comparison, all: bool) -> String {
     let mut text = String::new();
-    for Finding { study, norm, change, reason, .. } in &comparison.findings {
+    for Finding {
+        study,
+        norm,
+        change,
+        reason,
+        ..
+    } in &comparison.findings
+    {
         if all || *change != Shift::Same {
-            let norm = norm.as_ref().map_or(String::new(), |norm| format!("{}: ", visible(norm)));
+            let norm = norm
+                .as_ref()
+                .map_or(String::new(), |norm| format!("{}: ", visible(norm)));
             text += &format!("{study}: {norm}{}: {}\n", change.name(), visible(reason));
         }
     }
@@ -74,24 +106,63 @@ fn text(comparison: &Comparison, all: bool) -> String {
 /// The orders of every error in both records.
 fn orders(comparison: &Comparison) -> String {
     let order = |order: &Option<Order>| {
-        let words = |Order { order, interval: [low, high] }: Order| format!("{order:.4} ({low:.4} to {high:.4})");
+        let words = |Order {
+                         order,
+                         interval: [low, high],
+                     }: Order| format!("{order:.4} ({low:.4} to {high:.4})");
         order.map_or_else(|| "-".to_owned(), words)
     };
-    let row = |Finding { study, norm, change, orders, .. }: &Finding| {
+    let row = |Finding {
+                   study,
+                   norm,
+                   change,
+                   orders,
+                   ..
+               }: &Finding| {
         let [old, new] = orders.each_ref().map(order);
-        Some(vec![study.clone(), visible(norm.as_ref()?), old, new, change.name().to_owned()])
+        Some(vec![
+            study.clone(),
+            visible(norm.as_ref()?),
+            old,
+            new,
+            change.name().to_owned(),
+        ])
     };
     let rows: Vec<Vec<String>> = comparison.findings.iter().filter_map(row).collect();
     let head = ["study", "error", "order, old", "order, new", "is"];
-    if rows.is_empty() { String::new() } else { format!("\n{}\n", screen::table(&head, &rows)) }
+    if rows.is_empty() {
+        String::new()
+    } else {
+        format!("\n{}\n", screen::table(&head, &rows))
+    }
 }
 
 fn sentence(comparison: &Comparison) -> String {
-    let count = |change: Shift| comparison.findings.iter().filter(|finding| finding.change == change).count();
-    let [lost, worse, better, same, open] =
-        [Shift::Lost, Shift::Worse, Shift::Better, Shift::Same, Shift::NotProven].map(count);
-    let some = |count: usize, what: &str| if count == 0 { String::new() } else { format!("{count} {what}") };
+    let count = |change: Shift| {
+        comparison
+            .findings
+            .iter()
+            .filter(|finding| finding.change == change)
+            .count()
+    };
+    let [lost, worse, better, same, open] = [
+        Shift::Lost,
+        Shift::Worse,
+        Shift::Better,
+        Shift::Same,
+        Shift::NotProven,
+    ]
+    .map(count);
+    let some = |count: usize, what: &str| {
+        if count == 0 {
+            String::new()
+        } else {
+            format!("{count} {what}")
+        }
+    };
     let (lost, open) = (some(lost, "lost, "), some(open, "not proven, "));
     let (change, studies) = (comparison.change.name(), comparison.studies);
-    format!("{change}: {lost}{worse} worse, {better} better, {same} the same, {open}in {studies} studies\n")
+    format!(
+        "{change}: {lost}{worse} worse, {better} better, {same} the same, {open}in {studies} studies\n"
+    )
 }

@@ -16,8 +16,7 @@ use crate::store::atomic;
 use crate::text::visible;
 
 /// For the end of `--help`.
-pub const HELP: &str =
-    "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
+pub const HELP: &str = "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
 
 /// Input that cannot be read or makes no sense, or a place that cannot be written to: exit status 2.
 #[derive(Debug)]
@@ -75,7 +74,11 @@ pub fn listen() {
         return;
     }
     let _ = ctrlc::try_set_handler(|| {
-        let said = SAID.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(|said| said());
+        let said = SAID
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .as_ref()
+            .map(|said| said());
         atomic::finish_writes(PATIENCE);
         let said = said.map_or(String::new(), |said| format!(": {said}"));
         screen::tell(&format!("\ninterrupted{said}"));

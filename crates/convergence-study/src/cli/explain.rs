@@ -39,11 +39,14 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         return show(arguments, &contents(project));
     };
     // Terms, reasons and files can be explained outside a workspace.
-    let studies = || workspace::root().map_or_else(|_| PathBuf::from("studies"), |root| root.join("studies"));
+    let studies =
+        || workspace::root().map_or_else(|_| PathBuf::from("studies"), |root| root.join("studies"));
     let folder = arguments.dir.clone().unwrap_or_else(studies);
     let text = match term(project, name) {
         Some(text) => text,
-        None if name.ends_with(".toml") => of_study(project, &StudyFile::read(project.kinds, Path::new(name))?),
+        None if name.ends_with(".toml") => {
+            of_study(project, &StudyFile::read(project.kinds, Path::new(name))?)
+        }
         None => {
             let files = workspace::readable_studies(project, &folder);
             let named = files.iter().find(|file| file.study.header().id == name);
@@ -60,8 +63,15 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 fn show(arguments: &Arguments, text: &str) -> Outcome {
     let Arguments { name, flags, .. } = arguments;
     // The first line is the name and what it names.
-    let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || text.to_owned());
-    Ok(flags.show("explain", Verdict::Pass, &json!({"name": name, "text": text}), &words)?)
+    let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || {
+        text.to_owned()
+    });
+    Ok(flags.show(
+        "explain",
+        Verdict::Pass,
+        &json!({"name": name, "text": text}),
+        &words,
+    )?)
 }
 
 /// The kind of a file that was read is one that the project knows.
@@ -71,10 +81,19 @@ fn of_study(project: &Project, file: &StudyFile) -> String {
 
 fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) -> String {
     let hint = meant.map_or_else(
-        || format!("`{} explain` lists all that can be explained", project.command),
+        || {
+            format!(
+                "`{} explain` lists all that can be explained",
+                project.command
+            )
+        },
         |meant| format!("did you mean {meant}?"),
     );
-    format!("found no study, term, reason or kind `{}` in {}; {hint}", visible(name), visible::path(folder))
+    format!(
+        "found no study, term, reason or kind `{}` in {}; {hint}",
+        visible(name),
+        visible::path(folder)
+    )
 }
 
 /// The code of a case stopped at its limit of work.
@@ -87,41 +106,71 @@ const WORK_MEANS: &str = "The case has counted three times the node-steps of its
 /// A term of the project, a reason or a kind, in words; `None` if the name is unknown.
 pub fn term(project: &Project, name: &str) -> Option<String> {
     if let Some(term) = project.terms.iter().find(|term| term.name == name) {
-        return Some(page(&format!("{name}, {}", term.what), &[("what it means", &format!("{}.", term.text))]));
+        return Some(page(
+            &format!("{name}, {}", term.what),
+            &[("what it means", &format!("{}.", term.text))],
+        ));
     }
     if let Some(reason) = Reason::ALL.into_iter().find(|reason| reason.code() == name) {
         let in_short = format!("{}.", reason.text());
         let (advice, mathematics) = (reason.advice(), reason.mathematics());
-        let parts =
-            [("in short", &*in_short), ("what it means", advice), ("mathematics, and what to try", mathematics)];
-        return Some(page(&format!("{name}, a reason for {}", reason.verdict()), &parts));
+        let parts = [
+            ("in short", &*in_short),
+            ("what it means", advice),
+            ("mathematics, and what to try", mathematics),
+        ];
+        return Some(page(
+            &format!("{name}, a reason for {}", reason.verdict()),
+            &parts,
+        ));
     }
     if name == WORK {
-        return Some(page(&format!("{name}, a reason for which a case fails"), &[("what it means", WORK_MEANS)]));
+        return Some(page(
+            &format!("{name}, a reason for which a case fails"),
+            &[("what it means", WORK_MEANS)],
+        ));
     }
     let kind = project.kinds.iter().find(|kind| kind.name == name)?;
-    Some(page(&format!("{name}, a kind of study"), &of_kind(kind, &[])))
+    Some(page(
+        &format!("{name}, a kind of study"),
+        &of_kind(kind, &[]),
+    ))
 }
 
 /// The names that [`term`] knows.
 pub fn terms(project: &Project) -> Vec<&'static str> {
-    groups(project).into_iter().flat_map(|(_, names)| names).collect()
+    groups(project)
+        .into_iter()
+        .flat_map(|(_, names)| names)
+        .collect()
 }
 
 /// The names that [`term`] knows, group by group.
 pub fn contents(project: &Project) -> String {
-    let groups: Vec<_> = groups(project).into_iter().map(|(title, names)| (title, names.join(", "))).collect();
+    let groups: Vec<_> = groups(project)
+        .into_iter()
+        .map(|(title, names)| (title, names.join(", ")))
+        .collect();
     let list = format!("see `{} list`", project.command);
-    let mut parts: Vec<(&str, &str)> = groups.iter().map(|(title, names)| (*title, names.as_str())).collect();
+    let mut parts: Vec<(&str, &str)> = groups
+        .iter()
+        .map(|(title, names)| (*title, names.as_str()))
+        .collect();
     parts.push(("studies, by id or file", &list));
     page("what can be explained", &parts)
 }
 
 fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut groups = grouped(project.terms.iter().map(|term| (term.what, term.name)));
-    groups.push(("reasons for a verdict", Reason::ALL.map(Reason::code).to_vec()));
+    groups.push((
+        "reasons for a verdict",
+        Reason::ALL.map(Reason::code).to_vec(),
+    ));
     groups.push(("reasons for which a case fails", vec![WORK]));
-    groups.push(("kinds of study", project.kinds.iter().map(|kind| kind.name).collect()));
+    groups.push((
+        "kinds of study",
+        project.kinds.iter().map(|kind| kind.name).collect(),
+    ));
     groups
 }
 
@@ -130,26 +179,53 @@ pub fn study(project: &Project, study: &dyn Study) -> Option<String> {
     let header = study.header();
     let kind = project.kinds.iter().find(|kind| kind.name == header.kind)?;
     let details = study.details();
-    let parts = [vec![("what is claimed", header.claim.as_str())], of_kind(kind, &details)].concat();
-    Some(page(&format!("{} ({}, tier {})", header.id, header.kind, header.tier.name()), &parts))
+    let parts = [
+        vec![("what is claimed", header.claim.as_str())],
+        of_kind(kind, &details),
+    ]
+    .concat();
+    Some(page(
+        &format!(
+            "{} ({}, tier {})",
+            header.id,
+            header.kind,
+            header.tier.name()
+        ),
+        &parts,
+    ))
 }
 
 /// The id or term closest to a misspelt one.
-pub fn meant<'i>(project: &Project, ids: impl IntoIterator<Item = &'i str>, name: &str) -> Option<String> {
+pub fn meant<'i>(
+    project: &Project,
+    ids: impl IntoIterator<Item = &'i str>,
+    name: &str,
+) -> Option<String> {
     nearest(name, ids.into_iter().chain(terms(project))).map(str::to_owned)
 }
 
 /// * `details`: paragraphs on one study, each with its title.
 fn of_kind<'t>(kind: &KindRow, details: &'t [(String, String)]) -> Vec<(&'t str, &'t str)> {
-    let details = details.iter().map(|(title, paragraph)| (title.as_str(), paragraph.as_str()));
-    let judged = [("how it is judged", kind.judged), ("what a failure would mean", kind.failure)];
-    [("why it should hold", kind.why)].into_iter().chain(details).chain(judged).collect()
+    let details = details
+        .iter()
+        .map(|(title, paragraph)| (title.as_str(), paragraph.as_str()));
+    let judged = [
+        ("how it is judged", kind.judged),
+        ("what a failure would mean", kind.failure),
+    ];
+    [("why it should hold", kind.why)]
+        .into_iter()
+        .chain(details)
+        .chain(judged)
+        .collect()
 }
 
 /// A head, and sections, each with its title.
 fn page(head: &str, parts: &[(&str, &str)]) -> String {
     let mut text = format!("{head}\n");
-    parts.iter().for_each(|(title, paragraph)| section(&mut text, title, paragraph));
+    parts
+        .iter()
+        .for_each(|(title, paragraph)| section(&mut text, title, paragraph));
     text
 }
 

@@ -35,7 +35,8 @@ pub struct Flags {
 
 /// A number of threads on the command line.
 fn jobs(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse().map_err(|_| "expected a whole number >= 1".to_owned())
+    text.parse()
+        .map_err(|_| "expected a whole number >= 1".to_owned())
 }
 
 /// The JSON object of a command: its verdict, then what it found.
@@ -48,25 +49,47 @@ struct Printed<'a, T> {
 }
 
 fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
-    json(&Printed { schema: SCHEMA, verdict: verdict.name(), found })
+    json(&Printed {
+        schema: SCHEMA,
+        verdict: verdict.name(),
+        found,
+    })
 }
 
 impl Flags {
     /// Threads and time of a run; without a number, all threads of the machine.
     pub fn effort(&self, case_limit: Option<Duration>) -> Effort {
-        Effort { jobs: self.jobs.unwrap_or_else(run::available), case_limit, fail_fast: false }
+        Effort {
+            jobs: self.jobs.unwrap_or_else(run::available),
+            case_limit,
+            fail_fast: false,
+        }
     }
 
     /// What a command found, for people: all of it, or the verdict in a sentence with `--quiet`.
-    pub fn words(&self, verdict: Verdict, sentence: &str, whole: impl FnOnce() -> String) -> String {
-        if self.quiet { format!("{}: {sentence}\n", screen::verdict(verdict)) } else { whole() }
+    pub fn words(
+        &self,
+        verdict: Verdict,
+        sentence: &str,
+        whole: impl FnOnce() -> String,
+    ) -> String {
+        if self.quiet {
+            format!("{}: {sentence}\n", screen::verdict(verdict))
+        } else {
+            whole()
+        }
     }
 
     /// Prints what a command found, as words or as a JSON object.
     ///
     /// * `verdict`: [`Verdict::Pass`] if the command judges nothing and ended well.
     /// * Returns the verdict.
-    pub fn print(&self, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<Verdict> {
+    pub fn print(
+        &self,
+        verdict: Verdict,
+        found: &impl Serialize,
+        words: &str,
+    ) -> io::Result<Verdict> {
         match self.format {
             Format::Json => screen::print(&object(verdict, found)?)?,
             Format::Text => screen::print(words)?,
@@ -75,10 +98,19 @@ impl Flags {
     }
 
     /// The same; also writes the object as `COMMAND.json` to the folder given.
-    pub fn show(&self, command: &str, verdict: Verdict, found: &impl Serialize, words: &str) -> io::Result<Verdict> {
+    pub fn show(
+        &self,
+        command: &str,
+        verdict: Verdict,
+        found: &impl Serialize,
+        words: &str,
+    ) -> io::Result<Verdict> {
         if let Some(folder) = &self.out {
             atomic::prepare_folder(folder)?;
-            atomic::write(&folder.join(command).with_extension("json"), object(verdict, found)?)?;
+            atomic::write(
+                &folder.join(command).with_extension("json"),
+                object(verdict, found)?,
+            )?;
         }
         self.print(verdict, found, words)
     }

@@ -42,12 +42,23 @@ pub(super) fn summarise(markdown: &str) {
 }
 
 fn annotations(findings: &Findings<'_>) -> String {
-    let bad = findings.record.studies.iter().filter(|finished| finished.outcome.verdict != Verdict::Pass);
+    let bad = findings
+        .record
+        .studies
+        .iter()
+        .filter(|finished| finished.outcome.verdict != Verdict::Pass);
     let studies = bad.map(|finished| {
         let outcome = &finished.outcome;
-        annotation(&format!("{}: {}", finished.header.id, outcome.verdict), &summary(outcome))
+        annotation(
+            &format!("{}: {}", finished.header.id, outcome.verdict),
+            &summary(outcome),
+        )
     });
-    let changes = findings.record.moves().iter().map(|change| annotation("baseline", &change.to_string()));
+    let changes = findings
+        .record
+        .moves()
+        .iter()
+        .map(|change| annotation("baseline", &change.to_string()));
     capped(studies.chain(changes).collect())
 }
 
@@ -58,7 +69,10 @@ const SHOWN: usize = 10;
 fn capped(mut annotations: Vec<String>) -> String {
     if annotations.len() > SHOWN {
         let more = annotations.split_off(SHOWN - 1).len();
-        annotations.push(annotation("and more", &format!("{more} more: see the summary of this job and the report")));
+        annotations.push(annotation(
+            "and more",
+            &format!("{more} more: see the summary of this job and the report"),
+        ));
     }
     annotations.concat()
 }
@@ -70,7 +84,12 @@ fn annotation(title: &str, message: &str) -> String {
 
 /// One line, in the encoding of GitHub Actions.
 fn escaped(text: &str) -> String {
-    visible(&text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A"))
+    visible(
+        &text
+            .replace('%', "%25")
+            .replace('\r', "%0D")
+            .replace('\n', "%0A"),
+    )
 }
 
 #[cfg(test)]
@@ -80,15 +99,26 @@ mod tests {
     #[test]
     fn an_annotation_stays_on_its_line() {
         let line = annotation("a: fail, so", "50 %\n::warning::x\x1b[31m");
-        assert_eq!(line, "::error title=a%3A fail%2C so::50 %25%0A::warning::x\u{fffd}[31m\n");
+        assert_eq!(
+            line,
+            "::error title=a%3A fail%2C so::50 %25%0A::warning::x\u{fffd}[31m\n"
+        );
     }
 
     #[test]
     fn more_annotations_than_are_shown_are_counted_in_the_last_one() {
-        let some = |count: usize| (0..count).map(|k| annotation("a", &k.to_string())).collect::<Vec<String>>();
+        let some = |count: usize| {
+            (0..count)
+                .map(|k| annotation("a", &k.to_string()))
+                .collect::<Vec<String>>()
+        };
         assert_eq!(capped(some(SHOWN)), some(SHOWN).concat());
         let text = capped(some(SHOWN + 25));
         assert_eq!(text.lines().count(), SHOWN);
-        assert!(text.starts_with(&some(SHOWN - 1).concat()) && text.contains("title=and more::26 more: see"), "{text}");
+        assert!(
+            text.starts_with(&some(SHOWN - 1).concat())
+                && text.contains("title=and more::26 more: see"),
+            "{text}"
+        );
     }
 }

@@ -53,8 +53,16 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
-    let meant = workspace::select(&headers, arguments.tier, &arguments.ids, &format!("{} list", project.command))?;
-    let (verdicts, seconds) = (workspace::last_verdicts(&root)?, workspace::last_seconds(&root)?);
+    let meant = workspace::select(
+        &headers,
+        arguments.tier,
+        &arguments.ids,
+        &format!("{} list", project.command),
+    )?;
+    let (verdicts, seconds) = (
+        workspace::last_verdicts(&root)?,
+        workspace::last_seconds(&root)?,
+    );
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
     let listed = |(StudyFile { study, .. }, _): (&StudyFile, bool)| {
         let header = study.header();
@@ -63,37 +71,71 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             tier: header.tier.name(),
             kind: header.kind.clone(),
             last: verdicts.get(&header.id).map(|verdict| verdict.name()),
-            work: 1e-6 * study.plan().cases().iter().map(|case| case.cost).sum::<f64>(),
+            work: 1e-6
+                * study
+                    .plan()
+                    .cases()
+                    .iter()
+                    .map(|case| case.cost)
+                    .sum::<f64>(),
             seconds: seconds.get(&header.id).copied(),
             claim: header.claim.clone(),
         }
     };
     let studies: Vec<Listed> = meant.map(listed).collect();
-    let passed = studies.iter().filter(|study| study.last == Some(Verdict::Pass.name())).count();
-    let failed = studies.iter().any(|study| study.last == Some(Verdict::Fail.name()));
+    let passed = studies
+        .iter()
+        .filter(|study| study.last == Some(Verdict::Pass.name()))
+        .count();
+    let failed = studies
+        .iter()
+        .any(|study| study.last == Some(Verdict::Fail.name()));
     let verdict = match (failed, passed == studies.len()) {
         (true, _) => Verdict::Fail,
         (false, true) => Verdict::Pass,
         (false, false) => Verdict::Inconclusive,
     };
-    let sentence = format!("{passed} of {} studies passed when they last ran", studies.len());
+    let sentence = format!(
+        "{passed} of {} studies passed when they last ran",
+        studies.len()
+    );
     let words = arguments.flags.words(verdict, &sentence, || {
         let mut rows: Vec<Vec<String>> = studies.iter().map(row).collect();
         let mut head = HEAD.to_vec();
         let width = screen::width();
-        width.iter().for_each(|width| make_room(&mut head, &mut rows, *width));
+        width
+            .iter()
+            .for_each(|width| make_room(&mut head, &mut rows, *width));
         screen::table_within(width, &head, &rows)
     });
     // The worst of the last verdicts.
-    arguments.flags.show("list", verdict, &json!({"studies": studies}), &words)?;
+    arguments
+        .flags
+        .show("list", verdict, &json!({"studies": studies}), &words)?;
     Ok(Verdict::Pass)
 }
 
 fn row(study: &Listed) -> Vec<String> {
-    let Listed { id, tier, kind, last, work, seconds, claim } = study;
+    let Listed {
+        id,
+        tier,
+        kind,
+        last,
+        work,
+        seconds,
+        claim,
+    } = study;
     let last = last.unwrap_or("never run").to_owned();
     let seconds = seconds.map_or("-".to_owned(), |seconds| format!("{seconds:.2}"));
-    vec![id.clone(), (*tier).to_owned(), kind.clone(), last, format!("{work:.2}"), seconds, claim.clone()]
+    vec![
+        id.clone(),
+        (*tier).to_owned(),
+        kind.clone(),
+        last,
+        format!("{work:.2}"),
+        seconds,
+        claim.clone(),
+    ]
 }
 
 /// Leaves out columns to make room for the claim.
@@ -111,7 +153,11 @@ fn make_room(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
 fn room(head: &[&str], rows: &[Vec<String>], width: usize) -> usize {
     let head: Vec<String> = head.iter().map(|name| (*name).to_owned()).collect();
     let columns = Columns::of(&head, rows);
-    width.saturating_sub((0..head.len() - 1).map(|column| columns.width(column) + 2).sum())
+    width.saturating_sub(
+        (0..head.len() - 1)
+            .map(|column| columns.width(column) + 2)
+            .sum(),
+    )
 }
 
 #[cfg(test)]
@@ -120,7 +166,17 @@ mod tests {
     use crate::cli::screen;
 
     fn row(id: &str, claim: &str) -> Vec<String> {
-        [id, "quick", "self-convergence", "inconclusive", "100.00", "1.00", claim].map(str::to_owned).into()
+        [
+            id,
+            "quick",
+            "self-convergence",
+            "inconclusive",
+            "100.00",
+            "1.00",
+            claim,
+        ]
+        .map(str::to_owned)
+        .into()
     }
 
     /// The widest line, and the names of the columns.
@@ -136,11 +192,21 @@ mod tests {
         for (width, columns) in [(80, 4), (120, HEAD.len())] {
             let mut rows = [row("work-precision-manufactured", &long), row("x", "short")];
             let (table, head) = fitted(&mut rows, width);
-            assert_eq!(table.lines().map(|line| line.chars().count()).max(), Some(width), "{table}");
-            assert!(table.contains('…') && table.contains("short\n") && table.contains("inconclusive"), "{table}");
+            assert_eq!(
+                table.lines().map(|line| line.chars().count()).max(),
+                Some(width),
+                "{table}"
+            );
+            assert!(
+                table.contains('…') && table.contains("short\n") && table.contains("inconclusive"),
+                "{table}"
+            );
             assert_eq!(head.len(), columns, "{head:?}");
         }
         let mut rows = [row("x", &long)];
-        assert_eq!(fitted(&mut rows, 10).0.matches('é').count(), screen::LEAST - 1);
+        assert_eq!(
+            fitted(&mut rows, 10).0.matches('é').count(),
+            screen::LEAST - 1
+        );
     }
 }

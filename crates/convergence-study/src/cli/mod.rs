@@ -60,8 +60,17 @@ pub enum Command {
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 9] =
-    ["new", "verify", "study", "list", "explain", "rates", "compare", "report", "completions"];
+pub const COMMANDS: [&str; 9] = [
+    "new",
+    "verify",
+    "study",
+    "list",
+    "explain",
+    "rates",
+    "compare",
+    "report",
+    "completions",
+];
 
 impl Command {
     /// Runs the command for a project; `whole` is the whole command line, for completions.
@@ -88,7 +97,12 @@ impl Command {
 /// Prints what a shell needs to complete the commands of that command line.
 fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outcome {
     // `cargo` cannot complete its aliases: the name is `xtask` for `cargo xtask`.
-    let name = project.command.rsplit(' ').next().unwrap_or(project.command).to_owned();
+    let name = project
+        .command
+        .rsplit(' ')
+        .next()
+        .unwrap_or(project.command)
+        .to_owned();
     let mut script = vec![];
     generate(shell, &mut whole.bin_name(&name), &name, &mut script);
     screen::print(&String::from_utf8_lossy(&script))?;
@@ -113,8 +127,14 @@ fn serve(mark: &str) -> exit::Outcome {
 ///
 /// * `groups`: heading, and names of commands. `--help` does not list a command outside all groups.
 pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
-    let command = P::command().name(project.command).bin_name(project.command).about(project.about);
-    grouped(new::with_templates(command, project).version(env!("CARGO_PKG_VERSION")), groups)
+    let command = P::command()
+        .name(project.command)
+        .bin_name(project.command)
+        .about(project.about);
+    grouped(
+        new::with_templates(command, project).version(env!("CARGO_PKG_VERSION")),
+        groups,
+    )
 }
 
 /// The command line with its subcommands listed under headings, and the exit status explained.
@@ -122,18 +142,30 @@ pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) ->
 /// * `groups`: heading, and names of subcommands. A subcommand outside all groups is not listed.
 fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
     let mut text = String::new();
-    let width = groups.iter().flat_map(|(_, names)| names.iter()).map(|name| name.len()).max().unwrap_or(0);
+    let width = groups
+        .iter()
+        .flat_map(|(_, names)| names.iter())
+        .map(|name| name.len())
+        .max()
+        .unwrap_or(0);
     for (heading, names) in groups {
         let _ = writeln!(text, "{heading}:");
         for name in *names {
-            let found = command.get_subcommands().find(|known| known.get_name() == *name);
-            let about = found.and_then(clap::Command::get_about).map(ToString::to_string).unwrap_or_default();
+            let found = command
+                .get_subcommands()
+                .find(|known| known.get_name() == *name);
+            let about = found
+                .and_then(clap::Command::get_about)
+                .map(ToString::to_string)
+                .unwrap_or_default();
             let _ = writeln!(text, "  {name:width$}  {about}");
         }
         text.push('\n');
     }
-    let template =
-        format!("{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}Options:\n{{options}}\n\n{}", exit::HELP);
+    let template = format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}Options:\n{{options}}\n\n{}",
+        exit::HELP
+    );
     command.help_template(template)
 }
 
@@ -147,7 +179,8 @@ fn status<P: Parser>(
     arguments: impl Iterator<Item = OsString>,
     run: impl FnOnce(P) -> exit::Outcome,
 ) -> u8 {
-    let asked = P::from_arg_matches(&line.get_matches_from(arguments)).unwrap_or_else(|error| error.exit());
+    let asked =
+        P::from_arg_matches(&line.get_matches_from(arguments)).unwrap_or_else(|error| error.exit());
     exit::listen();
     exit::status(run(asked))
 }
@@ -171,5 +204,7 @@ pub fn main(project: &Project) -> ExitCode {
 /// The same with these arguments, starting with the program; returns the exit status.
 pub fn main_with(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
     let line = program(project);
-    status(line.clone(), arguments, |asked: CommandLine| asked.command.run(project, line))
+    status(line.clone(), arguments, |asked: CommandLine| {
+        asked.command.run(project, line)
+    })
 }

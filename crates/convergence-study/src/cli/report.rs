@@ -31,14 +31,22 @@ pub struct Arguments {
 ///
 /// # Errors
 /// A record that cannot be used, and a report that cannot be written.
-pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Arguments) -> Outcome {
+pub(super) fn run(
+    project: &Project,
+    Arguments {
+        record: path,
+        flags,
+    }: &Arguments,
+) -> Outcome {
     let mut record = Record::read(path)?;
     let beside = path.parent().unwrap_or(Path::new(""));
     let is_report = beside.join(MANIFEST).is_file();
     let own = is_report.then(|| beside.to_owned());
     let folder = flags.out.clone().or(own).ok_or_else(|| {
         let path = visible::path(path);
-        Unusable::because(&format!("{path}: found outside of a report's folder; expected --out DIR for the new report"))
+        Unusable::because(&format!(
+            "{path}: found outside of a report's folder; expected --out DIR for the new report"
+        ))
     })?;
     let missing = add_pictures(&mut record, beside)?;
     let times = reports_around(beside).join("local/provenance.json");
@@ -47,12 +55,19 @@ pub(super) fn run(project: &Project, Arguments { record: path, flags }: &Argumen
     let verdict = record.verdict;
     let sentence = sentence(&record.studies, record.changes.as_deref());
     rebuild(project, record, provenance.as_ref(), &folder)?;
-    missing
-        .iter()
-        .for_each(|file| screen::tell(&format!("note: no picture {}/{file}", visible::path(&beside.join(FIGURES)))));
+    missing.iter().for_each(|file| {
+        screen::tell(&format!(
+            "note: no picture {}/{file}",
+            visible::path(&beside.join(FIGURES))
+        ))
+    });
     let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
     let words = flags.words(verdict, &sentence, whole);
-    Ok(flags.print(verdict, &json!({"report": folder, "missing": missing}), &words)?)
+    Ok(flags.print(
+        verdict,
+        &json!({"report": folder, "missing": missing}),
+        &words,
+    )?)
 }
 
 /// Reads the pictures of all figures; a figure without one is left out and named.
@@ -60,14 +75,18 @@ fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusa
     let mut missing = vec![];
     for study in &mut record.studies {
         for mut figure in std::mem::take(&mut study.outcome.figures) {
-            let is_name = Path::new(&figure.file).file_name().is_some_and(|name| *name == *figure.file);
+            let is_name = Path::new(&figure.file)
+                .file_name()
+                .is_some_and(|name| *name == *figure.file);
             let path = beside.join(FIGURES).join(&figure.file);
             match fs::read_to_string(&path) {
                 Ok(svg) if is_name => {
                     figure.svg = svg;
                     study.outcome.figures.push(figure);
                 }
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(Unusable::file(&path, &error)),
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(Unusable::file(&path, &error));
+                }
                 _ => missing.push(visible::visible(&figure.file)),
             }
         }

@@ -44,7 +44,9 @@ pub fn consent(what: &str, seconds: f64, limit: &str) -> Result<(), Unusable> {
         return Ok(());
     }
     let found = format!("found work for about {seconds:.1e} seconds on one thread");
-    Err(Unusable::because(&format!("{what}: {found}; expected at most {LONG}, or --yes, or {limit} SECONDS")))
+    Err(Unusable::because(&format!(
+        "{what}: {found}; expected at most {LONG}, or --yes, or {limit} SECONDS"
+    )))
 }
 
 impl Limits {
@@ -52,8 +54,15 @@ impl Limits {
     ///
     /// # Errors
     /// The first such study.
-    pub(super) fn consent(&self, project: &Project, studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
-        let Some(unit) = project.seconds_per_cost.filter(|_| !self.yes && self.case_limit.is_none()) else {
+    pub(super) fn consent(
+        &self,
+        project: &Project,
+        studies: &[Box<dyn Study>],
+    ) -> Result<(), Unusable> {
+        let Some(unit) = project
+            .seconds_per_cost
+            .filter(|_| !self.yes && self.case_limit.is_none())
+        else {
             return Ok(());
         };
         studies.iter().try_for_each(|study| {
@@ -66,7 +75,9 @@ impl Limits {
 /// A time limit on the command line.
 pub fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
-    seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()).ok_or("expected a number > 0".to_owned())
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or("expected a number > 0".to_owned())
 }
 
 /// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which of them had run.
@@ -78,22 +89,35 @@ pub(super) fn watched<T>(
     run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
 ) -> T {
     const STEPS: f64 = 1000.0;
-    let ids: Vec<&str> = studies.iter().map(|study| study.header().id.as_str()).collect();
+    let ids: Vec<&str> = studies
+        .iter()
+        .map(|study| study.header().id.as_str())
+        .collect();
     let done: Arc<Mutex<Vec<String>>> = Arc::default();
     let (told, count) = (Arc::clone(&done), ids.len());
     exit::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
-    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), target).with_style(style("{bar:40} {msg}, {eta} left"));
+    let target = if quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    };
+    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), target)
+        .with_style(style("{bar:40} {msg}, {eta} left"));
     let ran = run(&|progress| {
         if let Some((study, verdict)) = progress.ended {
-            done.lock().unwrap_or_else(PoisonError::into_inner).push(ids[study].to_owned());
+            done.lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .push(ids[study].to_owned());
             if verdict != Verdict::Pass {
                 bar.println(format!("{}: {}", screen::verdict(verdict), ids[study]));
             }
         }
         // The study that has been running longest.
         let running = progress.running.map_or("", |study| ids[study]);
-        bar.set_message(format!("{} of {} cases, {running}", progress.done_cases, progress.cases));
+        bar.set_message(format!(
+            "{} of {} cases, {running}",
+            progress.done_cases, progress.cases
+        ));
         bar.set_position((STEPS * progress.done_cost / progress.cost) as u64);
     });
     bar.finish_and_clear();
@@ -111,7 +135,11 @@ pub fn kept(spent: &Spent) -> Option<String> {
 }
 
 fn sentence(done: &[String], count: usize) -> String {
-    let names = if done.is_empty() { String::new() } else { format!(": {}", done.join(", ")) };
+    let names = if done.is_empty() {
+        String::new()
+    } else {
+        format!(": {}", done.join(", "))
+    };
     format!("{} of {count} studies had run{names}", done.len())
 }
 
@@ -124,8 +152,11 @@ pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> Pr
         // Writing to the bar's line cannot fail.
         let _ = write!(text, "{:.0} {unit}/s", state.per_sec());
     };
-    let style = style("{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left").with_key("rate", rate);
-    ProgressBar::new(count as u64).with_style(style).with_prefix(name.to_owned())
+    let style =
+        style("{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left").with_key("rate", rate);
+    ProgressBar::new(count as u64)
+        .with_style(style)
+        .with_prefix(name.to_owned())
 }
 
 /// A command that takes minutes, and writes the page that records how many.
@@ -143,11 +174,20 @@ impl LongRun {
     /// * `what`: what is done, in words.
     /// * `page`: written by an earlier run, with [`ended`](Self::ended) in it.
     pub fn begin(what: &str, page: &Path, quiet: bool) -> Self {
-        let before = fs::read_to_string(page).ok().and_then(|text| seconds_in(&text));
-        let run = Self { started: Instant::now(), before, quiet };
+        let before = fs::read_to_string(page)
+            .ok()
+            .and_then(|text| seconds_in(&text));
+        let run = Self {
+            started: Instant::now(),
+            before,
+            quiet,
+        };
         let known = match before {
             Some(before) => format!("took {before:.0} s when {} was written", page.display()),
-            None => format!("minutes; how many is not known: {} does not say", page.display()),
+            None => format!(
+                "minutes; how many is not known: {} does not say",
+                page.display()
+            ),
         };
         run.tell(&format!("{what}: {known}"));
         run
@@ -155,8 +195,13 @@ impl LongRun {
 
     /// Says what has been done, and the time since the start.
     pub fn done(&self, what: &str) {
-        let of = self.before.map_or(String::new(), |before| format!(" of about {before:.0}"));
-        self.tell(&format!("{what}, at {:.0}{of} s", self.started.elapsed().as_secs_f64()));
+        let of = self
+            .before
+            .map_or(String::new(), |before| format!(" of about {before:.0}"));
+        self.tell(&format!(
+            "{what}, at {:.0}{of} s",
+            self.started.elapsed().as_secs_f64()
+        ));
     }
 
     /// Where and when the run was made and how long it took, for the page.
@@ -165,7 +210,11 @@ impl LongRun {
     pub fn ended(&self, root: &Path) -> String {
         let here = Provenance::collect(root, String::new(), run::available().get(), &[]);
         let took = took(self.started.elapsed().as_secs_f64());
-        here.sentences().into_iter().chain([took]).collect::<Vec<_>>().join(" ")
+        here.sentences()
+            .into_iter()
+            .chain([took])
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 
     fn tell(&self, message: &str) {
@@ -194,7 +243,10 @@ mod tests {
 
     #[test]
     fn the_next_run_reads_what_the_page_says() {
-        let page = format!("# Drift\n\nWritten by a program. {}\n\n| a | b |\n", took(143.4));
+        let page = format!(
+            "# Drift\n\nWritten by a program. {}\n\n| a | b |\n",
+            took(143.4)
+        );
         assert_eq!(seconds_in(&page), Some(143.0));
         for without in ["", "It took long.", "It took x s."] {
             assert_eq!(seconds_in(without), None, "{without}");

@@ -30,7 +30,10 @@ pub fn print(text: &str) -> io::Result<()> {
 /// Prints to standard output, commands to GitHub Actions included.
 pub(super) fn print_as_is(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         outcome => outcome,
     }
@@ -44,7 +47,11 @@ pub fn complain(message: &str) {
 /// Prints a message to standard error, without control characters other than line ends.
 pub fn tell(message: &str) {
     // If standard error is closed, the message cannot be shown.
-    let _ = writeln!(io::stderr(), "{}", visible::without_commands(&visible::lines(message)));
+    let _ = writeln!(
+        io::stderr(),
+        "{}",
+        visible::without_commands(&visible::lines(message))
+    );
 }
 
 /// Between two columns.
@@ -63,9 +70,14 @@ pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
 /// * `width`: columns of the terminal; `None` to cut nothing.
 pub fn table_within(width: Option<usize>, head: &[&str], rows: &[Vec<String>]) -> String {
     let head: Vec<String> = head.iter().map(|title| visible(title)).collect();
-    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(|cell| visible(cell)).collect()).collect();
+    let rows: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| row.iter().map(|cell| visible(cell)).collect())
+        .collect();
     let measured = Columns::of(&head, &rows);
-    let others = (0..measured.count().saturating_sub(1)).map(|column| measured.width(column) + GAP.len()).sum();
+    let others = (0..measured.count().saturating_sub(1))
+        .map(|column| measured.width(column) + GAP.len())
+        .sum();
     let room = width.map(|width| width.saturating_sub(others).max(LEAST));
     let fitted = |mut row: Vec<String>| {
         if let (Some(room), Some(last)) = (room, row.last_mut()) {
@@ -73,11 +85,17 @@ pub fn table_within(width: Option<usize>, head: &[&str], rows: &[Vec<String>]) -
         }
         row
     };
-    let (head, rows) = (fitted(head), rows.into_iter().map(fitted).collect::<Vec<_>>());
+    let (head, rows) = (
+        fitted(head),
+        rows.into_iter().map(fitted).collect::<Vec<_>>(),
+    );
     let columns = Columns::of(&head, &rows);
     let colours = colours();
     let line = |row: &Vec<String>| {
-        let cells: Vec<String> = columns.pad(row).map(|cell| if colours { coloured(cell) } else { cell }).collect();
+        let cells: Vec<String> = columns
+            .pad(row)
+            .map(|cell| if colours { coloured(cell) } else { cell })
+            .collect();
         cells.join(GAP).trim_end().to_owned() + "\n"
     };
     std::iter::once(&head).chain(&rows).map(line).collect()
@@ -94,7 +112,11 @@ fn cut(text: &str, room: usize) -> String {
 
 /// A verdict as a word, in its colour.
 pub fn verdict(verdict: Verdict) -> String {
-    if colours() { coloured(verdict.to_string()) } else { verdict.to_string() }
+    if colours() {
+        coloured(verdict.to_string())
+    } else {
+        verdict.to_string()
+    }
 }
 
 /// Where a report is.
@@ -106,7 +128,10 @@ pub(super) fn report_in(folder: &Path) -> String {
 /// Columns of the terminal; `None` if standard output is not a terminal.
 pub fn width() -> Option<usize> {
     let terminal = console::Term::stdout();
-    terminal.size_checked().map(|(_, columns)| usize::from(columns)).filter(|_| io::stdout().is_terminal())
+    terminal
+        .size_checked()
+        .map(|(_, columns)| usize::from(columns))
+        .filter(|_| io::stdout().is_terminal())
 }
 
 /// Whether to use colours: on a terminal, unless `NO_COLOR` is set to anything.
@@ -131,15 +156,24 @@ mod tests {
 
     #[test]
     fn the_last_column_is_cut_at_the_width_and_never_wrapped() {
-        let rows = [["a", "0.01", &"long and longer ".repeat(5)], ["longer-id", "0.20", "short"]]
-            .map(|row| row.map(str::to_owned).to_vec());
+        let rows = [
+            ["a", "0.01", &"long and longer ".repeat(5)],
+            ["longer-id", "0.20", "short"],
+        ]
+        .map(|row| row.map(str::to_owned).to_vec());
         let table = |width| table_within(width, &["study", "seconds", "key numbers"], &rows);
         let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap();
         assert_eq!(widest(&table(Some(50))), 50);
-        assert_eq!(table(Some(50)).lines().nth(1), Some("a             0.01  long and longer long and long…"));
+        assert_eq!(
+            table(Some(50)).lines().nth(1),
+            Some("a             0.01  long and longer long and long…")
+        );
         assert!(table(Some(50)).ends_with("longer-id     0.20  short\n"));
         assert!(!table(None).contains('…') && widest(&table(None)) > 80);
         // A terminal too narrow for the other columns.
-        assert_eq!(table(Some(10)).lines().nth(1), Some("a             0.01  long and longer long an…"));
+        assert_eq!(
+            table(Some(10)).lines().nth(1),
+            Some("a             0.01  long and longer long an…")
+        );
     }
 }

@@ -40,11 +40,21 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let flags = &arguments.flags;
     arguments.limits.consent(project, &studies)?;
     // A folder that is not writable is reported before the run.
-    flags.out.as_deref().map_or(Ok(()), atomic::prepare_folder)?;
+    flags
+        .out
+        .as_deref()
+        .map_or(Ok(()), atomic::prepare_folder)?;
     let effort = flags.effort(arguments.limits.case_limit);
-    let mut finished = watched(&studies, flags.quiet, |progress| run::run(&studies, effort, progress))?;
-    let words = arguments.files.iter().map(|file| quoted(&file.to_string_lossy()));
-    let command = words.fold(format!("{} study", project.command), |command, word| command + " " + &word);
+    let mut finished = watched(&studies, flags.quiet, |progress| {
+        run::run(&studies, effort, progress)
+    })?;
+    let words = arguments
+        .files
+        .iter()
+        .map(|file| quoted(&file.to_string_lossy()));
+    let command = words.fold(format!("{} study", project.command), |command, word| {
+        command + " " + &word
+    });
     // Searched for only if it is shown.
     let is_shown = flags.format == Format::Json || !flags.quiet;
     for (study, finished) in studies.iter().zip(&mut finished) {
@@ -54,14 +64,27 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     }
     let record = record(project, &finished, &command);
     let verdict = record.verdict;
-    let findings = Findings { project, record: &record, see_also: None, provenance: None };
+    let findings = Findings {
+        project,
+        record: &record,
+        see_also: None,
+        provenance: None,
+    };
     let text = match flags.format {
         Format::Json => json(&record)?,
         Format::Text if flags.quiet => {
-            format!("{}{}: {}\n", text_of_failures(&finished, None), screen::verdict(verdict), findings.sentence())
+            format!(
+                "{}{}: {}\n",
+                text_of_failures(&finished, None),
+                screen::verdict(verdict),
+                findings.sentence()
+            )
         }
         Format::Text => {
-            let cause = record.diagnosis.as_ref().map(|diagnosis| format!("\n{}", text_of_diagnosis(diagnosis)));
+            let cause = record
+                .diagnosis
+                .as_ref()
+                .map(|diagnosis| format!("\n{}", text_of_diagnosis(diagnosis)));
             finished.iter().map(text).collect::<Vec<_>>().join("\n") + &cause.unwrap_or_default()
         }
     };
@@ -81,18 +104,33 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 fn untested(study: &dyn Study, effort: Effort) -> Vec<Untested> {
     match time_limit::within(effort.case_limit, || study.untested()) {
         (untested, None) => untested,
-        (_, Some(up)) => vec![Untested { what: "not known".to_owned(), why: format!("the search for it was {up}") }],
+        (_, Some(up)) => vec![Untested {
+            what: "not known".to_owned(),
+            why: format!("the search for it was {up}"),
+        }],
     }
 }
 
 /// The table of what a passing study does not test; empty if there is nothing.
 fn no_test_of(untested: &[Untested]) -> String {
-    let rows: Vec<Vec<String>> = untested.iter().map(|one| vec![one.what.clone(), one.why.clone()]).collect();
-    if rows.is_empty() { String::new() } else { format!("\n{}", screen::table(&["no test of", "because"], &rows)) }
+    let rows: Vec<Vec<String>> = untested
+        .iter()
+        .map(|one| vec![one.what.clone(), one.why.clone()])
+        .collect();
+    if rows.is_empty() {
+        String::new()
+    } else {
+        format!("\n{}", screen::table(&["no test of", "because"], &rows))
+    }
 }
 
 fn text(finished: &Finished) -> String {
-    let Finished { header, outcome, spent, .. } = finished;
+    let Finished {
+        header,
+        outcome,
+        spent,
+        ..
+    } = finished;
     let verdict = screen::verdict(outcome.verdict);
     let seconds = spent.wall.as_secs_f64();
     let kept = kept(spent).map_or(String::new(), |kept| format!(", {kept}"));
@@ -104,7 +142,11 @@ fn text(finished: &Finished) -> String {
     );
     for table in tables(finished, false) {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
-        text += &format!("\n{}\n{}", visible(&table.title), screen::table(&head, &table.rows));
+        text += &format!(
+            "\n{}\n{}",
+            visible(&table.title),
+            screen::table(&head, &table.rows)
+        );
     }
     text + &no_test_of(&finished.untested)
 }
@@ -119,10 +161,16 @@ mod tests {
 
     #[test]
     fn the_seconds_of_a_study_are_those_that_passed() {
-        let study = erased(Header::new("s", "c"), levels([4, 8, 16], |n| 1.0 / n as f64));
+        let study = erased(
+            Header::new("s", "c"),
+            levels([4, 8, 16], |n| 1.0 / n as f64),
+        );
         let mut finished = run::run(&[study], run::available(), &|_| {}).unwrap();
-        finished[0].spent =
-            Spent { busy: Duration::from_secs(2), wall: Duration::from_millis(410), ..Spent::default() };
+        finished[0].spent = Spent {
+            busy: Duration::from_secs(2),
+            wall: Duration::from_millis(410),
+            ..Spent::default()
+        };
         let text = text(&finished[0]);
         assert!(text.lines().next().unwrap().ends_with(", 0.41 s"), "{text}");
     }

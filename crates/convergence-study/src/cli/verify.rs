@@ -10,7 +10,9 @@ use super::screen::{self, Format};
 use super::{github, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures};
+use crate::report::{
+    Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures,
+};
 use crate::run::{Effort, Finished};
 use crate::store::{Change, Record, diagnosis::Diagnosis, json};
 use crate::study::{Study, StudyFile, Tier};
@@ -66,59 +68,118 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
-    let ids = if arguments.failed { failed(&root)? } else { arguments.ids.clone() };
+    let ids = if arguments.failed {
+        failed(&root)?
+    } else {
+        arguments.ids.clone()
+    };
     let meant = workspace::select(&headers, arguments.tier, &ids, &list)?;
     let scope = match scope(arguments.tier, &ids, &all) {
         // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
         scope => scope,
     };
-    let mut studies: Vec<Box<dyn Study>> =
-        all.into_iter().zip(meant).filter(|(_, meant)| *meant).map(|(file, _)| file.study).collect();
+    let mut studies: Vec<Box<dyn Study>> = all
+        .into_iter()
+        .zip(meant)
+        .filter(|(_, meant)| *meant)
+        .map(|(file, _)| file.study)
+        .collect();
 
     arguments.limits.consent(project, &studies)?;
-    let Arguments { bless, reason, only, .. } = arguments;
+    let Arguments {
+        bless,
+        reason,
+        only,
+        ..
+    } = arguments;
     if *bless {
         // Blessed numbers must come from the programs as they are now.
         studies.iter_mut().for_each(|study| study.compute_anew());
     }
     let flags = &arguments.flags;
-    let effort = Effort { fail_fast: arguments.fail_fast, ..flags.effort(arguments.limits.case_limit) };
+    let effort = Effort {
+        fail_fast: arguments.fail_fast,
+        ..flags.effort(arguments.limits.case_limit)
+    };
     let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
-    let request = Request { scope, effort, bless: *bless, reason: reason.clone(), only: only.clone(), root, reports };
-    let verification =
-        watched(&studies, flags.quiet, |progress| verify::verify(project, &studies, &request, progress))?;
+    let request = Request {
+        scope,
+        effort,
+        bless: *bless,
+        reason: reason.clone(),
+        only: only.clone(),
+        root,
+        reports,
+    };
+    let verification = watched(&studies, flags.quiet, |progress| {
+        verify::verify(project, &studies, &request, progress)
+    })?;
     let record = &verification.record;
     screen::print(&match flags.format {
-        Format::Text => text(project, &verification, &request, arguments, started.elapsed()),
+        Format::Text => text(
+            project,
+            &verification,
+            &request,
+            arguments,
+            started.elapsed(),
+        ),
         Format::Json => json(record)?,
     })?;
-    github::announce(&Findings { project, record, see_also: None, provenance: None }, flags.format);
+    github::announce(
+        &Findings {
+            project,
+            record,
+            see_also: None,
+            provenance: None,
+        },
+        flags.format,
+    );
     Ok(record.verdict)
 }
 
 /// The studies that did not pass, or with a number that moved, in the newest record.
 fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
-    let Some(Record { changes, studies, .. }) = workspace::records(root)?.pop() else {
-        return Err(Unusable::because("--failed: found no record of a run; expected reports/results.json"));
+    let Some(Record {
+        changes, studies, ..
+    }) = workspace::records(root)?.pop()
+    else {
+        return Err(Unusable::because(
+            "--failed: found no record of a run; expected reports/results.json",
+        ));
     };
     let moved = |id: &str| changes.iter().flatten().any(|change| change.study == id);
-    let ids = studies.into_iter().filter(|study| study.outcome.verdict != Verdict::Pass || moved(&study.header.id));
+    let ids = studies
+        .into_iter()
+        .filter(|study| study.outcome.verdict != Verdict::Pass || moved(&study.header.id));
     let ids: Vec<String> = ids.map(|study| study.header.id).collect();
-    if ids.is_empty() { Err(Unusable::because("--failed: nothing failed in the newest record")) } else { Ok(ids) }
+    if ids.is_empty() {
+        Err(Unusable::because(
+            "--failed: nothing failed in the newest record",
+        ))
+    } else {
+        Ok(ids)
+    }
 }
 
 /// A reason: one line of text, kept in a file that people read.
 fn reason(text: &str) -> Result<String, String> {
     let text = text.trim();
     let is_line = !text.is_empty() && !text.contains(char::is_control);
-    if is_line { Ok(text.to_owned()) } else { Err("expected one line of text that says why".to_owned()) }
+    if is_line {
+        Ok(text.to_owned())
+    } else {
+        Err("expected one line of text that says why".to_owned())
+    }
 }
 
 /// The tier, if nothing is named.
 fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     if ids.is_empty() {
-        Scope::Tier(tier, all.iter().map(|file| file.study.header().clone()).collect())
+        Scope::Tier(
+            tier,
+            all.iter().map(|file| file.study.header().clone()).collect(),
+        )
     } else {
         Scope::Selection(ids.to_vec())
     }
@@ -128,30 +189,75 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
 /// failures first, all visible at once.
 ///
 /// * `took`: from start to end.
-fn text(project: &Project, found: &Verification, request: &Request, arguments: &Arguments, took: Duration) -> String {
-    let Arguments { verbose, flags: Flags { quiet, .. }, .. } = arguments;
-    let (verdict, sentence) =
-        (screen::verdict(found.record.verdict), sentence(&found.record.studies, found.record.changes.as_deref()));
-    let table = if *quiet { String::new() } else { overview(found, request, arguments) };
+fn text(
+    project: &Project,
+    found: &Verification,
+    request: &Request,
+    arguments: &Arguments,
+    took: Duration,
+) -> String {
+    let Arguments {
+        verbose,
+        flags: Flags { quiet, .. },
+        ..
+    } = arguments;
+    let (verdict, sentence) = (
+        screen::verdict(found.record.verdict),
+        sentence(&found.record.studies, found.record.changes.as_deref()),
+    );
+    let table = if *quiet {
+        String::new()
+    } else {
+        overview(found, request, arguments)
+    };
     if found.record.verdict == Verdict::Pass {
         return format!("{table}{}{verdict}: {sentence}\n", blessed(project, found));
     }
-    let took = if *quiet { String::new() } else { format!(" in {:.1} s", took.as_secs_f64()) };
-    let clearest = found.record.diagnosis.as_ref().map(|diagnosis| diagnosis.clearest.as_slice()).filter(|_| !verbose);
+    let took = if *quiet {
+        String::new()
+    } else {
+        format!(" in {:.1} s", took.as_secs_f64())
+    };
+    let clearest = found
+        .record
+        .diagnosis
+        .as_ref()
+        .map(|diagnosis| diagnosis.clearest.as_slice())
+        .filter(|_| !verbose);
     // A failing study has already said why: its numbers moved for the same reason.
     let failed = |id: &str| {
-        found.record.studies.iter().any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
+        found
+            .record
+            .studies
+            .iter()
+            .any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
     };
-    let is_said = |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
-    let changes: Vec<Change> = found.record.moves().iter().filter(is_said).cloned().collect();
+    let is_said =
+        |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
+    let changes: Vec<Change> = found
+        .record
+        .moves()
+        .iter()
+        .filter(is_said)
+        .cloned()
+        .collect();
     let parts = [
         format!("{verdict}{took}: {sentence}\n"),
-        found.record.diagnosis.as_ref().map(text_of_diagnosis).unwrap_or_default(),
+        found
+            .record
+            .diagnosis
+            .as_ref()
+            .map(text_of_diagnosis)
+            .unwrap_or_default(),
         text_of_failures(&found.record.studies, clearest),
         moved_lines(&changes, *verbose) + &blessed(project, found),
         table,
     ];
-    let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();
+    let parts: Vec<&str> = parts
+        .iter()
+        .map(|part| part.trim_end())
+        .filter(|part| !part.is_empty())
+        .collect();
     parts.join("\n\n") + "\n"
 }
 
@@ -161,34 +267,74 @@ fn blessed(project: &Project, found: &Verification) -> String {
         Some(Ok(())) => "baseline: blessed, see studies/baseline.json\n".to_owned(),
         Some(Err(refusal)) => format!("baseline: {}\n", visible::lines(&refusal.to_string())),
         None if !found.record.moves().is_empty() && can_be_blessed(&found.record.studies) => {
-            let Record { command, studies, diagnosis, .. } = &found.record;
-            let alike = diagnosis.as_ref().map(Diagnosis::alike).filter(|alike| !alike.is_empty());
-            let alike =
-                alike.map_or(String::new(), |alike| format!("planted mistakes that move them alike: {alike}\n"));
-            format!("{alike}if that is meant: {}\n", blessing(project, command, studies, found.record.moves()))
+            let Record {
+                command,
+                studies,
+                diagnosis,
+                ..
+            } = &found.record;
+            let alike = diagnosis
+                .as_ref()
+                .map(Diagnosis::alike)
+                .filter(|alike| !alike.is_empty());
+            let alike = alike.map_or(String::new(), |alike| {
+                format!("planted mistakes that move them alike: {alike}\n")
+            });
+            format!(
+                "{alike}if that is meant: {}\n",
+                blessing(project, command, studies, found.record.moves())
+            )
         }
         None => String::new(),
     }
 }
 
 /// The table of studies if all pass or all are wanted, otherwise how many more fail, and where the reports are.
-fn overview(found: &Verification, request: &Request, Arguments { verbose, durations, .. }: &Arguments) -> String {
+fn overview(
+    found: &Verification,
+    request: &Request,
+    Arguments {
+        verbose, durations, ..
+    }: &Arguments,
+) -> String {
     let (verbose, durations) = (*verbose, *durations);
     let mut text = String::new();
-    let shown = found.record.diagnosis.as_ref().map_or(0, |diagnosis| diagnosis.clearest.len());
+    let shown = found
+        .record
+        .diagnosis
+        .as_ref()
+        .map_or(0, |diagnosis| diagnosis.clearest.len());
     if verbose || found.record.verdict == Verdict::Pass {
         let rows: Vec<Vec<String>> = found.record.studies.iter().map(row).collect();
-        text = screen::table_within(screen::width(), &["study", "verdict", "seconds", "key numbers"], &rows) + "\n";
+        text = screen::table_within(
+            screen::width(),
+            &["study", "verdict", "seconds", "key numbers"],
+            &rows,
+        ) + "\n";
     } else {
-        let failing = found.record.studies.iter().filter(|study| study.outcome.verdict != Verdict::Pass).count();
+        let failing = found
+            .record
+            .studies
+            .iter()
+            .filter(|study| study.outcome.verdict != Verdict::Pass)
+            .count();
         let more = failing.saturating_sub(shown);
-        let rest = if more > 0 { format!("{more} more: ") } else { String::new() };
+        let rest = if more > 0 {
+            format!("{more} more: ")
+        } else {
+            String::new()
+        };
         text += &format!("{rest}--verbose lists every study and every number that changed\n");
     }
     if durations {
         let mut slowest: Vec<&Finished> = found.record.studies.iter().collect();
         slowest.sort_by_key(|study| std::cmp::Reverse(study.spent.busy));
-        let row = |study: &&Finished| vec![format!("{:.2}", study.spent.busy.as_secs_f64()), study.header.id.clone()];
+        let row = |study: &&Finished| {
+            vec![
+                format!("{:.2}", study.spent.busy.as_secs_f64()),
+                study.header.id.clone(),
+            ]
+        };
         let rows: Vec<Vec<String>> = slowest.iter().take(SLOWEST).map(row).collect();
         text += &(screen::table(&["seconds", "slowest studies"], &rows) + "\n");
     }
@@ -196,16 +342,33 @@ fn overview(found: &Verification, request: &Request, Arguments { verbose, durati
         text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
     }
     // As seen from the workspace.
-    text += &screen::report_in(found.reports.strip_prefix(&request.root).unwrap_or(&found.reports));
+    text += &screen::report_in(
+        found
+            .reports
+            .strip_prefix(&request.root)
+            .unwrap_or(&found.reports),
+    );
     if matches!(request.scope, Scope::Selection(_)) {
         text += "a selection leaves the committed report as it is\n";
     }
     text
 }
 
-fn row(Finished { header, outcome, spent, .. }: &Finished) -> Vec<String> {
+fn row(
+    Finished {
+        header,
+        outcome,
+        spent,
+        ..
+    }: &Finished,
+) -> Vec<String> {
     let seconds = format!("{:.2}", spent.busy.as_secs_f64());
-    vec![header.id.clone(), outcome.verdict.to_string(), seconds, key_numbers(outcome)]
+    vec![
+        header.id.clone(),
+        outcome.verdict.to_string(),
+        seconds,
+        key_numbers(outcome),
+    ]
 }
 
 /// Studies that `--durations` lists.
@@ -216,12 +379,19 @@ const LISTED: usize = 6;
 
 /// Changed claims, under a head, after the numbers, one line each if they are few or all are wanted.
 fn moved_lines(changes: &[Change], all: bool) -> String {
-    let (claims, numbers): (Vec<&Change>, Vec<&Change>) =
-        changes.iter().partition(|change| change.movement.needs_a_reason());
+    let (claims, numbers): (Vec<&Change>, Vec<&Change>) = changes
+        .iter()
+        .partition(|change| change.movement.needs_a_reason());
     let shown = numbers.iter().filter(|_| all || numbers.len() <= LISTED);
-    let numbers: String = shown.map(|change| format!("baseline: {}\n", visible(&change.to_string()))).collect();
+    let numbers: String = shown
+        .map(|change| format!("baseline: {}\n", visible(&change.to_string())))
+        .collect();
     let claims: String = claims.into_iter().map(claim).collect();
-    if claims.is_empty() { numbers } else { format!("{numbers}claims changed\n{claims}") }
+    if claims.is_empty() {
+        numbers
+    } else {
+        format!("{numbers}claims changed\n{claims}")
+    }
 }
 
 fn claim(change: &Change) -> String {
@@ -234,17 +404,37 @@ mod tests {
     use crate::store::{Change, Movement};
 
     fn moved(study: &str, name: &str, to: f64) -> Change {
-        let movement = Movement::Moved { from: 1.0, to, tolerance: 1e-3 };
-        Change { study: study.to_owned(), name: name.to_owned(), movement }
+        let movement = Movement::Moved {
+            from: 1.0,
+            to,
+            tolerance: 1e-3,
+        };
+        Change {
+            study: study.to_owned(),
+            name: name.to_owned(),
+            movement,
+        }
     }
 
     #[test]
     fn few_changes_are_listed_and_many_only_where_they_are_wanted() {
-        let changes: Vec<Change> = (0..10).map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i))).collect();
-        assert!(moved_lines(&changes[..6], false).lines().all(|line| line.starts_with("baseline: many: n")));
-        assert_eq!([false, true].map(|all| moved_lines(&changes, all).lines().count()), [0, 10]);
+        let changes: Vec<Change> = (0..10)
+            .map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i)))
+            .collect();
+        assert!(
+            moved_lines(&changes[..6], false)
+                .lines()
+                .all(|line| line.starts_with("baseline: many: n"))
+        );
+        assert_eq!(
+            [false, true].map(|all| moved_lines(&changes, all).lines().count()),
+            [0, 10]
+        );
         let mut claim = moved("few", "study file", 1.0);
         claim.movement = Movement::VanishedFile { values: 3 };
-        assert_eq!(moved_lines(&[changes, vec![claim]].concat(), false), "claims changed\n  few: deleted\n");
+        assert_eq!(
+            moved_lines(&[changes, vec![claim]].concat(), false),
+            "claims changed\n  few: deleted\n"
+        );
     }
 }

@@ -24,7 +24,9 @@ use crate::text::visible;
 /// If there is no such folder.
 pub fn root() -> Result<PathBuf, Unusable> {
     let here = env::current_dir()?;
-    let root = here.ancestors().find(|folder| folder.join("studies").is_dir());
+    let root = here
+        .ancestors()
+        .find(|folder| folder.join("studies").is_dir());
     root.map(Path::to_owned).ok_or_else(|| {
         Unusable::because(
             "expected a folder studies/, here or above; found none (`study FILE` runs a file from anywhere)",
@@ -46,44 +48,78 @@ pub fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusabl
 
 /// Warns on standard error about files that hold a study but are not run, because their extension is not `toml`.
 pub fn warn_of_near_names(root: &Path) {
-    let entries = fs::read_dir(root.join("studies")).into_iter().flatten().flatten().map(|entry| entry.path());
+    let entries = fs::read_dir(root.join("studies"))
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
     let is_study = |path: &PathBuf| {
         let text = store::read_to_string(path).unwrap_or_default();
-        text.lines().any(|line| line.split('#').next().is_some_and(|line| line.trim() == "[study]"))
+        text.lines().any(|line| {
+            line.split('#')
+                .next()
+                .is_some_and(|line| line.trim() == "[study]")
+        })
     };
-    let mut paths: Vec<PathBuf> = entries.filter(|path| has_near_extension(path) && is_study(path)).collect();
+    let mut paths: Vec<PathBuf> = entries
+        .filter(|path| has_near_extension(path) && is_study(path))
+        .collect();
     paths.sort();
     for path in paths {
         let name = visible::path(path.strip_prefix(root).unwrap_or(&path));
-        screen::tell(&format!("warning: {name}: a study that is not run; expected a name that ends in .toml"));
+        screen::tell(&format!(
+            "warning: {name}: a study that is not run; expected a name that ends in .toml"
+        ));
     }
 }
 
 /// Whether the extension is almost `toml`: capitals, one wrong letter, or something after it.
 fn has_near_extension(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let is_toml = path.extension().is_some_and(|extension| extension == "toml");
-    !is_toml && [".toml", ".tml", ".tom", ".toml.txt", ".toml~"].iter().any(|end| name.ends_with(end))
+    let name = path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
+    let is_toml = path
+        .extension()
+        .is_some_and(|extension| extension == "toml");
+    !is_toml
+        && [".toml", ".tml", ".tom", ".toml.txt", ".toml~"]
+            .iter()
+            .any(|end| name.ends_with(end))
 }
 
 /// The readable study files of a folder, for looking one up by its id.
 pub fn readable_studies(project: &Project, folder: &Path) -> Vec<StudyFile> {
     let paths = toml_files(folder).unwrap_or_default();
-    paths.iter().filter_map(|path| StudyFile::read(project.kinds, path).ok()).collect()
+    paths
+        .iter()
+        .filter_map(|path| StudyFile::read(project.kinds, path).ok())
+        .collect()
 }
 
 fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
     let mut paths = entries.collect::<io::Result<Vec<_>>>()?;
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.retain(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    });
     paths.sort();
     // Messages name files relative to the current folder.
     let here = env::current_dir().unwrap_or_default();
-    Ok(paths.iter().map(|path| path.strip_prefix(&here).unwrap_or(path).to_owned()).collect())
+    Ok(paths
+        .iter()
+        .map(|path| path.strip_prefix(&here).unwrap_or(path).to_owned())
+        .collect())
 }
 
 /// Where `verify` leaves its records, below the workspace; of two equally old ones the later in this list counts.
-const RECORDS: [&str; 3] = ["reports/full/results.json", "reports/results.json", "reports/local/partial/results.json"];
+const RECORDS: [&str; 3] = [
+    "reports/full/results.json",
+    "reports/results.json",
+    "reports/local/partial/results.json",
+];
 
 /// Where `verify` leaves the times of its last run.
 const TIMES: &str = "reports/local/provenance.json";
@@ -91,9 +127,16 @@ const TIMES: &str = "reports/local/provenance.json";
 /// All existing records, the newest last.
 pub(super) fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
     let mut records: Vec<(SystemTime, Record)> = vec![];
-    for path in RECORDS.map(|path| root.join(path)).iter().filter(|path| path.symlink_metadata().is_ok()) {
+    for path in RECORDS
+        .map(|path| root.join(path))
+        .iter()
+        .filter(|path| path.symlink_metadata().is_ok())
+    {
         let written = fs::metadata(path).and_then(|data| data.modified());
-        records.push((written.map_err(|error| Unusable::file(path, &error))?, Record::read(path)?));
+        records.push((
+            written.map_err(|error| Unusable::file(path, &error))?,
+            Record::read(path)?,
+        ));
     }
     // The sort is stable, so the order of RECORDS decides between equals.
     records.sort_by_key(|(written, _)| *written);
@@ -107,7 +150,9 @@ pub(super) fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
 pub(super) fn last_verdicts(root: &Path) -> Result<HashMap<String, Verdict>, Unusable> {
     // A later one overwrites.
     let studies = records(root)?.into_iter().flat_map(|record| record.studies);
-    Ok(studies.map(|study| (study.header.id, study.outcome.verdict)).collect())
+    Ok(studies
+        .map(|study| (study.header.id, study.outcome.verdict))
+        .collect())
 }
 
 /// The seconds over all threads of each study in the last run on this machine.
@@ -115,13 +160,21 @@ pub(super) fn last_verdicts(root: &Path) -> Result<HashMap<String, Verdict>, Unu
 /// # Errors
 /// As [`last_verdicts`].
 pub(super) fn last_seconds(root: &Path) -> Result<HashMap<String, f64>, Unusable> {
-    let times = Provenance::read(&root.join(TIMES))?.into_iter().flat_map(|provenance| provenance.studies);
+    let times = Provenance::read(&root.join(TIMES))?
+        .into_iter()
+        .flat_map(|provenance| provenance.studies);
     Ok(times.map(|study| (study.id, study.busy_seconds)).collect())
 }
 
 /// Reads a tier from the command line.
 pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
-    let tier = |name: String| if name == Tier::Full.name() { Tier::Full } else { Tier::Quick };
+    let tier = |name: String| {
+        if name == Tier::Full.name() {
+            Tier::Full
+        } else {
+            Tier::Quick
+        }
+    };
     PossibleValuesParser::new(Tier::ALL.map(Tier::name)).map(tier)
 }
 
@@ -134,24 +187,36 @@ pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
 ///
 /// # Errors
 /// A pattern that cannot be read, or one that matches nothing: a misspelt name must not pass.
-pub fn select(all: &[&Header], tier: Tier, asked: &[String], list: &str) -> Result<Vec<bool>, Unusable> {
+pub fn select(
+    all: &[&Header],
+    tier: Tier,
+    asked: &[String],
+    list: &str,
+) -> Result<Vec<bool>, Unusable> {
     let in_tier = |header: &Header| header.tier <= tier;
     if asked.is_empty() {
         let meant: Vec<bool> = all.iter().map(|header| in_tier(header)).collect();
         return if meant.contains(&true) {
             Ok(meant)
         } else {
-            Err(Unusable::because(&format!("no study in the tier {}", tier.name())))
+            Err(Unusable::because(&format!(
+                "no study in the tier {}",
+                tier.name()
+            )))
         };
     }
     let mut meant = vec![false; all.len()];
     for word in asked {
-        let pattern =
-            Pattern::new(word).map_err(|error| Unusable::because(&format!("`{word}` is not a pattern: {error}")))?;
-        let matches = |header: &Header| header.id == *word || (in_tier(header) && pattern.matches(&header.id));
+        let pattern = Pattern::new(word)
+            .map_err(|error| Unusable::because(&format!("`{word}` is not a pattern: {error}")))?;
+        let matches = |header: &Header| {
+            header.id == *word || (in_tier(header) && pattern.matches(&header.id))
+        };
         let found: Vec<usize> = (0..all.len()).filter(|&i| matches(all[i])).collect();
         if found.is_empty() {
-            return Err(Unusable::because(&no_match(word, &pattern, all, tier, list)));
+            return Err(Unusable::because(&no_match(
+                word, &pattern, all, tier, list,
+            )));
         }
         found.into_iter().for_each(|i| meant[i] = true);
     }
@@ -159,14 +224,24 @@ pub fn select(all: &[&Header], tier: Tier, asked: &[String], list: &str) -> Resu
 }
 
 fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &str) -> String {
-    let outside = all.iter().filter(|header| pattern.matches(&header.id)).count();
+    let outside = all
+        .iter()
+        .filter(|header| pattern.matches(&header.id))
+        .count();
     if outside > 0 {
-        return format!("`{word}` matches no study in the tier {}, and {outside} with --tier full", tier.name());
+        return format!(
+            "`{word}` matches no study in the tier {}, and {outside} with --tier full",
+            tier.name()
+        );
     }
     // A longer list would fill the screen.
     const FEW: usize = 12;
     let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
-    let allowed = if ids.len() <= FEW { ids.join(", ") } else { format!("what `{list}` shows") };
+    let allowed = if ids.len() <= FEW {
+        ids.join(", ")
+    } else {
+        format!("what `{list}` shows")
+    };
     format!("`{word}` matches no study; expected {allowed}, or a pattern such as '*-space'")
 }
 
@@ -175,8 +250,17 @@ mod tests {
     use super::*;
 
     fn headers() -> Vec<Header> {
-        let header = |(id, tier): (&str, Tier)| Header { tier, ..Header::new(id, "c") };
-        [("a-space", Tier::Quick), ("a-time", Tier::Quick), ("b-space", Tier::Full)].map(header).to_vec()
+        let header = |(id, tier): (&str, Tier)| Header {
+            tier,
+            ..Header::new(id, "c")
+        };
+        [
+            ("a-space", Tier::Quick),
+            ("a-time", Tier::Quick),
+            ("b-space", Tier::Full),
+        ]
+        .map(header)
+        .to_vec()
     }
 
     fn meant(tier: Tier, asked: &[&str]) -> Result<Vec<String>, String> {
@@ -184,7 +268,12 @@ mod tests {
         let asked: Vec<String> = asked.iter().map(|&word| word.to_owned()).collect();
         let meant = select(&headers.iter().collect::<Vec<_>>(), tier, &asked, "list")
             .map_err(|error| error.message().to_owned())?;
-        Ok(headers.iter().zip(meant).filter(|(_, meant)| *meant).map(|(header, _)| header.id.clone()).collect())
+        Ok(headers
+            .iter()
+            .zip(meant)
+            .filter(|(_, meant)| *meant)
+            .map(|(header, _)| header.id.clone())
+            .collect())
     }
 
     #[test]
@@ -195,7 +284,11 @@ mod tests {
             (Tier::Quick, &["b-space"], &["b-space"]),
             (Tier::Quick, &["*-space"], &["a-space"]),
             (Tier::Full, &["*-space"], &["a-space", "b-space"]),
-            (Tier::Quick, &["a-t?me", "a-space", "a-*"], &["a-space", "a-time"]),
+            (
+                Tier::Quick,
+                &["a-t?me", "a-space", "a-*"],
+                &["a-space", "a-time"],
+            ),
         ] {
             assert_eq!(meant(tier, asked).unwrap(), expected, "{asked:?}");
         }
@@ -204,8 +297,14 @@ mod tests {
     #[test]
     fn a_word_without_a_match_is_an_error_even_beside_others() {
         for (asked, words) in [
-            (&["a-space", "a-spice"][..], "`a-spice` matches no study; expected a-space, a-time, b-space"),
-            (&["b*"], "`b*` matches no study in the tier quick, and 1 with --tier full"),
+            (
+                &["a-space", "a-spice"][..],
+                "`a-spice` matches no study; expected a-space, a-time, b-space",
+            ),
+            (
+                &["b*"],
+                "`b*` matches no study in the tier quick, and 1 with --tier full",
+            ),
             (&["["], "`[` is not a pattern"),
             (&[""], "`` matches no study"),
         ] {

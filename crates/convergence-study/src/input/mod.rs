@@ -109,12 +109,19 @@ impl Source<'_> {
         }
         let before = &self.text[..offset];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        Place { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 }
+        Place {
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        }
     }
 
     /// An error about the byte of the text at `offset`.
     fn error(&self, offset: usize, field: Option<String>, complaint: Complaint) -> InputError {
-        InputError { place: Some(self.place(offset)), field, ..failed(self.file, complaint) }
+        InputError {
+            place: Some(self.place(offset)),
+            field,
+            ..failed(self.file, complaint)
+        }
     }
 }
 
@@ -126,11 +133,21 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
 }
 
 fn failed(file: &str, complaint: Complaint) -> InputError {
-    InputError { file: file.to_owned(), place: None, field: None, complaint: Box::new(complaint) }
+    InputError {
+        file: file.to_owned(),
+        place: None,
+        field: None,
+        complaint: Box::new(complaint),
+    }
 }
 
 fn unreadable(file: &str, error: &io::Error) -> InputError {
-    failed(file, Complaint::Invalid { reason: format!("cannot be read: {error}") })
+    failed(
+        file,
+        Complaint::Invalid {
+            reason: format!("cannot be read: {error}"),
+        },
+    )
 }
 
 /// The whole text of any reader; messages name `file`.
@@ -138,21 +155,36 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     let fail = |complaint| failed(file, complaint);
     let mut bytes = Vec::new();
     // The size that the file system reports is 0 for a pipe or a device, so the reading itself is limited.
-    source.take(FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(file, &error))?;
+    source
+        .take(FILE_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| unreadable(file, &error))?;
     if bytes.len() as u64 > FILE_BYTES {
         let allowed = format!("a file of at most {FILE_BYTES} bytes");
-        return Err(fail(Complaint::NotAllowed { found: format!("more than {FILE_BYTES} bytes"), allowed }));
+        return Err(fail(Complaint::NotAllowed {
+            found: format!("more than {FILE_BYTES} bytes"),
+            allowed,
+        }));
     }
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         let allowed = "UTF-8 text: save the file as UTF-8".to_owned();
-        return Err(fail(Complaint::NotAllowed { found: "UTF-16".to_owned(), allowed }));
+        return Err(fail(Complaint::NotAllowed {
+            found: "UTF-16".to_owned(),
+            allowed,
+        }));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let place = Source { file, text: &text }.place(valid);
         let found = format!("the byte 0x{:02x}", error.as_bytes()[valid]);
-        InputError { place: Some(place), ..fail(Complaint::NotAllowed { found, allowed: "UTF-8 text".to_owned() }) }
+        InputError {
+            place: Some(place),
+            ..fail(Complaint::NotAllowed {
+                found,
+                allowed: "UTF-8 text".to_owned(),
+            })
+        }
     })
 }
 
@@ -204,8 +236,16 @@ pub fn parse_overlaid<T>(
 /// The topmost table of `text`, whose places are those of `source`.
 fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
     // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be walked by recursion.
-    DeTable::parse(text).map(Spanned::into_inner).map_err(|error| {
-        let offset = error.span().map_or(text.len(), |span| span.start);
-        source.error(offset, None, Complaint::Invalid { reason: format!("not valid TOML: {}", error.message()) })
-    })
+    DeTable::parse(text)
+        .map(Spanned::into_inner)
+        .map_err(|error| {
+            let offset = error.span().map_or(text.len(), |span| span.start);
+            source.error(
+                offset,
+                None,
+                Complaint::Invalid {
+                    reason: format!("not valid TOML: {}", error.message()),
+                },
+            )
+        })
 }

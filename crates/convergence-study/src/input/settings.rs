@@ -9,7 +9,9 @@ use toml::de::{DeInteger, DeTable, DeValue};
 /// value, so that adding or removing it does not go unnoticed.
 pub(super) fn of_table(table: &DeTable<'_>) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    table.iter().for_each(|(key, value)| collect(key_text(key.get_ref()), value.get_ref(), &mut found));
+    table
+        .iter()
+        .for_each(|(key, value)| collect(key_text(key.get_ref()), value.get_ref(), &mut found));
     found
 }
 
@@ -17,7 +19,11 @@ fn collect(path: String, value: &DeValue<'_>, found: &mut Vec<(String, String)>)
     match value {
         DeValue::Table(table) if !table.is_empty() => {
             for (key, value) in table {
-                collect(format!("{path}.{}", key_text(key.get_ref())), value.get_ref(), found);
+                collect(
+                    format!("{path}.{}", key_text(key.get_ref())),
+                    value.get_ref(),
+                    found,
+                );
             }
         }
         DeValue::Array(items) if items.iter().any(|item| is_nested(item.get_ref())) => {
@@ -35,8 +41,15 @@ fn is_nested(value: &DeValue<'_>) -> bool {
 
 /// A key as TOML writes it, so that `"a.b"` is not taken for `b` of the table `a`.
 fn key_text(key: &str) -> String {
-    let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
-    if bare { key.to_owned() } else { format!("{key:?}") }
+    let bare = !key.is_empty()
+        && key
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
+    if bare {
+        key.to_owned()
+    } else {
+        format!("{key:?}")
+    }
 }
 
 /// A value in one form, however it is written: 0.05 and 5e-2, 3 and 3.0, 0x10 and 16 have the same text; a number and
@@ -50,7 +63,10 @@ fn text(value: &DeValue<'_>) -> String {
             Some(exact) => exact.to_string(),
             None => integer.as_str().to_owned(),
         },
-        DeValue::Float(float) => float.as_str().parse().map_or_else(|_| float.as_str().to_owned(), number),
+        DeValue::Float(float) => float
+            .as_str()
+            .parse()
+            .map_or_else(|_| float.as_str().to_owned(), number),
         DeValue::Boolean(value) => value.to_string(),
         DeValue::Datetime(value) => value.to_string(),
         DeValue::Array(items) => {
@@ -70,7 +86,11 @@ pub(super) fn whole(integer: &DeInteger<'_>) -> Option<i128> {
 fn number(value: f64) -> String {
     let size = value.abs();
     let plain = size == 0.0 || !value.is_finite() || (1e-3..1e16).contains(&size);
-    if plain { value.to_string() } else { format!("{value:e}") }
+    if plain {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 #[cfg(test)]
@@ -96,7 +116,9 @@ mod tests {
             ("\"odd.key\"", "1"),
             ("t", "{}"),
         ];
-        let mut expected = expected.map(|(path, value)| (path.to_owned(), value.to_owned())).to_vec();
+        let mut expected = expected
+            .map(|(path, value)| (path.to_owned(), value.to_owned()))
+            .to_vec();
         let mut found = settings(text);
         expected.sort();
         found.sort();

@@ -35,7 +35,13 @@ pub struct Field<'a> {
 impl<'a> Field<'a> {
     /// An error about this value.
     pub fn refuse(&self, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
-        self.complain(self.span.start, Complaint::NotAllowed { found: found.into(), allowed: allowed.into() })
+        self.complain(
+            self.span.start,
+            Complaint::NotAllowed {
+                found: found.into(),
+                allowed: allowed.into(),
+            },
+        )
     }
 
     /// An error about this value, quoted as in the file.
@@ -69,24 +75,34 @@ impl<'a> Field<'a> {
     /// A whole number in `range`.
     pub fn count(&self, range: RangeInclusive<usize>) -> Result<usize, InputError> {
         let value = match self.value {
-            DeValue::Integer(integer) => settings::whole(integer).and_then(|value| usize::try_from(value).ok()),
+            DeValue::Integer(integer) => {
+                settings::whole(integer).and_then(|value| usize::try_from(value).ok())
+            }
             _ => None,
         };
         value.filter(|value| range.contains(value)).ok_or_else(|| {
             let (least, most) = (*range.start(), *range.end());
-            let most = if most == usize::MAX { String::new() } else { format!(" and <= {most}") };
+            let most = if most == usize::MAX {
+                String::new()
+            } else {
+                format!(" and <= {most}")
+            };
             self.refuse_as_written(format!("a whole number >= {least}{most}"))
         })
     }
 
     /// `true` or `false`.
     pub fn boolean(&self) -> Result<bool, InputError> {
-        self.value.as_bool().ok_or_else(|| self.refuse_as_written("true or false"))
+        self.value
+            .as_bool()
+            .ok_or_else(|| self.refuse_as_written("true or false"))
     }
 
     /// A text.
     pub fn text(&self) -> Result<&'a str, InputError> {
-        self.value.as_str().ok_or_else(|| self.refuse_as_written("a text in quotes"))
+        self.value
+            .as_str()
+            .ok_or_else(|| self.refuse_as_written("a text in quotes"))
     }
 
     /// The file of that name in `folder`; a missing one is refused here, where it is named.
@@ -95,7 +111,11 @@ impl<'a> Field<'a> {
         match fs::metadata(&path) {
             Ok(_) => Ok(path),
             Err(error) => {
-                let found = format!("{}, but {}: {error}", self.as_written(), visible::path(&path));
+                let found = format!(
+                    "{}, but {}: {error}",
+                    self.as_written(),
+                    visible::path(&path)
+                );
                 Err(self.refuse(found, "the name of a file, relative to this file's folder"))
             }
         }
@@ -103,11 +123,21 @@ impl<'a> Field<'a> {
 
     /// One of `choices`, each with its name.
     pub fn choice<T: Copy>(&self, choices: &[(&'static str, T)]) -> Result<T, InputError> {
-        let found = choices.iter().find(|(name, _)| Some(*name) == self.value.as_str());
+        let found = choices
+            .iter()
+            .find(|(name, _)| Some(*name) == self.value.as_str());
         found.map(|(_, choice)| *choice).ok_or_else(|| {
-            let names: Vec<String> = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
-            let meant = self.value.as_str().and_then(|name| nearest(name, choices.iter().map(|(name, _)| *name)));
-            let hint = meant.map(|name| format!(" (did you mean \"{name}\"?)")).unwrap_or_default();
+            let names: Vec<String> = choices
+                .iter()
+                .map(|(name, _)| format!("\"{name}\""))
+                .collect();
+            let meant = self
+                .value
+                .as_str()
+                .and_then(|name| nearest(name, choices.iter().map(|(name, _)| *name)));
+            let hint = meant
+                .map(|name| format!(" (did you mean \"{name}\"?)"))
+                .unwrap_or_default();
             self.refuse(format!("{}{hint}", self.as_written()), names.join(", "))
         })
     }
@@ -115,23 +145,45 @@ impl<'a> Field<'a> {
     /// The result of `parse` for a text; an error points into the text.
     ///
     /// * `expected`: what the text must be, for a value that is not a text.
-    pub fn parsed<T>(&self, expected: &str, parse: impl FnOnce(&str) -> Result<T, Misread>) -> Result<T, InputError> {
-        let text = self.value.as_str().ok_or_else(|| self.refuse_as_written(expected))?;
+    pub fn parsed<T>(
+        &self,
+        expected: &str,
+        parse: impl FnOnce(&str) -> Result<T, Misread>,
+    ) -> Result<T, InputError> {
+        let text = self
+            .value
+            .as_str()
+            .ok_or_else(|| self.refuse_as_written(expected))?;
         parse(text).map_err(|misread| {
             // A text with escapes differs from the file; the place is then its first byte.
-            let inside = self.raw().find(text).map_or(0, |start| start + misread.offset);
-            self.complain(self.span.start + inside, Complaint::Invalid { reason: misread.reason })
+            let inside = self
+                .raw()
+                .find(text)
+                .map_or(0, |start| start + misread.offset);
+            self.complain(
+                self.span.start + inside,
+                Complaint::Invalid {
+                    reason: misread.reason,
+                },
+            )
         })
     }
 
     /// An error about this value with a message of its own.
     pub fn invalid(&self, reason: impl Into<String>) -> InputError {
-        self.complain(self.span.start, Complaint::Invalid { reason: reason.into() })
+        self.complain(
+            self.span.start,
+            Complaint::Invalid {
+                reason: reason.into(),
+            },
+        )
     }
 
     /// The values of a list.
     pub fn items(&self, allowed: &str) -> Result<Vec<Field<'a>>, InputError> {
-        let DeValue::Array(items) = self.value else { return Err(self.refuse_as_written(allowed)) };
+        let DeValue::Array(items) = self.value else {
+            return Err(self.refuse_as_written(allowed));
+        };
         let item = |(index, item): (usize, &'a toml::Spanned<DeValue<'a>>)| Field {
             source: self.source,
             value: item.get_ref(),
@@ -156,7 +208,12 @@ impl<'a> Field<'a> {
         match self.value {
             DeValue::Table(table) => {
                 let (path, span) = (self.path.clone(), self.span.clone());
-                Ok(Section { source: self.source, table, path, span })
+                Ok(Section {
+                    source: self.source,
+                    table,
+                    path,
+                    span,
+                })
             }
             _ => Err(self.refuse_as_written("a table")),
         }
@@ -177,7 +234,8 @@ impl<'a> Field<'a> {
     }
 
     fn complain(&self, offset: usize, complaint: Complaint) -> InputError {
-        self.source.error(offset, Some(self.path.clone()), complaint)
+        self.source
+            .error(offset, Some(self.path.clone()), complaint)
     }
 }
 
@@ -193,7 +251,12 @@ pub struct Section<'a> {
 
 impl<'a> Section<'a> {
     pub(super) fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
-        Self { source, table, path: String::new(), span: 0..0 }
+        Self {
+            source,
+            table,
+            path: String::new(),
+            span: 0..0,
+        }
     }
 
     /// The whole text of the document.
@@ -215,19 +278,36 @@ impl<'a> Section<'a> {
 
     /// Refuses every key but these.
     pub fn allow(&self, keys: &[&str]) -> Result<(), InputError> {
-        let unknown = self.table.keys().filter(|key| !keys.contains(&key.get_ref().as_ref()));
+        let unknown = self
+            .table
+            .keys()
+            .filter(|key| !keys.contains(&key.get_ref().as_ref()));
         // The table is sorted by name; a reader starts at the top of the file.
-        let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else {
+            return Ok(());
+        };
         let (found, shown) = (key.get_ref().as_ref(), shorten(key.get_ref()));
-        let (name, suggestion) = (self.name_of(&shown), nearest(found, keys.iter().copied()).map(str::to_owned));
-        let complaint = Complaint::UnknownKey { found: shown, suggestion, allowed: keys.join(", ") };
+        let (name, suggestion) = (
+            self.name_of(&shown),
+            nearest(found, keys.iter().copied()).map(str::to_owned),
+        );
+        let complaint = Complaint::UnknownKey {
+            found: shown,
+            suggestion,
+            allowed: keys.join(", "),
+        };
         Err(self.source.error(key.span().start, Some(name), complaint))
     }
 
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<Field<'a>> {
         let value = self.table.get(key)?;
-        Some(Field { source: self.source, value: value.get_ref(), path: self.name_of(key), span: value.span() })
+        Some(Field {
+            source: self.source,
+            value: value.get_ref(),
+            path: self.name_of(key),
+            span: value.span(),
+        })
     }
 
     /// The value of a key that has no default; `allowed` says what must be there.
@@ -237,7 +317,9 @@ impl<'a> Section<'a> {
 
     /// The table of that name, which may have only these keys.
     pub fn table(&self, key: &str, keys: &[&str]) -> Result<Section<'a>, InputError> {
-        let table = self.require(key, &format!("a table with {}", keys.join(", ")))?.section()?;
+        let table = self
+            .require(key, &format!("a table with {}", keys.join(", ")))?
+            .section()?;
         table.allow(keys)?;
         Ok(table)
     }
@@ -253,8 +335,16 @@ impl<'a> Section<'a> {
         fits: impl Fn(&[T]) -> bool,
     ) -> Result<Vec<T>, InputError> {
         let field = self.require(key, allowed)?;
-        let list = field.items(allowed)?.iter().map(read).collect::<Result<Vec<T>, InputError>>()?;
-        if fits(&list) { Ok(list) } else { Err(field.refuse_as_written(allowed)) }
+        let list = field
+            .items(allowed)?
+            .iter()
+            .map(read)
+            .collect::<Result<Vec<T>, InputError>>()?;
+        if fits(&list) {
+            Ok(list)
+        } else {
+            Err(field.refuse_as_written(allowed))
+        }
     }
 
     /// A list of at least `least` levels, each of which `follows` the previous one; `relation` describes this, such as `a number >`.
@@ -287,12 +377,18 @@ impl<'a> Section<'a> {
         mut read: impl FnMut(&Section<'a>) -> Result<T, InputError>,
     ) -> Result<Vec<T>, InputError> {
         let allowed = format!("at least one table [[{key}]]{keys}");
-        self.list(key, &allowed, |item| read(&item.section()?), |list| !list.is_empty())
+        self.list(
+            key,
+            &allowed,
+            |item| read(&item.section()?),
+            |list| !list.is_empty(),
+        )
     }
 
     /// The whole number of a key without a default.
     pub fn count(&self, key: &str, range: RangeInclusive<usize>) -> Result<usize, InputError> {
-        self.require(key, &format!("a whole number >= {}", range.start()))?.count(range)
+        self.require(key, &format!("a whole number >= {}", range.start()))?
+            .count(range)
     }
 
     /// The finite number > 0 of a key without a default.
@@ -302,14 +398,30 @@ impl<'a> Section<'a> {
 
     /// The error about a missing key.
     pub fn missing(&self, key: &str, allowed: &str) -> InputError {
-        self.complain(key, Complaint::Invalid { reason: format!("missing; expected {allowed}") })
+        self.complain(
+            key,
+            Complaint::Invalid {
+                reason: format!("missing; expected {allowed}"),
+            },
+        )
     }
 
     /// An error about a key: at its value, or at the head of the table if the key is missing.
-    pub fn refuse(&self, key: &str, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
+    pub fn refuse(
+        &self,
+        key: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> InputError {
         match self.get(key) {
             Some(field) => field.refuse(found, allowed),
-            None => self.complain(key, Complaint::NotAllowed { found: found.into(), allowed: allowed.into() }),
+            None => self.complain(
+                key,
+                Complaint::NotAllowed {
+                    found: found.into(),
+                    allowed: allowed.into(),
+                },
+            ),
         }
     }
 
@@ -319,17 +431,30 @@ impl<'a> Section<'a> {
     }
 
     fn name_of(&self, key: &str) -> String {
-        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+        if self.path.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{}.{key}", self.path)
+        }
     }
 
     fn complain(&self, key: &str, complaint: Complaint) -> InputError {
-        self.source.error(self.span.start, Some(self.name_of(key)), complaint)
+        self.source
+            .error(self.span.start, Some(self.name_of(key)), complaint)
     }
 }
 
 /// A piece of the file on one line, cut where a message would become unreadable.
 pub fn shorten(text: &str) -> String {
     const LONGEST: usize = 60;
-    let line: String = text.chars().take(LONGEST).map(|c| if c.is_control() { ' ' } else { c }).collect();
-    if text.chars().nth(LONGEST).is_some() { format!("{line}...") } else { line }
+    let line: String = text
+        .chars()
+        .take(LONGEST)
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    if text.chars().nth(LONGEST).is_some() {
+        format!("{line}...")
+    } else {
+        line
+    }
 }

@@ -56,14 +56,20 @@ impl Rect {
 
     /// The point in the middle.
     pub fn centre(&self) -> Point {
-        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+        (
+            0.5 * (self.left + self.right),
+            0.5 * (self.top + self.bottom),
+        )
     }
 }
 
 /// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and Barsky).
 fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    let directions = [(a.0, b.0 - a.0, r.left, r.right), (a.1, b.1 - a.1, r.top, r.bottom)];
+    let directions = [
+        (a.0, b.0 - a.0, r.left, r.right),
+        (a.1, b.1 - a.1, r.top, r.bottom),
+    ];
     for (start, step, low, high) in directions {
         if step == 0.0 {
             if start < low || start > high {
@@ -91,7 +97,9 @@ fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
     let mut kept: Vec<Vec<Point>> = Vec::new();
     for pair in line.windows(2) {
         let (a, b) = (pair[0], pair[1]);
-        let Some((enter, leave)) = inside(a, b, r) else { continue };
+        let Some((enter, leave)) = inside(a, b, r) else {
+            continue;
+        };
         match kept.last_mut() {
             Some(last) if enter == 0.0 && last.last() == Some(&a) => last.push(along(a, b, leave)),
             _ => kept.push(vec![along(a, b, enter), along(a, b, leave)]),
@@ -128,7 +136,10 @@ pub struct Layer {
 impl Layer {
     /// Nothing outside this rectangle is shown.
     pub fn clipped(clip: Rect) -> Self {
-        Self { clip: Some(clip), ..Self::default() }
+        Self {
+            clip: Some(clip),
+            ..Self::default()
+        }
     }
 
     /// The same layer with its lines dashed.
@@ -153,13 +164,21 @@ impl Layer {
             let _ = write!(tags, " stroke-dasharray=\"{}\"", lengths.join(" "));
         }
         if self.halo {
-            let _ = write!(tags, " stroke=\"#ffffff\" stroke-width=\"{}\" paint-order=\"stroke\"", grid(3.5));
+            let _ = write!(
+                tags,
+                " stroke=\"#ffffff\" stroke-width=\"{}\" paint-order=\"stroke\"",
+                grid(3.5)
+            );
         }
         tags + ">\n"
     }
 
     fn close(&self) -> &'static str {
-        if self.clip.is_some() { "</g></svg>\n" } else { "</g>\n" }
+        if self.clip.is_some() {
+            "</g></svg>\n"
+        } else {
+            "</g>\n"
+        }
     }
 }
 
@@ -173,7 +192,11 @@ pub struct Canvas {
 impl Canvas {
     /// An empty page; width and height in px.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, body: String::new() }
+        Self {
+            width,
+            height,
+            body: String::new(),
+        }
     }
 
     /// Draws a layer on top of the others.
@@ -181,8 +204,16 @@ impl Canvas {
         let mut fragment = String::new();
         let size = (grid(self.width) as u32, grid(self.height) as u32);
         {
-            let page = Rect { left: 0.0, top: 0.0, right: self.width, bottom: self.height };
-            let pen = Pen { page, area: SVGBackend::with_string(&mut fragment, size).into_drawing_area() };
+            let page = Rect {
+                left: 0.0,
+                top: 0.0,
+                right: self.width,
+                bottom: self.height,
+            };
+            let pen = Pen {
+                page,
+                area: SVGBackend::with_string(&mut fragment, size).into_drawing_area(),
+            };
             draw(&pen);
             let closed = pen.area.present();
             debug_assert!(closed.is_ok(), "drawing into memory cannot fail");
@@ -225,19 +256,25 @@ impl Canvas {
 /// third of the bytes.
 fn without_ballast(fragment: &str) -> String {
     let is_frame = |line: &&str| !line.starts_with("<svg ") && *line != "</svg>";
-    fragment.lines().filter(is_frame).fold(String::with_capacity(fragment.len()), |mut kept, line| {
-        // Texts stand on lines of their own, and do not start with a tag.
-        let element = line.starts_with('<');
-        let bare = element.then(|| line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>"));
-        kept.push_str(bare.as_deref().unwrap_or(line));
-        kept.push('\n');
-        kept
-    })
+    fragment.lines().filter(is_frame).fold(
+        String::with_capacity(fragment.len()),
+        |mut kept, line| {
+            // Texts stand on lines of their own, and do not start with a tag.
+            let element = line.starts_with('<');
+            let bare = element.then(|| line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>"));
+            kept.push_str(bare.as_deref().unwrap_or(line));
+            kept.push('\n');
+            kept
+        },
+    )
 }
 
 /// Text that XML accepts: markup escaped, control characters blanked.
 pub(super) fn escape(text: &str) -> String {
-    printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    printable(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
 }
 
 /// Text for an attribute in double quotes.
@@ -246,7 +283,15 @@ pub fn escape_attribute(text: &str) -> String {
 }
 
 fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') { ' ' } else { c }).collect()
+    text.chars()
+        .map(|c| {
+            if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') {
+                ' '
+            } else {
+                c
+            }
+        })
+        .collect()
 }
 
 /// Draws shapes and text, in px.
@@ -274,7 +319,10 @@ impl Pen<'_> {
             if let [only] = path[..] {
                 path.push(only);
             }
-            self.put(&PathElement::new(path, colour.stroke_width(grid(width).max(1) as u32)));
+            self.put(&PathElement::new(
+                path,
+                colour.stroke_width(grid(width).max(1) as u32),
+            ));
         }
     }
 
@@ -293,12 +341,20 @@ impl Pen<'_> {
     pub fn frame(&self, r: Rect, colour: RGBColor, width: f64) {
         // Plotters' rectangles have no line width.
         let (a, c) = ((r.left, r.top), (r.right, r.bottom));
-        self.line(&[a, (c.0, a.1), c, (a.0, c.1), a, (c.0, a.1)], colour, width);
+        self.line(
+            &[a, (c.0, a.1), c, (a.0, c.1), a, (c.0, a.1)],
+            colour,
+            width,
+        );
     }
 
     /// A filled circle with this radius in px.
     pub fn disc(&self, centre: Point, radius: f64, colour: RGBColor) {
-        self.put(&Circle::new((grid(centre.0), grid(centre.1)), grid(radius), colour.filled()));
+        self.put(&Circle::new(
+            (grid(centre.0), grid(centre.1)),
+            grid(radius),
+            colour.filled(),
+        ));
     }
 
     /// Horizontal text of this size in px, vertically centred on `at`.
@@ -308,7 +364,14 @@ impl Pen<'_> {
 
     /// Text that reads upwards, its middle at `at`.
     pub fn text_upwards(&self, text: &str, at: Point, size: f64) {
-        self.write(text, at, size, Anchor::Center, FontTransform::Rotate270, style::INK);
+        self.write(
+            text,
+            at,
+            size,
+            Anchor::Center,
+            FontTransform::Rotate270,
+            style::INK,
+        );
     }
 
     /// A tick of an axis: a thin stroke.
@@ -331,7 +394,15 @@ impl Pen<'_> {
         }
     }
 
-    fn write(&self, text: &str, at: Point, size: f64, anchor: Anchor, turn: FontTransform, colour: RGBColor) {
+    fn write(
+        &self,
+        text: &str,
+        at: Point,
+        size: f64,
+        anchor: Anchor,
+        turn: FontTransform,
+        colour: RGBColor,
+    ) {
         let font = (style::FONT, f64::from(grid(size)) * PLOTTERS_FONT_FACTOR)
             .into_text_style(&self.area)
             .transform(turn)
@@ -350,9 +421,21 @@ pub(super) fn axes(plot: &Rect, axes: [(&str, &Ruler); 2]) -> String {
     let [left, top, right, bottom] = [plot.left, plot.top, plot.right, plot.bottom].map(grid);
     let mut attributes = format!(" data-plot=\"{left} {top} {right} {bottom}\"");
     for (name, (label, ruler)) in ["x", "y"].into_iter().zip(axes) {
-        let scale = if ruler.scale == Scale::Log { "log" } else { "linear" };
-        let _ = write!(attributes, " data-{name}=\"{scale} {} {}\"", ruler.lo, ruler.hi);
-        let _ = write!(attributes, " data-{name}-label=\"{}\"", escape_attribute(label));
+        let scale = if ruler.scale == Scale::Log {
+            "log"
+        } else {
+            "linear"
+        };
+        let _ = write!(
+            attributes,
+            " data-{name}=\"{scale} {} {}\"",
+            ruler.lo, ruler.hi
+        );
+        let _ = write!(
+            attributes,
+            " data-{name}-label=\"{}\"",
+            escape_attribute(label)
+        );
     }
     attributes
 }
@@ -361,10 +444,20 @@ pub(super) fn axes(plot: &Rect, axes: [(&str, &Ruler); 2]) -> String {
 pub(super) fn series(name: &str, points: Option<&[(f64, f64)]>) -> String {
     let mut attributes = format!(" data-series=\"{}\"", escape_attribute(name));
     if let Some(points) = points {
-        let finite = || points.iter().filter(|(x, y)| x.is_finite() && y.is_finite());
-        let listed = if finite().nth(MOST_POINTS).is_some() { 0 } else { MOST_POINTS };
-        let pairs: Vec<String> =
-            finite().take(listed).map(|&(x, y)| format!("{:e},{:e}", rounded(x), rounded(y))).collect();
+        let finite = || {
+            points
+                .iter()
+                .filter(|(x, y)| x.is_finite() && y.is_finite())
+        };
+        let listed = if finite().nth(MOST_POINTS).is_some() {
+            0
+        } else {
+            MOST_POINTS
+        };
+        let pairs: Vec<String> = finite()
+            .take(listed)
+            .map(|&(x, y)| format!("{:e},{:e}", rounded(x), rounded(y)))
+            .collect();
         let _ = write!(attributes, " data-points=\"{}\"", pairs.join(" "));
     }
     attributes
@@ -384,7 +477,12 @@ fn rounded(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const UNIT: Rect = Rect { left: 0.0, top: 0.0, right: 1.0, bottom: 1.0 };
+    const UNIT: Rect = Rect {
+        left: 0.0,
+        top: 0.0,
+        right: 1.0,
+        bottom: 1.0,
+    };
 
     #[test]
     fn a_line_that_leaves_is_cut_on_the_rim() {

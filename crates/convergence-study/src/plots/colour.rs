@@ -36,22 +36,41 @@ pub(super) struct ColourScale {
 
 impl ColourScale {
     /// Dark for low, bright for high values (viridis).
-    pub(super) fn sequential(label: &str, scale: Scale, values: impl IntoIterator<Item = f64>) -> Self {
+    pub(super) fn sequential(
+        label: &str,
+        scale: Scale,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Self {
         let level = |k: usize| ViridisRGB::get_color(k as f64 / (LEVELS - 1) as f64);
         let colours = (0..LEVELS).map(level).collect();
-        Self { ruler: Ruler::around(scale, values, 0.0), label: label.to_owned(), colours }
+        Self {
+            ruler: Ruler::around(scale, values, 0.0),
+            label: label.to_owned(),
+            colours,
+        }
     }
 
     /// White at zero, blue below, red above; symmetric.
     pub(super) fn diverging(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
-        let sizes = values.into_iter().filter(|&v| on_scale(Scale::Linear, v).is_some()).map(f64::abs);
+        let sizes = values
+            .into_iter()
+            .filter(|&v| on_scale(Scale::Linear, v).is_some())
+            .map(f64::abs);
         let largest = sizes.fold(0.0, f64::max);
         // The smallest normal range keeps a picture of zeros drawable.
-        let largest = if largest > f64::MIN_POSITIVE { largest } else { 1.0 };
+        let largest = if largest > f64::MIN_POSITIVE {
+            largest
+        } else {
+            1.0
+        };
         let map = DerivedColorMap::new(&DIVERGING);
         let level = |k: usize| map.get_color(k as f32 / (LEVELS - 1) as f32);
         let colours = (0..LEVELS).map(level).collect();
-        Self { ruler: Ruler::between(Scale::Linear, -largest, largest), label: label.to_owned(), colours }
+        Self {
+            ruler: Ruler::between(Scale::Linear, -largest, largest),
+            label: label.to_owned(),
+            colours,
+        }
     }
 
     /// The colour of a value, if it can be drawn.
@@ -70,14 +89,22 @@ impl ColourScale {
     }
 
     fn widest_label(&self) -> f64 {
-        self.ticks().major.iter().map(|t| text_width(&t.label, TICK_SIZE)).fold(0.0, f64::max)
+        self.ticks()
+            .major
+            .iter()
+            .map(|t| text_width(&t.label, TICK_SIZE))
+            .fold(0.0, f64::max)
     }
 
     /// Draws the bar in the sheet's right margin.
     pub(super) fn draw_bar(&self, sheet: &mut Page) {
         let plot = sheet.plot;
         let left = plot.right + BAR_GAP;
-        let bar = Rect { left, right: left + BAR_WIDTH, ..plot };
+        let bar = Rect {
+            left,
+            right: left + BAR_WIDTH,
+            ..plot
+        };
         let ruler = self.ruler.laid_out(bar.bottom, bar.top);
         let ticks = self.ticks();
         sheet.canvas.draw(Layer::default(), |pen| {
@@ -92,7 +119,13 @@ impl ColourScale {
             for t in &ticks.major {
                 let y = ruler.px_of(t.at);
                 pen.tick((bar.right, y), (bar.right + 5.0, y));
-                pen.text(&t.label, (bar.right + 9.0, y), TICK_SIZE, Anchor::Left, style::INK);
+                pen.text(
+                    &t.label,
+                    (bar.right + 9.0, y),
+                    TICK_SIZE,
+                    Anchor::Left,
+                    style::INK,
+                );
             }
             let end = bar.right + 9.0 + self.widest_label() + 9.0 + 0.5 * LABEL_SIZE;
             pen.text_upwards(&self.bar_label(&ticks), (end, plot.centre().1), LABEL_SIZE);

@@ -52,16 +52,26 @@ impl ErrorSeries {
     /// The rate for the legend.
     fn rate(&self) -> Option<String> {
         self.fit?;
-        let Some(line) = self.line() else { return Some("no rate".to_owned()) };
-        let places = self.interval.map_or(RATE_PLACES - 1, |interval| interval_places(interval, RATE_PLACES));
-        line.rate.is_finite().then(|| format!("rate {}", decimals(line.rate, places)))
+        let Some(line) = self.line() else {
+            return Some("no rate".to_owned());
+        };
+        let places = self.interval.map_or(RATE_PLACES - 1, |interval| {
+            interval_places(interval, RATE_PLACES)
+        });
+        line.rate
+            .is_finite()
+            .then(|| format!("rate {}", decimals(line.rate, places)))
     }
 }
 
 impl Xy {
     /// An empty figure for errors over a step, log-log.
     pub fn of_errors(step: impl Into<String>) -> Self {
-        Self { x: Axis::log(step), y: Axis::log("error"), ..Self::default() }
+        Self {
+            x: Axis::log(step),
+            y: Axis::log("error"),
+            ..Self::default()
+        }
     }
 }
 
@@ -71,10 +81,12 @@ impl Xy {
 /// * `slopes`: orders to draw slope triangles for, in addition to those of the series.
 pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String {
     for (k, series) in series.iter().enumerate() {
-        xy.curves.extend(curves(series, look(series.look.unwrap_or(k))));
+        xy.curves
+            .extend(curves(series, look(series.look.unwrap_or(k))));
     }
     if series.iter().any(has_unused_points) {
-        xy.notes.push("open markers: points that the rate does not use".to_owned());
+        xy.notes
+            .push("open markers: points that the rate does not use".to_owned());
     }
     let mut orders: Vec<f64> = series.iter().filter_map(|series| series.order).collect();
     orders.sort_by(f64::total_cmp);
@@ -98,17 +110,45 @@ fn has_unused_points(series: &ErrorSeries) -> bool {
 /// use. If the rate is not known, only the markers.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let line = Curve::line(0, &Series::new(label(series), series.points.clone()));
-    let (noted_as, width) = (Some(series.label.clone()), if series.fit.is_some() { 0.0 } else { line.width });
-    let marked = Curve { noted_as, width, look, marks: Marks::Filled, ..line };
-    let Some(fit) = series.line() else { return vec![marked] };
+    let (noted_as, width) = (
+        Some(series.label.clone()),
+        if series.fit.is_some() {
+            0.0
+        } else {
+            line.width
+        },
+    );
+    let marked = Curve {
+        noted_as,
+        width,
+        look,
+        marks: Marks::Filled,
+        ..line
+    };
+    let Some(fit) = series.line() else {
+        return vec![marked];
+    };
     let used = series.used.clone().unwrap_or(0..series.points.len());
     let points = |of_used: bool| {
-        let points = series.points.iter().enumerate().filter(|(k, _)| used.contains(k) == of_used);
+        let points = series
+            .points
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| used.contains(k) == of_used);
         points.map(|(_, point)| *point).collect::<Vec<_>>()
     };
-    let unused = Curve { points: points(false), marks: Marks::Open, ..marked.clone() };
+    let unused = Curve {
+        points: points(false),
+        marks: Marks::Open,
+        ..marked.clone()
+    };
     // A fitted line is thin and solid; a line that only joins the points is not.
-    let fitted = Curve { points: points(true), width: style::THIN, fit: Some(fit), ..marked };
+    let fitted = Curve {
+        points: points(true),
+        width: style::THIN,
+        fit: Some(fit),
+        ..marked
+    };
     let unused = Some(unused).filter(|unused| !unused.points.is_empty());
     [fitted].into_iter().chain(unused).collect()
 }
@@ -124,7 +164,10 @@ fn trends(series: &[ErrorSeries]) -> Vec<LogCurve> {
     let trend = |s: &ErrorSeries| {
         let mut points: Vec<(f64, f64)> = s.points.iter().filter_map(log).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        LogCurve { points, order: s.order }
+        LogCurve {
+            points,
+            order: s.order,
+        }
     };
     series.iter().map(trend).collect()
 }
@@ -148,11 +191,18 @@ struct Triangle {
 
 /// Triangles for the given orders, and the value the vertical axis must reach down to.
 fn triangles(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> (Vec<Outline>, f64) {
-    let drawable: Vec<f64> = orders.iter().copied().filter(|p| p.is_finite() && *p > 0.0).collect();
+    let drawable: Vec<f64> = orders
+        .iter()
+        .copied()
+        .filter(|p| p.is_finite() && *p > 0.0)
+        .collect();
     let mut y = *y;
     for _ in 0..MAX_EXTENSIONS {
         if let Some(found) = place_all(&drawable, trends, x, &y) {
-            return (found.iter().map(Triangle::outline).collect(), 10f64.powf(y.lo));
+            return (
+                found.iter().map(Triangle::outline).collect(),
+                10f64.powf(y.lo),
+            );
         }
         y.lo -= EXTENSION * (y.hi - y.lo);
     }
@@ -169,19 +219,33 @@ fn place_all(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> Optio
 }
 
 /// Places right below a curve: first curves of exactly this order, then from right to left.
-fn candidates(order: f64, trends: &[LogCurve], x: &Ruler, y: &Ruler) -> impl Iterator<Item = Triangle> {
+fn candidates(
+    order: f64,
+    trends: &[LogCurve],
+    x: &Ruler,
+    y: &Ruler,
+) -> impl Iterator<Item = Triangle> {
     let (width, height) = (x.hi - x.lo, y.hi - y.lo);
     let leg = (LEG * width).min(TALLEST * height / order);
     let has_order = move |t: &&LogCurve| t.order.is_some_and(|p| (p - order).abs() < 1e-9);
     let (own, other): (Vec<&LogCurve>, Vec<&LogCurve>) = trends.iter().partition(has_order);
     let (x, y) = (*x, *y);
-    let places = own.into_iter().chain(other).flat_map(|t| (4..19).rev().map(move |k| (t, f64::from(k) / 20.0)));
+    let places = own
+        .into_iter()
+        .chain(other)
+        .flat_map(|t| (4..19).rev().map(move |k| (t, f64::from(k) / 20.0)));
     places.filter_map(move |(trend, at)| {
         let right = x.lo + at * width;
         let left = right - leg;
-        let clearance = samples(left, right).filter_map(|s| Some(trend.at(s)? - order * (s - left)));
+        let clearance =
+            samples(left, right).filter_map(|s| Some(trend.at(s)? - order * (s - left)));
         let base = clearance.fold(f64::INFINITY, f64::min) - GAP * (y.hi - y.lo);
-        base.is_finite().then_some(Triangle { left, right, base, order })
+        base.is_finite().then_some(Triangle {
+            left,
+            right,
+            base,
+            order,
+        })
     })
 }
 
@@ -192,9 +256,16 @@ fn samples(left: f64, right: f64) -> impl Iterator<Item = f64> {
 impl LogCurve {
     /// The curve's height at `x`, between its points.
     fn at(&self, x: f64) -> Option<f64> {
-        let pair = self.points.windows(2).find(|w| w[0].0 <= x && x <= w[1].0)?;
+        let pair = self
+            .points
+            .windows(2)
+            .find(|w| w[0].0 <= x && x <= w[1].0)?;
         let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
-        Some(if x1 > x0 { y0 + (y1 - y0) * (x - x0) / (x1 - x0) } else { y0.min(y1) })
+        Some(if x1 > x0 {
+            y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+        } else {
+            y0.min(y1)
+        })
     }
 }
 
@@ -213,14 +284,20 @@ impl Triangle {
                 None => true,
                 Some(v) if v < bottom => true,
                 // Beyond the vertical leg there is only text, half way up.
-                Some(v) => v > (self.base + self.order * (s - self.left)).min(self.top()) + 0.9 * GAP * height,
+                Some(v) => {
+                    v > (self.base + self.order * (s - self.left)).min(self.top())
+                        + 0.9 * GAP * height
+                }
             })
         };
         let overlaps = |t: &Triangle| {
             let apart = t.right + TEXT_RIGHT * width < self.left || right < t.left;
             !apart && t.base - TEXT_BELOW * height < self.top() && bottom < t.top()
         };
-        bottom > y.lo && self.left > x.lo && trends.iter().all(clear_of) && !placed.iter().any(overlaps)
+        bottom > y.lo
+            && self.left > x.lo
+            && trends.iter().all(clear_of)
+            && !placed.iter().any(overlaps)
     }
 
     fn outline(&self) -> Outline {
@@ -228,7 +305,13 @@ impl Triangle {
         let foot = (0.5 * (self.left + self.right), self.base);
         let side = (self.right, 0.5 * (self.base + self.top()));
         Outline {
-            corners: [(self.left, self.base), (self.right, self.base), (self.right, self.top())].map(value).to_vec(),
+            corners: [
+                (self.left, self.base),
+                (self.right, self.base),
+                (self.right, self.top()),
+            ]
+            .map(value)
+            .to_vec(),
             texts: vec![
                 ("1".to_owned(), value(foot), (0.0, 13.0), Anchor::Center),
                 (written(self.order), value(side), (7.0, 0.0), Anchor::Left),
@@ -241,7 +324,11 @@ impl Triangle {
 fn written(order: f64) -> String {
     let thirds = 3.0 * order;
     let is_fraction = thirds.fract() == 0.0 && order.fract() != 0.0;
-    if is_fraction { format!("{thirds}/3") } else { order.to_string() }
+    if is_fraction {
+        format!("{thirds}/3")
+    } else {
+        order.to_string()
+    }
 }
 
 #[cfg(test)]
@@ -250,9 +337,17 @@ mod tests {
 
     #[test]
     fn a_triangle_lies_below_its_curve_and_above_the_bottom() {
-        let points: Vec<(f64, f64)> = (0..5).map(|k| (-f64::from(4 - k), -2.0 * f64::from(4 - k))).collect();
-        let trends = [LogCurve { points, order: Some(2.0) }];
-        let (x, y) = (Ruler::between(Scale::Log, -4.2, 0.2), Ruler::between(Scale::Log, -8.4, 0.4));
+        let points: Vec<(f64, f64)> = (0..5)
+            .map(|k| (-f64::from(4 - k), -2.0 * f64::from(4 - k)))
+            .collect();
+        let trends = [LogCurve {
+            points,
+            order: Some(2.0),
+        }];
+        let (x, y) = (
+            Ruler::between(Scale::Log, -4.2, 0.2),
+            Ruler::between(Scale::Log, -8.4, 0.4),
+        );
         let (outlines, bottom) = triangles(&[1.0, 2.0], &trends, &x, &y);
         assert_eq!(outlines.len(), 2);
         for (cx, cy) in outlines.iter().flat_map(|o| &o.corners) {
@@ -262,13 +357,20 @@ mod tests {
 
     #[test]
     fn an_order_is_written_as_one_reads_it() {
-        assert_eq!([1.0, 2.0, 0.5, 2.0 / 3.0, 4.0 / 3.0].map(written), ["1", "2", "0.5", "2/3", "4/3"]);
+        assert_eq!(
+            [1.0, 2.0, 0.5, 2.0 / 3.0, 4.0 / 3.0].map(written),
+            ["1", "2", "0.5", "2/3", "4/3"]
+        );
     }
 
     #[test]
     fn no_curve_no_triangle() {
         let ruler = Ruler::between(Scale::Log, -1.0, 0.0);
         assert!(triangles(&[1.0], &[], &ruler, &ruler).0.is_empty());
-        assert!(triangles(&[f64::NAN, -1.0], &[], &ruler, &ruler).0.is_empty());
+        assert!(
+            triangles(&[f64::NAN, -1.0], &[], &ruler, &ruler)
+                .0
+                .is_empty()
+        );
     }
 }

@@ -38,18 +38,46 @@ pub struct ForestRow {
 /// * `groups`: from top to bottom, the property that a group of studies claims, such as `space`, and the studies.
 pub fn forest(title: &str, groups: &[(&str, Vec<ForestRow>)]) -> String {
     let rows = groups.iter().flat_map(|(_, rows)| rows);
-    let labels = rows.clone().map(|row| text_width(&row.label, NOTE_SIZE)).fold(80.0, f64::max).min(LABELS);
+    let labels = rows
+        .clone()
+        .map(|row| text_width(&row.label, NOTE_SIZE))
+        .fold(80.0, f64::max)
+        .min(LABELS);
     let height: f64 = rows.map(row_height).sum::<f64>() + HEADING * groups.len() as f64;
-    let plot = Rect { left: labels + 28.0, top: TOP, right: style::WIDTH - 24.0, bottom: TOP + height };
+    let plot = Rect {
+        left: labels + 28.0,
+        top: TOP,
+        right: style::WIDTH - 24.0,
+        bottom: TOP + height,
+    };
     let mut canvas = Canvas::new(style::WIDTH, plot.bottom + BOTTOM);
     canvas.draw(Layer::default(), |pen| {
-        pen.text(title, (0.5 * style::WIDTH, 24.0), TITLE_SIZE, Anchor::Center, INK);
+        pen.text(
+            title,
+            (0.5 * style::WIDTH, 24.0),
+            TITLE_SIZE,
+            Anchor::Center,
+            INK,
+        );
         legend(pen);
         scale(pen, &plot);
         let mut top = plot.top;
         for (label, rows) in groups {
-            pen.text(label, (12.0, top + 0.45 * HEADING), TICK_SIZE, Anchor::Left, INK);
-            pen.line(&[(12.0, top + HEADING - 5.0), (plot.right, top + HEADING - 5.0)], GRID, style::THIN);
+            pen.text(
+                label,
+                (12.0, top + 0.45 * HEADING),
+                TICK_SIZE,
+                Anchor::Left,
+                INK,
+            );
+            pen.line(
+                &[
+                    (12.0, top + HEADING - 5.0),
+                    (plot.right, top + HEADING - 5.0),
+                ],
+                GRID,
+                style::THIN,
+            );
             top += HEADING;
             for (k, row) in rows.iter().enumerate() {
                 if k > 0 {
@@ -93,7 +121,14 @@ fn legend(pen: &Pen<'_>) {
 }
 
 fn scale(pen: &Pen<'_>, plot: &Rect) {
-    pen.rect(Rect { left: px(plot, -1.0), right: px(plot, 1.0), ..*plot }, SHADE);
+    pen.rect(
+        Rect {
+            left: px(plot, -1.0),
+            right: px(plot, 1.0),
+            ..*plot
+        },
+        SHADE,
+    );
     for (value, label) in [
         (-2.0, "\u{2212}2"),
         (-1.0, "order \u{2212} tolerance"),
@@ -102,17 +137,42 @@ fn scale(pen: &Pen<'_>, plot: &Rect) {
         (2.0, "+2"),
     ] {
         let x = px(plot, value);
-        pen.line(&[(x, plot.top), (x, plot.bottom)], if value == 0.0 { MUTED } else { GRID }, style::THIN);
-        pen.text(label, (x, plot.bottom + 16.0), NOTE_SIZE, Anchor::Center, INK);
+        pen.line(
+            &[(x, plot.top), (x, plot.bottom)],
+            if value == 0.0 { MUTED } else { GRID },
+            style::THIN,
+        );
+        pen.text(
+            label,
+            (x, plot.bottom + 16.0),
+            NOTE_SIZE,
+            Anchor::Center,
+            INK,
+        );
     }
     let axis = "observed rate relative to its claim, in tolerances";
-    pen.text(axis, (plot.centre().0, plot.bottom + 44.0), TICK_SIZE, Anchor::Center, INK);
+    pen.text(
+        axis,
+        (plot.centre().0, plot.bottom + 44.0),
+        TICK_SIZE,
+        Anchor::Center,
+        INK,
+    );
 }
 
 fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
     let height = row_height(row);
-    let worst = row.rates.iter().map(|rate| rate.verdict).max().unwrap_or(Verdict::Pass);
-    let ink = if worst == Verdict::Pass { INK } else { colour(worst) };
+    let worst = row
+        .rates
+        .iter()
+        .map(|rate| rate.verdict)
+        .max()
+        .unwrap_or(Verdict::Pass);
+    let ink = if worst == Verdict::Pass {
+        INK
+    } else {
+        colour(worst)
+    };
     pen.text(
         &elide(&row.label, NOTE_SIZE, LABELS),
         (plot.left - 12.0, top + 0.5 * height),
@@ -134,11 +194,18 @@ fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBCol
         return;
     }
     let drawn = row.rates.iter().flat_map(|rate| {
-        let values = rate.fitted.into_iter().chain(rate.interval.into_iter().flatten());
+        let values = rate
+            .fitted
+            .into_iter()
+            .chain(rate.interval.into_iter().flatten());
         values.map(|value| relative(rate, value))
     });
-    let ends = drawn.filter(|value| value.is_finite()).map(|value| px(plot, value));
-    let (left, right) = ends.fold((plot.right, plot.left), |(left, right), x| (x.min(left), x.max(right)));
+    let ends = drawn
+        .filter(|value| value.is_finite())
+        .map(|value| px(plot, value));
+    let (left, right) = ends.fold((plot.right, plot.left), |(left, right), x| {
+        (x.min(left), x.max(right))
+    });
     let width = text_width(&note, NOTE_SIZE);
     let (start, anchor) = match right + CLEAR + width < plot.right {
         true => (right + CLEAR, Anchor::Left),
@@ -149,7 +216,10 @@ fn draw_note(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, (y, ink): (f64, RGBCol
 
 /// The note of the row, and how many of its rates are missing.
 fn note(row: &ForestRow) -> String {
-    let is_missing = |rate: &&RateVerdict| rate.fitted.is_none_or(|value| !relative(rate, value).is_finite());
+    let is_missing = |rate: &&RateVerdict| {
+        rate.fitted
+            .is_none_or(|value| !relative(rate, value).is_finite())
+    };
     let missing = row.rates.iter().filter(is_missing).count();
     let without = match missing {
         0 => String::new(),
@@ -157,7 +227,12 @@ fn note(row: &ForestRow) -> String {
         some => format!("{some} without a rate"),
     };
     let parts = [row.note.clone(), without];
-    parts.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join("; ")
+    parts
+        .iter()
+        .filter(|part| !part.is_empty())
+        .cloned()
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// A value in units of its claim's tolerance.
@@ -168,19 +243,29 @@ fn relative(rate: &RateVerdict, value: f64) -> f64 {
 fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {
     let colour = colour(rate.verdict);
     let value = rate.fitted.map(|value| relative(rate, value));
-    let interval = rate.interval.map(|ends| ends.map(|end| relative(rate, end)));
+    let interval = rate
+        .interval
+        .map(|ends| ends.map(|end| relative(rate, end)));
     let finite = |value: &f64| value.is_finite();
     if let Some([low, high]) = interval.filter(|ends| ends.iter().all(finite)) {
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 1.8);
         // An interval that extends beyond the frame; if the rate does too, it has its own arrow.
         let is_within = value.is_some_and(|value| value.abs() <= REACH);
-        for end in [low, high].into_iter().filter(|end| is_within && end.abs() > REACH) {
+        for end in [low, high]
+            .into_iter()
+            .filter(|end| is_within && end.abs() > REACH)
+        {
             tick(pen, (px(plot, end), y), end.signum(), colour);
         }
     }
     match value.filter(finite) {
         Some(value) if value.abs() <= REACH => pen.disc((px(plot, value), y), 2.4, colour),
-        Some(value) => arrow(pen, (px(plot, value) - 8.0 * value.signum(), y), value.signum(), colour),
+        Some(value) => arrow(
+            pen,
+            (px(plot, value) - 8.0 * value.signum(), y),
+            value.signum(),
+            colour,
+        ),
         None => {}
     }
 }
@@ -193,7 +278,14 @@ fn tick(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
 
 /// A triangle that points beyond the plot.
 fn arrow(pen: &Pen<'_>, (x, y): (f64, f64), direction: f64, colour: RGBColor) {
-    pen.polygon(&[(x + 7.0 * direction, y), (x - 3.0 * direction, y - 4.0), (x - 3.0 * direction, y + 4.0)], colour);
+    pen.polygon(
+        &[
+            (x + 7.0 * direction, y),
+            (x - 3.0 * direction, y - 4.0),
+            (x - 3.0 * direction, y + 4.0),
+        ],
+        colour,
+    );
 }
 
 fn colour(verdict: Verdict) -> RGBColor {
@@ -212,7 +304,10 @@ mod tests {
 
     /// Claimed are an order of 0 and a tolerance of 1.
     fn missing(verdict: Verdict) -> RateVerdict {
-        RateVerdict { verdict, ..judge_pairs([], 0.0, 1.0) }
+        RateVerdict {
+            verdict,
+            ..judge_pairs([], 0.0, 1.0)
+        }
     }
 
     fn row(label: &str, rates: &[(f64, f64, Verdict)]) -> ForestRow {
@@ -221,19 +316,37 @@ mod tests {
             interval: Some([rate - half, rate + half]),
             ..missing(verdict)
         };
-        ForestRow { label: label.into(), rates: rates.iter().map(rate).collect(), note: String::new() }
+        ForestRow {
+            label: label.into(),
+            rates: rates.iter().map(rate).collect(),
+            note: String::new(),
+        }
     }
 
     #[test]
     fn every_study_is_named_and_a_rate_beyond_the_plot_is_an_arrow() {
         let none = missing(Verdict::Inconclusive);
         let rows = vec![
-            row("sound", &[(0.1, 0.2, Verdict::Pass), (0.0, 0.1, Verdict::Pass)]),
+            row(
+                "sound",
+                &[(0.1, 0.2, Verdict::Pass), (0.0, 0.1, Verdict::Pass)],
+            ),
             row("lost-order", &[(-20.0, 0.1, Verdict::Fail)]),
-            ForestRow { label: "none".into(), rates: vec![none; 3], note: String::new() },
+            ForestRow {
+                label: "none".into(),
+                rates: vec![none; 3],
+                note: String::new(),
+            },
         ];
         let svg = forest("All rates", &[("space", rows)]);
-        for text in ["sound", "lost-order", "none", "no rate", "space", "All rates"] {
+        for text in [
+            "sound",
+            "lost-order",
+            "none",
+            "no rate",
+            "space",
+            "All rates",
+        ] {
             assert!(svg.contains(text), "{text}");
         }
         // Two sound rates and three entries of the legend; the lost order is not a disc.
@@ -249,17 +362,36 @@ mod tests {
         let x_of = |svg: &str, text: &str| -> f64 {
             let before = &svg[..svg.find(text).unwrap_or_else(|| panic!("{text} in {svg}"))];
             let tag = &before[before.rfind("<text").unwrap()..];
-            tag.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+            tag.split("x=\"")
+                .nth(1)
+                .unwrap()
+                .split('"')
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap()
         };
-        let mut low = row("low", &[(-20.0, 0.1, Verdict::Fail), (0.0, 0.1, Verdict::Pass)]);
+        let mut low = row(
+            "low",
+            &[(-20.0, 0.1, Verdict::Fail), (0.0, 0.1, Verdict::Pass)],
+        );
         low.rates.push(missing(Verdict::Fail));
         low.note = "1.000, claimed 2".into();
-        let high = ForestRow { note: "3.000, claimed 2".into(), ..row("high", &[(20.0, 0.1, Verdict::Fail)]) };
+        let high = ForestRow {
+            note: "3.000, claimed 2".into(),
+            ..row("high", &[(20.0, 0.1, Verdict::Fail)])
+        };
         let svg = forest("", &[("g", vec![low, high])]);
         // In tenths of px: the arrow at the right rim begins at 8650.
-        let (beside, before) = (x_of(&svg, "1.000, claimed 2; 1 without a rate"), x_of(&svg, "3.000, claimed 2"));
+        let (beside, before) = (
+            x_of(&svg, "1.000, claimed 2; 1 without a rate"),
+            x_of(&svg, "3.000, claimed 2"),
+        );
         let middle = x_of(&svg, "order claimed");
-        assert!(beside > middle && before < 8650.0, "{beside} {before} {middle}");
+        assert!(
+            beside > middle && before < 8650.0,
+            "{beside} {before} {middle}"
+        );
     }
 
     #[test]
@@ -284,7 +416,10 @@ mod tests {
 
     #[test]
     fn a_long_label_is_cut_and_nan_draws_nothing() {
-        let rows = vec![row(&"x".repeat(200), &[(f64::NAN, f64::NAN, Verdict::Fail)])];
+        let rows = vec![row(
+            &"x".repeat(200),
+            &[(f64::NAN, f64::NAN, Verdict::Fail)],
+        )];
         let svg = forest("", &[("g", rows)]);
         assert!(svg.contains('…') && svg.contains("no rate") && !svg.contains("NaN"));
     }

@@ -42,8 +42,12 @@ pub struct Surface {
 
 /// Draws values over two parameters.
 pub fn surface(figure: &Surface) -> String {
-    let (x, columns): (Vec<f64>, Vec<usize>) = in_order(figure.x.scale, &figure.x_values).into_iter().unzip();
-    let (y, rows): (Vec<f64>, Vec<usize>) = in_order(figure.y.scale, &figure.y_values).into_iter().unzip();
+    let (x, columns): (Vec<f64>, Vec<usize>) = in_order(figure.x.scale, &figure.x_values)
+        .into_iter()
+        .unzip();
+    let (y, rows): (Vec<f64>, Vec<usize>) = in_order(figure.y.scale, &figure.y_values)
+        .into_iter()
+        .unzip();
     let values = sorted(&figure.values, &rows, &columns, f64::NAN);
     let marked = sorted(&figure.marked, &rows, &columns, false);
     let plan = Layout {
@@ -55,8 +59,17 @@ pub fn surface(figure: &Surface) -> String {
         notes: notes(figure.z.scale, &values, &marked),
         ..Layout::default()
     };
-    let colours = ColourScale::sequential(&figure.z.label, figure.z.scale, values.iter().flatten().copied());
-    let cells = HeatMap { x: edges(&x, ALONE), y: edges(&y, ALONE), values, colours };
+    let colours = ColourScale::sequential(
+        &figure.z.label,
+        figure.z.scale,
+        values.iter().flatten().copied(),
+    );
+    let cells = HeatMap {
+        x: edges(&x, ALONE),
+        y: edges(&y, ALONE),
+        values,
+        colours,
+    };
     cells.draw(plan, |sheet, place| {
         // For errors, for example: a bar shows small counts as well. Nothing is drawn over the cells.
         if figure.z.scale == Scale::Log && figure.boundaries.is_empty() {
@@ -82,11 +95,29 @@ impl HeatMap {
     /// Draws them, with the colour bar next to them.
     ///
     /// * `on_top`: draws on the cells, whose positions it gets by row and column.
-    fn draw(&self, plan: Layout, on_top: impl FnOnce(&mut Page, &dyn Fn(usize, usize) -> Rect)) -> String {
-        let mut sheet = Layout { right: self.colours.margin(), ..plan }.lay_out();
-        let px = |ruler: &Ruler, edges: &[f64]| edges.iter().map(|&edge| ruler.px_of(edge)).collect::<Vec<_>>();
+    fn draw(
+        &self,
+        plan: Layout,
+        on_top: impl FnOnce(&mut Page, &dyn Fn(usize, usize) -> Rect),
+    ) -> String {
+        let mut sheet = Layout {
+            right: self.colours.margin(),
+            ..plan
+        }
+        .lay_out();
+        let px = |ruler: &Ruler, edges: &[f64]| {
+            edges
+                .iter()
+                .map(|&edge| ruler.px_of(edge))
+                .collect::<Vec<_>>()
+        };
         let (x, y) = (px(&sheet.x, &self.x), px(&sheet.y, &self.y));
-        let place = |k: usize, j: usize| Rect { left: x[j], right: x[j + 1], top: y[k + 1], bottom: y[k] };
+        let place = |k: usize, j: usize| Rect {
+            left: x[j],
+            right: x[j + 1],
+            top: y[k + 1],
+            bottom: y[k],
+        };
         self.paint(&mut sheet.canvas, &place);
         on_top(&mut sheet, &place);
         self.colours.draw_bar(&mut sheet);
@@ -100,16 +131,23 @@ impl HeatMap {
             let colour = |&value: &f64| self.colours.colour(value).unwrap_or(style::NO_VALUE);
             for (from, to, colour) in runs(&row.iter().map(colour).collect::<Vec<_>>()) {
                 let (first, last) = (place(k, from), place(k, to));
-                let [left, top, right, bottom] = [first.left, first.top, last.right, first.bottom].map(f64::round);
+                let [left, top, right, bottom] =
+                    [first.left, first.top, last.right, first.bottom].map(f64::round);
                 let (width, height) = (right - left, bottom - top);
                 let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
                 let _ = write!(path, "M{left} {top}h{width}v{height}h-{width}z");
             }
         }
         // Whole px, scaled to the page's grid: a third fewer digits.
-        let mut layer = format!("<g transform=\"scale({})\" shape-rendering=\"crispEdges\">\n", grid(1.0));
+        let mut layer = format!(
+            "<g transform=\"scale({})\" shape-rendering=\"crispEdges\">\n",
+            grid(1.0)
+        );
         for ((r, g, b), path) in paths {
-            let _ = writeln!(layer, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>");
+            let _ = writeln!(
+                layer,
+                "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>"
+            );
         }
         canvas.raw(&(layer + "</g>\n"));
     }
@@ -127,18 +165,26 @@ fn runs<T: Copy + PartialEq>(row: &[T]) -> Vec<(usize, usize, T)> {
 
 /// Edges of cells around positions in ascending order: half way between neighbours.
 fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
-    let (Some(&first), Some(&last)) = (positions.first(), positions.last()) else { return Vec::new() };
+    let (Some(&first), Some(&last)) = (positions.first(), positions.last()) else {
+        return Vec::new();
+    };
     let between: Vec<f64> = positions.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
     let first_half = between.first().map_or(alone, |e| e - first);
     let last_half = between.last().map_or(alone, |e| last - e);
     let ends = (first - first_half, last + last_half);
-    std::iter::once(ends.0).chain(between).chain([ends.1]).collect()
+    std::iter::once(ends.0)
+        .chain(between)
+        .chain([ends.1])
+        .collect()
 }
 
 /// The values of an axis that it can show: position on the scale and index, ascending, each position once.
 fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
-    let mut order: Vec<(f64, usize)> =
-        values.iter().enumerate().filter_map(|(k, &v)| Some((on_scale(scale, v)?, k))).collect();
+    let mut order: Vec<(f64, usize)> = values
+        .iter()
+        .enumerate()
+        .filter_map(|(k, &v)| Some((on_scale(scale, v)?, k)))
+        .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.dedup_by(|a, b| a.0 == b.0);
     order
@@ -146,8 +192,16 @@ fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
 
 /// The cells of these rows and columns; `none` for missing ones.
 fn sorted<T: Copy>(cells: &[Vec<T>], rows: &[usize], columns: &[usize], none: T) -> Vec<Vec<T>> {
-    let cell = |k: usize, j: usize| cells.get(k).and_then(|row| row.get(j)).copied().unwrap_or(none);
-    rows.iter().map(|&k| columns.iter().map(|&j| cell(k, j)).collect()).collect()
+    let cell = |k: usize, j: usize| {
+        cells
+            .get(k)
+            .and_then(|row| row.get(j))
+            .copied()
+            .unwrap_or(none)
+    };
+    rows.iter()
+        .map(|&k| columns.iter().map(|&j| cell(k, j)).collect())
+        .collect()
 }
 
 /// The range from the first to the last edge, or any range if there is none.
@@ -161,8 +215,16 @@ fn span(scale: Scale, edges: &[f64]) -> Ruler {
 /// Counts the cells that have neither colour nor mark.
 fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
     let cells = values.iter().flatten().zip(marked.iter().flatten());
-    let unmarked: Vec<f64> = cells.filter(|(_, marked)| !**marked).map(|(value, _)| *value).collect();
-    let missing = |scale: Scale| unmarked.iter().filter(|value| on_scale(scale, **value).is_none()).count();
+    let unmarked: Vec<f64> = cells
+        .filter(|(_, marked)| !**marked)
+        .map(|(value, _)| *value)
+        .collect();
+    let missing = |scale: Scale| {
+        unmarked
+            .iter()
+            .filter(|value| on_scale(scale, **value).is_none())
+            .count()
+    };
     let non_finite = missing(Scale::Linear);
     left_out(non_finite, missing(z) - non_finite)
 }
@@ -170,18 +232,29 @@ fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
 /// Writes its value into each cell, if there is room for all of them.
 fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: &dyn Fn(usize, usize) -> Rect) {
     const CLEAR: f64 = 6.0;
-    let cells = values.iter().enumerate().flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
+    let cells = values
+        .iter()
+        .enumerate()
+        .flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
     let written = cells.filter(|(.., value)| value.is_finite());
-    let texts: Vec<_> = written.map(|(k, j, value)| (format!("{value:.1e}"), place(k, j))).collect();
+    let texts: Vec<_> = written
+        .map(|(k, j, value)| (format!("{value:.1e}"), place(k, j)))
+        .collect();
     let has_room = |(text, cell): &(String, Rect)| {
         text_width(text, NOTE_SIZE) + CLEAR <= cell.width() && NOTE_SIZE + CLEAR <= cell.height()
     };
     if texts.iter().all(has_room) {
-        sheet.canvas.draw(Layer { halo: true, ..Layer::default() }, |pen| {
-            texts.iter().for_each(|(text, cell)| {
-                pen.text(text, cell.centre(), NOTE_SIZE, Anchor::Center, style::INK);
-            });
-        });
+        sheet.canvas.draw(
+            Layer {
+                halo: true,
+                ..Layer::default()
+            },
+            |pen| {
+                texts.iter().for_each(|(text, cell)| {
+                    pen.text(text, cell.centre(), NOTE_SIZE, Anchor::Center, style::INK);
+                });
+            },
+        );
     }
 }
 
@@ -190,12 +263,26 @@ const FEWEST_FOR_A_LINE: usize = 6;
 
 fn entries(figure: &Surface) -> Vec<Entry> {
     let boundary = |(k, series): (usize, &Series)| {
-        let (width, marks) = if is_sparse(series) { (0.0, Marks::Open) } else { (3.0, Marks::None) };
-        Entry { swatch: Swatch::Line { look: boundary_look(k), width, marks }, label: series.label.clone() }
+        let (width, marks) = if is_sparse(series) {
+            (0.0, Marks::Open)
+        } else {
+            (3.0, Marks::None)
+        };
+        Entry {
+            swatch: Swatch::Line {
+                look: boundary_look(k),
+                width,
+                marks,
+            },
+            label: series.label.clone(),
+        }
     };
     let mut entries: Vec<Entry> = figure.boundaries.iter().enumerate().map(boundary).collect();
     if figure.marked.iter().flatten().any(|&m| m) {
-        entries.push(Entry { swatch: Swatch::Hatch(style::NO_VALUE), label: figure.marked_label.clone() });
+        entries.push(Entry {
+            swatch: Swatch::Hatch(style::NO_VALUE),
+            label: figure.marked_label.clone(),
+        });
     }
     entries
 }
@@ -215,7 +302,10 @@ fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usiz
     sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
         for (k, row) in marked.iter().enumerate() {
             for (from, to, _) in runs(row).into_iter().filter(|(.., marked)| *marked) {
-                pen.hatch(Rect { right: place(k, to).right, ..place(k, from) });
+                pen.hatch(Rect {
+                    right: place(k, to).right,
+                    ..place(k, from)
+                });
             }
         }
     });
@@ -226,24 +316,33 @@ fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {
             let look = boundary_look(k);
-            let (dash, colour, width) = if rim { (style::SOLID, WHITE, 6.0) } else { (look.dash, look.colour, 3.0) };
-            let positions: Vec<Option<Point>> = series.points.iter().map(|&p| sheet.px(p)).collect();
+            let (dash, colour, width) = if rim {
+                (style::SOLID, WHITE, 6.0)
+            } else {
+                (look.dash, look.colour, 3.0)
+            };
+            let positions: Vec<Option<Point>> =
+                series.points.iter().map(|&p| sheet.px(p)).collect();
             let layer = Layer::clipped(sheet.plot).dashed(dash);
             let data = (!rim).then_some(series.points.as_slice());
-            sheet.canvas.group(&canvas::series(&series.label, data), |canvas| {
-                if is_sparse(series) {
-                    // Open markers have their own rim.
-                    let at = || positions.iter().flatten().filter(|_| !rim);
-                    let mark = |pen: &Pen<'_>, at| look.marker.draw(pen, at, colour, Marks::Open);
-                    return canvas.draw(Layer::default(), |pen| at().for_each(|at| mark(pen, *at)));
-                }
-                canvas.draw(layer, |pen| {
-                    for line in positions.split(Option::is_none) {
-                        let line: Vec<Point> = line.iter().flatten().copied().collect();
-                        pen.line(&line, colour, width);
+            sheet
+                .canvas
+                .group(&canvas::series(&series.label, data), |canvas| {
+                    if is_sparse(series) {
+                        // Open markers have their own rim.
+                        let at = || positions.iter().flatten().filter(|_| !rim);
+                        let mark =
+                            |pen: &Pen<'_>, at| look.marker.draw(pen, at, colour, Marks::Open);
+                        return canvas
+                            .draw(Layer::default(), |pen| at().for_each(|at| mark(pen, *at)));
                     }
+                    canvas.draw(layer, |pen| {
+                        for line in positions.split(Option::is_none) {
+                            let line: Vec<Point> = line.iter().flatten().copied().collect();
+                            pen.line(&line, colour, width);
+                        }
+                    });
                 });
-            });
         }
     }
 }
@@ -272,10 +371,20 @@ pub fn space_time(figure: &SpaceTime) -> String {
     let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
     let values = figure.frames.iter().flatten().copied();
     let colours = ColourScale::diverging(&figure.label, values);
-    let non_finite = figure.frames.iter().flatten().filter(|&&v| on_scale(Scale::Linear, v).is_none()).count();
+    let non_finite = figure
+        .frames
+        .iter()
+        .flatten()
+        .filter(|&&v| on_scale(Scale::Linear, v).is_none())
+        .count();
     let values = raster(figure, &t, &x, FINEST);
     let (columns, rows) = (values.first().map_or(0, Vec::len), values.len());
-    let cells = HeatMap { x: even(&t, columns), y: even(&x, rows), values, colours };
+    let cells = HeatMap {
+        x: even(&t, columns),
+        y: even(&x, rows),
+        values,
+        colours,
+    };
     let plan = Layout {
         title: figure.title.clone(),
         x: t,
@@ -290,7 +399,9 @@ pub fn space_time(figure: &SpaceTime) -> String {
 
 /// Edges of `cells` equal cells from end to end.
 fn even(ruler: &Ruler, cells: usize) -> Vec<f64> {
-    (0..=cells).map(|k| ruler.lo + (ruler.hi - ruler.lo) * k as f64 / cells.max(1) as f64).collect()
+    (0..=cells)
+        .map(|k| ruler.lo + (ruler.hi - ruler.lo) * k as f64 / cells.max(1) as f64)
+        .collect()
 }
 
 /// Values in the middle of the picture's cells, row by row: averaged over the cell in time, linearly interpolated in
@@ -301,17 +412,30 @@ fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec
     }
     let columns = most.0.min(4 * figure.times.len());
     let rows = most.1.min(4 * figure.nodes.len());
-    let middle = |r: &Ruler, k: usize, of: usize| r.lo + (r.hi - r.lo) * (k as f64 + 0.5) / of as f64;
-    let weights: Vec<_> = (0..rows).map(|k| between(&figure.nodes, middle(x, k, rows))).collect();
+    let middle =
+        |r: &Ruler, k: usize, of: usize| r.lo + (r.hi - r.lo) * (k as f64 + 0.5) / of as f64;
+    let weights: Vec<_> = (0..rows)
+        .map(|k| between(&figure.nodes, middle(x, k, rows)))
+        .collect();
     let half = 0.5 * (t.hi - t.lo) / columns as f64;
-    let frames: Vec<_> = (0..columns).map(|k| frames_near(&figure.times, middle(t, k, columns), half)).collect();
-    let row = |&(node, s): &(usize, f64)| frames.iter().map(|near| mix(figure, near, node, s)).collect();
+    let frames: Vec<_> = (0..columns)
+        .map(|k| frames_near(&figure.times, middle(t, k, columns), half))
+        .collect();
+    let row = |&(node, s): &(usize, f64)| {
+        frames
+            .iter()
+            .map(|near| mix(figure, near, node, s))
+            .collect()
+    };
     weights.iter().map(row).collect()
 }
 
 /// The interval of ascending values that holds `v`, and how far along it `v` lies.
 fn between(values: &[f64], v: f64) -> (usize, f64) {
-    let k = values.partition_point(|&a| a <= v).clamp(1, values.len().max(2) - 1) - 1;
+    let k = values
+        .partition_point(|&a| a <= v)
+        .clamp(1, values.len().max(2) - 1)
+        - 1;
     match (values.get(k), values.get(k + 1)) {
         (Some(&a), Some(&b)) if b > a => (k, ((v - a) / (b - a)).clamp(0.0, 1.0)),
         _ => (k, 0.0),
@@ -320,20 +444,41 @@ fn between(values: &[f64], v: f64) -> (usize, f64) {
 
 /// Frames and weights that make up a cell: all frames in it, or the two around it.
 fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<(usize, f64)> {
-    let (first, last) = (times.partition_point(|&a| a < t - half), times.partition_point(|&a| a < t + half));
+    let (first, last) = (
+        times.partition_point(|&a| a < t - half),
+        times.partition_point(|&a| a < t + half),
+    );
     if last > first {
-        return (first..last).map(|n| (n, 1.0 / (last - first) as f64)).collect();
+        return (first..last)
+            .map(|n| (n, 1.0 / (last - first) as f64))
+            .collect();
     }
     let (n, s) = between(times, t);
     vec![(n, 1.0 - s), (n + 1, s)]
 }
 
 fn mix(figure: &SpaceTime, frames: &[(usize, f64)], node: usize, s: f64) -> f64 {
-    let value = |n: usize, i: usize| figure.frames.get(n).and_then(|f| f.get(i)).copied().unwrap_or(f64::NAN);
+    let value = |n: usize, i: usize| {
+        figure
+            .frames
+            .get(n)
+            .and_then(|f| f.get(i))
+            .copied()
+            .unwrap_or(f64::NAN)
+    };
     // A weight of zero must not let a missing neighbour spoil the value.
     let term = |weight: f64, v: f64| if weight == 0.0 { 0.0 } else { weight * v };
     let in_space = |n: usize| term(1.0 - s, value(n, node)) + term(s, value(n, node + 1));
-    frames.iter().map(|&(n, weight)| if weight == 0.0 { 0.0 } else { weight * in_space(n) }).sum()
+    frames
+        .iter()
+        .map(|&(n, weight)| {
+            if weight == 0.0 {
+                0.0
+            } else {
+                weight * in_space(n)
+            }
+        })
+        .sum()
 }
 
 #[cfg(test)]
@@ -349,26 +494,42 @@ mod tests {
 
     #[test]
     fn equal_neighbours_are_one_run() {
-        assert_eq!(runs(&['a', 'a', 'b', 'a']), [(0, 1, 'a'), (2, 2, 'b'), (3, 3, 'a')]);
+        assert_eq!(
+            runs(&['a', 'a', 'b', 'a']),
+            [(0, 1, 'a'), (2, 2, 'b'), (3, 3, 'a')]
+        );
     }
 
     #[test]
     fn an_axis_without_order_is_sorted() {
-        assert_eq!(in_order(Scale::Log, &[10.0, -1.0, 1.0, f64::NAN, 1.0]), [(0.0, 2), (1.0, 0)]);
+        assert_eq!(
+            in_order(Scale::Log, &[10.0, -1.0, 1.0, f64::NAN, 1.0]),
+            [(0.0, 2), (1.0, 0)]
+        );
     }
 
     #[test]
     fn a_boundary_without_cells_is_still_a_document() {
-        let figure =
-            Surface { boundaries: vec![Series::new("b", vec![(f64::NAN, 1.0), (0.5, 0.5)])], ..Default::default() };
+        let figure = Surface {
+            boundaries: vec![Series::new("b", vec![(f64::NAN, 1.0), (0.5, 0.5)])],
+            ..Default::default()
+        };
         assert!(surface(&figure).ends_with("</svg>\n"));
     }
 
     #[test]
     fn a_linear_field_is_reproduced() {
         let (times, nodes) = (vec![0.0, 1.0, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
-        let frames = times.iter().map(|t| nodes.iter().map(|x| t + 10.0 * x).collect()).collect();
-        let figure = SpaceTime { times, nodes, frames, ..Default::default() };
+        let frames = times
+            .iter()
+            .map(|t| nodes.iter().map(|x| t + 10.0 * x).collect())
+            .collect();
+        let figure = SpaceTime {
+            times,
+            nodes,
+            frames,
+            ..Default::default()
+        };
         let t = Ruler::between(Scale::Linear, 0.0, 2.0);
         let x = Ruler::between(Scale::Linear, 0.0, 1.0);
         let cells = raster(&figure, &t, &x, (200, 100));

@@ -49,7 +49,10 @@ impl Marker {
         match self {
             Marker::Circle => pen.disc((x, y), r, colour),
             Marker::Polygon(corners) => {
-                let path: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + r * dx, y + r * dy)).collect();
+                let path: Vec<Point> = corners
+                    .iter()
+                    .map(|&(dx, dy)| (x + r * dx, y + r * dy))
+                    .collect();
                 pen.polygon(&path, colour);
             }
             Marker::Strokes(ends) => ends.iter().for_each(|&(dx, dy)| {
@@ -84,7 +87,13 @@ const MARKERS: [Marker; 8] = [
     Marker::Strokes(&[(1.2, 0.0), (0.6, 1.04), (0.6, -1.04)]),
 ];
 
-const DASHES: [Dash; 5] = [style::SOLID, style::LONG, style::DOTTED, style::MIXED, style::SHORT];
+const DASHES: [Dash; 5] = [
+    style::SOLID,
+    style::LONG,
+    style::DOTTED,
+    style::MIXED,
+    style::SHORT,
+];
 
 /// What distinguishes one series: each of the three is enough by itself for a handful of series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,5 +109,9 @@ pub struct Look {
 /// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with the next marker.
 pub fn look(k: usize) -> Look {
     let marker = (k + k / COLOURS.len()) % MARKERS.len();
-    Look { colour: COLOURS[k % COLOURS.len()], marker: MARKERS[marker], dash: DASHES[k % DASHES.len()] }
+    Look {
+        colour: COLOURS[k % COLOURS.len()],
+        marker: MARKERS[marker],
+        dash: DASHES[k % DASHES.len()],
+    }
 }

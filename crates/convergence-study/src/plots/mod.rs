@@ -67,12 +67,18 @@ pub struct Axis {
 impl Axis {
     /// A linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Linear }
+        Self {
+            label: label.into(),
+            scale: Scale::Linear,
+        }
     }
 
     /// A logarithmic axis.
     pub fn log(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Log }
+        Self {
+            label: label.into(),
+            scale: Scale::Log,
+        }
     }
 }
 
@@ -88,7 +94,10 @@ pub struct Series {
 impl Series {
     /// Points in drawing order, with their name in the legend.
     pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        Self { label: label.into(), points: points.into_iter().collect() }
+        Self {
+            label: label.into(),
+            points: points.into_iter().collect(),
+        }
     }
 }
 

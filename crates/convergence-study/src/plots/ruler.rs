@@ -15,7 +15,13 @@ pub fn has_place(scale: Scale, value: f64) -> bool {
 
 /// Position of a value on its scale: itself, or its decimal logarithm. `None` if it has none.
 pub fn on_scale(scale: Scale, value: f64) -> Option<f64> {
-    has_place(scale, value).then(|| if scale == Scale::Log { value.log10() } else { value })
+    has_place(scale, value).then(|| {
+        if scale == Scale::Log {
+            value.log10()
+        } else {
+            value
+        }
+    })
 }
 
 /// An axis with a range and a place on the page.
@@ -63,7 +69,11 @@ impl Ruler {
             hi = hi.max(v);
         }
         if lo > hi {
-            (lo, hi) = if scale == Scale::Log { (-1.0, 0.0) } else { (0.0, 1.0) };
+            (lo, hi) = if scale == Scale::Log {
+                (-1.0, 0.0)
+            } else {
+                (0.0, 1.0)
+            };
         }
         let smallest = match scale {
             Scale::Linear => NARROWEST * lo.abs().max(hi.abs()),
@@ -77,12 +87,24 @@ impl Ruler {
         };
         let mid = lo + 0.5 * (hi - lo);
         let half = half * (1.0 + 2.0 * margin);
-        Self { scale, lo: mid - half, hi: mid + half, start: 0.0, end: 1.0 }
+        Self {
+            scale,
+            lo: mid - half,
+            hi: mid + half,
+            start: 0.0,
+            end: 1.0,
+        }
     }
 
     /// A range given by its ends on the scale.
     pub fn between(scale: Scale, lo: f64, hi: f64) -> Self {
-        Self { scale, lo, hi, start: 0.0, end: 1.0 }
+        Self {
+            scale,
+            lo,
+            hi,
+            start: 0.0,
+            end: 1.0,
+        }
     }
 
     /// The ruler on the page: `start` and `end` are the px of its low and its high end.
@@ -119,13 +141,25 @@ impl Ruler {
         let (first, last) = (self.lo.ceil() as i32, self.hi.floor() as i32);
         let stride = (last - first + 1).div_euclid(wanted as i32 + 1) + 1;
         let major = (first..=last).filter(|d| d.rem_euclid(stride) == 0);
-        let major = major.map(|d| Tick { at: f64::from(d), label: power_of_ten(d) }).collect();
+        let major = major
+            .map(|d| Tick {
+                at: f64::from(d),
+                label: power_of_ten(d),
+            })
+            .collect();
         let minor = if stride > 1 {
-            (first..=last).filter(|d| d.rem_euclid(stride) != 0).map(f64::from).collect()
+            (first..=last)
+                .filter(|d| d.rem_euclid(stride) != 0)
+                .map(f64::from)
+                .collect()
         } else {
             self.multiples((2..10).map(f64::from))
         };
-        Ticks { major, minor, exponent: 0 }
+        Ticks {
+            major,
+            minor,
+            exponent: 0,
+        }
     }
 
     /// Ticks at the given multiples of the powers of ten.
@@ -144,16 +178,36 @@ impl Ruler {
         if round.len() >= 3 {
             // From 1 to 1000, typical of counts and percentages, powers of ten would be less readable.
             let is_plain = self.lo >= -0.3 && self.hi <= 3.05 && round[0] >= 0.0;
-            let label = |at: f64| if is_plain { fixed(10f64.powf(at), 0) } else { scientific(at) };
-            let major = round.iter().map(|&at| Tick { at, label: label(at) }).collect();
-            return Ticks { major, minor, exponent: 0 };
+            let label = |at: f64| {
+                if is_plain {
+                    fixed(10f64.powf(at), 0)
+                } else {
+                    scientific(at)
+                }
+            };
+            let major = round
+                .iter()
+                .map(|&at| Tick {
+                    at,
+                    label: label(at),
+                })
+                .collect();
+            return Ticks {
+                major,
+                minor,
+                exponent: 0,
+            };
         }
         let linear = linear_ticks(10f64.powf(self.lo), 10f64.powf(self.hi), wanted);
         let major = linear.major.into_iter().filter_map(|t| {
             let at = on_scale(Scale::Log, t.at)?;
             Some(Tick { at, label: t.label })
         });
-        Ticks { major: major.collect(), minor, exponent: linear.exponent }
+        Ticks {
+            major: major.collect(),
+            minor,
+            exponent: linear.exponent,
+        }
     }
 }
 
@@ -164,18 +218,38 @@ fn linear_ticks(lo: f64, hi: f64, wanted: usize) -> Ticks {
     let last = (hi / step + 5e-4).floor() as i64;
     let values: Vec<f64> = (first..=last).take(50).map(|k| k as f64 * step).collect();
     let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let magnitude = if largest > 0.0 { (largest * (1.0 + 1e-9)).log10().floor() as i32 } else { 0 };
-    let exponent = if (-2..5).contains(&magnitude) { 0 } else { magnitude };
+    let magnitude = if largest > 0.0 {
+        (largest * (1.0 + 1e-9)).log10().floor() as i32
+    } else {
+        0
+    };
+    let exponent = if (-2..5).contains(&magnitude) {
+        0
+    } else {
+        magnitude
+    };
     let unit = 10f64.powi(exponent);
     let decimals = (-(step / unit * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 12.0) as usize;
-    let major = values.iter().map(|&at| Tick { at, label: fixed(at / unit, decimals) }).collect();
-    Ticks { major, minor: Vec::new(), exponent }
+    let major = values
+        .iter()
+        .map(|&at| Tick {
+            at,
+            label: fixed(at / unit, decimals),
+        })
+        .collect();
+    Ticks {
+        major,
+        minor: Vec::new(),
+        exponent,
+    }
 }
 
 /// The next of 1, 2, 5 times a power of ten.
 fn round_step(rough: f64) -> f64 {
     let power = 10f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * power >= rough * (1.0 - 1e-9));
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .find(|m| m * power >= rough * (1.0 - 1e-9));
     step.unwrap_or(10.0) * power
 }
 
@@ -199,7 +273,11 @@ fn scientific(log: f64) -> String {
     let exponent = (log + 1e-9).floor();
     let mantissa = 10f64.powf(log - exponent).round();
     let power = power_of_ten(exponent as i32);
-    if mantissa == 1.0 { power } else { format!("{mantissa}×{power}") }
+    if mantissa == 1.0 {
+        power
+    } else {
+        format!("{mantissa}×{power}")
+    }
 }
 
 fn superscript(n: i32) -> String {
@@ -219,7 +297,10 @@ mod tests {
     #[test]
     fn decades_are_labelled_with_superscripts() {
         let ruler = Ruler::around(Scale::Log, [1e-4, 2.0], 0.0);
-        assert_eq!(labels(&ruler.ticks(6)), ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰"]);
+        assert_eq!(
+            labels(&ruler.ticks(6)),
+            ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰"]
+        );
         assert_eq!(ruler.ticks(6).minor.len(), 8 * 4 + 1);
     }
 
@@ -232,8 +313,17 @@ mod tests {
 
     #[test]
     fn less_than_a_decade_has_labels_too() {
-        assert_eq!(labels(&Ruler::around(Scale::Log, [9e-3, 6e-2], 0.0).ticks(6)), ["10⁻²", "2×10⁻²", "5×10⁻²"]);
-        assert!(Ruler::around(Scale::Log, [3.1, 3.2], 0.0).ticks(6).major.len() >= 2);
+        assert_eq!(
+            labels(&Ruler::around(Scale::Log, [9e-3, 6e-2], 0.0).ticks(6)),
+            ["10⁻²", "2×10⁻²", "5×10⁻²"]
+        );
+        assert!(
+            Ruler::around(Scale::Log, [3.1, 3.2], 0.0)
+                .ticks(6)
+                .major
+                .len()
+                >= 2
+        );
     }
 
     #[test]
@@ -247,20 +337,38 @@ mod tests {
     #[test]
     fn small_and_large_values_share_a_power_of_ten() {
         let ticks = Ruler::around(Scale::Linear, [0.0, 4e-5], 0.0).ticks(4);
-        assert_eq!((ticks.exponent, labels(&ticks)), (-5, vec!["0", "1", "2", "3", "4"]));
-        assert_eq!(Ruler::around(Scale::Linear, [0.0, 3e7], 0.0).ticks(4).exponent, 7);
+        assert_eq!(
+            (ticks.exponent, labels(&ticks)),
+            (-5, vec!["0", "1", "2", "3", "4"])
+        );
+        assert_eq!(
+            Ruler::around(Scale::Linear, [0.0, 3e7], 0.0)
+                .ticks(4)
+                .exponent,
+            7
+        );
     }
 
     #[test]
     fn any_data_gives_a_range() {
-        let cases: [&[f64]; 7] =
-            [&[], &[f64::NAN], &[0.0], &[5.0, 5.0], &[1e300, -1e300], &[f64::INFINITY, 1e-320], &[1.0, 1.0 + 1e-15]];
+        let cases: [&[f64]; 7] = [
+            &[],
+            &[f64::NAN],
+            &[0.0],
+            &[5.0, 5.0],
+            &[1e300, -1e300],
+            &[f64::INFINITY, 1e-320],
+            &[1.0, 1.0 + 1e-15],
+        ];
         for values in cases {
             for scale in [Scale::Linear, Scale::Log] {
                 let ruler = Ruler::around(scale, values.iter().copied(), 0.05);
                 assert!(ruler.lo < ruler.hi, "{values:?}: {ruler:?}");
                 let ticks = ruler.ticks(6);
-                assert!((1..60).contains(&ticks.major.len()), "{values:?}: {ticks:?}");
+                assert!(
+                    (1..60).contains(&ticks.major.len()),
+                    "{values:?}: {ticks:?}"
+                );
             }
         }
     }

@@ -55,8 +55,15 @@ impl Layout {
         let right = style::WIDTH - self.right.max(2.0 * EDGE);
         let x_ticks = ticks_that_fit(&self.x, right - left);
         let headline = self.above.is_some() || y_ticks.exponent != 0;
-        let top = EDGE + if self.title.is_some() { 32.0 } else { 0.0 } + if headline { 24.0 } else { 0.0 };
-        let plot = Rect { left, top, right, bottom: top + style::PLOT_HEIGHT };
+        let top = EDGE
+            + if self.title.is_some() { 32.0 } else { 0.0 }
+            + if headline { 24.0 } else { 0.0 };
+        let plot = Rect {
+            left,
+            top,
+            right,
+            bottom: top + style::PLOT_HEIGHT,
+        };
         let height = notes_top(&plot, &self.legend) + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
         Page {
             canvas: Canvas::new(style::WIDTH, height.round()),
@@ -79,14 +86,21 @@ fn notes_top(plot: &Rect, legend: &[Entry]) -> f64 {
 }
 
 fn widest(ticks: &Ticks) -> f64 {
-    ticks.major.iter().map(|t| text_width(&t.label, TICK_SIZE)).fold(0.0, f64::max)
+    ticks
+        .major
+        .iter()
+        .map(|t| text_width(&t.label, TICK_SIZE))
+        .fold(0.0, f64::max)
 }
 
 /// The finest ticks whose labels do not touch.
 fn ticks_that_fit(ruler: &Ruler, width: f64) -> Ticks {
     let fits = |t: &Ticks| (widest(t) + 0.8 * TICK_SIZE) * t.major.len() as f64 <= width;
     let fewer = (2..=8).rev().map(|wanted| ruler.ticks(wanted));
-    fewer.into_iter().find(fits).unwrap_or_else(|| ruler.ticks(1))
+    fewer
+        .into_iter()
+        .find(fits)
+        .unwrap_or_else(|| ruler.ticks(1))
 }
 
 impl Page {
@@ -97,44 +111,94 @@ impl Page {
 
     /// Draws the grid: call this before drawing the data.
     pub(super) fn draw_grid(&mut self) {
-        let Page { plot, x, y, x_ticks, y_ticks, canvas, .. } = self;
+        let Page {
+            plot,
+            x,
+            y,
+            x_ticks,
+            y_ticks,
+            canvas,
+            ..
+        } = self;
         let upright = |pen: &Pen<'_>, v: f64, colour| {
-            pen.line(&[(x.px_of(v), plot.top), (x.px_of(v), plot.bottom)], colour, 1.0);
+            pen.line(
+                &[(x.px_of(v), plot.top), (x.px_of(v), plot.bottom)],
+                colour,
+                1.0,
+            );
         };
         let level = |pen: &Pen<'_>, v: f64, colour| {
-            pen.line(&[(plot.left, y.px_of(v)), (plot.right, y.px_of(v))], colour, 1.0);
+            pen.line(
+                &[(plot.left, y.px_of(v)), (plot.right, y.px_of(v))],
+                colour,
+                1.0,
+            );
         };
         canvas.draw(Layer::clipped(*plot), |pen| {
-            x_ticks.minor.iter().for_each(|&v| upright(pen, v, style::MINOR_GRID));
-            y_ticks.minor.iter().for_each(|&v| level(pen, v, style::MINOR_GRID));
-            x_ticks.major.iter().for_each(|t| upright(pen, t.at, style::GRID));
-            y_ticks.major.iter().for_each(|t| level(pen, t.at, style::GRID));
+            x_ticks
+                .minor
+                .iter()
+                .for_each(|&v| upright(pen, v, style::MINOR_GRID));
+            y_ticks
+                .minor
+                .iter()
+                .for_each(|&v| level(pen, v, style::MINOR_GRID));
+            x_ticks
+                .major
+                .iter()
+                .for_each(|t| upright(pen, t.at, style::GRID));
+            y_ticks
+                .major
+                .iter()
+                .for_each(|t| level(pen, t.at, style::GRID));
         });
     }
 
     /// Draws a thin line at each guide, and its label in the right margin.
     pub(super) fn draw_guides(&mut self, guides: &[Guide]) {
-        let mut places: Vec<(f64, &str)> =
-            guides.iter().filter_map(|g| Some((self.y.px(g.value)?, g.label.as_str()))).collect();
+        let mut places: Vec<(f64, &str)> = guides
+            .iter()
+            .filter_map(|g| Some((self.y.px(g.value)?, g.label.as_str())))
+            .collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         let plot = self.plot;
-        self.canvas.draw(Layer::clipped(plot).dashed(style::SHORT), |pen| {
-            for &(y, _) in &places {
-                pen.line(&[(plot.left, y), (plot.right, y)], style::MUTED, 1.4);
-            }
-        });
+        self.canvas
+            .draw(Layer::clipped(plot).dashed(style::SHORT), |pen| {
+                for &(y, _) in &places {
+                    pen.line(&[(plot.left, y), (plot.right, y)], style::MUTED, 1.4);
+                }
+            });
         let spread = spread_out(&places.iter().map(|p| p.0).collect::<Vec<_>>(), plot);
         self.canvas.draw(Layer::default(), |pen| {
             for (&(line, label), &at) in places.iter().zip(&spread) {
-                pen.line(&[(plot.right + 1.0, line), (plot.right + 9.0, at)], style::MUTED, style::THIN);
-                pen.text(label, (plot.right + 13.0, at), TICK_SIZE, Anchor::Left, style::INK);
+                pen.line(
+                    &[(plot.right + 1.0, line), (plot.right + 9.0, at)],
+                    style::MUTED,
+                    style::THIN,
+                );
+                pen.text(
+                    label,
+                    (plot.right + 13.0, at),
+                    TICK_SIZE,
+                    Anchor::Left,
+                    style::INK,
+                );
             }
         });
     }
 
     /// Draws everything around the data, and closes the document.
     pub(super) fn finish(mut self) -> String {
-        let Page { canvas, plot, x_ticks, y_ticks, plan, x, y, .. } = &mut self;
+        let Page {
+            canvas,
+            plot,
+            x_ticks,
+            y_ticks,
+            plan,
+            x,
+            y,
+            ..
+        } = &mut self;
         canvas.draw(Layer::default(), |pen| {
             pen.frame(*plot, style::INK, style::THIN);
             draw_x_axis(pen, plot, x, x_ticks, &plan.x_label);
@@ -142,9 +206,17 @@ impl Page {
             draw_headlines(pen, plot, plan, x);
         });
         self.draw_foot();
-        let Layout { title, x_label, y_label, .. } = self.plan;
+        let Layout {
+            title,
+            x_label,
+            y_label,
+            ..
+        } = self.plan;
         let attributes = canvas::axes(&self.plot, [(&x_label, &self.x), (&y_label, &self.y)]);
-        self.canvas.finish(&title.unwrap_or_else(|| format!("{y_label} over {x_label}")), &attributes)
+        self.canvas.finish(
+            &title.unwrap_or_else(|| format!("{y_label} over {x_label}")),
+            &attributes,
+        )
     }
 
     /// Draws the legend centred on the plot but always within the page, its first row below `top`.
@@ -152,11 +224,15 @@ impl Page {
         let Self { plan, canvas, .. } = self;
         let (columns, column_width) = arranged(&plan.legend);
         let width = columns as f64 * column_width - COLUMN_GAP;
-        let left = (self.plot.centre().0 - 0.5 * width).min(style::WIDTH - width - 8.0).max(8.0);
+        let left = (self.plot.centre().0 - 0.5 * width)
+            .min(style::WIDTH - width - 8.0)
+            .max(8.0);
         for (k, entry) in plan.legend.iter().enumerate() {
             let x = left + (k % columns) as f64 * column_width;
             let y = top + ((k / columns) as f64 + 0.5) * ROW_HEIGHT;
-            canvas.group(&canvas::entry(&entry.label), |canvas| draw_entry(canvas, entry, (x, y), column_width));
+            canvas.group(&canvas::entry(&entry.label), |canvas| {
+                draw_entry(canvas, entry, (x, y), column_width)
+            });
         }
     }
 
@@ -179,44 +255,93 @@ fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
     for t in &ticks.major {
         let x = ruler.px_of(t.at);
         pen.tick((x, plot.bottom), (x, plot.bottom - 6.0));
-        pen.text(&t.label, (x, plot.bottom + TICK_LABEL_DROP), TICK_SIZE, Anchor::Center, style::INK);
+        pen.text(
+            &t.label,
+            (x, plot.bottom + TICK_LABEL_DROP),
+            TICK_SIZE,
+            Anchor::Center,
+            style::INK,
+        );
     }
     let row = plot.bottom + AXIS_LABEL_DROP;
     if ticks.exponent != 0 {
         let power = format!("×{}", power_of_ten(ticks.exponent));
-        pen.text(&power, (plot.right, row), TICK_SIZE, Anchor::Right, style::INK);
+        pen.text(
+            &power,
+            (plot.right, row),
+            TICK_SIZE,
+            Anchor::Right,
+            style::INK,
+        );
     }
     let label = elide(label, LABEL_SIZE, plot.width());
-    pen.text(&label, (plot.centre().0, row), LABEL_SIZE, Anchor::Center, style::INK);
+    pen.text(
+        &label,
+        (plot.centre().0, row),
+        LABEL_SIZE,
+        Anchor::Center,
+        style::INK,
+    );
 }
 
 fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
     for t in &ticks.major {
         let y = ruler.px_of(t.at);
         pen.tick((plot.left, y), (plot.left + 6.0, y));
-        pen.text(&t.label, (plot.left - 9.0, y), TICK_SIZE, Anchor::Right, style::INK);
+        pen.text(
+            &t.label,
+            (plot.left - 9.0, y),
+            TICK_SIZE,
+            Anchor::Right,
+            style::INK,
+        );
     }
     if ticks.exponent != 0 {
         let power = format!("×{}", power_of_ten(ticks.exponent));
-        pen.text(&power, (plot.left, plot.top - 13.0), TICK_SIZE, Anchor::Left, style::INK);
+        pen.text(
+            &power,
+            (plot.left, plot.top - 13.0),
+            TICK_SIZE,
+            Anchor::Left,
+            style::INK,
+        );
     }
     let label = elide(label, LABEL_SIZE, plot.height() + 2.0 * EDGE);
-    pen.text_upwards(&label, (EDGE + 0.5 * LABEL_SIZE, plot.centre().1), LABEL_SIZE);
+    pen.text_upwards(
+        &label,
+        (EDGE + 0.5 * LABEL_SIZE, plot.centre().1),
+        LABEL_SIZE,
+    );
 }
 
 fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Layout, x: &Ruler) {
     if let Some(title) = &plan.title {
         let title = elide(title, TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
-        pen.text(&title, (0.5 * style::WIDTH, EDGE + 10.0), TITLE_SIZE, Anchor::Center, style::INK);
+        pen.text(
+            &title,
+            (0.5 * style::WIDTH, EDGE + 10.0),
+            TITLE_SIZE,
+            Anchor::Center,
+            style::INK,
+        );
     }
     if let Some((at, text)) = &plan.above {
-        pen.text(text, (x.px_of(*at), plot.top - 13.0), TICK_SIZE, Anchor::Center, style::INK);
+        pen.text(
+            text,
+            (x.px_of(*at), plot.top - 13.0),
+            TICK_SIZE,
+            Anchor::Center,
+            style::INK,
+        );
     }
 }
 
 /// Width of guide labels, to the right of the plot.
 pub(super) fn guide_margin(guides: &[Guide]) -> f64 {
-    guides.iter().map(|g| text_width(&g.label, TICK_SIZE) + 22.0).fold(0.0, f64::max)
+    guides
+        .iter()
+        .map(|g| text_width(&g.label, TICK_SIZE) + 22.0)
+        .fold(0.0, f64::max)
 }
 
 /// Moves sorted heights apart so that labels do not overlap, within the plot if possible.
@@ -225,7 +350,9 @@ fn spread_out(heights: &[f64], plot: Rect) -> Vec<f64> {
     for k in 1..spread.len() {
         spread[k] = spread[k].max(spread[k - 1] + GUIDE_SPACING);
     }
-    let mut lowest = plot.bottom.max(spread.first().copied().unwrap_or(plot.bottom));
+    let mut lowest = plot
+        .bottom
+        .max(spread.first().copied().unwrap_or(plot.bottom));
     for y in spread.iter_mut().rev() {
         *y = y.min(lowest);
         lowest = *y - GUIDE_SPACING;
@@ -263,7 +390,10 @@ pub struct Entry {
 /// As many equal columns as fit on the page, rows filled evenly: their number, and their width in px.
 fn arranged(entries: &[Entry]) -> (usize, f64) {
     let width = style::WIDTH - 2.0 * EDGE;
-    let widest = entries.iter().map(|e| text_width(&e.label, TICK_SIZE)).fold(0.0, f64::max);
+    let widest = entries
+        .iter()
+        .map(|e| text_width(&e.label, TICK_SIZE))
+        .fold(0.0, f64::max);
     let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
     let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
     let rows = entries.len().div_ceil(most).max(1);
@@ -276,15 +406,23 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, width: f64) {
     let room = width - SWATCH_WIDTH - SWATCH_GAP;
     let label = elide(&entry.label, TICK_SIZE, room);
     let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
-    let patch = Rect { left: x + 6.0, top: y - 8.0, right: x + SWATCH_WIDTH - 2.0, bottom: y + 8.0 };
+    let patch = Rect {
+        left: x + 6.0,
+        top: y - 8.0,
+        right: x + SWATCH_WIDTH - 2.0,
+        bottom: y + 8.0,
+    };
     match entry.swatch {
         Swatch::Line { look, width, marks } => {
             if width > 0.0 {
                 let ends = [(x, y), (x + SWATCH_WIDTH, y)];
-                canvas.draw(Layer::default().dashed(look.dash), |pen| pen.line(&ends, look.colour, width));
+                canvas.draw(Layer::default().dashed(look.dash), |pen| {
+                    pen.line(&ends, look.colour, width)
+                });
             }
             canvas.draw(Layer::default(), |pen| {
-                look.marker.draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
+                look.marker
+                    .draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
                 write(pen);
             });
         }
@@ -322,9 +460,19 @@ mod tests {
 
     #[test]
     fn close_guide_labels_are_moved_apart() {
-        let plot = Rect { left: 0.0, top: 0.0, right: 100.0, bottom: 430.0 };
+        let plot = Rect {
+            left: 0.0,
+            top: 0.0,
+            right: 100.0,
+            bottom: 430.0,
+        };
         let spread = spread_out(&[10.0, 12.0, 425.0, 429.0], plot);
-        assert!(spread.windows(2).all(|w| w[1] - w[0] >= GUIDE_SPACING - 1e-9), "{spread:?}");
+        assert!(
+            spread
+                .windows(2)
+                .all(|w| w[1] - w[0] >= GUIDE_SPACING - 1e-9),
+            "{spread:?}"
+        );
         assert!(spread[3] <= plot.bottom);
     }
 }

@@ -57,16 +57,40 @@ impl Curve {
 
     /// The parts to draw: a fitted line before the markers, which alone are data.
     fn parts(&self) -> Vec<Self> {
-        let Some(fit) = self.fit else { return vec![self.clone()] };
-        let xs = || self.points.iter().map(|p| p.0).filter(|x| x.is_finite() && *x > 0.0);
+        let Some(fit) = self.fit else {
+            return vec![self.clone()];
+        };
+        let xs = || {
+            self.points
+                .iter()
+                .map(|p| p.0)
+                .filter(|x| x.is_finite() && *x > 0.0)
+        };
         let ends = [xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max)];
         let points = ends.map(|x| (x, fit.error_at(x))).to_vec();
-        let line = Self { points, look: self.solid(), marks: Marks::None, is_data: false, fit: None, ..self.clone() };
-        vec![line, Self { width: 0.0, fit: None, ..self.clone() }]
+        let line = Self {
+            points,
+            look: self.solid(),
+            marks: Marks::None,
+            is_data: false,
+            fit: None,
+            ..self.clone()
+        };
+        vec![
+            line,
+            Self {
+                width: 0.0,
+                fit: None,
+                ..self.clone()
+            },
+        ]
     }
 
     fn solid(&self) -> Look {
-        Look { dash: style::SOLID, ..self.look }
+        Look {
+            dash: style::SOLID,
+            ..self.look
+        }
     }
 }
 
@@ -133,26 +157,46 @@ impl Xy {
         let values = extent.x.into_iter().chain(self.show_x.iter().copied());
         let phases = self.phases.intervals.iter().flat_map(|&(a, b)| [a, b]);
         // Time runs from edge to edge; chosen parameters need room around them.
-        let margin = if self.x.scale == Scale::Log { MARGIN } else { 0.0 };
+        let margin = if self.x.scale == Scale::Log {
+            MARGIN
+        } else {
+            0.0
+        };
         let ruler = Ruler::around(self.x.scale, values.chain(phases), margin);
         // If the first step is short, the axis starts at zero.
-        let starts_at_zero = self.x.scale == Scale::Linear && ruler.lo > 0.0 && ruler.lo < 0.02 * ruler.hi;
-        if starts_at_zero { Ruler::between(self.x.scale, 0.0, ruler.hi) } else { ruler }
+        let starts_at_zero =
+            self.x.scale == Scale::Linear && ruler.lo > 0.0 && ruler.lo < 0.02 * ruler.hi;
+        if starts_at_zero {
+            Ruler::between(self.x.scale, 0.0, ruler.hi)
+        } else {
+            ruler
+        }
     }
 
     fn y_ruler_of(&self, extent: &Extent) -> Ruler {
         let guides = self.guides.iter().map(|g| g.value);
-        let values = extent.y.into_iter().chain(guides).chain(self.show_y.iter().copied());
+        let values = extent
+            .y
+            .into_iter()
+            .chain(guides)
+            .chain(self.show_y.iter().copied());
         Ruler::around(self.y.scale, values, MARGIN)
     }
 
     /// One pass over the points, of which a history has many thousands.
     fn extent(&self) -> Extent {
-        let mut extent = Extent { x: NOWHERE, y: NOWHERE, points: 0, finite: 0, drawable: 0 };
+        let mut extent = Extent {
+            x: NOWHERE,
+            y: NOWHERE,
+            points: 0,
+            finite: 0,
+            drawable: 0,
+        };
         for curve in self.curves.iter().filter(|curve| curve.is_data) {
             extent.points += curve.points.len();
             for &(x, y) in &curve.points {
-                extent.finite += usize::from(has_place(Scale::Linear, x) && has_place(Scale::Linear, y));
+                extent.finite +=
+                    usize::from(has_place(Scale::Linear, x) && has_place(Scale::Linear, y));
                 if has_place(self.x.scale, x) && has_place(self.y.scale, y) {
                     extent.drawable += 1;
                     extent.x = [extent.x[0].min(x), extent.x[1].max(x)];
@@ -198,13 +242,27 @@ impl Xy {
         let mut entries: Vec<Entry> = vec![];
         for curve in &self.curves {
             if entries.iter().all(|entry| entry.label != curve.name) {
-                let look = if curve.fit.is_some() { curve.solid() } else { curve.look };
-                let swatch = Swatch::Line { look, width: curve.width, marks: curve.marks };
-                entries.push(Entry { swatch, label: curve.name.clone() });
+                let look = if curve.fit.is_some() {
+                    curve.solid()
+                } else {
+                    curve.look
+                };
+                let swatch = Swatch::Line {
+                    look,
+                    width: curve.width,
+                    marks: curve.marks,
+                };
+                entries.push(Entry {
+                    swatch,
+                    label: curve.name.clone(),
+                });
             }
         }
         if !self.phases.intervals.is_empty() {
-            entries.push(Entry { swatch: Swatch::Fill(style::SHADE), label: self.phases.label.clone() });
+            entries.push(Entry {
+                swatch: Swatch::Fill(style::SHADE),
+                label: self.phases.label.clone(),
+            });
         }
         entries
     }
@@ -212,7 +270,10 @@ impl Xy {
     fn notes(&self, extent: &Extent, x: &Ruler, y: &Ruler) -> Vec<String> {
         let mut notes = self.notes.clone();
         notes.extend(coinciding(&self.curves, x, y));
-        notes.extend(left_out(extent.points - extent.finite, extent.finite - extent.drawable));
+        notes.extend(left_out(
+            extent.points - extent.finite,
+            extent.finite - extent.drawable,
+        ));
         notes
     }
 
@@ -229,7 +290,14 @@ impl Xy {
         sheet.canvas.draw(Layer::clipped(plot), |pen| {
             for &(left, right) in &spans {
                 // An interval shorter than a pixel still leaves a trace.
-                pen.rect(Rect { left, right: right.max(left + 0.7), ..plot }, style::SHADE);
+                pen.rect(
+                    Rect {
+                        left,
+                        right: right.max(left + 0.7),
+                        ..plot
+                    },
+                    style::SHADE,
+                );
             }
         });
     }
@@ -242,19 +310,29 @@ impl Xy {
             let positions: Vec<Option<Point>> = curve.points.iter().map(|&p| sheet.px(p)).collect();
             let (alone, lines): (Vec<_>, Vec<_>) = match curve.width {
                 0.0 => Default::default(),
-                _ => lines(&positions, columns).into_iter().partition(|line| line.len() == 1),
+                _ => lines(&positions, columns)
+                    .into_iter()
+                    .partition(|line| line.len() == 1),
             };
             let attributes = canvas::series(&curve.name, curve.is_data.then_some(&curve.points));
             let line_layer = Layer::clipped(sheet.plot).dashed(curve.look.dash);
             sheet.canvas.group(&attributes, |canvas| {
                 canvas.draw(line_layer, |pen| {
-                    lines.iter().for_each(|line| pen.line(line, curve.look.colour, curve.width));
+                    lines
+                        .iter()
+                        .for_each(|line| pen.line(line, curve.look.colour, curve.width));
                 });
                 // Not clipped: a marker on the frame stays whole.
                 canvas.draw(Layer::default(), |pen| {
-                    alone.iter().flatten().for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
+                    alone
+                        .iter()
+                        .flatten()
+                        .for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
                     for &at in positions.iter().flatten() {
-                        curve.look.marker.draw(pen, at, curve.look.colour, curve.marks);
+                        curve
+                            .look
+                            .marker
+                            .draw(pen, at, curve.look.colour, curve.marks);
                     }
                 });
             });
@@ -263,13 +341,27 @@ impl Xy {
 
     fn draw_outlines(&self, sheet: &mut Page) {
         for outline in &self.outlines {
-            let mut path: Vec<Point> = outline.corners.iter().filter_map(|&p| sheet.px(p)).collect();
+            let mut path: Vec<Point> = outline
+                .corners
+                .iter()
+                .filter_map(|&p| sheet.px(p))
+                .collect();
             path.extend(path.first().copied());
-            let texts: Vec<_> = outline.texts.iter().filter_map(|t| Some((t, sheet.px(t.1)?))).collect();
+            let texts: Vec<_> = outline
+                .texts
+                .iter()
+                .filter_map(|t| Some((t, sheet.px(t.1)?)))
+                .collect();
             sheet.canvas.draw(Layer::default(), |pen| {
                 pen.line(&path, style::INK, 1.6);
                 for ((text, _, shift, anchor), at) in texts {
-                    pen.text(text, (at.0 + shift.0, at.1 + shift.1), TICK_SIZE, *anchor, style::INK);
+                    pen.text(
+                        text,
+                        (at.0 + shift.0, at.1 + shift.1),
+                        TICK_SIZE,
+                        *anchor,
+                        style::INK,
+                    );
                 }
             });
         }
@@ -315,7 +407,10 @@ fn coinciding(curves: &[Curve], x: &Ruler, y: &Ruler) -> Vec<String> {
 
 fn coincide(a: &Curve, b: &Curve, x: &Ruler, y: &Ruler) -> bool {
     // The plot is somewhat narrower than the page.
-    let (x, y) = (x.laid_out(0.0, style::WIDTH), y.laid_out(0.0, style::PLOT_HEIGHT));
+    let (x, y) = (
+        x.laid_out(0.0, style::WIDTH),
+        y.laid_out(0.0, style::PLOT_HEIGHT),
+    );
     let near = |ruler: &Ruler, a: f64, b: f64| match (ruler.px(a), ruler.px(b)) {
         (Some(a), Some(b)) => (a - b).abs() < CLOSE,
         (None, None) => true,
@@ -326,13 +421,22 @@ fn coincide(a: &Curve, b: &Curve, x: &Ruler, y: &Ruler) -> bool {
         return pairs.all(|(p, q)| near(&x, p.0, q.0) && near(&y, p.1, q.1));
     }
     let line = |curve: &Curve| {
-        let points = curve.points.iter().map(|point| Some((x.px(point.0)?, y.px(point.1)?)));
-        let points: Vec<Point> = points.collect::<Option<_>>().filter(|_| curve.width > 0.0 && curve.fit.is_none())?;
+        let points = curve
+            .points
+            .iter()
+            .map(|point| Some((x.px(point.0)?, y.px(point.1)?)));
+        let points: Vec<Point> = points
+            .collect::<Option<_>>()
+            .filter(|_| curve.width > 0.0 && curve.fit.is_none())?;
         points.is_sorted_by(|p, q| p.0 <= q.0).then_some(points)
     };
-    let (Some(a), Some(b)) = (line(a), line(b)) else { return false };
+    let (Some(a), Some(b)) = (line(a), line(b)) else {
+        return false;
+    };
     let ends = [(a.first(), b.first()), (a.last(), b.last())];
-    let begin_and_end = ends.iter().all(|ends| matches!(ends, (Some(p), Some(q)) if (p.0 - q.0).abs() < CLOSE));
+    let begin_and_end = ends
+        .iter()
+        .all(|ends| matches!(ends, (Some(p), Some(q)) if (p.0 - q.0).abs() < CLOSE));
     begin_and_end && follows(&a, &b) && follows(&b, &a)
 }
 
@@ -341,10 +445,16 @@ fn follows(points: &[Point], line: &[Point]) -> bool {
     let height = |x: f64| {
         let next = line.partition_point(|p| p.0 < x).min(line.len() - 1);
         let (p, q) = (line[next.saturating_sub(1)], line[next]);
-        let share = if q.0 > p.0 { ((x - p.0) / (q.0 - p.0)).clamp(0.0, 1.0) } else { 1.0 };
+        let share = if q.0 > p.0 {
+            ((x - p.0) / (q.0 - p.0)).clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
         p.1 + share * (q.1 - p.1)
     };
-    points.iter().all(|point| (point.1 - height(point.0)).abs() < CLOSE)
+    points
+        .iter()
+        .all(|point| (point.1 - height(point.0)).abs() < CLOSE)
 }
 
 /// Lines through positions, broken where a position is missing.
@@ -353,8 +463,12 @@ fn follows(points: &[Point], line: &[Point]) -> bool {
 /// pixels, in their order; no eye can see the difference. Positions must then run along x.
 fn lines(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
     if positions.len() <= 4 * columns {
-        let runs = positions.split(Option::is_none).filter(|run| !run.is_empty());
-        return runs.map(|run| run.iter().flatten().copied().collect()).collect();
+        let runs = positions
+            .split(Option::is_none)
+            .filter(|run| !run.is_empty());
+        return runs
+            .map(|run| run.iter().flatten().copied().collect())
+            .collect();
     }
     envelope(positions, columns)
 }
@@ -372,7 +486,10 @@ fn envelope(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
             missing += 1;
             continue;
         };
-        if group.last().is_some_and(|last| column(last.0) != column(p.0)) {
+        if group
+            .last()
+            .is_some_and(|last| column(last.0) != column(p.0))
+        {
             extend_with_extremes(&mut lines, &group);
             group.clear();
             // A gap is drawn only if it is as wide as a column: narrower ones would cost more bytes than they show.
@@ -423,7 +540,9 @@ mod tests {
 
     #[test]
     fn a_single_spike_survives() {
-        let mut positions: Vec<_> = (0..100_000).map(|k| Some((f64::from(k) * 7e-3, 100.0))).collect();
+        let mut positions: Vec<_> = (0..100_000)
+            .map(|k| Some((f64::from(k) * 7e-3, 100.0)))
+            .collect();
         positions[54_321] = Some((54_321.0 * 7e-3, 3.0));
         let lines = lines(&positions, 700);
         assert_eq!(lines.len(), 1);
@@ -434,20 +553,30 @@ mod tests {
     #[test]
     fn a_missing_position_breaks_a_short_line() {
         let p = |x: f64| Some((x, 0.0));
-        assert_eq!(lines(&[p(0.0), p(1.0), None, None, p(2.0)], 100), [vec![(0.0, 0.0), (1.0, 0.0)], vec![(2.0, 0.0)]]);
+        assert_eq!(
+            lines(&[p(0.0), p(1.0), None, None, p(2.0)], 100),
+            [vec![(0.0, 0.0), (1.0, 0.0)], vec![(2.0, 0.0)]]
+        );
     }
 
     #[test]
     fn a_wide_gap_breaks_a_long_line() {
-        let positions: Vec<_> =
-            (0..10_000).map(|k| (!(4000..6000).contains(&k)).then_some((f64::from(k), 0.0))).collect();
+        let positions: Vec<_> = (0..10_000)
+            .map(|k| (!(4000..6000).contains(&k)).then_some((f64::from(k), 0.0)))
+            .collect();
         assert_eq!(lines(&positions, 100).len(), 2);
         assert!(lines(&[None; 1000], 10).is_empty());
     }
 
     #[test]
     fn intervals_that_touch_become_one() {
-        assert_eq!(merge_intervals(vec![(5.0, 9.0), (0.0, 2.0), (2.5, 4.5)]), [(0.0, 9.0)]);
-        assert_eq!(merge_intervals(vec![(0.0, 2.0), (4.0, 5.0)]), [(0.0, 2.0), (4.0, 5.0)]);
+        assert_eq!(
+            merge_intervals(vec![(5.0, 9.0), (0.0, 2.0), (2.5, 4.5)]),
+            [(0.0, 9.0)]
+        );
+        assert_eq!(
+            merge_intervals(vec![(0.0, 2.0), (4.0, 5.0)]),
+            [(0.0, 2.0), (4.0, 5.0)]
+        );
     }
 }

@@ -67,17 +67,26 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, b
     let line = line.trim();
     let inside = line.strip_prefix('{')?.trim_start();
     let parsed = |line: &str| serde_json::from_str(line).map(|Once(value)| value);
-    let read = parsed(line).or_else(|_| parsed(&with_null_for_nan(line))).and_then(serde_json::from_value);
+    let read = parsed(line)
+        .or_else(|_| parsed(&with_null_for_nan(line)))
+        .and_then(serde_json::from_value);
     let near_miss = |error: serde_json::Error| {
-        let is_dict = inside.starts_with('\'') && ["'errors'", "'values'"].iter().any(|key| inside.contains(key));
+        let is_dict = inside.starts_with('\'')
+            && ["'errors'", "'values'"]
+                .iter()
+                .any(|key| inside.contains(key));
         let reason = if inside.starts_with('\'') {
-            "single quotes are not those of JSON: print it with json.dumps(...) on one line".to_owned()
+            "single quotes are not those of JSON: print it with json.dumps(...) on one line"
+                .to_owned()
         } else if error.is_eof() {
             "it does not end on its line: print it with json.dumps(...) on one line".to_owned()
         } else {
             error.to_string()
         };
-        (reason, inside.is_empty() || inside.starts_with('"') || is_dict)
+        (
+            reason,
+            inside.is_empty() || inside.starts_with('"') || is_dict,
+        )
     };
     Some(read.map_err(near_miss))
 }
@@ -131,7 +140,10 @@ impl<'de> Deserialize<'de> for Once {
                 let mut object = Map::new();
                 while let Some((name, Once(value))) = entries.next_entry::<String, Once>()? {
                     if object.contains_key(&name) {
-                        return Err(A::Error::custom(format!("`{}` occurs twice", visible(&name))));
+                        return Err(A::Error::custom(format!(
+                            "`{}` occurs twice",
+                            visible(&name)
+                        )));
                     }
                     object.insert(name, value);
                 }
@@ -144,7 +156,16 @@ impl<'de> Deserialize<'de> for Once {
 
 /// The text with `null` for every NaN and infinity outside strings.
 fn with_null_for_nan(line: &str) -> String {
-    const TOKENS: [&str; 8] = ["-Infinity", "Infinity", "-NaN", "NaN", "-inf", "inf", "-nan", "nan"];
+    const TOKENS: [&str; 8] = [
+        "-Infinity",
+        "Infinity",
+        "-NaN",
+        "NaN",
+        "-inf",
+        "inf",
+        "-nan",
+        "nan",
+    ];
     let (mut is_string, mut is_escaped) = (false, false);
     // Pieces end with a quote that opens or closes a string: every second one is a string.
     let pieces = line.split_inclusive(|c| {
@@ -153,8 +174,21 @@ fn with_null_for_nan(line: &str) -> String {
         is_string ^= is_quote;
         is_quote
     });
-    let null = |piece: &str| TOKENS.iter().fold(piece.to_owned(), |piece, token| piece.replace(token, "null"));
-    pieces.enumerate().map(|(k, piece)| if k % 2 == 1 { piece.to_owned() } else { null(piece) }).collect()
+    let null = |piece: &str| {
+        TOKENS.iter().fold(piece.to_owned(), |piece, token| {
+            piece.replace(token, "null")
+        })
+    };
+    pieces
+        .enumerate()
+        .map(|(k, piece)| {
+            if k % 2 == 1 {
+                piece.to_owned()
+            } else {
+                null(piece)
+            }
+        })
+        .collect()
 }
 
 impl Answer {
@@ -180,8 +214,15 @@ impl Answer {
 
     /// The number of that name; `None` if it is absent.
     pub(super) fn number(&self, expected: &Expectation) -> Option<f64> {
-        let among = if expected.is_value { &self.values } else { &self.errors };
-        among.iter().find(|(known, _)| *known == expected.name).map(|(_, number)| *number)
+        let among = if expected.is_value {
+            &self.values
+        } else {
+            &self.errors
+        };
+        among
+            .iter()
+            .find(|(known, _)| *known == expected.name)
+            .map(|(_, number)| *number)
     }
 
     /// Refuses an answer that lacks a number that the study expects.
@@ -189,14 +230,31 @@ impl Answer {
         if self.number(expected).is_some() {
             return Ok(());
         }
-        let (own, other) = if expected.is_value { (&self.values, "errors") } else { (&self.errors, "values") };
-        let is_other = self.number(&Expectation { is_value: !expected.is_value, ..expected.clone() }).is_some();
+        let (own, other) = if expected.is_value {
+            (&self.values, "errors")
+        } else {
+            (&self.errors, "values")
+        };
+        let is_other = self
+            .number(&Expectation {
+                is_value: !expected.is_value,
+                ..expected.clone()
+            })
+            .is_some();
         let there = match own[..] {
             _ if is_other => format!("it among its {other}"),
             [] => "none".to_owned(),
-            _ => own.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "),
+            _ => own
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect::<Vec<_>>()
+                .join(", "),
         };
-        Err(format!("its answer has no {} `{}`; it has {there}", expected.what(), expected.name))
+        Err(format!(
+            "its answer has no {} `{}`; it has {there}",
+            expected.what(),
+            expected.name
+        ))
     }
 }
 
@@ -205,12 +263,21 @@ fn table(
     name: &str,
     complaint: &mut Option<String>,
 ) -> Result<Vec<(String, f64)>, String> {
-    let Some(value) = object.get(name) else { return Ok(vec![]) };
+    let Some(value) = object.get(name) else {
+        return Ok(vec![]);
+    };
     let expected = r#"an object of names and numbers, such as {"L2": 1.5e-3}"#;
-    let entries = value.as_object().ok_or_else(|| format!("`{name}` is {}; expected {expected}", written(value)))?;
+    let entries = value
+        .as_object()
+        .ok_or_else(|| format!("`{name}` is {}; expected {expected}", written(value)))?;
     let entry = |(key, value): (&String, &Value)| {
         let key = visible(key);
-        let read = number(&format!("`{key}` of its {name}"), value, "a finite number", |_| true);
+        let read = number(
+            &format!("`{key}` of its {name}"),
+            value,
+            "a finite number",
+            |_| true,
+        );
         let value = read.unwrap_or_else(|error| {
             complaint.get_or_insert(error);
             f64::NAN
@@ -220,13 +287,24 @@ fn table(
     Ok(entries.iter().map(entry).collect())
 }
 
-fn number(name: &str, value: &Value, expected: &str, ok: impl Fn(f64) -> bool) -> Result<f64, String> {
-    let found = value.as_f64().filter(|value| value.is_finite() && ok(*value));
+fn number(
+    name: &str,
+    value: &Value,
+    expected: &str,
+    ok: impl Fn(f64) -> bool,
+) -> Result<f64, String> {
+    let found = value
+        .as_f64()
+        .filter(|value| value.is_finite() && ok(*value));
     found.ok_or_else(|| format!("{name} is {}; expected {expected}", written(value)))
 }
 
 fn written(value: &Value) -> String {
-    if value.is_null() { "NaN, infinite or null".to_owned() } else { shorten(&value.to_string()) }
+    if value.is_null() {
+        "NaN, infinite or null".to_owned()
+    } else {
+        shorten(&value.to_string())
+    }
 }
 
 #[cfg(test)]
@@ -243,9 +321,15 @@ mod tests {
         let answer =
             read(r#" {"errors": {"L2": 1e-3, "H1": 2}, "values": {"flux": -3.5}, "h": 0.1, "work": 40, "x": [1]} "#)
                 .unwrap();
-        assert_eq!(answer.errors, [("H1".to_owned(), 2.0), ("L2".to_owned(), 1e-3)]);
+        assert_eq!(
+            answer.errors,
+            [("H1".to_owned(), 2.0), ("L2".to_owned(), 1e-3)]
+        );
         assert_eq!(answer.values, [("flux".to_owned(), -3.5)]);
-        assert_eq!((answer.h, answer.dt, answer.work), (Some(0.1), None, Some(40.0)));
+        assert_eq!(
+            (answer.h, answer.dt, answer.work),
+            (Some(0.1), None, Some(40.0))
+        );
         assert_eq!(read("{}").unwrap(), Answer::default());
     }
 
@@ -253,14 +337,38 @@ mod tests {
     fn numbers_that_are_none_are_refused_by_name() {
         let not_finite = "is NaN, infinite or null; expected a finite number";
         for (line, message) in [
-            (r#"{"errors": {"L2": NaN}}"#, format!("`L2` of its errors {not_finite}")),
-            (r#"{"errors": {"NaN": -Infinity}}"#, format!("`NaN` of its errors {not_finite}")),
-            (r#"{"values": {"a\"nan": nan}}"#, format!("`a\"nan` of its values {not_finite}")),
-            (r#"{"errors": {"L2": null}}"#, format!("`L2` of its errors {not_finite}")),
-            (r#"{"errors": {"L2": "small"}}"#, "`L2` of its errors is \"small\"; expected a finite number".to_owned()),
-            (r#"{"errors": [1]}"#, "`errors` is [1]; expected an object".to_owned()),
-            (r#"{"h": 0}"#, "h is 0; expected a finite number > 0".to_owned()),
-            (r#"{"h": NaN}"#, "h is NaN, infinite or null; expected a finite number > 0".to_owned()),
+            (
+                r#"{"errors": {"L2": NaN}}"#,
+                format!("`L2` of its errors {not_finite}"),
+            ),
+            (
+                r#"{"errors": {"NaN": -Infinity}}"#,
+                format!("`NaN` of its errors {not_finite}"),
+            ),
+            (
+                r#"{"values": {"a\"nan": nan}}"#,
+                format!("`a\"nan` of its values {not_finite}"),
+            ),
+            (
+                r#"{"errors": {"L2": null}}"#,
+                format!("`L2` of its errors {not_finite}"),
+            ),
+            (
+                r#"{"errors": {"L2": "small"}}"#,
+                "`L2` of its errors is \"small\"; expected a finite number".to_owned(),
+            ),
+            (
+                r#"{"errors": [1]}"#,
+                "`errors` is [1]; expected an object".to_owned(),
+            ),
+            (
+                r#"{"h": 0}"#,
+                "h is 0; expected a finite number > 0".to_owned(),
+            ),
+            (
+                r#"{"h": NaN}"#,
+                "h is NaN, infinite or null; expected a finite number > 0".to_owned(),
+            ),
         ] {
             let found = read(line).unwrap_err();
             assert!(found.contains(&message), "{found}");
@@ -273,12 +381,28 @@ mod tests {
         let claim = Claim::new(2.0, 0.1);
         let require = |is_value: bool, name: &str| {
             let name = name.to_owned();
-            answer.require(&Expectation { name, is_value, claim, time: 2.0, by_degree: false, exact: None })
+            answer.require(&Expectation {
+                name,
+                is_value,
+                claim,
+                time: 2.0,
+                by_degree: false,
+                exact: None,
+            })
         };
         let missing = |is_value: bool, name: &str| require(is_value, name).unwrap_err();
-        assert_eq!(missing(false, "L2"), "its answer has no error `L2`; it has it among its values");
-        assert_eq!(missing(false, "max"), "its answer has no error `max`; it has H1");
-        assert_eq!(missing(true, "flux"), "its answer has no value `flux`; it has L2");
+        assert_eq!(
+            missing(false, "L2"),
+            "its answer has no error `L2`; it has it among its values"
+        );
+        assert_eq!(
+            missing(false, "max"),
+            "its answer has no error `max`; it has H1"
+        );
+        assert_eq!(
+            missing(true, "flux"),
+            "its answer has no value `flux`; it has L2"
+        );
         assert_eq!(require(false, "H1"), Ok(()));
     }
 
@@ -286,7 +410,11 @@ mod tests {
     fn other_lines_are_no_objects() {
         assert_eq!(object("iteration 3: {ok"), None);
         assert_eq!(object("[1]"), None);
-        assert!(object("{not json}").unwrap().is_err_and(|(_, is_answer)| !is_answer));
+        assert!(
+            object("{not json}")
+                .unwrap()
+                .is_err_and(|(_, is_answer)| !is_answer)
+        );
         assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
     }
 }

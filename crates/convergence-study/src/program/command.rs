@@ -50,8 +50,9 @@ impl Invocation {
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
         let program = visible(&self.words[0]);
         let failed = |what: String| CaseFailure::new(format!("{program} {what}"));
-        let mut group = Group::new()
-            .map_err(|error| CaseFailure::new(format!("the guard of {program} cannot be started: {error}")))?;
+        let mut group = Group::new().map_err(|error| {
+            CaseFailure::new(format!("the guard of {program} cannot be started: {error}"))
+        })?;
         let child = group.start(&mut self.command());
         let mut child = child.map_err(|error| failed(format!("cannot be started: {error}")))?;
         let printed = in_background(child.stdout.take(), read_output);
@@ -61,10 +62,18 @@ impl Invocation {
         group.end(&mut child);
         let ended = ended.and_then(|in_time| Ok((child.wait()?, in_time)));
         let words = words.recv_timeout(DRAIN).unwrap_or_default();
-        let words = if words.is_empty() { words } else { format!("; its last words: {words}") };
-        let (status, in_time) = ended.map_err(|error| failed(format!("cannot be waited for: {error}")))?;
+        let words = if words.is_empty() {
+            words
+        } else {
+            format!("; its last words: {words}")
+        };
+        let (status, in_time) =
+            ended.map_err(|error| failed(format!("cannot be waited for: {error}")))?;
         if !in_time {
-            return Err(failed(format!("was stopped at the limit of {} s{words}", self.timeout.as_secs_f64())));
+            return Err(failed(format!(
+                "was stopped at the limit of {} s{words}",
+                self.timeout.as_secs_f64()
+            )));
         }
         if !status.success() {
             return Err(failed(format!("ended with {}{words}", ending(status))));
@@ -77,16 +86,27 @@ impl Invocation {
         })?;
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
         let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
-        let missing = || expected.iter().find_map(|expected| answer.require(expected).err());
+        let missing = || {
+            expected
+                .iter()
+                .find_map(|expected| answer.require(expected).err())
+        };
         answer.failure = complaint.or_else(missing).map(unusable);
         Ok(answer)
     }
 
     fn command(&self) -> Command {
         let mut command = Command::new(&self.words[0]);
-        let input = if self.input.is_empty() { Stdio::null() } else { Stdio::piped() };
+        let input = if self.input.is_empty() {
+            Stdio::null()
+        } else {
+            Stdio::piped()
+        };
         command.args(&self.words[1..]).current_dir(&self.directory);
-        command.stdin(input).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+            .stdin(input)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
         command
     }
 
@@ -109,7 +129,9 @@ fn has_ended_by(child: &mut Child, end: Option<Instant>) -> io::Result<bool> {
         if child.try_wait()?.is_some() {
             return Ok(true);
         }
-        let left = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+        let left = end.map_or(Duration::MAX, |end| {
+            end.saturating_duration_since(Instant::now())
+        });
         if left.is_zero() {
             return Ok(false);
         }
@@ -126,7 +148,10 @@ fn feed(child: &mut Child, input: &str) {
 }
 
 /// Reads a stream in a separate thread: a program that prints must not wait.
-fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: fn(S) -> T) -> Receiver<T> {
+fn in_background<S: Send + 'static, T: Send + 'static>(
+    stream: Option<S>,
+    read: fn(S) -> T,
+) -> Receiver<T> {
     let (send, receive) = mpsc::channel();
     if let Some(stream) = stream {
         // If the thread cannot be started, the program's pipe is closed and nothing is received.
@@ -137,18 +162,29 @@ fn in_background<S: Send + 'static, T: Send + 'static>(stream: Option<S>, read: 
 
 /// An example of an answer, with the number that the last line quoted in `reason` has after the name, if it has one.
 fn example(reason: &str, expected: &[Expectation]) -> String {
-    let Some(first) = expected.first() else { return String::new() };
-    let last = reason.rsplit_once("the last line is `").map_or("", |(_, last)| last);
+    let Some(first) = expected.first() else {
+        return String::new();
+    };
+    let last = reason
+        .rsplit_once("the last line is `")
+        .map_or("", |(_, last)| last);
     let is_word = |text: Option<char>| text.is_some_and(char::is_alphanumeric);
-    let after = last.match_indices(&first.name).map(|(start, name)| (&last[..start], &last[start + name.len()..]));
-    let mut after =
-        after.filter(|(before, rest)| !is_word(before.chars().next_back()) && !is_word(rest.chars().next()));
+    let after = last
+        .match_indices(&first.name)
+        .map(|(start, name)| (&last[..start], &last[start + name.len()..]));
+    let mut after = after.filter(|(before, rest)| {
+        !is_word(before.chars().next_back()) && !is_word(rest.chars().next())
+    });
     let number = after.next().and_then(|(_, rest)| {
         let mut words = rest.split(|c: char| c.is_whitespace() || "`:=,;()[]{}\"'".contains(c));
         words.find_map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()))
     });
     let number = plain_text(number.unwrap_or(1.5e-3));
-    format!("expected a last line such as {{\"{}s\": {{\"{}\": {number}}}}}", first.what(), first.name)
+    format!(
+        "expected a last line such as {{\"{}s\": {{\"{}\": {number}}}}}",
+        first.what(),
+        first.name
+    )
 }
 
 /// Exit status or signal, in words.
@@ -157,12 +193,15 @@ fn ending(status: ExitStatus) -> String {
     {
         use std::os::unix::process::ExitStatusExt;
         if let Some(number) = status.signal() {
-            let name =
-                nix::sys::signal::Signal::try_from(number).map_or(String::new(), |signal| format!(" ({signal})"));
+            let name = nix::sys::signal::Signal::try_from(number)
+                .map_or(String::new(), |signal| format!(" ({signal})"));
             return format!("signal {number}{name}");
         }
     }
-    status.code().map_or_else(|| "no exit status".to_owned(), |code| format!("exit status {code}"))
+    status.code().map_or_else(
+        || "no exit status".to_owned(),
+        |code| format!("exit status {code}"),
+    )
 }
 
 /// A word of a command with these values, in the shortest notation that reads back as the same number; and whether it
@@ -175,14 +214,19 @@ pub(super) fn filled(text: &str, values: &[Parameter]) -> Result<(String, bool),
     while let Some(at) = rest.find('{') {
         filled += &rest[..at];
         rest = &rest[at..];
-        let quoted =
-            rest.strip_prefix('{').and_then(name_in_braces).filter(|name| rest[name.len() + 3..].starts_with('}'));
+        let quoted = rest
+            .strip_prefix('{')
+            .and_then(name_in_braces)
+            .filter(|name| rest[name.len() + 3..].starts_with('}'));
         if let Some(name) = quoted {
             filled += &format!("{{{name}}}");
             rest = &rest[name.len() + 4..];
         } else if let Some(name) = name_in_braces(rest) {
             let found = values.iter().find(|(known, _)| *known == name);
-            let unknown = || Misread { offset: text.len() - rest.len(), reason: unknown(name, values) };
+            let unknown = || Misread {
+                offset: text.len() - rest.len(),
+                reason: unknown(name, values),
+            };
             filled += &found.ok_or_else(unknown)?.1.to_string();
             has_placeholder = true;
             rest = &rest[name.len() + 2..];
@@ -243,7 +287,12 @@ mod tests {
         assert_eq!(misread.offset, 5);
         let told = "found the placeholder {dt}; expected one that `refine` gives a value, {n}, {h}, or {{dt}} for the text {dt}";
         assert_eq!(misread.reason, told);
-        assert!(filled("{N}", &KNOWN).unwrap_err().reason.contains("did you mean `n`?"));
+        assert!(
+            filled("{N}", &KNOWN)
+                .unwrap_err()
+                .reason
+                .contains("did you mean `n`?")
+        );
     }
 
     #[test]
@@ -251,7 +300,14 @@ mod tests {
         let claim = crate::study::Claim::new(2.0, 0.1);
         let expected = |name: &str| {
             let name = name.to_owned();
-            [Expectation { name, is_value: false, claim, time: 1.0, by_degree: false, exact: None }]
+            [Expectation {
+                name,
+                is_value: false,
+                claim,
+                time: 1.0,
+                by_degree: false,
+                exact: None,
+            }]
         };
         for (name, last, number) in [
             ("L2", "step 3 of 5: L2 = 1.6e-3, H1 = 4e-2, 0.2 s", "0.0016"),
@@ -261,7 +317,10 @@ mod tests {
             ("L2", "done in 3.5", "0.0015"),
             ("L2", "L2 is nan", "0.0015"),
         ] {
-            let told = example(&format!("no line is a JSON object; the last line is `{last}`"), &expected(name));
+            let told = example(
+                &format!("no line is a JSON object; the last line is `{last}`"),
+                &expected(name),
+            );
             assert_eq!(
                 told,
                 format!("expected a last line such as {{\"errors\": {{\"{name}\": {number}}}}}"),

@@ -25,9 +25,15 @@ use crate::study::{Claim, Header, read_claim};
 /// The default time limit of a case.
 const TIMEOUT: Duration = Duration::from_secs(600);
 
-pub(super) fn read(header: &Header, root: &Section<'_>, folder: &Path) -> Result<Program, InputError> {
+pub(super) fn read(
+    header: &Header,
+    root: &Section<'_>,
+    folder: &Path,
+) -> Result<Program, InputError> {
     root.allow(&["study", "program", "refine", "expect"])?;
-    let section = root.require("program", "a table with the command")?.section()?;
+    let section = root
+        .require("program", "a table with the command")?
+        .section()?;
     section.allow(&["command", "directory", "timeout", "files", "cache"])?;
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
@@ -37,22 +43,43 @@ pub(super) fn read(header: &Header, root: &Section<'_>, folder: &Path) -> Result
         let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
     })?;
-    let written = section.get("directory").map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
-    let store = kept_by(&section, &directory)?.map(|files| Store::new(folder, &header.id, written, files));
+    let written = section
+        .get("directory")
+        .map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
+    let store =
+        kept_by(&section, &directory)?.map(|files| Store::new(folder, &header.id, written, files));
     let expect = expectations(root, refine.grid)?;
-    Ok(Program { words, directory, timeout, store, anew: false, refine, expect })
+    Ok(Program {
+        words,
+        directory,
+        timeout,
+        store,
+        anew: false,
+        refine,
+        expect,
+    })
 }
 
 /// The folder in which the program runs, as an absolute path: the program's name is relative to it, too.
 fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError> {
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let here = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
     let Some(field) = section.get("directory") else {
-        return here.canonicalize().map_err(|error| section.refuse("directory", error.to_string(), "a folder"));
+        return here
+            .canonicalize()
+            .map_err(|error| section.refuse("directory", error.to_string(), "a folder"));
     };
     let path = here.join(field.text()?);
     let absolute = path.canonicalize().ok().filter(|path| path.is_dir());
     absolute.ok_or_else(|| {
-        let found = format!("{}, but {} is no folder", field.as_written(), visible(&path.display().to_string()));
+        let found = format!(
+            "{}, but {} is no folder",
+            field.as_written(),
+            visible(&path.display().to_string())
+        );
         field.refuse(found, "a folder, relative to that of this file")
     })
 }
@@ -61,7 +88,9 @@ fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, Inp
     let allowed = "a list of the program and its arguments, each a text in quotes";
     let field = section.require("command", allowed)?;
     let items = field.items(allowed)?;
-    let first = items.first().ok_or_else(|| field.refuse_as_written(allowed))?;
+    let first = items
+        .first()
+        .ok_or_else(|| field.refuse_as_written(allowed))?;
     if first.text().is_ok_and(str::is_empty) {
         return Err(first.refuse_as_written("the name of a program"));
     }
@@ -69,7 +98,9 @@ fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, Inp
         if item.text()?.contains('\0') {
             return Err(item.refuse_as_written("a text without the character 0"));
         }
-        item.parsed("a text in quotes", |text| filled(text, values).map(|_| text.to_owned()))
+        item.parsed("a text in quotes", |text| {
+            filled(text, values).map(|_| text.to_owned())
+        })
     };
     items.iter().map(word).collect()
 }
@@ -79,19 +110,36 @@ fn kept_by(section: &Section<'_>, directory: &Path) -> Result<Option<Vec<PathBuf
     let allowed = "a list of names of files, relative to the directory in which the program runs";
     let mut files = vec![];
     let field = section.get("files");
-    for item in field.as_ref().map_or(Ok(vec![]), |field| field.items(allowed))? {
+    for item in field
+        .as_ref()
+        .map_or(Ok(vec![]), |field| field.items(allowed))?
+    {
         let path = directory.join(item.text()?);
         if !path.is_file() {
-            let found = format!("{}, but {} is no file", item.as_written(), visible(&path.display().to_string()));
-            return Err(item.refuse(found, "the name of a file, relative to the directory in which the program runs"));
+            let found = format!(
+                "{}, but {} is no file",
+                item.as_written(),
+                visible(&path.display().to_string())
+            );
+            return Err(item.refuse(
+                found,
+                "the name of a file, relative to the directory in which the program runs",
+            ));
         }
         files.push(path);
     }
-    if !section.get("cache").map_or(Ok(false), |field| field.boolean())? {
+    if !section
+        .get("cache")
+        .map_or(Ok(false), |field| field.boolean())?
+    {
         return Ok(None);
     }
     if files.is_empty() {
-        return Err(section.refuse("cache", "true without files", "the list `files` of what a result depends on"));
+        return Err(section.refuse(
+            "cache",
+            "true without files",
+            "the list `files` of what a result depends on",
+        ));
     }
     Ok(Some(files))
 }
@@ -109,8 +157,14 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
         Ok(expectation)
     };
     let expectations = root.tables("expect", " with error or value, order and tolerance", read)?;
-    let by_degree = expectations.iter().filter(|expectation| expectation.by_degree).count();
-    let of_rates = expectations.iter().filter(|expectation| expectation.exact.is_none()).count();
+    let by_degree = expectations
+        .iter()
+        .filter(|expectation| expectation.by_degree)
+        .count();
+    let of_rates = expectations
+        .iter()
+        .filter(|expectation| expectation.exact.is_none())
+        .count();
     if by_degree > 0 && by_degree < of_rates {
         return Err(root.refuse(
             "expect",
@@ -123,15 +177,33 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
 
 /// * `grid`: whether h and dt are refined independently; each error then has two orders.
 fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
-    section.allow(&["error", "value", "order", "order_dt", "factor", "constant", "exact", "tolerance"])?;
+    section.allow(&[
+        "error",
+        "value",
+        "order",
+        "order_dt",
+        "factor",
+        "constant",
+        "exact",
+        "tolerance",
+    ])?;
     let (name, is_value) = match section.get("value") {
         Some(value) if section.get("error").is_some() => {
-            return Err(value.refuse("value beside error", "one of the two in each table [[expect]]"));
+            return Err(value.refuse(
+                "value beside error",
+                "one of the two in each table [[expect]]",
+            ));
         }
         Some(value) if grid => {
-            return Err(value.refuse("value with grid = true", "error, the only one that a grid judges"));
+            return Err(value.refuse(
+                "value with grid = true",
+                "error, the only one that a grid judges",
+            ));
         }
-        Some(value) => (name(&value, "the name of a value that the program answers")?, true),
+        Some(value) => (
+            name(&value, "the name of a value that the program answers")?,
+            true,
+        ),
         None => {
             let allowed = "the name of an error that the program answers, or `value` with the name of a value";
             (name(&section.require("error", allowed)?, allowed)?, false)
@@ -139,11 +211,20 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
     };
     let (claim, by_degree, exact) = claimed(section, grid || is_value)?;
     let time = match section.get("order_dt") {
-        Some(field) if !grid => return Err(field.refuse("order_dt without grid = true", "order alone")),
+        Some(field) if !grid => {
+            return Err(field.refuse("order_dt without grid = true", "order alone"));
+        }
         Some(field) => field.positive()?,
         None => claim.order,
     };
-    Ok(Expectation { name, is_value, claim, time, by_degree, exact })
+    Ok(Expectation {
+        name,
+        is_value,
+        claim,
+        time,
+        by_degree,
+        exact,
+    })
 }
 
 /// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that should vanish.
@@ -151,24 +232,42 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
 /// * `plain`: whether only an order can be claimed, as for values and grids.
 fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f64>), InputError> {
     let claims = ["order", "factor", "exact"].map(|key| section.get(key));
-    let other = claims[1..].iter().flatten().next().cloned().or(section.get("constant"));
+    let other = claims[1..]
+        .iter()
+        .flatten()
+        .next()
+        .cloned()
+        .or(section.get("constant"));
     if let Some(field) = other.filter(|_| plain) {
         return Err(field.refuse_as_written("order alone, for values and on a grid"));
     }
-    if let [_, Some(field), Some(_)] | [Some(_), Some(field), _] | [Some(_), _, Some(field)] = &claims {
+    if let [_, Some(field), Some(_)] | [Some(_), Some(field), _] | [Some(_), _, Some(field)] =
+        &claims
+    {
         return Err(field.refuse_as_written("one of order, factor and exact"));
     }
     if let [_, _, Some(field)] = &claims {
-        if let Some(key) = ["tolerance", "constant"].into_iter().find(|key| section.get(key).is_some()) {
+        if let Some(key) = ["tolerance", "constant"]
+            .into_iter()
+            .find(|key| section.get(key).is_some())
+        {
             return Err(section.refuse(key, format!("{key} beside exact"), "exact alone"));
         }
         // There is no rate for a tolerance to apply to.
-        return Ok((Claim::new(1.0, DEFAULT_TOLERANCE), false, Some(field.positive()?)));
+        return Ok((
+            Claim::new(1.0, DEFAULT_TOLERANCE),
+            false,
+            Some(field.positive()?),
+        ));
     }
     if let Some(field) = claims[0].as_ref().filter(|_| plain) {
         field.positive()?;
     }
-    let key = if claims[1].is_some() { "factor" } else { "order" };
+    let key = if claims[1].is_some() {
+        "factor"
+    } else {
+        "order"
+    };
     let mut claim = read_claim(section, key)?;
     if let Some(field) = &claims[1] {
         if claim.order <= 1.0 {
@@ -178,7 +277,9 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
     }
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
     let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
-    claim.tolerance = section.require("tolerance", &narrow)?.number_where(&narrow, is_narrow)?;
+    claim.tolerance = section
+        .require("tolerance", &narrow)?
+        .number_where(&narrow, is_narrow)?;
     Ok((claim, claims[1].is_some(), None))
 }
 
@@ -186,5 +287,9 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
 fn name(field: &Field<'_>, allowed: &str) -> Result<String, InputError> {
     let name = field.text()?;
     let is_name = !name.is_empty() && !name.contains(char::is_control);
-    if is_name { Ok(name.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
+    if is_name {
+        Ok(name.to_owned())
+    } else {
+        Err(field.refuse_as_written(allowed))
+    }
 }

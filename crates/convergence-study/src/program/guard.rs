@@ -46,7 +46,11 @@ pub fn enable() {
 /// On Linux this works even if the file has since been replaced.
 fn this_executable() -> io::Result<PathBuf> {
     let own = Path::new("/proc/self/exe");
-    if own.exists() { Ok(own.to_owned()) } else { env::current_exe() }
+    if own.exists() {
+        Ok(own.to_owned())
+    } else {
+        env::current_exe()
+    }
 }
 
 /// Whether this process was started as a guard.
@@ -86,30 +90,46 @@ impl Group {
     /// A group, with its guard if this executable has guards.
     pub(super) fn new() -> io::Result<Self> {
         let mark = new_mark();
-        let Some(command) = GUARD.get() else { return Ok(Self { mark, guard: None, leader: None }) };
+        let Some(command) = GUARD.get() else {
+            return Ok(Self {
+                mark,
+                guard: None,
+                leader: None,
+            });
+        };
         let guard = system::start_guard(command, &mark)?;
-        Ok(Self { mark, leader: Some(guard.id()), guard: Some(guard) })
+        Ok(Self {
+            mark,
+            leader: Some(guard.id()),
+            guard: Some(guard),
+        })
     }
 
     /// Starts the program in the group.
     pub(super) fn start(&mut self, command: &mut Command) -> io::Result<Child> {
         use std::os::unix::process::CommandExt;
-        let child =
-            command.env(MARK, &self.mark).process_group(self.leader.map_or(0, |leader| leader as i32)).spawn()?;
+        let child = command
+            .env(MARK, &self.mark)
+            .process_group(self.leader.map_or(0, |leader| leader as i32))
+            .spawn()?;
         self.leader.get_or_insert(child.id());
         Ok(child)
     }
 
     /// Asks the processes of the group to end.
     pub(super) fn ask_to_end(&self, _: &mut Child) {
-        self.leader.iter().for_each(|leader| system::signal(*leader, Signal::SIGTERM));
+        self.leader
+            .iter()
+            .for_each(|leader| system::signal(*leader, Signal::SIGTERM));
     }
 
     /// Ends the rest of the group, and any process that has left it. The guard, a member of the group, ends last: if
     /// this process is killed meanwhile, the guard carries on.
     pub(super) fn end(&self, _: &mut Child) {
         system::kill_marked(&self.mark);
-        self.leader.iter().for_each(|leader| system::signal(*leader, Signal::SIGKILL));
+        self.leader
+            .iter()
+            .for_each(|leader| system::signal(*leader, Signal::SIGKILL));
     }
 }
 
@@ -148,8 +168,14 @@ fn new_mark() -> String {
     use std::sync::atomic::{AtomicU64, Ordering};
     use std::time::{SystemTime, UNIX_EPOCH};
     static COUNT: AtomicU64 = AtomicU64::new(0);
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos());
-    format!("{}-{now}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed))
+    let now = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .map_or(0, |since| since.as_nanos());
+    format!(
+        "{}-{now}-{}",
+        std::process::id(),
+        COUNT.fetch_add(1, Ordering::Relaxed)
+    )
 }
 
 #[cfg(unix)]
@@ -188,11 +214,17 @@ mod unix {
             .stderr(Stdio::null())
             .spawn()?;
         let mut sign = [0];
-        let is_ready = guard.stdout.take().is_some_and(|mut out| out.read_exact(&mut sign).is_ok()) && sign == *b"\n";
+        let is_ready = guard
+            .stdout
+            .take()
+            .is_some_and(|mut out| out.read_exact(&mut sign).is_ok())
+            && sign == *b"\n";
         if !is_ready {
             let _ = guard.kill();
             let _ = guard.wait();
-            return Err(io::Error::other(format!("this executable has no command `{COMMAND}`")));
+            return Err(io::Error::other(format!(
+                "this executable has no command `{COMMAND}`"
+            )));
         }
         Ok(guard)
     }
@@ -200,7 +232,9 @@ mod unix {
     /// This process has one thread: no other thread may take the signals that this one blocks.
     pub(super) fn outlive_signals() {
         let mut signals = SigSet::empty();
-        [Signal::SIGTERM, Signal::SIGINT, Signal::SIGHUP].into_iter().for_each(|signal| signals.add(signal));
+        [Signal::SIGTERM, Signal::SIGINT, Signal::SIGHUP]
+            .into_iter()
+            .for_each(|signal| signals.add(signal));
         let _ = signals.thread_block();
     }
 
@@ -223,7 +257,10 @@ mod unix {
             if found.is_empty() {
                 return;
             }
-            for (process, _) in found.iter().filter(|(_, environment)| *environment == Environment::HasIt) {
+            for (process, _) in found
+                .iter()
+                .filter(|(_, environment)| *environment == Environment::HasIt)
+            {
                 let _ = nix::sys::signal::kill(*process, Signal::SIGKILL);
             }
             thread::sleep(Duration::from_millis(1));
@@ -243,20 +280,32 @@ mod unix {
     fn processes_but_those_without(variable: &[u8]) -> Vec<(Pid, Environment)> {
         let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
         let number = |entry: fs::DirEntry| entry.file_name().to_str()?.parse().ok();
-        let looked_at =
-            entries.filter_map(number).map(|process: i32| (Pid::from_raw(process), look(process, variable)));
-        looked_at.filter(|(_, environment)| *environment != Environment::LacksIt).collect()
+        let looked_at = entries
+            .filter_map(number)
+            .map(|process: i32| (Pid::from_raw(process), look(process, variable)));
+        looked_at
+            .filter(|(_, environment)| *environment != Environment::LacksIt)
+            .collect()
     }
 
     fn look(process: i32, variable: &[u8]) -> Environment {
         // The environment of another user's process cannot be read.
-        let Ok(environment) = fs::read(format!("/proc/{process}/environ")) else { return Environment::LacksIt };
-        if environment.split(|byte| *byte == 0).any(|entry| entry == variable) {
+        let Ok(environment) = fs::read(format!("/proc/{process}/environ")) else {
+            return Environment::LacksIt;
+        };
+        if environment
+            .split(|byte| *byte == 0)
+            .any(|entry| entry == variable)
+        {
             return Environment::HasIt;
         }
         let stat = || fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
         let may_have_it = environment.is_empty() && !is_empty_for_good(&stat());
-        if may_have_it { Environment::NotKnownYet } else { Environment::LacksIt }
+        if may_have_it {
+            Environment::NotKnownYet
+        } else {
+            Environment::LacksIt
+        }
     }
 
     /// Whether a process whose environment was read as empty really has none: it has ended, has no memory of its own,
@@ -265,8 +314,18 @@ mod unix {
     /// * `stat`: the line of `/proc/PID/stat`; empty when the process is gone.
     fn is_empty_for_good(stat: &str) -> bool {
         // The name, in parentheses, may hold anything; the state after it is field 3 in proc(5).
-        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
-        let field = |number: usize| fields.get(number - 3).and_then(|field| field.parse::<u64>().ok()).unwrap_or(0);
+        let fields: Vec<&str> = stat
+            .rsplit(')')
+            .next()
+            .unwrap_or_default()
+            .split_whitespace()
+            .collect();
+        let field = |number: usize| {
+            fields
+                .get(number - 3)
+                .and_then(|field| field.parse::<u64>().ok())
+                .unwrap_or(0)
+        };
         let [memory, start, end] = [23, 50, 51].map(field);
         memory == 0 || (end != 0 && start == end)
     }
@@ -284,8 +343,12 @@ mod unix {
         fn a_process_is_found_from_the_moment_that_it_is_started() {
             for _ in 0..50 {
                 let mark = new_mark();
-                let mut child =
-                    Command::new("sleep").arg("5").env(MARK, &mark).process_group(0).spawn().expect("a process");
+                let mut child = Command::new("sleep")
+                    .arg("5")
+                    .env(MARK, &mark)
+                    .process_group(0)
+                    .spawn()
+                    .expect("a process");
                 kill_marked(&mark);
                 let status = child.wait().expect("its end");
                 assert_eq!(status.signal(), Some(9), "{status}");
@@ -296,12 +359,23 @@ mod unix {
         fn an_environment_is_empty_for_good_where_a_program_has_none() {
             let stat = |memory: u64, start: u64, end: u64| {
                 let zeros = |count: usize| vec!["0"; count].join(" ");
-                format!("7 (a) b) R {} {memory} {} {start} {end} 0\n", zeros(19), zeros(26))
+                format!(
+                    "7 (a) b) R {} {memory} {} {start} {end} 0\n",
+                    zeros(19),
+                    zeros(26)
+                )
             };
-            for (memory, start, end, is_empty) in
-                [(4096, 0, 0, false), (4096, 70, 90, false), (4096, 70, 70, true), (0, 0, 0, true)]
-            {
-                assert_eq!(is_empty_for_good(&stat(memory, start, end)), is_empty, "{memory} {start} {end}");
+            for (memory, start, end, is_empty) in [
+                (4096, 0, 0, false),
+                (4096, 70, 90, false),
+                (4096, 70, 70, true),
+                (0, 0, 0, true),
+            ] {
+                assert_eq!(
+                    is_empty_for_good(&stat(memory, start, end)),
+                    is_empty,
+                    "{memory} {start} {end}"
+                );
             }
             assert!(is_empty_for_good(""));
         }

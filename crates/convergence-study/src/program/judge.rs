@@ -15,14 +15,24 @@ use crate::text::number::{error_text, plain_text, rate_text};
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     if let Some(mixed) = mixed_steps(study, ran) {
-        let check = Check::that(false, "every level answers its step, or none does", mixed.clone());
+        let check = Check::that(
+            false,
+            "every level answers its step, or none does",
+            mixed.clone(),
+        );
         return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
     }
     let levels = levels(study, ran);
-    let mut outcome = if study.refine.grid { over_grid(study, ran, &levels) } else { along_path(study, ran, &levels) };
+    let mut outcome = if study.refine.grid {
+        over_grid(study, ran, &levels)
+    } else {
+        along_path(study, ran, &levels)
+    };
     // Answered numbers are finite. An answer may lack some numbers, and a failed case fails its check; the baseline
     // notices a guarded number that is missing.
-    outcome.quantities.retain(|quantity| quantity.value.is_finite());
+    outcome
+        .quantities
+        .retain(|quantity| quantity.value.is_finite());
     outcome
 }
 
@@ -35,7 +45,10 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         errors: ran.iter().map(|ran| number(ran, expected)).collect(),
     };
     let grid = Grid {
-        points: ran.iter().map(|ran| [step(ran, Axis::Space), step(ran, Axis::Time)]).collect(),
+        points: ran
+            .iter()
+            .map(|ran| [step(ran, Axis::Space), step(ran, Axis::Time)])
+            .collect(),
         times: study.refine.times(),
         columns: study.expect.iter().map(column).collect(),
         squares_add: false,
@@ -46,7 +59,13 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     figures.extend(work_precision(levels, ran));
     Outcome {
         // These errors are not judged over either step alone.
-        levels: errors(levels, ran).into_iter().map(|level| LevelErrors { step: None, ..level }).collect(),
+        levels: errors(levels, ran)
+            .into_iter()
+            .map(|level| LevelErrors {
+                step: None,
+                ..level
+            })
+            .collect(),
         figures,
         quantities: levels.quantities(&outcome.rates),
         ..outcome
@@ -56,9 +75,16 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
 /// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
 pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
     let budget = study.refine.budget?;
-    let seconds: Vec<f64> = ran.iter().map(|ran| Some(ran.ok()?.seconds)).collect::<Option<_>>()?;
+    let seconds: Vec<f64> = ran
+        .iter()
+        .map(|ran| Some(ran.ok()?.seconds))
+        .collect::<Option<_>>()?;
     let levels = levels(study, ran);
-    let rates = [levels.judge(), of_values(study, ran, &levels.refinements).rates].concat();
+    let rates = [
+        levels.judge(),
+        of_values(study, ran, &levels.refinements).rates,
+    ]
+    .concat();
     Some(until_decided::next_by_time(&rates, &seconds, budget))
 }
 
@@ -75,9 +101,15 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         figures.extend(work_precision(levels, ran));
     }
     let rates = [rates, values.rates].concat();
-    let summary = [levels::summary(&rates), values.summary].into_iter().filter(|text| !text.is_empty());
+    let summary = [levels::summary(&rates), values.summary]
+        .into_iter()
+        .filter(|text| !text.is_empty());
     let outcome = Outcome {
-        levels: if levels.columns.is_empty() { vec![] } else { errors(levels, ran) },
+        levels: if levels.columns.is_empty() {
+            vec![]
+        } else {
+            errors(levels, ran)
+        },
         tables: values.tables,
         figures: [figures, values.figures].concat(),
         quantities,
@@ -100,14 +132,20 @@ fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
         let bound = expected.exact?;
         let (largest, is_exact) = claims::exact(ran.iter().map(|ran| number(ran, expected)), bound);
         let claim = format!("{} is exact: at most {}", expected.name, plain_text(bound));
-        Some(Check::that(is_exact, claim, format!("largest {}", error_text(largest))))
+        Some(Check::that(
+            is_exact,
+            claim,
+            format!("largest {}", error_text(largest)),
+        ))
     };
     study.expect.iter().filter_map(check).collect()
 }
 
 /// The number that a case answered; NaN if it did not.
 fn number(ran: &Run, expected: &Expectation) -> f64 {
-    ran.ok().and_then(|answer| answer.number(expected)).unwrap_or(f64::NAN)
+    ran.ok()
+        .and_then(|answer| answer.number(expected))
+        .unwrap_or(f64::NAN)
 }
 
 /// A case that answered less than required counts as failed.
@@ -115,7 +153,10 @@ fn completion(ran: &[Run]) -> Check {
     let whole = |Ran { case, found }: &Run| {
         let answered = found.as_ref().map_err(Clone::clone);
         let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
-        Ran { case: Case::new(case.label.clone(), case.cost, ()), found }
+        Ran {
+            case: Case::new(case.label.clone(), case.cost, ()),
+            found,
+        }
     };
     kind::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
@@ -125,16 +166,26 @@ fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
     let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
     let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
         let labels = |has: bool| {
-            let answered = ran.iter().filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
-            answered.map(|ran| ran.case.label.as_str()).collect::<Vec<_>>().join("; ")
+            let answered = ran
+                .iter()
+                .filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
+            answered
+                .map(|ran| ran.case.label.as_str())
+                .collect::<Vec<_>>()
+                .join("; ")
         };
         let [with, without] = [true, false].map(labels);
         let is_mixed = !with.is_empty() && !without.is_empty();
         let expected = format!("expected {name} in the answers of all levels or of none");
-        is_mixed.then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
+        is_mixed
+            .then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
     };
     let h = || space.then(|| mixed("h", |answer| answer.h)).flatten();
-    let dt = || (time && (study.refine.grid || !space)).then(|| mixed("dt", |answer| answer.dt)).flatten();
+    let dt = || {
+        (time && (study.refine.grid || !space))
+            .then(|| mixed("dt", |answer| answer.dt))
+            .flatten()
+    };
     h().or_else(dt)
 }
 
@@ -143,23 +194,47 @@ fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
     let answered = found.as_ref().ok();
     match axis {
         Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
-        Axis::Time => answered.and_then(|answer| answer.dt).unwrap_or(case.data.dt),
+        Axis::Time => answered
+            .and_then(|answer| answer.dt)
+            .unwrap_or(case.data.dt),
     }
 }
 
 /// Every error of every answer.
 fn levels(study: &Program, ran: &[Run]) -> Levels {
     let axis = study.refine.axis();
-    let over = |step: f64| if by_degree(study) { claims::step_of_degree(step.recip()) } else { step };
-    let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.errors.as_slice())).collect();
-    let refinements = ran.iter().map(|ran| ran.case.data.refinement(over(step(ran, axis))));
-    Levels::new(axis, refinements, ErrorColumn::of(&study.claims(false), &found))
+    let over = |step: f64| {
+        if by_degree(study) {
+            claims::step_of_degree(step.recip())
+        } else {
+            step
+        }
+    };
+    let found: Vec<_> = ran
+        .iter()
+        .map(|ran| ran.ok().map(|answer| answer.errors.as_slice()))
+        .collect();
+    let refinements = ran
+        .iter()
+        .map(|ran| ran.case.data.refinement(over(step(ran, axis))));
+    Levels::new(
+        axis,
+        refinements,
+        ErrorColumn::of(&study.claims(false), &found),
+    )
 }
 
 /// Every error of every level, with the work that the program counts.
 fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
-    let work = ran.iter().map(|ran| ran.ok().and_then(|answer| answer.work));
-    levels.errors().into_iter().zip(work).map(|(level, work)| LevelErrors { work, ..level }).collect()
+    let work = ran
+        .iter()
+        .map(|ran| ran.ok().and_then(|answer| answer.work));
+    levels
+        .errors()
+        .into_iter()
+        .zip(work)
+        .map(|(level, work)| LevelErrors { work, ..level })
+        .collect()
 }
 
 /// Errors over the work that the program counts, if every answer contains it.
@@ -168,33 +243,61 @@ fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
     let series = |column: &ErrorColumn| {
         let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
-        let points = work.iter().copied().zip(errors).filter(|(work, error)| !(work.is_nan() && error.is_nan()));
+        let points = work
+            .iter()
+            .copied()
+            .zip(errors)
+            .filter(|(work, error)| !(work.is_nan() && error.is_nan()));
         Series::new(column.name.clone(), points)
     };
-    let claimed = levels.columns.iter().filter(|column| column.claim.is_some());
+    let claimed = levels
+        .columns
+        .iter()
+        .filter(|column| column.claim.is_some());
     let series: Vec<Series> = claimed.map(series).collect();
     let drawn = plots::work_precision("work, as the program counts it", "error", &series).draw();
-    Some(Figure::new("work", "Errors over the work that they cost: the lower and the further left, the better.", drawn))
+    Some(Figure::new(
+        "work",
+        "Errors over the work that they cost: the lower and the further left, the better.",
+        drawn,
+    ))
 }
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a sentence.
 ///
 /// * `refinements`: one for each of `ran`, with its step.
 fn of_values(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcome {
-    let found: Vec<_> = ran.iter().map(|ran| ran.ok().map(|answer| answer.values.as_slice())).collect();
+    let found: Vec<_> = ran
+        .iter()
+        .map(|ran| ran.ok().map(|answer| answer.values.as_slice()))
+        .collect();
     let columns = ErrorColumn::of(&study.claims(true), &found);
-    let estimates: Vec<(&ErrorColumn, Estimate)> =
-        columns.iter().filter_map(|column| Some((column, estimate(column, refinements)?))).collect();
-    let rates: Vec<_> = estimates.iter().map(|(column, estimate)| (name(column), estimate.judged.clone())).collect();
+    let estimates: Vec<(&ErrorColumn, Estimate)> = columns
+        .iter()
+        .filter_map(|column| Some((column, estimate(column, refinements)?)))
+        .collect();
+    let rates: Vec<_> = estimates
+        .iter()
+        .map(|(column, estimate)| (name(column), estimate.judged.clone()))
+        .collect();
     let value = |column: &ErrorColumn, level: usize| {
         let name = format!("{}, {}", name(column), refinements[level].label);
-        Quantity::new(name, column.errors[level].unwrap_or(f64::NAN), ERROR_TOLERANCE)
+        Quantity::new(
+            name,
+            column.errors[level].unwrap_or(f64::NAN),
+            ERROR_TOLERANCE,
+        )
     };
-    let guarded = (0..refinements.len()).flat_map(|level| columns.iter().map(move |column| value(column, level)));
-    let summary = estimates.iter().filter_map(|(column, estimate)| sentence(column, estimate)).collect::<Vec<_>>();
+    let guarded = (0..refinements.len())
+        .flat_map(|level| columns.iter().map(move |column| value(column, level)));
+    let summary = estimates
+        .iter()
+        .filter_map(|(column, estimate)| sentence(column, estimate))
+        .collect::<Vec<_>>();
     let limits = (!estimates.is_empty()).then(|| limits(&estimates));
     let values = (!columns.is_empty()).then(|| table_of_values(&columns, refinements));
-    let figure = (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
+    let figure =
+        (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
     Outcome {
         tables: limits.into_iter().chain(values).collect(),
         figures: figure.into_iter().collect(),
@@ -210,16 +313,33 @@ fn name(column: &ErrorColumn) -> String {
 
 /// `None` if nothing is claimed about the value. A level without a result makes the verdict fail; the estimate uses the others.
 fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
-    let Claim { order, tolerance, .. } = column.claim?;
-    let level = |(level, value): (&Refinement, &Option<f64>)| Some(Value { step: level.step, value: (*value)? });
-    let values: Vec<Value> = refinements.iter().zip(&column.errors).filter_map(level).collect();
+    let Claim {
+        order, tolerance, ..
+    } = column.claim?;
+    let level = |(level, value): (&Refinement, &Option<f64>)| {
+        Some(Value {
+            step: level.step,
+            value: (*value)?,
+        })
+    };
+    let values: Vec<Value> = refinements
+        .iter()
+        .zip(&column.errors)
+        .filter_map(level)
+        .collect();
     let estimate = Estimator::new(tolerance).ok()?.estimate(&values, order);
-    let without = refinements.iter().zip(&column.errors).filter(|(_, value)| value.is_none());
+    let without = refinements
+        .iter()
+        .zip(&column.errors)
+        .filter(|(_, value)| value.is_none());
     let missing: Vec<&str> = without.map(|(level, _)| level.label.as_str()).collect();
     if missing.is_empty() {
         return Some(estimate);
     }
-    Some(Estimate { judged: estimate.judged.without_result(refinements.len(), &missing), ..estimate })
+    Some(Estimate {
+        judged: estimate.judged.without_result(refinements.len(), &missing),
+        ..estimate
+    })
 }
 
 /// The differences of neighbouring levels, each at the finer of its steps, with the lines of their rates.
@@ -231,32 +351,77 @@ fn differences(
 ) -> Figure {
     let column = |(column, _): &(&ErrorColumn, Estimate)| ErrorColumn {
         name: name(column),
-        errors: column.errors.windows(2).map(|pair| Some((pair[0]? - pair[1]?).abs())).collect(),
+        errors: column
+            .errors
+            .windows(2)
+            .map(|pair| Some((pair[0]? - pair[1]?).abs()))
+            .collect(),
         claim: column.claim,
         look: column.look,
     };
-    let levels = Levels::new(study.refine.axis(), refinements[1..].to_vec(), estimates.iter().map(column));
+    let levels = Levels::new(
+        study.refine.axis(),
+        refinements[1..].to_vec(),
+        estimates.iter().map(column),
+    );
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
     // A rate across a gap is fitted to other differences than those drawn.
-    let drawn: Vec<_> = rates.iter().filter(|(_, rate)| rate.kind != Reason::NoResult).cloned().collect();
+    let drawn: Vec<_> = rates
+        .iter()
+        .filter(|(_, rate)| rate.kind != Reason::NoResult)
+        .cloned()
+        .collect();
     levels.figure("differences", None, caption.to_owned(), &drawn)
 }
 
-const HEAD: [&str; 9] =
-    ["value", "finest", "rate", "limit", "limit, 95 %", "finest - limit", "error, 95 %", "GCI", "GCI's order, factor"];
+const HEAD: [&str; 9] = [
+    "value",
+    "finest",
+    "rate",
+    "limit",
+    "limit, 95 %",
+    "finest - limit",
+    "error, 95 %",
+    "GCI",
+    "GCI's order, factor",
+];
 
 /// Limit, error bar and grid convergence index of each value with a claimed order, or why they are missing.
 fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
     let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
-        let finest = column.errors.iter().rev().copied().flatten().next().unwrap_or(f64::NAN);
-        let rate = estimate.judged.fitted.or_else(|| estimate.judged.finest_rate());
-        let mut row = vec![column.name.clone(), digits(finest, width(estimate)), rate_text(rate)];
+        let finest = column
+            .errors
+            .iter()
+            .rev()
+            .copied()
+            .flatten()
+            .next()
+            .unwrap_or(f64::NAN);
+        let rate = estimate
+            .judged
+            .fitted
+            .or_else(|| estimate.judged.finest_rate());
+        let mut row = vec![
+            column.name.clone(),
+            digits(finest, width(estimate)),
+            rate_text(rate),
+        ];
         row.extend(match &estimate.bar {
             Ok(bar) => bar_cells(bar),
-            Err(refusal) => [format!("none: {refusal}"), "-".into(), "-".into(), "-".into()],
+            Err(refusal) => [
+                format!("none: {refusal}"),
+                "-".into(),
+                "-".into(),
+                "-".into(),
+            ],
         });
         row.extend(match &estimate.gci {
-            Ok(Gci { half_width, order, factor, .. }) => [error_text(*half_width), format!("{order:.3}, {factor}")],
+            Ok(Gci {
+                half_width,
+                order,
+                factor,
+                ..
+            }) => [error_text(*half_width), format!("{order:.3}, {factor}")],
             Err(refusal) => [format!("none: {refusal}"), "-".into()],
         });
         row
@@ -272,12 +437,20 @@ fn bar_cells(bar: &Bar) -> [String; 4] {
     let width = bar.limit[1] - bar.limit[0];
     let [low, high] = bar.limit.map(|end| digits(end, width));
     let [least, most] = bar.error_interval.map(error_text);
-    [digits(bar.extrapolated, width), format!("{low} to {high}"), error_text(bar.error), format!("{least} to {most}")]
+    [
+        digits(bar.extrapolated, width),
+        format!("{low} to {high}"),
+        error_text(bar.error),
+        format!("{least} to {most}"),
+    ]
 }
 
 /// The width of the interval of the limit; NaN if there is none.
 fn width(estimate: &Estimate) -> f64 {
-    estimate.bar.as_ref().map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
+    estimate
+        .bar
+        .as_ref()
+        .map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
 }
 
 /// A number with enough decimals to show two digits of `width`; with an exponent if that takes more than 15.
@@ -287,36 +460,62 @@ fn digits(value: f64, width: f64) -> String {
         return format!("{value:.*}", places as usize);
     }
     let after_the_first = value.abs().log10().floor() + places;
-    let is_plain = (1e-3..1e6).contains(&value.abs()) && !(5.0..f64::INFINITY).contains(&after_the_first);
+    let is_plain =
+        (1e-3..1e6).contains(&value.abs()) && !(5.0..f64::INFINITY).contains(&after_the_first);
     if value == 0.0 || !value.is_finite() || is_plain {
         return plain_text(value);
     }
     // No more digits than a floating-point number has; six if the width is unknown.
-    let digits = if after_the_first.is_finite() { after_the_first.clamp(1.0, 16.0) } else { 5.0 };
+    let digits = if after_the_first.is_finite() {
+        after_the_first.clamp(1.0, 16.0)
+    } else {
+        5.0
+    };
     format!("{value:.*e}", digits as usize)
 }
 
 /// The values, each with enough decimals to show its last change.
 fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
-    let last_change = |column: &ErrorColumn| match column.errors.iter().copied().flatten().collect::<Vec<_>>()[..] {
+    let last_change = |column: &ErrorColumn| match column
+        .errors
+        .iter()
+        .copied()
+        .flatten()
+        .collect::<Vec<_>>()[..]
+    {
         [.., before, last] => (last - before).abs(),
         _ => f64::NAN,
     };
     let row = |(level, refinement): (usize, &Refinement)| {
         let value = |column: &ErrorColumn, value: f64| digits(value, last_change(column));
-        let values = columns.iter().map(|column| column.errors[level].map_or("-".to_owned(), |at| value(column, at)));
-        [refinement.label.clone()].into_iter().chain(values).collect()
+        let values = columns
+            .iter()
+            .map(|column| column.errors[level].map_or("-".to_owned(), |at| value(column, at)));
+        [refinement.label.clone()]
+            .into_iter()
+            .chain(values)
+            .collect()
     };
-    let head = ["level"].into_iter().chain(columns.iter().map(|column| column.name.as_str()));
+    let head = ["level"]
+        .into_iter()
+        .chain(columns.iter().map(|column| column.name.as_str()));
     Table::new("Values", head, refinements.iter().enumerate().map(row))
 }
 
 /// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates says what is wrong.
 fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
-    let bar = estimate.bar.as_ref().ok().filter(|_| estimate.judged.verdict == Verdict::Pass)?;
+    let bar = estimate
+        .bar
+        .as_ref()
+        .ok()
+        .filter(|_| estimate.judged.verdict == Verdict::Pass)?;
     let width = bar.limit[1] - bar.limit[0];
     let [low, high] = bar.limit.map(|end| digits(end, width));
-    Some(format!("{} tends to {} ({low} to {high})", column.name, digits(bar.extrapolated, width)))
+    Some(format!(
+        "{} tends to {} ({low} to {high})",
+        column.name,
+        digits(bar.extrapolated, width)
+    ))
 }
 
 #[cfg(test)]

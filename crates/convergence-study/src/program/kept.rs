@@ -47,21 +47,39 @@ struct Executable {
 
 impl Executable {
     /// `None` for a name with a folder, whose content is in the key, and for a program that is not found.
-    fn found(Invocation { words, directory, .. }: &Invocation) -> Option<Self> {
-        let name = words.first().filter(|name| Path::new(name.as_str()).components().count() == 1)?;
+    fn found(
+        Invocation {
+            words, directory, ..
+        }: &Invocation,
+    ) -> Option<Self> {
+        let name = words
+            .first()
+            .filter(|name| Path::new(name.as_str()).components().count() == 1)?;
         let folders = env::var_os("PATH")?;
         let candidates = env::split_paths(&folders).map(|folder| directory.join(folder).join(name));
-        let path = candidates.filter(|path| is_executable(path)).find_map(|path| path.canonicalize().ok())?;
+        let path = candidates
+            .filter(|path| is_executable(path))
+            .find_map(|path| path.canonicalize().ok())?;
         let about = path.metadata().ok()?;
-        let modified = about.modified().ok()?.duration_since(UNIX_EPOCH).ok()?.as_nanos();
-        Some(Self { path: path.display().to_string(), size: about.len(), modified })
+        let modified = about
+            .modified()
+            .ok()?
+            .duration_since(UNIX_EPOCH)
+            .ok()?
+            .as_nanos();
+        Some(Self {
+            path: path.display().to_string(),
+            size: about.len(),
+            modified,
+        })
     }
 }
 
 #[cfg(unix)]
 fn is_executable(path: &Path) -> bool {
     use std::os::unix::fs::PermissionsExt;
-    path.metadata().is_ok_and(|about| about.is_file() && about.permissions().mode() & 0o111 != 0)
+    path.metadata()
+        .is_ok_and(|about| about.is_file() && about.permissions().mode() & 0o111 != 0)
 }
 
 #[cfg(not(unix))]
@@ -83,7 +101,11 @@ impl Store {
     /// * `directory`: the folder in which the program runs, as in the study file.
     /// * `files`: what every result depends on in addition to its command and the files named in it.
     pub(super) fn new(folder: &Path, id: &str, directory: String, files: Vec<PathBuf>) -> Self {
-        Self { folder: folder.join(FOLDER).join(id), directory, files }
+        Self {
+            folder: folder.join(FOLDER).join(id),
+            directory,
+            files,
+        }
     }
 
     /// The current key of a case. It includes every file that a word of the command names, whether or not `files` lists it.
@@ -91,10 +113,18 @@ impl Store {
         let hashed = |path: &PathBuf| {
             let bytes = store::read(path).map_err(atomic::naming(path))?;
             let name = path.strip_prefix(&invocation.directory).unwrap_or(path);
-            Ok((name.display().to_string(), format!("{:016x}", content_hash(&bytes))))
+            Ok((
+                name.display().to_string(),
+                format!("{:016x}", content_hash(&bytes)),
+            ))
         };
-        let named = invocation.words.iter().map(|word| invocation.directory.join(word));
-        let named: Vec<PathBuf> = named.filter(|path| path.is_file() && !self.files.contains(path)).collect();
+        let named = invocation
+            .words
+            .iter()
+            .map(|word| invocation.directory.join(word));
+        let named: Vec<PathBuf> = named
+            .filter(|path| path.is_file() && !self.files.contains(path))
+            .collect();
         Ok(Key {
             form: FORM,
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -102,7 +132,12 @@ impl Store {
             words: invocation.words.clone(),
             program: Executable::found(invocation),
             input: invocation.input.clone(),
-            files: self.files.iter().chain(&named).map(hashed).collect::<io::Result<_>>()?,
+            files: self
+                .files
+                .iter()
+                .chain(&named)
+                .map(hashed)
+                .collect::<io::Result<_>>()?,
         })
     }
 
@@ -114,7 +149,12 @@ impl Store {
     }
 
     /// Keeps an answer, unless the files have changed while the program ran: then it is unknown which version was read.
-    pub(super) fn put(&self, key: &Key, invocation: &Invocation, answer: &Answer) -> io::Result<()> {
+    pub(super) fn put(
+        &self,
+        key: &Key,
+        invocation: &Invocation,
+        answer: &Answer,
+    ) -> io::Result<()> {
         if self.key(invocation)? != *key {
             return Ok(());
         }
@@ -127,6 +167,7 @@ impl Store {
 
     fn path(&self, key: &Key) -> PathBuf {
         let text = serde_json::to_string(key).unwrap_or_default();
-        self.folder.join(format!("{:016x}.json", content_hash(text.as_bytes())))
+        self.folder
+            .join(format!("{:016x}.json", content_hash(text.as_bytes())))
     }
 }

@@ -27,7 +27,9 @@ use crate::input::{InputError, Section};
 use crate::project::{Project, Template};
 use crate::run::time_limit;
 use crate::study::until_decided::Next;
-use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader};
+use crate::study::{
+    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader,
+};
 use answer::Expectation;
 use command::{Invocation, filled};
 use kept::Store;
@@ -55,14 +57,20 @@ pub const ROW: KindRow = KindRow {
 pub const TEMPLATE: Template = Template {
     name: "program",
     about: "A convergence study of a program in any language",
-    files: &[(".toml", include_str!("begin/study.toml")), (".py", include_str!("begin/program.py"))],
+    files: &[
+        (".toml", include_str!("begin/study.toml")),
+        (".py", include_str!("begin/program.py")),
+    ],
     ignored: "# Results that are kept, and reports that are made anew.\n.convergence-study/\n/report/\n/reports/local/\n",
     next: &["study", "explain"],
 };
 
 /// The project of the program `convergence-study`: studies of any program, in the folder that it runs in.
-pub const PROJECT: Project =
-    Project { kinds: &[ROW], templates: &[TEMPLATE], ..Project::new("convergence-study", "convergence-study") };
+pub const PROJECT: Project = Project {
+    kinds: &[ROW],
+    templates: &[TEMPLATE],
+    ..Project::new("convergence-study", "convergence-study")
+};
 
 /// A study of a program, validated.
 #[derive(Debug, Clone)]
@@ -82,7 +90,11 @@ pub struct Program {
 }
 
 impl FromFile for Program {
-    fn from_document(header: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError> {
         file::read(header, root, folder)
     }
 }
@@ -93,20 +105,30 @@ type Run = Ran<Resolution, Answer>;
 impl Program {
     /// The claims about rates, of errors or of values.
     fn claims(&self, of_values: bool) -> Vec<(String, Claim)> {
-        let meant = self.expect.iter().filter(|expected| expected.is_value == of_values && expected.exact.is_none());
-        meant.map(|expected| (expected.name.clone(), expected.claim)).collect()
+        let meant = self
+            .expect
+            .iter()
+            .filter(|expected| expected.is_value == of_values && expected.exact.is_none());
+        meant
+            .map(|expected| (expected.name.clone(), expected.claim))
+            .collect()
     }
 
     /// The command of a case. Without placeholders the program reads the case from standard input.
     fn invocation(&self, case: &Resolution) -> Invocation {
         // The reader of the file has refused words whose placeholders have no value.
-        let fill = |word: &String| filled(word, &case.told).unwrap_or_else(|_| (word.clone(), false));
+        let fill =
+            |word: &String| filled(word, &case.told).unwrap_or_else(|_| (word.clone(), false));
         let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
         let has_placeholder = placeholders.contains(&true);
         Invocation {
             words,
             directory: self.directory.clone(),
-            input: if has_placeholder { String::new() } else { case.json() },
+            input: if has_placeholder {
+                String::new()
+            } else {
+                case.json()
+            },
             timeout: time_limit::granted().map_or(self.timeout, |limit| limit.min(self.timeout)),
         }
     }
@@ -132,15 +154,27 @@ impl Kind for Program {
         let started = Instant::now();
         let run = || {
             let answer = invocation.run(&self.expect)?;
-            Ok::<_, CaseFailure>(Answer { seconds: started.elapsed().as_secs_f64(), ..answer })
+            Ok::<_, CaseFailure>(Answer {
+                seconds: started.elapsed().as_secs_f64(),
+                ..answer
+            })
         };
-        let Some(store) = &self.store else { return run() };
+        let Some(store) = &self.store else {
+            return run();
+        };
         let key = store.key(&invocation)?;
         // A result kept for other expectations may lack a number expected now.
         let kept = if self.anew { None } else { store.get(&key) };
-        let kept = kept.filter(|answer| self.expect.iter().all(|expected| answer.require(expected).is_ok()));
+        let kept = kept.filter(|answer| {
+            self.expect
+                .iter()
+                .all(|expected| answer.require(expected).is_ok())
+        });
         if let Some(answer) = kept {
-            return Ok(Answer { kept: true, ..answer });
+            return Ok(Answer {
+                kept: true,
+                ..answer
+            });
         }
         let answer = run()?;
         if answer.failure.is_none() {
@@ -167,26 +201,55 @@ impl Kind for Program {
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        let labels: Vec<String> = self.refine.resolutions().into_iter().map(|case| case.label).collect();
+        let labels: Vec<String> = self
+            .refine
+            .resolutions()
+            .into_iter()
+            .map(|case| case.label)
+            .collect();
         let order = |expected: &Expectation| {
-            let Expectation { claim, time, by_degree, exact, .. } = expected;
+            let Expectation {
+                claim,
+                time,
+                by_degree,
+                exact,
+                ..
+            } = expected;
             let name = format!("{} {}", expected.what(), expected.name);
             let least = if claim.at_least { "at least " } else { "" };
             match exact {
                 Some(bound) => format!("{name} at most {bound}"),
-                None if *by_degree => format!("{name} by {least}a factor of {:.4} a degree", claim.order.exp()),
-                None if self.refine.grid => format!("{name} {} in h, {time} in dt ± {}", claim.order, claim.tolerance),
+                None if *by_degree => format!(
+                    "{name} by {least}a factor of {:.4} a degree",
+                    claim.order.exp()
+                ),
+                None if self.refine.grid => format!(
+                    "{name} {} in h, {time} in dt ± {}",
+                    claim.order, claim.tolerance
+                ),
                 None => format!("{name} {claim}"),
             }
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
-        let kept = if self.store.is_some() { " Results are kept while command and files are unchanged." } else { "" };
-        let run = format!("{}, for at most {} s a case.{kept}", self.words.join(" "), self.timeout.as_secs_f64());
+        let kept = if self.store.is_some() {
+            " Results are kept while command and files are unchanged."
+        } else {
+            ""
+        };
+        let run = format!(
+            "{}, for at most {} s a case.{kept}",
+            self.words.join(" "),
+            self.timeout.as_secs_f64()
+        );
         vec![
             ("what is run".to_owned(), run),
             (
                 "levels".to_owned(),
-                labels.join("; ") + self.refine.budget.map_or("", |_| "; finer ones until it is decided"),
+                labels.join("; ")
+                    + self
+                        .refine
+                        .budget
+                        .map_or("", |_| "; finer ones until it is decided"),
             ),
             ("orders claimed".to_owned(), orders.join("; ")),
         ]

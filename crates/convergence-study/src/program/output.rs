@@ -21,7 +21,9 @@ pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, Strin
     for_each_line(stream, |line, is_whole| {
         match answer::object(line) {
             // It may be the answer, and then no earlier object is.
-            Some(_) if !is_whole => (object, near_miss) = (None, Some("longer than 1 MiB".to_owned())),
+            Some(_) if !is_whole => {
+                (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()))
+            }
             Some(Ok(found)) => (object, near_miss) = (Some(found), None),
             Some(Err((reason, is_answer))) => {
                 near_miss = Some(reason);
@@ -36,7 +38,10 @@ pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, Strin
     });
     object.ok_or_else(|| match near_miss {
         _ if last.is_empty() => "its standard output is empty".to_owned(),
-        None => format!("no line of its standard output is a JSON object; the last line is `{}`", shown(&last)),
+        None => format!(
+            "no line of its standard output is a JSON object; the last line is `{}`",
+            shown(&last)
+        ),
         Some(reason) => {
             let what = "its last line that begins with a brace is no JSON object";
             format!("{what} ({reason}); the last line is `{}`", shown(&last))
@@ -55,14 +60,21 @@ pub(super) fn read_last_words(stream: impl Read) -> String {
             }
         }
     });
-    last.iter().map(|line| shown(line)).collect::<Vec<_>>().join(" | ")
+    last.iter()
+        .map(|line| shown(line))
+        .collect::<Vec<_>>()
+        .join(" | ")
 }
 
 /// A line for messages: trimmed, without control characters, its end cut off if it is long.
 fn shown(line: &str) -> String {
     let line = visible(line.trim());
     let cut: String = line.chars().take(LAST_CHARACTERS).collect();
-    if cut.len() < line.len() { cut + "..." } else { cut }
+    if cut.len() < line.len() {
+        cut + "..."
+    } else {
+        cut
+    }
 }
 
 /// Calls `each` for every line, and for the text after the last line end, with whether the line is whole. A failing stream has ended.
@@ -97,15 +109,25 @@ mod tests {
 
     #[test]
     fn the_last_object_counts_and_talk_does_not() {
-        let printed = read_output("start\n{\"a\": 1}\n{\"b\": 2}\r\n{iteration 3}\ndone\n\n".as_bytes());
+        let printed =
+            read_output("start\n{\"a\": 1}\n{\"b\": 2}\r\n{iteration 3}\ndone\n\n".as_bytes());
         assert_eq!(printed.unwrap().keys().collect::<Vec<_>>(), ["b"]);
         let open = read_output("{x}\n{\"c\": 3}".as_bytes());
         assert_eq!(open.unwrap().len(), 1);
         let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes()).unwrap_err();
-        assert!(none.contains("key must be a string") && none.ends_with("; the last line is `done`"), "{none}");
+        assert!(
+            none.contains("key must be a string") && none.ends_with("; the last line is `done`"),
+            "{none}"
+        );
         let none = read_output(&b"\xff\n"[..]).unwrap_err();
-        assert_eq!(none, "no line of its standard output is a JSON object; the last line is `\u{fffd}`");
-        assert_eq!(read_output(&b"\n"[..]).unwrap_err(), "its standard output is empty");
+        assert_eq!(
+            none,
+            "no line of its standard output is a JSON object; the last line is `\u{fffd}`"
+        );
+        assert_eq!(
+            read_output(&b"\n"[..]).unwrap_err(),
+            "its standard output is empty"
+        );
     }
 
     #[test]
@@ -115,34 +137,64 @@ mod tests {
             ("{\"errors\": {\"L2\": 1e5 }", hint),
             ("{\n  \"errors\": {\n    \"L2\": 1e5\n  }\n}", hint),
             ("  {  \n\"errors\": 1}", hint),
-            ("{'errors': {'L2': 1e5}}", "single quotes are not those of JSON: print it with json.dumps(...)"),
+            (
+                "{'errors': {'L2': 1e5}}",
+                "single quotes are not those of JSON: print it with json.dumps(...)",
+            ),
             ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
         ] {
             let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes()).unwrap_err();
             assert!(reason.contains(told), "{last}: {reason}");
             let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes());
-            assert!(answered.is_ok_and(|object| object.contains_key("late")), "{last}");
+            assert!(
+                answered.is_ok_and(|object| object.contains_key("late")),
+                "{last}"
+            );
         }
-        for talk in ["{iteration 3}", "{iteration 3", "{'iteration': 3}", "done {"] {
+        for talk in [
+            "{iteration 3}",
+            "{iteration 3",
+            "{'iteration': 3}",
+            "done {",
+        ] {
             let object = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes());
-            assert!(object.is_ok_and(|object| object.contains_key("early")), "{talk}");
+            assert!(
+                object.is_ok_and(|object| object.contains_key("early")),
+                "{talk}"
+            );
         }
     }
 
     #[test]
     fn a_line_without_end_is_not_kept() {
         let endless = std::io::repeat(b'{').take(10 * LONGEST_LINE as u64);
-        assert_eq!(read_output(endless.chain("\n{\"a\": 1}\n".as_bytes())).unwrap().len(), 1);
+        assert_eq!(
+            read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()))
+                .unwrap()
+                .len(),
+            1
+        );
     }
 
     #[test]
     fn an_object_that_is_too_long_is_not_replaced_by_an_earlier_one() {
-        let long = |start: &str| format!("{{\"early\": 1}}\n{start}{}\"}}\n", "x".repeat(LONGEST_LINE));
+        let long = |start: &str| {
+            format!(
+                "{{\"early\": 1}}\n{start}{}\"}}\n",
+                "x".repeat(LONGEST_LINE)
+            )
+        };
         let reason = read_output(long(" {\"mesh\": \"").as_bytes()).unwrap_err();
-        assert!(reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"), "{reason}");
+        assert!(
+            reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"),
+            "{reason}"
+        );
         let talk = read_output(long("mesh: ").as_bytes());
         assert!(talk.is_ok_and(|object| object.contains_key("early")));
-        let fits = format!("{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n", "x".repeat(LONGEST_LINE - 10));
+        let fits = format!(
+            "{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n",
+            "x".repeat(LONGEST_LINE - 10)
+        );
         assert!(read_output(fits.as_bytes()).is_ok_and(|object| object.contains_key("m")));
     }
 

@@ -86,8 +86,14 @@ impl Refine {
 
     /// The level after `level` of a study that adds levels: counts are doubled.
     pub(super) fn finer(&self, level: &Resolution, index: usize) -> Resolution {
-        let doubled = |sequence: &Option<Sequence>, step: f64| sequence.as_ref().map(|_| (2.0 / step).round());
-        self.resolution(index, doubled(&self.space, level.h), doubled(&self.time, level.dt))
+        let doubled = |sequence: &Option<Sequence>, step: f64| {
+            sequence.as_ref().map(|_| (2.0 / step).round())
+        };
+        self.resolution(
+            index,
+            doubled(&self.space, level.h),
+            doubled(&self.time, level.dt),
+        )
     }
 
     /// All cases, coarse to fine; for a grid the time steps run fastest.
@@ -101,21 +107,43 @@ impl Refine {
         let pairs: Vec<_> = if together {
             space.into_iter().zip(time).collect()
         } else {
-            space.iter().flat_map(|&h| time.iter().map(move |&dt| (h, dt))).collect()
+            space
+                .iter()
+                .flat_map(|&h| time.iter().map(move |&dt| (h, dt)))
+                .collect()
         };
-        pairs.into_iter().enumerate().map(|(level, (h, dt))| self.resolution(level, h, dt)).collect()
+        pairs
+            .into_iter()
+            .enumerate()
+            .map(|(level, (h, dt))| self.resolution(level, h, dt))
+            .collect()
     }
 
     fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> Resolution {
         let given = [(&self.space, in_space), (&self.time, in_time)];
-        let given: Vec<_> = given.into_iter().filter_map(|(sequence, value)| sequence.as_ref().zip(value)).collect();
-        let listed: Vec<Parameter> = given.iter().map(|(sequence, value)| (sequence.name, *value)).collect();
-        let mut told: Vec<Parameter> = given.iter().flat_map(|(sequence, value)| sequence.parameters(*value)).collect();
+        let given: Vec<_> = given
+            .into_iter()
+            .filter_map(|(sequence, value)| sequence.as_ref().zip(value))
+            .collect();
+        let listed: Vec<Parameter> = given
+            .iter()
+            .map(|(sequence, value)| (sequence.name, *value))
+            .collect();
+        let mut told: Vec<Parameter> = given
+            .iter()
+            .flat_map(|(sequence, value)| sequence.parameters(*value))
+            .collect();
         told.push(("level", level as f64));
         let step = |sequence: &Option<Sequence>, value: Option<f64>| {
-            sequence.as_ref().zip(value).map_or(f64::NAN, |(sequence, value)| sequence.step(value))
+            sequence
+                .as_ref()
+                .zip(value)
+                .map_or(f64::NAN, |(sequence, value)| sequence.step(value))
         };
-        let label: Vec<String> = listed.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let label: Vec<String> = listed
+            .iter()
+            .map(|(name, value)| format!("{name} = {value}"))
+            .collect();
         Resolution {
             label: label.join(", "),
             listed,
@@ -129,18 +157,34 @@ impl Refine {
 impl Resolution {
     /// Estimate of the cost: the number of cells and steps, up to factors.
     pub(super) fn cost(&self) -> f64 {
-        [self.h, self.dt].into_iter().filter(|step| step.is_finite()).map(|step| 1.0 / step).product()
+        [self.h, self.dt]
+            .into_iter()
+            .filter(|step| step.is_finite())
+            .map(|step| 1.0 / step)
+            .product()
     }
 
     /// The level that the errors of this case belong to.
     pub(super) fn refinement(&self, step: f64) -> Refinement {
-        let parameters = self.listed.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        Refinement { label: self.label.clone(), parameters, step }
+        let parameters = self
+            .listed
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect();
+        Refinement {
+            label: self.label.clone(),
+            parameters,
+            step,
+        }
     }
 
     /// Everything that the program receives, as one JSON object on one line; whole numbers have no decimal point.
     pub(super) fn json(&self) -> String {
-        let entries: Vec<String> = self.told.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
+        let entries: Vec<String> = self
+            .told
+            .iter()
+            .map(|(name, value)| format!("\"{name}\": {value}"))
+            .collect();
         format!("{{{}}}\n", entries.join(", "))
     }
 }
@@ -148,21 +192,34 @@ impl Resolution {
 /// Reads `[refine]`.
 pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let lists = "a list n or h, and dt or steps where time is refined";
-    let section = root.require("refine", &format!("a table with {lists}"))?.section()?;
+    let section = root
+        .require("refine", &format!("a table with {lists}"))?
+        .section()?;
     section.allow(&["n", "h", "dt", "steps", "grid", "budget"])?;
     let space = one_of(&section, "n", "h")?;
     let time = one_of(&section, "steps", "dt")?;
-    let grid = section.get("grid").map_or(Ok(false), |field| field.boolean())?;
-    let lengths = [&space, &time].map(|sequence| sequence.as_ref().map(|sequence| sequence.values.len()));
+    let grid = section
+        .get("grid")
+        .map_or(Ok(false), |field| field.boolean())?;
+    let lengths =
+        [&space, &time].map(|sequence| sequence.as_ref().map(|sequence| sequence.values.len()));
     match (lengths, grid) {
         ([None, None], _) => return Err(section.missing("n", lists)),
         ([Some(h), Some(dt)], false) if h != dt => {
             let key = time.as_ref().map_or("dt", |time| time.name);
             let found = format!("{dt} values beside {h}");
-            return Err(section.refuse(key, found, "lists of the same length, or grid = true for all pairs"));
+            return Err(section.refuse(
+                key,
+                found,
+                "lists of the same length, or grid = true for all pairs",
+            ));
         }
         ([Some(h), Some(dt)], true) if h.saturating_mul(dt) > MOST_CASES => {
-            return Err(section.refuse("grid", format!("{h} times {dt} cases"), format!("at most {MOST_CASES}")));
+            return Err(section.refuse(
+                "grid",
+                format!("{h} times {dt} cases"),
+                format!("at most {MOST_CASES}"),
+            ));
         }
         ([Some(_), None] | [None, Some(_)], true) => {
             return Err(section.refuse(
@@ -173,36 +230,72 @@ pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
         }
         _ => {}
     }
-    let budget = until_decided::budget(&section, &["n", "steps"], grid, BUDGET, "a number of seconds > 0")?;
-    Ok(Refine { space, time, grid, budget })
+    let budget = until_decided::budget(
+        &section,
+        &["n", "steps"],
+        grid,
+        BUDGET,
+        "a number of seconds > 0",
+    )?;
+    Ok(Refine {
+        space,
+        time,
+        grid,
+        budget,
+    })
 }
 
 /// The list under one of two names, from coarse to fine: increasing counts, or decreasing steps; using both names is refused.
-fn one_of(section: &Section<'_>, count: &'static str, step: &'static str) -> Result<Option<Sequence>, InputError> {
+fn one_of(
+    section: &Section<'_>,
+    count: &'static str,
+    step: &'static str,
+) -> Result<Option<Sequence>, InputError> {
     const COUNTS: &str = "a list of increasing whole numbers >= 1, or \"auto\"";
     const STEPS: &str = "a list of decreasing numbers > 0";
     let number = |item: &Field<'_>| Ok(item.count(1..=LARGEST_COUNT)? as f64);
-    let positive =
-        |item: &Field<'_>| item.number_where("a number > 0", |value| value > 0.0 && value.recip().is_finite());
+    let positive = |item: &Field<'_>| {
+        item.number_where("a number > 0", |value| {
+            value > 0.0 && value.recip().is_finite()
+        })
+    };
     let (field, name, values) = match (section.get(count), section.get(step)) {
         (None, None) => return Ok(None),
         (Some(_), Some(field)) => {
-            return Err(field.refuse(format!("{step} beside {count}"), format!("one of the two: {count} or {step}")));
+            return Err(field.refuse(
+                format!("{step} beside {count}"),
+                format!("one of the two: {count} or {step}"),
+            ));
         }
-        (Some(field), None) if until_decided::is_auto(&field) => {
-            (field, count, until_decided::FIRST.map(|count| count as f64).into())
-        }
+        (Some(field), None) if until_decided::is_auto(&field) => (
+            field,
+            count,
+            until_decided::FIRST.map(|count| count as f64).into(),
+        ),
         (Some(field), None) => {
-            let finer: (&str, fn(f64, f64) -> bool) = ("a number >", |before, value| value > before);
-            (field, count, section.sequence((count, COUNTS, 1), number, finer)?)
+            let finer: (&str, fn(f64, f64) -> bool) =
+                ("a number >", |before, value| value > before);
+            (
+                field,
+                count,
+                section.sequence((count, COUNTS, 1), number, finer)?,
+            )
         }
         (None, Some(field)) => {
-            let finer: (&str, fn(f64, f64) -> bool) = ("a number <", |before, value| value < before);
-            (field, step, section.sequence((step, STEPS, 1), positive, finer)?)
+            let finer: (&str, fn(f64, f64) -> bool) =
+                ("a number <", |before, value| value < before);
+            (
+                field,
+                step,
+                section.sequence((step, STEPS, 1), positive, finer)?,
+            )
         }
     };
     if values.len() > MOST_CASES {
-        return Err(field.refuse(format!("{} values", values.len()), format!("at most {MOST_CASES}")));
+        return Err(field.refuse(
+            format!("{} values", values.len()),
+            format!("at most {MOST_CASES}"),
+        ));
     }
     Ok(Some(Sequence { name, values }))
 }
@@ -217,19 +310,49 @@ mod tests {
     }
 
     fn told(text: &str) -> Vec<String> {
-        read(text).unwrap().resolutions().iter().map(|case| case.json().trim().to_owned()).collect()
+        read(text)
+            .unwrap()
+            .resolutions()
+            .iter()
+            .map(|case| case.json().trim().to_owned())
+            .collect()
     }
 
     #[test]
     fn a_case_is_told_its_values_and_the_nominal_steps_of_counts() {
-        assert_eq!(told("n = [8, 16]")[1], r#"{"n": 16, "h": 0.0625, "level": 1}"#);
-        assert_eq!(told("h = [0.5, 1e-7]")[1], r#"{"h": 0.0000001, "level": 1}"#);
-        assert_eq!(told("steps = [4]"), [r#"{"steps": 4, "dt": 0.25, "level": 0}"#]);
+        assert_eq!(
+            told("n = [8, 16]")[1],
+            r#"{"n": 16, "h": 0.0625, "level": 1}"#
+        );
+        assert_eq!(
+            told("h = [0.5, 1e-7]")[1],
+            r#"{"h": 0.0000001, "level": 1}"#
+        );
+        assert_eq!(
+            told("steps = [4]"),
+            [r#"{"steps": 4, "dt": 0.25, "level": 0}"#]
+        );
         let both = told("h = [0.5, 0.25]\ndt = [0.1, 0.05]");
-        assert_eq!(both, [r#"{"h": 0.5, "dt": 0.1, "level": 0}"#, r#"{"h": 0.25, "dt": 0.05, "level": 1}"#]);
-        let grid = read("n = [2, 4]\ndt = [0.1, 0.05, 0.01]\ngrid = true").unwrap().resolutions();
+        assert_eq!(
+            both,
+            [
+                r#"{"h": 0.5, "dt": 0.1, "level": 0}"#,
+                r#"{"h": 0.25, "dt": 0.05, "level": 1}"#
+            ]
+        );
+        let grid = read("n = [2, 4]\ndt = [0.1, 0.05, 0.01]\ngrid = true")
+            .unwrap()
+            .resolutions();
         let labels: Vec<_> = grid.iter().map(|case| case.label.as_str()).collect();
-        assert_eq!(labels[..4], ["n = 2, dt = 0.1", "n = 2, dt = 0.05", "n = 2, dt = 0.01", "n = 4, dt = 0.1"]);
+        assert_eq!(
+            labels[..4],
+            [
+                "n = 2, dt = 0.1",
+                "n = 2, dt = 0.05",
+                "n = 2, dt = 0.01",
+                "n = 4, dt = 0.1"
+            ]
+        );
         assert_eq!((grid.len(), grid[3].cost()), (6, 40.0));
     }
 
@@ -237,15 +360,36 @@ mod tests {
     fn what_is_no_refinement_is_refused_with_its_line() {
         for (text, message) in [
             ("", "a.toml:1:1: refine.n: missing; expected a list n or h"),
-            ("n = []", "a.toml:2:5: refine.n: found the list []; expected a list of increasing whole numbers >= 1"),
+            (
+                "n = []",
+                "a.toml:2:5: refine.n: found the list []; expected a list of increasing whole numbers >= 1",
+            ),
             ("n = 8", "a.toml:2:5: refine.n: found 8; expected a list"),
-            ("n = [8, 8]", "a.toml:2:9: refine.n[1]: found 8; expected a number > 8, the level before"),
-            ("n = [0, 8]", "a.toml:2:6: refine.n[0]: found 0; expected a whole number >= 1"),
-            ("h = [0.1, 0.2]", "refine.h[1]: found 0.2; expected a number < 0.1, the level before"),
+            (
+                "n = [8, 8]",
+                "a.toml:2:9: refine.n[1]: found 8; expected a number > 8, the level before",
+            ),
+            (
+                "n = [0, 8]",
+                "a.toml:2:6: refine.n[0]: found 0; expected a whole number >= 1",
+            ),
+            (
+                "h = [0.1, 0.2]",
+                "refine.h[1]: found 0.2; expected a number < 0.1, the level before",
+            ),
             ("h = [inf]", "refine.h[0]: found inf; expected a number > 0"),
-            ("n = [8]\nh = [0.1]", "refine.h: found h beside n; expected one of the two: n or h"),
-            ("n = [8]\ndt = [0.1, 0.01]", "refine.dt: found 2 values beside 1; expected lists of the same length"),
-            ("n = [8]\ngrid = true", "refine.grid: found true beside one list"),
+            (
+                "n = [8]\nh = [0.1]",
+                "refine.h: found h beside n; expected one of the two: n or h",
+            ),
+            (
+                "n = [8]\ndt = [0.1, 0.01]",
+                "refine.dt: found 2 values beside 1; expected lists of the same length",
+            ),
+            (
+                "n = [8]\ngrid = true",
+                "refine.grid: found true beside one list",
+            ),
             ("n = [8]\nlevels = 3", "unknown key `levels`"),
         ] {
             let found = read(text).unwrap_err();

@@ -20,23 +20,37 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     while let Some(event) = events.next() {
         match event {
             Event::Start(Tag::Paragraph) => {
-                let inner: Vec<_> = events.by_ref().take_while(|e| *e != Event::End(TagEnd::Paragraph)).collect();
+                let inner: Vec<_> = events
+                    .by_ref()
+                    .take_while(|e| *e != Event::End(TagEnd::Paragraph))
+                    .collect();
                 title = plain(&inner);
                 match picture(&inner, figures) {
                     Some(picture) => kept.push(Event::Html(picture.into())),
                     None => {
                         kept.push(Event::Start(Tag::Paragraph));
-                        kept.extend(inner.into_iter().filter_map(|event| tamed(event, &mut links)));
+                        kept.extend(
+                            inner
+                                .into_iter()
+                                .filter_map(|event| tamed(event, &mut links)),
+                        );
                         kept.push(Event::End(TagEnd::Paragraph));
                     }
                 }
             }
             Event::Start(Tag::Table(alignments)) => {
                 let label = escape(&title);
-                let open = format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n");
-                kept.extend([Event::Html(open.into()), Event::Start(Tag::Table(alignments))]);
+                let open = format!(
+                    "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n"
+                );
+                kept.extend([
+                    Event::Html(open.into()),
+                    Event::Start(Tag::Table(alignments)),
+                ]);
             }
-            Event::End(TagEnd::Table) => kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())]),
+            Event::End(TagEnd::Table) => {
+                kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())])
+            }
             Event::Html(text) if is_own(&text) => {
                 title = without_own_tags(&text).trim().to_owned();
                 kept.push(Event::Html(text));
@@ -64,8 +78,17 @@ fn tamed<'e>(event: Event<'e>, links: &mut Vec<bool>) -> Option<Event<'e>> {
     }
 }
 
-const OWN_TAGS: [&str; 9] =
-    ["<details>", "<details open=\"\">", "</details>", "<summary>", "</summary>", "<b>", "</b>", "<code>", "</code>"];
+const OWN_TAGS: [&str; 9] = [
+    "<details>",
+    "<details open=\"\">",
+    "</details>",
+    "<summary>",
+    "</summary>",
+    "<b>",
+    "</b>",
+    "<code>",
+    "</code>",
+];
 
 /// Whether this is markup that the report writes, that of folded tables.
 fn is_own(text: &str) -> bool {
@@ -73,7 +96,9 @@ fn is_own(text: &str) -> bool {
 }
 
 fn without_own_tags(text: &str) -> String {
-    OWN_TAGS.iter().fold(text.to_owned(), |text, tag| text.replace(tag, ""))
+    OWN_TAGS
+        .iter()
+        .fold(text.to_owned(), |text, tag| text.replace(tag, ""))
 }
 
 fn plain(events: &[Event<'_>]) -> String {
@@ -86,10 +111,23 @@ fn plain(events: &[Event<'_>]) -> String {
 
 /// The picture that a paragraph consists of, in its place.
 fn picture(paragraph: &[Event<'_>], figures: &[Figure]) -> Option<String> {
-    let [Event::Start(Tag::Image { dest_url, .. }), .., Event::End(TagEnd::Image)] = paragraph else { return None };
-    let figure = figures.iter().find(|figure| dest_url.strip_prefix("figures/") == Some(figure.file.as_str()))?;
+    let [
+        Event::Start(Tag::Image { dest_url, .. }),
+        ..,
+        Event::End(TagEnd::Image),
+    ] = paragraph
+    else {
+        return None;
+    };
+    let figure = figures
+        .iter()
+        .find(|figure| dest_url.strip_prefix("figures/") == Some(figure.file.as_str()))?;
     // The picture of all rates has too many words to be legible when small.
-    let class = if figure.file == forest::FILE { "scroll wide" } else { "scroll" };
+    let class = if figure.file == forest::FILE {
+        "scroll wide"
+    } else {
+        "scroll"
+    };
     Some(format!(
         "<figure class=\"{class}\" tabindex=\"0\" aria-label=\"{}\">\n{}</figure>\n",
         escape(&figure.caption),
@@ -126,7 +164,13 @@ pub(super) fn phrase(raw: &str) -> String {
     if parts.len().is_multiple_of(2) {
         return parts.join("`");
     }
-    let set = |(i, part): (usize, &String)| if i % 2 == 1 { format!("<code>{part}</code>") } else { part.clone() };
+    let set = |(i, part): (usize, &String)| {
+        if i % 2 == 1 {
+            format!("<code>{part}</code>")
+        } else {
+            part.clone()
+        }
+    };
     parts.iter().enumerate().map(set).collect()
 }
 
@@ -137,14 +181,22 @@ mod tests {
     #[test]
     fn markup_that_is_not_the_reports_own_is_shown() {
         // Backticks of three lengths: Markdown treats none of them as code.
-        for text in
-            ["``` <script>alert(1)</script> ` ``", "a\n\n<script>alert(1)</script>\n\nb", "<img src=x onerror=y>"]
-        {
+        for text in [
+            "``` <script>alert(1)</script> ` ``",
+            "a\n\n<script>alert(1)</script>\n\nb",
+            "<img src=x onerror=y>",
+        ] {
             let html = html(text, &[]);
-            assert!(!html.contains("<script") && !html.contains("<img"), "{html}");
+            assert!(
+                !html.contains("<script") && !html.contains("<img"),
+                "{html}"
+            );
             assert!(html.contains("&lt;"), "{html}");
         }
-        let html = html("[a](javascript:b) ![c](http://d/e.svg) <http://f> [g](#h) [i](j#k)", &[]);
+        let html = html(
+            "[a](javascript:b) ![c](http://d/e.svg) <http://f> [g](#h) [i](j#k)",
+            &[],
+        );
         assert_eq!(html, "<p>a c http://f <a href=\"#h\">g</a> i</p>\n");
     }
 
@@ -152,13 +204,25 @@ mod tests {
     fn folded_tables_keep_their_markup_and_tables_scroll_under_their_title() {
         let text = "<details>\n<summary><b>One &lt; two</b></summary>\n\n| a |\n| - |\n| b |\n\n</details>\n";
         let html = html(text, &[]);
-        assert!(html.starts_with("<details>\n<summary><b>One &lt; two</b></summary>\n<div class=\"scroll\""), "{html}");
-        assert!(html.contains("<td>b</td>") && html.ends_with("</div>\n</details>\n"), "{html}");
+        assert!(
+            html.starts_with(
+                "<details>\n<summary><b>One &lt; two</b></summary>\n<div class=\"scroll\""
+            ),
+            "{html}"
+        );
+        assert!(
+            html.contains("<td>b</td>") && html.ends_with("</div>\n</details>\n"),
+            "{html}"
+        );
     }
 
     #[test]
     fn a_picture_is_put_in_place_if_it_is_the_studys() {
-        let figure = Figure { file: "a.svg".into(), caption: "a < \"b\"".into(), svg: "<svg/>".into() };
+        let figure = Figure {
+            file: "a.svg".into(),
+            caption: "a < \"b\"".into(),
+            svg: "<svg/>".into(),
+        };
         let html = html("![x](figures/a.svg)\n\n![y](figures/b.svg)\n", &[figure]);
         let figure = "<figure class=\"scroll\" tabindex=\"0\" aria-label=\"a &lt; &quot;b&quot;\">\n<svg/></figure>\n";
         assert_eq!(html, format!("{figure}<p>y</p>\n"));

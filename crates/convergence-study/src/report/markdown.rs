@@ -22,10 +22,14 @@ fn escape(raw: &str, in_table: bool) -> String {
     while let Some(c) = rest.next() {
         let c = if c.is_control() { ' ' } else { c };
         // Within a word it is not markup.
-        let is_within = before.is_alphanumeric() && rest.peek().is_some_and(|next| next.is_alphanumeric());
+        let is_within =
+            before.is_alphanumeric() && rest.peek().is_some_and(|next| next.is_alphanumeric());
         let is_markup = matches!(c, '\\' | '*' | '`' | '[' | ']') || (c == '_' && !is_within);
         before = c;
-        let opens_a_tag = c == '<' && rest.peek().is_some_and(|next| next.is_alphabetic() || "/!?".contains(*next));
+        let opens_a_tag = c == '<'
+            && rest
+                .peek()
+                .is_some_and(|next| next.is_alphabetic() || "/!?".contains(*next));
         if c == '`' && has_code {
             in_code = !in_code;
         } else if (c == '|' && in_table) || (!in_code && (opens_a_tag || is_markup)) {
@@ -38,8 +42,12 @@ fn escape(raw: &str, in_table: bool) -> String {
 
 /// The anchor of a heading: small letters, digits, `-` and `_`; a space becomes a `-`.
 pub(super) fn anchor(heading: &str) -> String {
-    let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '));
-    kept.flat_map(char::to_lowercase).map(|c| if c == ' ' { '-' } else { c }).collect()
+    let kept = heading
+        .chars()
+        .filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '));
+    kept.flat_map(char::to_lowercase)
+        .map(|c| if c == ' ' { '-' } else { c })
+        .collect()
 }
 
 /// A table whose columns line up in the source too. The cells are already escaped.
@@ -59,7 +67,11 @@ fn line(cells: impl Iterator<Item = String>) -> String {
 }
 
 fn rule(width: usize, numeric: bool) -> String {
-    if numeric { format!("{:->1$}", ":", width.max(2)) } else { "-".repeat(width.max(1)) }
+    if numeric {
+        format!("{:->1$}", ":", width.max(2))
+    } else {
+        "-".repeat(width.max(1))
+    }
 }
 
 #[cfg(test)]
@@ -94,14 +106,26 @@ mod tests {
 
     #[test]
     fn columns_line_up_and_numbers_stand_to_the_right() {
-        let rows = [["8", "θ"], ["128", "long"]].map(|row| row.map(str::to_owned).to_vec()).to_vec();
+        let rows = [["8", "θ"], ["128", "long"]]
+            .map(|row| row.map(str::to_owned).to_vec())
+            .to_vec();
         let expected = "|   n | norm |\n| --: | ---- |\n|   8 | θ    |\n| 128 | long |\n";
         assert_eq!(table(&["n", "norm"], rows), expected);
     }
 
     #[test]
     fn a_row_of_another_length_leaves_the_table_well_formed() {
-        let text = table(&["a", "b"], vec![vec!["1".into()], vec!["1".into(), "2".into(), "3".into()], vec![]]);
-        assert!(text.lines().all(|line| line.matches('|').count() == 3), "{text}");
+        let text = table(
+            &["a", "b"],
+            vec![
+                vec!["1".into()],
+                vec!["1".into(), "2".into(), "3".into()],
+                vec![],
+            ],
+        );
+        assert!(
+            text.lines().all(|line| line.matches('|').count() == 3),
+            "{text}"
+        );
     }
 }

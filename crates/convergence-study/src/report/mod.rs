@@ -53,13 +53,18 @@ impl Findings<'_> {
     /// # Errors
     /// Two figures with the same name, and errors of the writers of JSON and XML.
     pub fn files(&self) -> io::Result<ReportSet> {
-        let Self { project, record, .. } = self;
+        let Self {
+            project, record, ..
+        } = self;
         let mut set = ReportSet::default();
         set.add("README.md", self.readme())?;
         set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;
-        set.add("junit.xml", junit(project.name, record).map_err(io::Error::other)?)?;
+        set.add(
+            "junit.xml",
+            junit(project.name, record).map_err(io::Error::other)?,
+        )?;
         set.add("errors.csv", self.errors_csv())?;
         for (file, name) in self.project.front_pictures {
             if let Some(figure) = self.figures().find(|figure| figure.file == *file) {
@@ -73,7 +78,10 @@ impl Findings<'_> {
     }
 
     fn figures(&self) -> impl Iterator<Item = &Figure> {
-        self.record.studies.iter().flat_map(|finished| &finished.outcome.figures)
+        self.record
+            .studies
+            .iter()
+            .flat_map(|finished| &finished.outcome.figures)
     }
 
     /// The picture of all rates.
@@ -85,8 +93,15 @@ impl Findings<'_> {
     pub fn readme(&self) -> String {
         let link = |id: &str| self.linked(id, &markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
-        let one = if self.record.changes.is_some() { "; a name after it repeats one study" } else { "" };
-        page += &format!("Written by `{}`, which repeats it{one}. ", self.record.command);
+        let one = if self.record.changes.is_some() {
+            "; a name after it repeats one study"
+        } else {
+            ""
+        };
+        page += &format!(
+            "Written by `{}`, which repeats it{one}. ",
+            self.record.command
+        );
         page += "Orders are theory, rates are observed.";
         if self.see_also.is_some() {
             page += &format!(" See also [the report on the full tier]({FULL}).");
@@ -98,7 +113,11 @@ impl Findings<'_> {
             failures::changes(self, &link).concat()
         );
         page += &section::front(self, &link).0;
-        page += &self.rates().as_ref().map(section::figure).unwrap_or_default();
+        page += &self
+            .rates()
+            .as_ref()
+            .map(section::figure)
+            .unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
         let mut seen = vec![];
         let section = |finished| section::section(finished, &self.again(finished), &mut seen);
@@ -108,8 +127,16 @@ impl Findings<'_> {
 
     /// A study's id in Markdown; a link to its section if it has one.
     fn linked(&self, id: &str, anchor: &str) -> String {
-        let has_a_section = self.record.studies.iter().any(|finished| finished.header.id == id);
-        if has_a_section { format!("[{}](#{anchor})", cell(id)) } else { cell(id) }
+        let has_a_section = self
+            .record
+            .studies
+            .iter()
+            .any(|finished| finished.header.id == id);
+        if has_a_section {
+            format!("[{}](#{anchor})", cell(id))
+        } else {
+            cell(id)
+        }
     }
 
     /// The same as one self-contained page.
@@ -121,15 +148,29 @@ impl Findings<'_> {
     ///
     /// Failures come first; a part that would make the text longer than [`LONGEST`] is left out, and the text says so.
     pub fn digest(&self) -> String {
-        let mut digest = format!("## Verification, {}\n\n{}", self.record.scope, self.verdict_line());
-        let passes = self.record.studies.iter().filter(|finished| finished.outcome.verdict == Verdict::Pass).count();
+        let mut digest = format!(
+            "## Verification, {}\n\n{}",
+            self.record.scope,
+            self.verdict_line()
+        );
+        let passes = self
+            .record
+            .studies
+            .iter()
+            .filter(|finished| finished.outcome.verdict == Verdict::Pass)
+            .count();
         let folded = section::folded(
             &format!("{passes} of {} studies pass", self.record.studies.len()),
             &self.overview(cell),
             false,
         );
         let failures = failures::markdown(self.record, false);
-        let parts = [vec![self.diagnosis(), failures], failures::changes(self, &cell), vec![folded]].concat();
+        let parts = [
+            vec![self.diagnosis(), failures],
+            failures::changes(self, &cell),
+            vec![folded],
+        ]
+        .concat();
         let too_long = "\nA comment holds no more: see the report.\n";
         for part in parts {
             if digest.len() + part.len() + too_long.len() > LONGEST {
@@ -160,40 +201,73 @@ impl Findings<'_> {
     }
 
     fn verdict_line(&self) -> String {
-        format!("**{}**: {}\n\n", self.record.verdict, text(&self.sentence()))
+        format!(
+            "**{}**: {}\n\n",
+            self.record.verdict,
+            text(&self.sentence())
+        )
     }
 
     /// A table for each group of studies.
     fn overview(&self, id: impl Fn(&str) -> String) -> String {
-        let row = |Finished { header, outcome, .. }: &Finished| {
+        let row = |Finished {
+                       header, outcome, ..
+                   }: &Finished| {
             let verdict = section::marked(outcome.verdict);
-            vec![id(&header.id), cell(&header.claim), verdict, cell(&key_numbers(outcome))]
+            vec![
+                id(&header.id),
+                cell(&header.claim),
+                verdict,
+                cell(&key_numbers(outcome)),
+            ]
         };
         let table = |(group, studies): (&str, Vec<&Finished>)| {
             let rows = studies.into_iter().map(row).collect();
             let table = markdown::table(&["study", "claim", "verdict", "key numbers"], rows);
             format!("\n**{}**\n\n{table}", text(group))
         };
-        forest::grouped(self.project, &self.record.studies).into_iter().map(table).collect()
+        forest::grouped(self.project, &self.record.studies)
+            .into_iter()
+            .map(table)
+            .collect()
     }
 
     /// Errors in long form, one per line.
     pub fn errors_csv(&self) -> String {
-        let levels = || self.record.studies.iter().flat_map(|finished| &finished.outcome.levels);
-        let parameters = distinct(levels().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
+        let levels = || {
+            self.record
+                .studies
+                .iter()
+                .flat_map(|finished| &finished.outcome.levels)
+        };
+        let parameters =
+            distinct(levels().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
         let mut csv: String = ["study"]
             .into_iter()
             .chain(parameters.iter().map(|name| name.as_str()))
             .map(|name| field(name) + ",")
             .collect();
         csv += "norm,error\n";
-        for Finished { header, outcome, .. } in &self.record.studies {
+        for Finished {
+            header, outcome, ..
+        } in &self.record.studies
+        {
             for level in &outcome.levels {
-                let value =
-                    |name: &&String| level.parameter(name).map(|value| value.to_string()).unwrap_or_default() + ",";
+                let value = |name: &&String| {
+                    level
+                        .parameter(name)
+                        .map(|value| value.to_string())
+                        .unwrap_or_default()
+                        + ","
+                };
                 let values: String = parameters.iter().map(value).collect();
                 for (norm, error) in &level.errors {
-                    csv += &format!("{},{values}{},{}\n", field(&header.id), field(norm), committed(*error));
+                    csv += &format!(
+                        "{},{values}{},{}\n",
+                        field(&header.id),
+                        field(norm),
+                        committed(*error)
+                    );
                 }
             }
         }
@@ -203,5 +277,9 @@ impl Findings<'_> {
 
 /// A field of a CSV line, in quotes if needed (RFC 4180).
 fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
 }

@@ -12,19 +12,28 @@ use crate::run::Finished;
 const OPEN: usize = 3;
 
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("picture.css"));
-const SCRIPTS: [&str; 3] = [include_str!("page.js"), include_str!("sort.js"), include_str!("picture.js")];
+const SCRIPTS: [&str; 3] = [
+    include_str!("page.js"),
+    include_str!("sort.js"),
+    include_str!("picture.js"),
+];
 
 /// Nothing is loaded from anywhere, whatever a study's text contains.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The page: verdicts first, then the studies, all folded except those that do not pass.
 pub(super) fn page(findings: &Findings<'_>) -> String {
     let groups = groups(findings);
     let listed = groups.iter().flat_map(|(_, studies)| studies);
     // Those that do not pass come first: the first of them are open.
-    let each = |(k, finished): (usize, &&Finished)| study(finished, &findings.again(finished), k < OPEN);
+    let each =
+        |(k, finished): (usize, &&Finished)| study(finished, &findings.again(finished), k < OPEN);
     let studies: String = listed.enumerate().map(each).collect();
-    let scripts: String = SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>\n")).collect();
+    let scripts: String = SCRIPTS
+        .iter()
+        .map(|script| format!("<script>\n{script}</script>\n"))
+        .collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\"/>\n\
@@ -50,12 +59,17 @@ fn head(findings: &Findings<'_>) -> String {
 /// What did not pass, what changed, the origin of the report, and all rates in one picture.
 fn front(findings: &Findings<'_>) -> String {
     let changes = failures::changes(findings, &|id| findings.linked(id, id)).concat();
-    let picture = findings.rates().map(|figure| html(&section::figure(&figure), &[figure]));
+    let picture = findings
+        .rates()
+        .map(|figure| html(&section::figure(&figure), &[figure]));
     let (verified, plot) = section::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])
         + &failures::html(findings.record)
         + &html(&changes, &[])
-        + &html(&verified, plot.map(std::slice::from_ref).unwrap_or_default())
+        + &html(
+            &verified,
+            plot.map(std::slice::from_ref).unwrap_or_default(),
+        )
         + &origin(findings)
         + &picture.unwrap_or_default()
 }
@@ -67,11 +81,18 @@ fn origin(findings: &Findings<'_>) -> String {
         escape(&findings.record.command)
     );
     if let Some(page) = findings.see_also {
-        origin += &format!(" See also <a href=\"{}\">the report on the full tier</a>.", escape(page));
+        origin += &format!(
+            " See also <a href=\"{}\">the report on the full tier</a>.",
+            escape(page)
+        );
     }
     origin += "</p>\n";
     if let Some(provenance) = findings.provenance {
-        let sentences: Vec<String> = provenance.sentences().iter().map(|sentence| escape(sentence)).collect();
+        let sentences: Vec<String> = provenance
+            .sentences()
+            .iter()
+            .map(|sentence| escape(sentence))
+            .collect();
         origin += &format!("<p class=\"provenance\">{}</p>\n", sentences.join(" "));
     }
     origin
@@ -90,7 +111,9 @@ fn groups<'f>(findings: &Findings<'f>) -> Vec<(&'f str, Vec<&'f Finished>)> {
 
 /// All verdicts in one table, below the controls, which need scripts.
 fn overview(groups: &[(&str, Vec<&Finished>)]) -> String {
-    let row = |Finished { header, outcome, .. }: &Finished| {
+    let row = |Finished {
+                   header, outcome, ..
+               }: &Finished| {
         format!(
             "<tr data-study=\"{id}\"><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             badge(outcome.verdict),
@@ -101,7 +124,10 @@ fn overview(groups: &[(&str, Vec<&Finished>)]) -> String {
     };
     let group = |(label, studies): &(&str, Vec<&Finished>)| {
         let rows: String = studies.iter().copied().map(row).collect();
-        format!("<tr class=\"group\"><th colspan=\"4\" scope=\"rowgroup\">{}</th></tr>\n{rows}", phrase(label))
+        format!(
+            "<tr class=\"group\"><th colspan=\"4\" scope=\"rowgroup\">{}</th></tr>\n{rows}",
+            phrase(label)
+        )
     };
     let rows: String = groups.iter().map(group).collect();
     let options: String = [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail]
@@ -121,8 +147,14 @@ fn overview(groups: &[(&str, Vec<&Finished>)]) -> String {
 }
 
 fn study(finished: &Finished, again: &str, open: bool) -> String {
-    let Finished { header, outcome, .. } = finished;
-    let open = if outcome.verdict == Verdict::Pass || !open { "" } else { " open=\"\"" };
+    let Finished {
+        header, outcome, ..
+    } = finished;
+    let open = if outcome.verdict == Verdict::Pass || !open {
+        ""
+    } else {
+        " open=\"\""
+    };
     format!(
         "<details class=\"study\" id=\"{id}\" data-verdict=\"{}\"{open}>\n\
          <summary>{} <h2>{id}</h2> <span class=\"claim\">{}</span></summary>\n{}</details>\n",

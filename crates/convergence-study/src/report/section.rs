@@ -25,7 +25,9 @@ const MOST_FIGURES: usize = 3;
 /// * `again`: the command that runs it again.
 /// * `seen`: captions of figures shown earlier: a twin of such a figure is linked, not shown.
 pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'f str>) -> String {
-    let Finished { header, outcome, .. } = finished;
+    let Finished {
+        header, outcome, ..
+    } = finished;
     let head = format!("\n## {}\n\n> {}\n\n", header.id, text(&header.claim));
     if outcome.verdict != Verdict::Pass {
         return head + &body(finished, again);
@@ -35,7 +37,11 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
     for table in &tables(finished, true) {
         let Table { title, rows, .. } = table;
         match &rows[..] {
-            [row] if title == CHECKS => parts.push(format!("**{CHECKS}**: {} ({})\n", text(&row[0]), text(&row[2]))),
+            [row] if title == CHECKS => parts.push(format!(
+                "**{CHECKS}**: {} ({})\n",
+                text(&row[0]),
+                text(&row[2])
+            )),
             rows if rows.len() > MOST_ROWS || parts.len() > MOST_TABLES => {
                 elsewhere.push(text(title));
             }
@@ -44,15 +50,26 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
     }
     elsewhere.dedup();
     if !elsewhere.is_empty() {
-        parts.push(format!("On the page, and in [results.json](results.json): {}\n", elsewhere.join("; ")));
+        parts.push(format!(
+            "On the page, and in [results.json](results.json): {}\n",
+            elsewhere.join("; ")
+        ));
     }
-    let is_twin = |figure: &Figure| outcome.figures.len() == 1 && seen.contains(&figure.caption.as_str());
-    let (shown, linked): (Vec<_>, Vec<_>) =
-        outcome.figures.iter().enumerate().partition(|(k, figure)| *k < MOST_FIGURES && !is_twin(figure));
+    let is_twin =
+        |figure: &Figure| outcome.figures.len() == 1 && seen.contains(&figure.caption.as_str());
+    let (shown, linked): (Vec<_>, Vec<_>) = outcome
+        .figures
+        .iter()
+        .enumerate()
+        .partition(|(k, figure)| *k < MOST_FIGURES && !is_twin(figure));
     parts.extend(shown.into_iter().map(|(_, shown)| figure(shown)));
     if !linked.is_empty() {
-        let link = |(_, Figure { file, .. }): &(usize, &Figure)| format!("[{file}](figures/{file})");
-        parts.push(format!("Figures: {}\n", linked.iter().map(link).collect::<Vec<_>>().join(", ")));
+        let link =
+            |(_, Figure { file, .. }): &(usize, &Figure)| format!("[{file}](figures/{file})");
+        parts.push(format!(
+            "Figures: {}\n",
+            linked.iter().map(link).collect::<Vec<_>>().join(", ")
+        ));
     }
     seen.extend(outcome.figures.iter().map(|figure| figure.caption.as_str()));
     head + &parts.join("\n")
@@ -60,10 +77,20 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
 
 /// A whole section except heading and claim, nothing left out: verdict in words, tables, figures, and how to run the study again.
 pub(super) fn body(finished: &Finished, again: &str) -> String {
-    let Finished { header, outcome, .. } = finished;
-    let mut parts = vec![format!("{}: {}\n", marked(outcome.verdict), text(&summary(outcome)))];
+    let Finished {
+        header, outcome, ..
+    } = finished;
+    let mut parts = vec![format!(
+        "{}: {}\n",
+        marked(outcome.verdict),
+        text(&summary(outcome))
+    )];
     let passes = outcome.verdict == Verdict::Pass;
-    parts.extend(tables(finished, false).iter().map(|table| titled(table, passes)));
+    parts.extend(
+        tables(finished, false)
+            .iter()
+            .map(|table| titled(table, passes)),
+    );
     parts.extend(outcome.figures.iter().map(figure));
     let (tier, kind) = (header.tier.name(), &header.kind);
     parts.push(format!("Again: `{again}` (tier {tier}, kind {kind})\n"));
@@ -72,7 +99,11 @@ pub(super) fn body(finished: &Finished, again: &str) -> String {
 
 /// The verdict; in bold unless it is a pass.
 pub(super) fn marked(verdict: Verdict) -> String {
-    if verdict == Verdict::Pass { verdict.to_string() } else { format!("**{verdict}**") }
+    if verdict == Verdict::Pass {
+        verdict.to_string()
+    } else {
+        format!("**{verdict}**")
+    }
 }
 
 /// The lines of a table in Markdown, without its title.
@@ -86,7 +117,11 @@ fn titled(table: &Table, passes: bool) -> String {
     if rows.len() <= MOST_ROWS {
         return format!("**{}**\n\n{lines}", text(title));
     }
-    folded(&format!("<b>{}</b>: {} rows", phrase(title), rows.len()), &lines, !passes)
+    folded(
+        &format!("<b>{}</b>: {} rows", phrase(title), rows.len()),
+        &lines,
+        !passes,
+    )
 }
 
 /// Lines that can be unfolded under a summary, in HTML.
@@ -102,17 +137,27 @@ fn cells(row: &[String]) -> Vec<String> {
 /// The picture with its caption, which is also its text alternative.
 pub(super) fn figure(figure: &Figure) -> String {
     let alternative = figure.caption.replace(['[', ']', '\n', '`', '\\'], " ");
-    format!("![{alternative}](figures/{})\n\n*{}*\n", figure.file, text(&figure.caption))
+    format!(
+        "![{alternative}](figures/{})\n\n*{}*\n",
+        figure.file,
+        text(&figure.caption)
+    )
 }
 
 /// In Markdown, with its plot; empty if the run does not pass or contains none of the studies.
 ///
 /// * `link`: how a study's id is written.
-pub(super) fn front<'f>(findings: &'f Findings<'_>, link: &dyn Fn(&str) -> String) -> (String, Option<&'f Figure>) {
+pub(super) fn front<'f>(
+    findings: &'f Findings<'_>,
+    link: &dyn Fn(&str) -> String,
+) -> (String, Option<&'f Figure>) {
     let record = findings.record;
     let front = &findings.project.front;
     let find = |id: &str| record.studies.iter().find(|study| study.header.id == id);
-    let answered = front.statements.iter().filter_map(|(statement, id, rate)| Some((*statement, find(id)?, *rate)));
+    let answered = front
+        .statements
+        .iter()
+        .filter_map(|(statement, id, rate)| Some((*statement, find(id)?, *rate)));
     let answered: Vec<(&str, &Finished, &str)> = answered.collect();
     if record.verdict != Verdict::Pass || answered.is_empty() {
         return (String::new(), None);
@@ -120,10 +165,29 @@ pub(super) fn front<'f>(findings: &'f Findings<'_>, link: &dyn Fn(&str) -> Strin
     let picture = findings.figures().find(|figure| figure.file == front.plot);
     let row = |(statement, study, name): &(&str, &Finished, &str)| {
         let rate = study.outcome.rates.iter().find(|(norm, _)| norm == name);
-        let rate = rate.map(|(_, rate)| format!("rate {}, claimed {}", rate.rate_in_words(RATE_PLACES), rate.claim()));
-        vec![cell(statement), cell(&rate.unwrap_or_else(|| key_numbers(&study.outcome))), link(&study.header.id)]
+        let rate = rate.map(|(_, rate)| {
+            format!(
+                "rate {}, claimed {}",
+                rate.rate_in_words(RATE_PLACES),
+                rate.claim()
+            )
+        });
+        vec![
+            cell(statement),
+            cell(&rate.unwrap_or_else(|| key_numbers(&study.outcome))),
+            link(&study.header.id),
+        ]
     };
-    let statements = table(&["statement", "found", "study"], answered.iter().map(row).collect());
+    let statements = table(
+        &["statement", "found", "study"],
+        answered.iter().map(row).collect(),
+    );
     let plot = picture.map(figure).unwrap_or_default();
-    (format!("## What is verified\n\n{}\n\n{plot}\n{statements}\n", text(front.verified)), picture)
+    (
+        format!(
+            "## What is verified\n\n{}\n\n{plot}\n{statements}\n",
+            text(front.verified)
+        ),
+        picture,
+    )
 }

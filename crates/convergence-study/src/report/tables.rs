@@ -15,33 +15,65 @@ pub(super) const CHECKS: &str = "Checks";
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
 ///
 /// * `judged`: whether to leave out errors whose rate was not judged.
-pub fn tables(Finished { outcome, failed_cases, .. }: &Finished, judged: bool) -> Vec<Table> {
-    let common = [rates(outcome), checks(&outcome.checks)].into_iter().chain(errors(outcome, judged));
+pub fn tables(
+    Finished {
+        outcome,
+        failed_cases,
+        ..
+    }: &Finished,
+    judged: bool,
+) -> Vec<Table> {
+    let common = [rates(outcome), checks(&outcome.checks)]
+        .into_iter()
+        .chain(errors(outcome, judged));
     let own = outcome.tables.iter().cloned();
     let all = common.chain(own).chain([failures(failed_cases)]);
-    all.filter(|table| !table.head.is_empty() && !table.rows.is_empty()).collect()
+    all.filter(|table| !table.head.is_empty() && !table.rows.is_empty())
+        .collect()
 }
 
 fn rates(outcome: &Outcome) -> Table {
     let row = |(norm, rate): &(String, RateVerdict)| {
-        let places = rate.interval.map_or(RATE_PLACES - 1, |interval| interval_places(interval, RATE_PLACES));
-        let number = |rate: Option<f64>| rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, places));
+        let places = rate.interval.map_or(RATE_PLACES - 1, |interval| {
+            interval_places(interval, RATE_PLACES)
+        });
+        let number =
+            |rate: Option<f64>| rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, places));
         vec![
             norm.clone(),
             rate.claim(),
             number(rate.fitted.or_else(|| rate.finest_rate())),
-            rate.interval.map_or_else(|| "-".to_owned(), |interval| interval_text(interval, RATE_PLACES)),
+            rate.interval.map_or_else(
+                || "-".to_owned(),
+                |interval| interval_text(interval, RATE_PLACES),
+            ),
             number(rate.extrapolated),
             levels(rate),
             rate.verdict.name().to_owned(),
             // The numbers of a reason are in the other columns, which are all that a pass needs.
-            if rate.verdict == Verdict::Pass { String::new() } else { rate.kind.text().to_owned() },
+            if rate.verdict == Verdict::Pass {
+                String::new()
+            } else {
+                rate.kind.text().to_owned()
+            },
         ]
     };
-    let head =
-        ["error in", "order claimed", "rate", "95 % interval", "extrapolated", "levels used", "verdict", "reason"];
+    let head = [
+        "error in",
+        "order claimed",
+        "rate",
+        "95 % interval",
+        "extrapolated",
+        "levels used",
+        "verdict",
+        "reason",
+    ];
     let mut rates = Table::new("Rates", head, outcome.rates.iter().map(row));
-    if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
+    if outcome
+        .rates
+        .iter()
+        .all(|(_, rate)| rate.verdict == Verdict::Pass)
+    {
         rates.head.pop();
         rates.rows.iter_mut().for_each(|row| drop(row.pop()));
     }
@@ -50,7 +82,11 @@ fn rates(outcome: &Outcome) -> Table {
 
 /// The levels that the rate was fitted to, counted from the coarsest; without a fit, those of the finest pair.
 fn levels(rate: &RateVerdict) -> String {
-    let all = if rate.pairwise.is_empty() { 0 } else { rate.pairwise.len() + 1 };
+    let all = if rate.pairwise.is_empty() {
+        0
+    } else {
+        rate.pairwise.len() + 1
+    };
     match (rate.used.is_empty(), rate.finest_rate()) {
         (false, _) => format!("{}-{} of {all}", rate.used.start + 1, rate.used.end),
         (true, Some(_)) => "finest pair".to_owned(),
@@ -59,13 +95,27 @@ fn levels(rate: &RateVerdict) -> String {
 }
 
 fn checks(checks: &[Check]) -> Table {
-    let row = |check: &Check| vec![check.claim.clone(), check.verdict.name().to_owned(), check.evidence.clone()];
-    Table::new(CHECKS, ["claim", "verdict", "evidence"], checks.iter().map(row))
+    let row = |check: &Check| {
+        vec![
+            check.claim.clone(),
+            check.verdict.name().to_owned(),
+            check.evidence.clone(),
+        ]
+    };
+    Table::new(
+        CHECKS,
+        ["claim", "verdict", "evidence"],
+        checks.iter().map(row),
+    )
 }
 
 fn failures(failed: &[FailedCase]) -> Table {
     let row = |failed: &FailedCase| vec![failed.label.clone(), failed.reason.clone()];
-    Table::new("Cases without a result", ["case", "reason"], failed.iter().map(row))
+    Table::new(
+        "Cases without a result",
+        ["case", "reason"],
+        failed.iter().map(row),
+    )
 }
 
 /// Widest table in characters, with three for the gap between columns: this fits on the page, and nearly in Markdown.
@@ -84,31 +134,60 @@ struct Column {
 /// * `judged`: only errors whose rate was judged, unless none was.
 fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
     let levels = &outcome.levels;
-    let mut names = distinct(levels.iter().flat_map(|level| level.errors.iter().map(|(name, _)| name)));
+    let mut names = distinct(
+        levels
+            .iter()
+            .flat_map(|level| level.errors.iter().map(|(name, _)| name)),
+    );
     let is_judged = |name: &&String| outcome.rates.iter().any(|(known, _)| known == *name);
     if judged && names.iter().any(is_judged) {
         names.retain(is_judged);
     }
-    let parameters = distinct(levels.iter().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
-    let room = WIDEST - parameters.iter().map(|name| name.chars().count().max(6) + 3).sum::<usize>().min(WIDEST);
+    let parameters = distinct(
+        levels
+            .iter()
+            .flat_map(|level| level.parameters.iter().map(|(name, _)| name)),
+    );
+    let room = WIDEST
+        - parameters
+            .iter()
+            .map(|name| name.chars().count().max(6) + 3)
+            .sum::<usize>()
+            .min(WIDEST);
     let mut tables: Vec<Vec<Column>> = vec![];
     for name in names {
         let column = Column::of(outcome, name);
         let width = |columns: &[Column]| columns.iter().map(Column::width).sum::<usize>();
         match tables.last_mut() {
-            Some(last) if width(last) + column.width() <= room && last[0].rows_like(&column) => last.push(column),
+            Some(last) if width(last) + column.width() <= room && last[0].rows_like(&column) => {
+                last.push(column)
+            }
             _ => tables.push(vec![column]),
         }
     }
-    let identified: Vec<Column> = parameters.into_iter().map(|name| Column::of_parameter(outcome, name)).collect();
+    let identified: Vec<Column> = parameters
+        .into_iter()
+        .map(|name| Column::of_parameter(outcome, name))
+        .collect();
     let table = |(k, columns): (usize, Vec<Column>)| {
         let columns: Vec<&Column> = identified.iter().chain(&columns).collect();
         // The levels that have these errors.
-        let row = |level: usize| columns.iter().map(|column| column.cells[level].clone()).collect::<Option<Vec<_>>>();
+        let row = |level: usize| {
+            columns
+                .iter()
+                .map(|column| column.cells[level].clone())
+                .collect::<Option<Vec<_>>>()
+        };
         Table::new(
-            if k == 0 { "Errors" } else { "Errors, continued" },
+            if k == 0 {
+                "Errors"
+            } else {
+                "Errors, continued"
+            },
             columns.iter().flat_map(|column| column.head.clone()),
-            (0..levels.len()).filter_map(row).map(|cells| cells.concat()),
+            (0..levels.len())
+                .filter_map(row)
+                .map(|cells| cells.concat()),
         )
     };
     tables.into_iter().enumerate().map(table).collect()
@@ -117,8 +196,17 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
 impl Column {
     /// What identifies the levels.
     fn of_parameter(outcome: &Outcome, name: &str) -> Self {
-        let cell = |level: &LevelErrors| vec![level.parameter(name).map_or_else(|| "-".to_owned(), plain_text)];
-        Self { head: vec![name.to_owned()], cells: outcome.levels.iter().map(cell).map(Some).collect() }
+        let cell = |level: &LevelErrors| {
+            vec![
+                level
+                    .parameter(name)
+                    .map_or_else(|| "-".to_owned(), plain_text),
+            ]
+        };
+        Self {
+            head: vec![name.to_owned()],
+            cells: outcome.levels.iter().map(cell).map(Some).collect(),
+        }
     }
 
     fn of(outcome: &Outcome, name: &str) -> Self {
@@ -131,31 +219,51 @@ impl Column {
         let judged = outcome.rates.iter().find(|(known, _)| known == name);
         // Rates belong to levels only if each level is one of those judged.
         let count = errors.iter().flatten().count();
-        let pairwise = judged.map(|(_, rate)| &rate.pairwise).filter(|pairwise| pairwise.len() + 1 == count);
+        let pairwise = judged
+            .map(|(_, rate)| &rate.pairwise)
+            .filter(|pairwise| pairwise.len() + 1 == count);
         let mut met = 0;
         let cell = |error: &Option<Option<f64>>| {
             let mut cells = vec![(*error)?.map_or_else(|| "-".to_owned(), error_text)];
             if let Some(pairwise) = pairwise {
-                let before = usize::checked_sub(met, 1).map(|before| pairwise[before]).filter(|rate| !rate.is_nan());
-                cells.push(before.map_or_else(|| "-".to_owned(), |rate| decimals(committed_rate(rate), 3)));
+                let before = usize::checked_sub(met, 1)
+                    .map(|before| pairwise[before])
+                    .filter(|rate| !rate.is_nan());
+                cells.push(
+                    before.map_or_else(|| "-".to_owned(), |rate| decimals(committed_rate(rate), 3)),
+                );
                 met += 1;
             }
             Some(cells)
         };
-        let head = [name].into_iter().chain(pairwise.map(|_| "rate")).map(str::to_owned).collect();
-        Self { head, cells: errors.iter().map(cell).collect() }
+        let head = [name]
+            .into_iter()
+            .chain(pairwise.map(|_| "rate"))
+            .map(str::to_owned)
+            .collect();
+        Self {
+            head,
+            cells: errors.iter().map(cell).collect(),
+        }
     }
 
     fn width(&self) -> usize {
         let widest = |k: usize| {
             let cells = self.cells.iter().flatten().filter_map(|cells| cells.get(k));
-            cells.chain(self.head.get(k)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+            cells
+                .chain(self.head.get(k))
+                .map(|cell| cell.chars().count())
+                .max()
+                .unwrap_or(0)
         };
         (0..self.head.len()).map(|k| widest(k) + 3).sum()
     }
 
     /// Whether both have errors on the same levels.
     fn rows_like(&self, other: &Self) -> bool {
-        self.cells.iter().zip(&other.cells).all(|(a, b)| a.is_some() == b.is_some())
+        self.cells
+            .iter()
+            .zip(&other.cells)
+            .all(|(a, b)| a.is_some() == b.is_some())
     }
 }

@@ -7,7 +7,9 @@ use crate::store::{Change, Movement};
 use crate::study::levels;
 use crate::study::outcome::Outcome;
 use crate::text::lists::{self, and_more};
-use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text};
+use crate::text::number::{
+    RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text,
+};
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -17,8 +19,11 @@ const NAMED: usize = 3;
 /// * `changes`: what moved away from the baseline; `None` without a baseline.
 pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
     let of = |verdict: Verdict| {
-        let ids = finished.iter().filter(move |finished| finished.outcome.verdict == verdict);
-        ids.map(|finished| finished.header.id.as_str()).collect::<Vec<_>>()
+        let ids = finished
+            .iter()
+            .filter(move |finished| finished.outcome.verdict == verdict);
+        ids.map(|finished| finished.header.id.as_str())
+            .collect::<Vec<_>>()
     };
     let (failed, inconclusive) = (of(Verdict::Fail), of(Verdict::Inconclusive));
     let studies = match finished.len() {
@@ -29,7 +34,10 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
             let count = |ids: &[&str], what: &str| match ids {
                 [] => None,
                 ids => {
-                    let (more, named) = (and_more(ids.len(), NAMED), ids[..ids.len().min(NAMED)].join(", "));
+                    let (more, named) = (
+                        and_more(ids.len(), NAMED),
+                        ids[..ids.len().min(NAMED)].join(", "),
+                    );
                     Some(format!("{} of {n} {what} ({named}{more})", ids.len()))
                 }
             };
@@ -44,12 +52,25 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
 }
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
-    let guarded: usize = finished.iter().map(|finished| finished.outcome.quantities.len()).sum();
-    let is_new =
-        |change: &&Change| matches!(change.movement, Movement::New { .. } | Movement::NewFile { guarded: 0, .. });
+    let guarded: usize = finished
+        .iter()
+        .map(|finished| finished.outcome.quantities.len())
+        .sum();
+    let is_new = |change: &&Change| {
+        matches!(
+            change.movement,
+            Movement::New { .. } | Movement::NewFile { guarded: 0, .. }
+        )
+    };
     let new = changes.iter().filter(is_new).count();
-    let claims = changes.iter().filter(|change| change.movement.is_of_one_claim()).count();
-    let deleted = changes.iter().filter(|change| matches!(change.movement, Movement::VanishedFile { .. })).count();
+    let claims = changes
+        .iter()
+        .filter(|change| change.movement.is_of_one_claim())
+        .count();
+    let deleted = changes
+        .iter()
+        .filter(|change| matches!(change.movement, Movement::VanishedFile { .. }))
+        .count();
     let count = |n: usize, [one, many]: [&str; 2]| match n {
         0 => None,
         1 => Some(format!("1 {one}")),
@@ -60,7 +81,10 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     let changed = [
         count(deleted, ["study deleted", "studies deleted"]),
         count(claims, ["claim changed", "claims changed"]),
-        count(values, ["baseline value changed", "baseline values changed"]),
+        count(
+            values,
+            ["baseline value changed", "baseline values changed"],
+        ),
         new_ones,
     ];
     match (changes.len(), guarded) {
@@ -73,27 +97,66 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
 /// The command that blesses these changes: for the full tier if a study changed that was not run, with a reason if a claim did.
 ///
 /// * `command`: the command that was run.
-pub fn blessing(project: &Project, command: &str, finished: &[Finished], changes: &[Change]) -> String {
-    let was_run = |change: &Change| finished.iter().any(|finished| finished.header.id == change.study);
-    let is_gone =
-        |change: &Change| matches!(change.movement, Movement::VanishedFile { .. } | Movement::Vanished { .. });
-    let all_run = changes.iter().all(|change| was_run(change) || is_gone(change));
+pub fn blessing(
+    project: &Project,
+    command: &str,
+    finished: &[Finished],
+    changes: &[Change],
+) -> String {
+    let was_run = |change: &Change| {
+        finished
+            .iter()
+            .any(|finished| finished.header.id == change.study)
+    };
+    let is_gone = |change: &Change| {
+        matches!(
+            change.movement,
+            Movement::VanishedFile { .. } | Movement::Vanished { .. }
+        )
+    };
+    let all_run = changes
+        .iter()
+        .all(|change| was_run(change) || is_gone(change));
     let full = format!("{} verify --tier full", project.command);
-    let reason = if changes.iter().any(|change| change.movement.needs_a_reason()) { " --reason TEXT" } else { "" };
+    let reason = if changes
+        .iter()
+        .any(|change| change.movement.needs_a_reason())
+    {
+        " --reason TEXT"
+    } else {
+        ""
+    };
     format!("{} --bless{reason}", if all_run { command } else { &full })
 }
 
 /// Whether `--bless` would be accepted: it is refused if a study does not pass.
 pub fn can_be_blessed(finished: &[Finished]) -> bool {
-    finished.iter().all(|finished| finished.outcome.verdict == Verdict::Pass)
+    finished
+        .iter()
+        .all(|finished| finished.outcome.verdict == Verdict::Pass)
 }
 
 /// The numbers to read first: the study's own, or the rate that decides against its order; then the failures.
 pub fn key_numbers(outcome: &Outcome) -> String {
-    let Outcome { headline, rates, checks, .. } = outcome;
-    let mut parts = if headline.is_empty() { of_rates(rates) } else { vec![headline.clone()] };
-    parts.extend(not_passed(rates.iter().map(|(_, rate)| rate.verdict), "rates"));
-    parts.extend(not_passed(checks.iter().map(|check| check.verdict), "checks"));
+    let Outcome {
+        headline,
+        rates,
+        checks,
+        ..
+    } = outcome;
+    let mut parts = if headline.is_empty() {
+        of_rates(rates)
+    } else {
+        vec![headline.clone()]
+    };
+    parts.extend(not_passed(
+        rates.iter().map(|(_, rate)| rate.verdict),
+        "rates",
+    ));
+    parts.extend(not_passed(
+        checks.iter().map(|check| check.verdict),
+        "checks",
+    ));
     match (parts.is_empty(), checks.len()) {
         (true, 0) => "nothing judged".to_owned(),
         (true, n) => format!("all {n} checks pass"),
@@ -104,7 +167,11 @@ pub fn key_numbers(outcome: &Outcome) -> String {
 /// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a table has each of them.
 pub fn summary(outcome: &Outcome) -> String {
     let each = levels::summary(&outcome.rates);
-    if outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
+    if outcome
+        .rates
+        .iter()
+        .all(|(_, rate)| rate.verdict == Verdict::Pass)
+    {
         return outcome.summary.clone();
     }
     outcome.summary.replacen(&each, &grouped(&outcome.rates), 1)
@@ -112,7 +179,9 @@ pub fn summary(outcome: &Outcome) -> String {
 
 /// The rates that do not pass, grouped by reason and claim: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
 fn grouped(rates: &[(String, RateVerdict)]) -> String {
-    let missed = rates.iter().filter(|(_, rate)| rate.verdict != Verdict::Pass);
+    let missed = rates
+        .iter()
+        .filter(|(_, rate)| rate.verdict != Verdict::Pass);
     let groups = lists::grouped(missed.map(|missed| ((missed.1.kind, missed.1.claim()), missed)));
     let one = |((kind, claim), group): &((Reason, String), Vec<&(String, RateVerdict)>)| {
         if let [(name, rate)] = group[..] {
@@ -131,26 +200,57 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
 /// From the lowest to the highest of several rates, with digits that all of them have in their table.
 pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
     let known: Vec<(f64, usize)> = rates
-        .filter_map(|rate| Some((rate.fitted?, rate.interval.map_or(3, |ends| interval_places(ends, RATE_PLACES)))))
+        .filter_map(|rate| {
+            Some((
+                rate.fitted?,
+                rate.interval
+                    .map_or(3, |ends| interval_places(ends, RATE_PLACES)),
+            ))
+        })
         .collect();
-    let Some(places) = known.iter().map(|(_, places)| *places).min() else { return "no rate".to_owned() };
-    let end = |pick: fn(f64, f64) -> f64| known.iter().map(|(rate, _)| *rate).reduce(pick).unwrap_or(f64::NAN);
+    let Some(places) = known.iter().map(|(_, places)| *places).min() else {
+        return "no rate".to_owned();
+    };
+    let end = |pick: fn(f64, f64) -> f64| {
+        known
+            .iter()
+            .map(|(rate, _)| *rate)
+            .reduce(pick)
+            .unwrap_or(f64::NAN)
+    };
     let [low, high] = [end(f64::min), end(f64::max)].map(|rate| decimals(rate, places));
-    if low == high { low } else { format!("{low} to {high}") }
+    if low == high {
+        low
+    } else {
+        format!("{low} to {high}")
+    }
 }
 
 /// The worst rate, and the largest distance of the others from their orders.
 fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     // Of several worst rates, the first that the study names.
-    let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else { return vec![] };
-    let fitted = worst.fitted.map_or_else(|| worst.rate_in_words(RATE_PLACES), |fitted| rate_text(Some(fitted)));
-    let mut parts = vec![format!("{name} {fitted} (order {})", order_text(worst.order))];
-    let distance = |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
+    let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else {
+        return vec![];
+    };
+    let fitted = worst.fitted.map_or_else(
+        || worst.rate_in_words(RATE_PLACES),
+        |fitted| rate_text(Some(fitted)),
+    );
+    let mut parts = vec![format!(
+        "{name} {fitted} (order {})",
+        order_text(worst.order)
+    )];
+    let distance =
+        |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();
-    if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1) {
+    if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1)
+    {
         // Rates are kept with four decimals: smaller distances cannot be stated.
         let farthest = distances.into_iter().fold(1e-4, f64::max);
-        parts.push(format!("{} rates within {farthest:.4} of their orders", rates.len()));
+        parts.push(format!(
+            "{} rates within {farthest:.4} of their orders",
+            rates.len()
+        ));
     }
     parts
 }
@@ -175,7 +275,10 @@ mod tests {
     #[test]
     fn passing_rates_are_summed_up_by_the_farthest_from_its_order() {
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(2.02, 2.0)], vec![]);
-        assert_eq!(key_numbers(&outcome), "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders");
+        assert_eq!(
+            key_numbers(&outcome),
+            "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders"
+        );
     }
 
     #[test]
@@ -185,14 +288,27 @@ mod tests {
         let told = "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";
         assert_eq!(key_numbers(&outcome), told);
         let headline = "largest residual 1e-16".to_owned();
-        let own = Outcome { headline, ..outcome };
-        assert!(key_numbers(&own).starts_with("largest residual 1e-16; 1 of 2 rates"), "{}", key_numbers(&own));
+        let own = Outcome {
+            headline,
+            ..outcome
+        };
+        assert!(
+            key_numbers(&own).starts_with("largest residual 1e-16; 1 of 2 rates"),
+            "{}",
+            key_numbers(&own)
+        );
     }
 
     #[test]
     fn without_rates_and_words_of_its_own_a_study_has_its_checks() {
         let check = || Check::that(true, "c", "e");
-        assert_eq!(key_numbers(&Outcome::new("", vec![], vec![check(), check()])), "all 2 checks pass");
-        assert_eq!(key_numbers(&Outcome::new("", vec![], vec![])), "nothing judged");
+        assert_eq!(
+            key_numbers(&Outcome::new("", vec![], vec![check(), check()])),
+            "all 2 checks pass"
+        );
+        assert_eq!(
+            key_numbers(&Outcome::new("", vec![], vec![])),
+            "nothing judged"
+        );
     }
 }

@@ -39,9 +39,15 @@ fn install_hook() {
 fn message(info: &PanicHookInfo<'_>) -> String {
     let payload = info.payload();
     let text = payload.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");
+    let text = text
+        .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message");
     match info.location() {
-        Some(place) => format!("panicked at {}:{}: {text}", file_name(place.file()), place.line()),
+        Some(place) => format!(
+            "panicked at {}:{}: {text}",
+            file_name(place.file()),
+            place.line()
+        ),
         None => format!("panicked: {text}"),
     }
 }
@@ -58,7 +64,10 @@ mod tests {
     #[test]
     fn a_panic_becomes_its_message_and_place() {
         let reason = caught(|| -> usize { panic!("pivot {} lost", 3) }).unwrap_err();
-        assert!(reason.starts_with("panicked at caught.rs:") && reason.ends_with(": pivot 3 lost"), "{reason}");
+        assert!(
+            reason.starts_with("panicked at caught.rs:") && reason.ends_with(": pivot 3 lost"),
+            "{reason}"
+        );
         assert_eq!(caught(|| 7), Ok(7));
     }
 }

@@ -20,11 +20,29 @@ use crate::study::{ErrorsOverLevels, IntoErrors};
 /// ```
 #[track_caller]
 pub fn assert_order(h: &[f64], errors: &[f64], order: f64) {
-    assert!(h.len() == errors.len(), "{} steps and {} errors: expected one error for each step", h.len(), errors.len());
-    let levels: Vec<Level> = h.iter().zip(errors).map(|(&step, &error)| Level { step, error }).collect();
+    assert!(
+        h.len() == errors.len(),
+        "{} steps and {} errors: expected one error for each step",
+        h.len(),
+        errors.len()
+    );
+    let levels: Vec<Level> = h
+        .iter()
+        .zip(errors)
+        .map(|(&step, &error)| Level { step, error })
+        .collect();
     let rate = judge(&levels, order, DEFAULT_TOLERANCE);
-    let shown = Shown { name: "error", levels: &levels, rate: &rate, late: 0 };
-    assert!(rate.verdict.is_pass(), "the order is not confirmed\n{}", shown::explained("h", &[shown], 0.0));
+    let shown = Shown {
+        name: "error",
+        levels: &levels,
+        rate: &rate,
+        late: 0,
+    };
+    assert!(
+        rate.verdict.is_pass(),
+        "the order is not confirmed\n{}",
+        shown::explained("h", &[shown], 0.0)
+    );
 }
 
 impl<R, F> ErrorsOverLevels<F>
@@ -62,12 +80,30 @@ impl Finished {
     /// Verdict, errors with their rates, reasons and advice as text.
     pub fn explained(&self) -> String {
         let (id, outcome) = (&self.header.id, &self.outcome);
-        let levels: Vec<Vec<Level>> = outcome.rates.iter().map(|(name, _)| outcome.levels_of(name)).collect();
+        let levels: Vec<Vec<Level>> = outcome
+            .rates
+            .iter()
+            .map(|(name, _)| outcome.levels_of(name))
+            .collect();
         let rates = outcome.rates.iter().zip(&levels);
-        let columns: Vec<Shown<'_>> =
-            rates.map(|((name, rate), levels)| Shown { name, levels, rate, late: 0 }).collect();
-        let mut text = format!("{id}: {}\n{}", outcome.verdict, shown::explained("step", &columns, 0.0));
-        for check in outcome.checks.iter().filter(|check| check.verdict != Verdict::Pass) {
+        let columns: Vec<Shown<'_>> = rates
+            .map(|((name, rate), levels)| Shown {
+                name,
+                levels,
+                rate,
+                late: 0,
+            })
+            .collect();
+        let mut text = format!(
+            "{id}: {}\n{}",
+            outcome.verdict,
+            shown::explained("step", &columns, 0.0)
+        );
+        for check in outcome
+            .checks
+            .iter()
+            .filter(|check| check.verdict != Verdict::Pass)
+        {
             text += &format!("{}: {}: {}\n", check.claim, check.verdict, check.evidence);
         }
         text

@@ -102,7 +102,11 @@ pub type Allowed<'a> = &'a (dyn Fn(&Header, &str) -> Option<u64> + Sync);
 
 impl From<NonZeroUsize> for Effort {
     fn from(jobs: NonZeroUsize) -> Self {
-        Self { jobs, case_limit: None, fail_fast: false }
+        Self {
+            jobs,
+            case_limit: None,
+            fail_fast: false,
+        }
     }
 }
 
@@ -133,7 +137,9 @@ pub fn run_within(
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
     refuse_duplicates(studies)?;
-    let planned = studies.iter().map(|study| Planned::new(study.header(), || study.plan()));
+    let planned = studies
+        .iter()
+        .map(|study| Planned::new(study.header(), || study.plan()));
     run_planned(planned.collect(), effort, allowed, progress)
 }
 
@@ -147,8 +153,11 @@ pub fn run_one<K: Kind>(kind: &K) -> Outcome {
 
 fn run_kind<K: Kind>(header: &Header, kind: &K) -> Finished {
     let planned = vec![Planned::new(header, || plan(kind))];
-    let finished = run_planned(planned, available().into(), &|_, _| None, &|_| {}).map(|mut finished| finished.pop());
-    finished.expect("the threads are refused").expect("a study that was run")
+    let finished = run_planned(planned, available().into(), &|_, _| None, &|_| {})
+        .map(|mut finished| finished.pop());
+    finished
+        .expect("the threads are refused")
+        .expect("a study that was run")
 }
 
 /// As many threads as the machine has processors.
@@ -164,7 +173,9 @@ fn run_planned(
 ) -> Result<Vec<Finished>, RunError> {
     let cases: usize = planned.iter().map(|planned| planned.cases.len()).sum();
     // Threads without a case would only be started and ended.
-    let pool = ThreadPoolBuilder::new().num_threads(effort.jobs.get().min(cases.max(1))).build()?;
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(effort.jobs.get().min(cases.max(1)))
+        .build()?;
     run_cases(&pool, &planned, effort, allowed, progress);
     // A study without cases ends here. With `fail_fast` other studies may not have ended: they are left out.
     let of = |planned: Planned<'_>| {
@@ -196,7 +207,13 @@ impl<'s> Planned<'s> {
             Ok((plan, cases)) => (Ok(plan), cases),
             Err(reason) => (Err(reason), vec![]),
         };
-        Self { header, plan, cases, done: Mutex::default(), finished: OnceLock::new() }
+        Self {
+            header,
+            plan,
+            cases,
+            done: Mutex::default(),
+            finished: OnceLock::new(),
+        }
     }
 
     /// Records that a case has ended; returns all of them if it was the last.
@@ -208,7 +225,10 @@ impl<'s> Planned<'s> {
 }
 
 fn refuse_duplicates(studies: &[Box<dyn Study>]) -> Result<(), RunError> {
-    let mut ids: Vec<&str> = studies.iter().map(|study| study.header().id.as_str()).collect();
+    let mut ids: Vec<&str> = studies
+        .iter()
+        .map(|study| study.header().id.as_str())
+        .collect();
     ids.sort_unstable();
     match ids.windows(2).find(|pair| pair[0] == pair[1]) {
         Some(pair) => Err(RunError::DuplicateId(pair[0].to_owned())),
@@ -242,14 +262,27 @@ fn run_cases(
                     None
                 })
             };
-            while let Some(case) = planned.plan.as_ref().ok().and_then(|plan| more(plan.as_ref())) {
-                done.push(run_case(planned, effort.case_limit, allowed, Job { case, ..job }));
+            while let Some(case) = planned
+                .plan
+                .as_ref()
+                .ok()
+                .and_then(|plan| more(plan.as_ref()))
+            {
+                done.push(run_case(
+                    planned,
+                    effort.case_limit,
+                    allowed,
+                    Job { case, ..job },
+                ));
             }
             let finished = conclude(planned, &done);
             let verdict = finished.outcome.verdict;
             // It is set once, by the last case of the study.
             let _ = planned.finished.set(finished);
-            stopped.fetch_or(effort.fail_fast && verdict == Verdict::Fail, Ordering::Relaxed);
+            stopped.fetch_or(
+                effort.fail_fast && verdict == Verdict::Fail,
+                Ordering::Relaxed,
+            );
             verdict
         });
         counter.count(&job, ended);
@@ -259,7 +292,12 @@ fn run_cases(
 }
 
 /// Runs one case, within the limits of its time and of its work.
-fn run_case(planned: &Planned<'_>, limit: Option<Duration>, allowed: Allowed<'_>, job: Job) -> Done {
+fn run_case(
+    planned: &Planned<'_>,
+    limit: Option<Duration>,
+    allowed: Allowed<'_>,
+    job: Job,
+) -> Done {
     job.time(|| {
         let Ok(plan) = &planned.plan else { return 0 };
         // The plan alone knows cases that were requested later.
@@ -288,14 +326,23 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     let mut outcome = match plan {
         Ok(plan) => {
             let cases = plan.cases();
-            let failures = cases.iter().enumerate().filter_map(|(i, case)| Some((case, plan.failure(i)?)));
+            let failures = cases
+                .iter()
+                .enumerate()
+                .filter_map(|(i, case)| Some((case, plan.failure(i)?)));
             let (failed, failures): (Vec<_>, Vec<_>) = failures.unzip();
             let reasons = failed.into_iter().zip(reasons(failures));
-            failed_cases.extend(reasons.map(|(case, reason)| FailedCase { label: case.label.clone(), reason }));
+            failed_cases.extend(reasons.map(|(case, reason)| FailedCase {
+                label: case.label.clone(),
+                reason,
+            }));
             // Cases end in any order, and their work is listed in the order of the cases.
             let mut done: Vec<&Done> = done.iter().collect();
             done.sort_by_key(|done| done.case);
-            work.extend(done.into_iter().map(|done| (cases[done.case].label.clone(), done.work)));
+            work.extend(
+                done.into_iter()
+                    .map(|done| (cases[done.case].label.clone(), done.work)),
+            );
             spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }
@@ -304,14 +351,30 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     spent.busy += started.elapsed();
     // Whatever the study concludes: a failed case cannot pass.
     if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
-        outcome.checks.push(Check::that(false, "every case has a result", format!("{} have none", failed_cases.len())));
+        outcome.checks.push(Check::that(
+            false,
+            "every case has a result",
+            format!("{} have none", failed_cases.len()),
+        ));
     }
     let outcome = outcome::settle(&header.id, outcome);
     let not_finite = outcome.not_finite();
-    Finished { header: (*header).clone(), outcome, failed_cases, not_finite, untested: vec![], spent, work }
+    Finished {
+        header: (*header).clone(),
+        outcome,
+        failed_cases,
+        not_finite,
+        untested: vec![],
+        spent,
+        work,
+    }
 }
 
 fn broken(what: &str, reason: &str) -> Outcome {
     let claim = format!("the study can {what}");
-    Outcome::new(format!("the study cannot {what}: {reason}"), vec![], vec![Check::that(false, claim, reason)])
+    Outcome::new(
+        format!("the study cannot {what}: {reason}"),
+        vec![],
+        vec![Check::that(false, claim, reason)],
+    )
 }

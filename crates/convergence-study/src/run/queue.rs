@@ -46,7 +46,12 @@ impl Job {
     pub(super) fn time(&self, run: impl FnOnce() -> u64) -> Done {
         let started = Instant::now();
         let work = run();
-        Done { case: self.case, started, ended: Instant::now(), work }
+        Done {
+            case: self.case,
+            started,
+            ended: Instant::now(),
+            work,
+        }
     }
 }
 
@@ -54,7 +59,11 @@ impl Job {
 pub(super) fn costliest_first<'c>(plans: impl Iterator<Item = &'c [Case<()>]>) -> Vec<Job> {
     let mut jobs = Vec::new();
     for (study, cases) in plans.enumerate() {
-        let job = |(case, Case { cost, .. }): (usize, &Case<()>)| Job { study, case, cost: usable(*cost) };
+        let job = |(case, Case { cost, .. }): (usize, &Case<()>)| Job {
+            study,
+            case,
+            cost: usable(*cost),
+        };
         jobs.extend(cases.iter().enumerate().map(job));
     }
     jobs.sort_by(|a, b| b.cost.total_cmp(&a.cost));
@@ -63,7 +72,11 @@ pub(super) fn costliest_first<'c>(plans: impl Iterator<Item = &'c [Case<()>]>) -
 
 /// A cost that can be added and compared, whatever a study has estimated.
 fn usable(cost: f64) -> f64 {
-    if cost.is_finite() && cost > 0.0 { cost } else { 1.0 }
+    if cost.is_finite() && cost > 0.0 {
+        cost
+    } else {
+        1.0
+    }
 }
 
 /// The time that the cases of a study took.
@@ -71,8 +84,16 @@ pub(super) fn spent(done: &[Done]) -> Spent {
     let busy = done.iter().map(|done| done.ended - done.started).sum();
     let started = done.iter().map(|done| done.started).min();
     let ended = done.iter().map(|done| done.ended).max();
-    let wall = ended.zip(started).map(|(ended, started)| ended - started).unwrap_or_default();
-    Spent { busy, wall, cases: done.len(), kept: 0 }
+    let wall = ended
+        .zip(started)
+        .map(|(ended, started)| ended - started)
+        .unwrap_or_default();
+    Spent {
+        busy,
+        wall,
+        cases: done.len(),
+        kept: 0,
+    }
 }
 
 /// Counts the cases that have ended and reports the progress.
@@ -90,8 +111,21 @@ struct Now {
 impl<'p> Counter<'p> {
     pub(super) fn new(jobs: &[Job], report: &'p (dyn Fn(Progress) + Sync)) -> Self {
         let cost = jobs.iter().map(|job| job.cost).sum();
-        let progress = Progress { done_cases: 0, cases: jobs.len(), done_cost: 0.0, cost, ended: None, running: None };
-        Self { now: Mutex::new(Now { progress, running: vec![] }), report }
+        let progress = Progress {
+            done_cases: 0,
+            cases: jobs.len(),
+            done_cost: 0.0,
+            cost,
+            ended: None,
+            running: None,
+        };
+        Self {
+            now: Mutex::new(Now {
+                progress,
+                running: vec![],
+            }),
+            report,
+        }
     }
 
     fn now(&self) -> MutexGuard<'_, Now> {
@@ -129,9 +163,17 @@ mod tests {
     fn the_wall_time_of_a_study_is_the_time_that_passed_and_its_busy_time_the_sum_over_its_cases() {
         let now = Instant::now();
         let second = Duration::from_secs;
-        let done = |from, to| Done { case: 0, started: now + second(from), ended: now + second(to), work: 0 };
+        let done = |from, to| Done {
+            case: 0,
+            started: now + second(from),
+            ended: now + second(to),
+            work: 0,
+        };
         let spent = spent(&[done(3, 7), done(1, 5), done(2, 4)]);
-        assert_eq!((spent.wall, spent.busy, spent.cases), (second(6), second(10), 3));
+        assert_eq!(
+            (spent.wall, spent.busy, spent.cases),
+            (second(6), second(10), 3)
+        );
         assert_eq!(super::spent(&[]), Spent::default());
     }
 }

@@ -26,7 +26,10 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
 ///
 /// # Errors
 /// The error of the operating system or of `fill`, preceded by `path`; nothing is left behind.
-pub fn write_with(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+pub fn write_with(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
     let _writing = begin_write();
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(naming(path))?;
@@ -48,7 +51,9 @@ pub(crate) const PROBE: &str = "probe";
 /// # Errors
 /// The error of the operating system, preceded by `folder`.
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
-    fs::create_dir_all(folder).and_then(|()| probe(&folder.join(PROBE))).map_err(naming(folder))
+    fs::create_dir_all(folder)
+        .and_then(|()| probe(&folder.join(PROBE)))
+        .map_err(naming(folder))
 }
 
 /// Proves that a file of this name can be made. It makes one next to it: another process may be writing the file itself.
@@ -61,13 +66,19 @@ fn probe(path: &Path) -> io::Result<()> {
 
 /// Removes the unfinished files that killed writers of `path` have left next to it. No other process may be writing this file.
 pub fn remove_leftovers(path: &Path) -> io::Result<()> {
-    let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
+    let (Some(folder), Some(name)) = (
+        path.parent(),
+        path.file_name().and_then(|name| name.to_str()),
+    ) else {
         return Ok(());
     };
     let is_leftover = |found: &str| {
-        let number =
-            found.strip_prefix('.').and_then(|rest| rest.strip_prefix(name)).and_then(|rest| rest.strip_prefix('.'));
-        let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        let number = found
+            .strip_prefix('.')
+            .and_then(|rest| rest.strip_prefix(name))
+            .and_then(|rest| rest.strip_prefix('.'));
+        let digits =
+            |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
         number
             .and_then(|number| number.split_once('-'))
             .is_some_and(|(process, count)| digits(process) && digits(count))
@@ -88,10 +99,15 @@ pub(super) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
     fill_through(path, |file| file.write_all(bytes))
 }
 
-fn fill_through(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+fn fill_through(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
     let mut file = BufWriter::new(File::create_new(path)?);
     fill(&mut file)?;
-    file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+    file.into_inner()
+        .map_err(io::IntoInnerError::into_error)?
+        .sync_all()
 }
 
 /// For `map_err`: the same error, preceded by the name of the file.
@@ -102,7 +118,9 @@ pub fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
 /// A name in the same folder that no other thread or process uses.
 fn name_beside(path: &Path) -> io::Result<PathBuf> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
-    let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "a folder, not a file"))?;
+    let name = path
+        .file_name()
+        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "a folder, not a file"))?;
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let mut beside = std::ffi::OsString::from(".");
     beside.push(name);
@@ -169,14 +187,33 @@ mod tests {
     #[test]
     fn unfinished_files_of_killed_writers_are_removed_and_no_others() {
         let folder = tempfile::tempdir().unwrap();
-        for name in [".a.json.17-0", ".a.json.17-x", ".b.json.17-0", "a.json", ".a.json.-0", "a.json.17-0"] {
+        for name in [
+            ".a.json.17-0",
+            ".a.json.17-x",
+            ".b.json.17-0",
+            "a.json",
+            ".a.json.-0",
+            "a.json.17-0",
+        ] {
             fs::write(folder.path().join(name), "").unwrap();
         }
         remove_leftovers(&folder.path().join("a.json")).unwrap();
         remove_leftovers(&folder.path().join("nowhere/a.json")).unwrap();
-        let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        let mut names: Vec<_> = fs::read_dir(folder.path())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name())
+            .collect();
         names.sort();
-        assert_eq!(names, [".a.json.-0", ".a.json.17-x", ".b.json.17-0", "a.json", "a.json.17-0"]);
+        assert_eq!(
+            names,
+            [
+                ".a.json.-0",
+                ".a.json.17-x",
+                ".b.json.17-0",
+                "a.json",
+                "a.json.17-0"
+            ]
+        );
     }
 
     #[test]
@@ -186,7 +223,9 @@ mod tests {
         prepare_folder(&deep).unwrap();
         assert_eq!(fs::read_dir(&deep).unwrap().count(), 0);
         fs::write(folder.path().join("file"), "").unwrap();
-        let message = prepare_folder(&folder.path().join("file")).unwrap_err().to_string();
+        let message = prepare_folder(&folder.path().join("file"))
+            .unwrap_err()
+            .to_string();
         assert!(message.contains("file"), "{message}");
     }
 
@@ -232,6 +271,9 @@ mod tests {
             drop(CLOSED.read());
             tell.send(())
         });
-        assert_eq!(told.recv_timeout(SHORT), Err(mpsc::RecvTimeoutError::Timeout));
+        assert_eq!(
+            told.recv_timeout(SHORT),
+            Err(mpsc::RecvTimeoutError::Timeout)
+        );
     }
 }

@@ -81,7 +81,11 @@ pub struct Refusal(String);
 
 impl Default for Baseline {
     fn default() -> Self {
-        Self { schema: SCHEMA, claims: BTreeMap::new(), studies: BTreeMap::new() }
+        Self {
+            schema: SCHEMA,
+            claims: BTreeMap::new(),
+            studies: BTreeMap::new(),
+        }
     }
 }
 
@@ -91,7 +95,10 @@ impl Baseline {
     /// # Errors
     /// A file that exists but is not a baseline.
     pub fn read(path: &Path) -> io::Result<Self> {
-        let expected = ["restore it, or remove it and run `verify --bless`", EXPECTED];
+        let expected = [
+            "restore it, or remove it and run `verify --bless`",
+            EXPECTED,
+        ];
         Ok(read_if_there(path, Some(SCHEMA), expected)?.unwrap_or_default())
     }
 
@@ -108,18 +115,36 @@ impl Baseline {
     pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<Change> {
         let none = BTreeMap::new();
         let mut changes = Vec::new();
-        for Finished { header, outcome, .. } in finished {
+        for Finished {
+            header, outcome, ..
+        } in finished
+        {
             changes.extend(self.changed_claims(header));
             let expected = self.studies.get(&header.id).unwrap_or(&none);
-            changes.extend(change::of_numbers(&header.id, expected, &outcome.quantities));
+            changes.extend(change::of_numbers(
+                &header.id,
+                expected,
+                &outcome.quantities,
+            ));
         }
-        let others = known.unwrap_or_default().iter().filter(|header| find(finished, &header.id).is_none());
+        let others = known
+            .unwrap_or_default()
+            .iter()
+            .filter(|header| find(finished, &header.id).is_none());
         changes.extend(others.flat_map(|header| self.changed_claims(header)));
         for id in self.vanished(known) {
-            match self.claims.get(&id).and_then(|claims| change::vanished(&id, claims)) {
+            match self
+                .claims
+                .get(&id)
+                .and_then(|claims| change::vanished(&id, claims))
+            {
                 // This change already covers its numbers.
                 Some(deleted) => changes.push(deleted),
-                None => changes.extend(change::of_numbers(&id, self.studies.get(&id).unwrap_or(&none), &[])),
+                None => changes.extend(change::of_numbers(
+                    &id,
+                    self.studies.get(&id).unwrap_or(&none),
+                    &[],
+                )),
             }
         }
         changes
@@ -154,13 +179,21 @@ impl Baseline {
         finished.iter().try_for_each(acceptable)?;
         let mut changes = self.compare(finished, known);
         // Claims of known studies that were not run are left alone.
-        let is_left = |id: &str| known.is_some_and(|known| known.iter().any(|header| header.id == *id));
+        let is_left =
+            |id: &str| known.is_some_and(|known| known.iter().any(|header| header.id == *id));
         changes.retain(|change| find(finished, &change.study).is_some() || !is_left(&change.study));
-        let unreasoned = changes.iter().filter(|change| reason.is_none() && change.movement.needs_a_reason());
-        let claims: Vec<String> = unreasoned.map(|change| visible::visible(&change.to_string())).collect();
+        let unreasoned = changes
+            .iter()
+            .filter(|change| reason.is_none() && change.movement.needs_a_reason());
+        let claims: Vec<String> = unreasoned
+            .map(|change| visible::visible(&change.to_string()))
+            .collect();
         if !claims.is_empty() {
             let remedy = "a changed claim needs a reason; repeat it with --bless --reason TEXT";
-            return Err(Refusal(format!("not blessed: {remedy}\n  {}", claims.join("\n  "))));
+            return Err(Refusal(format!(
+                "not blessed: {remedy}\n  {}",
+                claims.join("\n  ")
+            )));
         }
         changes.iter().try_for_each(|change| {
             let is_new = matches!(change.movement, Movement::New { .. });
@@ -174,45 +207,94 @@ impl Baseline {
     ///
     /// # Errors
     /// [`Refusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the study must pass.
-    pub fn accept(&mut self, finished: &[Finished], change: &Change, reason: &str) -> Result<(), Refusal> {
+    pub fn accept(
+        &mut self,
+        finished: &[Finished],
+        change: &Change,
+        reason: &str,
+    ) -> Result<(), Refusal> {
         find(finished, &change.study).map_or(Ok(()), acceptable)?;
         self.take(finished, change, Some(reason))
     }
 
-    fn take(&mut self, finished: &[Finished], change: &Change, reason: Option<&str>) -> Result<(), Refusal> {
-        let Change { study, name, movement } = change;
+    fn take(
+        &mut self,
+        finished: &[Finished],
+        change: &Change,
+        reason: Option<&str>,
+    ) -> Result<(), Refusal> {
+        let Change {
+            study,
+            name,
+            movement,
+        } = change;
         let reason = reason.map(str::to_owned);
         let (claims, numbers) = (&mut self.claims, &mut self.studies);
         match (movement, find(finished, study)) {
             (Movement::Vanished { .. }, _) => {
-                numbers.get_mut(study).into_iter().for_each(|guarded| drop(guarded.remove(name)));
+                numbers
+                    .get_mut(study)
+                    .into_iter()
+                    .for_each(|guarded| drop(guarded.remove(name)));
             }
             (Movement::VanishedFile { .. }, _) => {
                 numbers.remove(study);
                 // The reason stays.
-                let withdrawn = (change::ID.to_owned(), BlessedClaim { value: None, reason });
+                let withdrawn = (
+                    change::ID.to_owned(),
+                    BlessedClaim {
+                        value: None,
+                        reason,
+                    },
+                );
                 claims.insert(study.clone(), [withdrawn].into());
             }
             // It changes only with a run that passes.
             (_, None) => {
-                return Err(Refusal(format!("not accepted: `{study}` was not run; name it, or its tier")));
+                return Err(Refusal(format!(
+                    "not accepted: `{study}` was not run; name it, or its tier"
+                )));
             }
             (Movement::NewFile { guarded, .. }, Some(ran)) => {
                 let claim = |value: &String| BlessedClaim {
                     value: Some(value.clone()),
                     reason: reason.clone().filter(|_| *guarded > 0),
                 };
-                let all = ran.header.settings.iter().map(|(path, value)| (path.clone(), claim(value)));
+                let all = ran
+                    .header
+                    .settings
+                    .iter()
+                    .map(|(path, value)| (path.clone(), claim(value)));
                 claims.entry(study.clone()).or_default().extend(all);
             }
             (Movement::Claim { to, .. }, Some(_)) => {
-                let claim = BlessedClaim { value: to.clone(), reason };
-                claims.entry(study.clone()).or_default().insert(name.clone(), claim);
+                let claim = BlessedClaim {
+                    value: to.clone(),
+                    reason,
+                };
+                claims
+                    .entry(study.clone())
+                    .or_default()
+                    .insert(name.clone(), claim);
             }
-            (Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. }, Some(ran)) => {
-                let found = ran.outcome.quantities.iter().find(|quantity| quantity.name == *name);
-                let new = found.map(|found| Guarded { value: found.value, tolerance: found.tolerance, reason });
-                numbers.entry(study.clone()).or_default().extend(new.map(|new| (name.clone(), new)));
+            (
+                Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. },
+                Some(ran),
+            ) => {
+                let found = ran
+                    .outcome
+                    .quantities
+                    .iter()
+                    .find(|quantity| quantity.name == *name);
+                let new = found.map(|found| Guarded {
+                    value: found.value,
+                    tolerance: found.tolerance,
+                    reason,
+                });
+                numbers
+                    .entry(study.clone())
+                    .or_default()
+                    .extend(new.map(|new| (name.clone(), new)));
             }
         }
         numbers.retain(|_, guarded| !guarded.is_empty());
@@ -239,13 +321,20 @@ fn find<'f>(finished: &'f [Finished], id: &str) -> Option<&'f Finished> {
     finished.iter().find(|finished| finished.header.id == *id)
 }
 
-fn acceptable(Finished { header, outcome, .. }: &Finished) -> Result<(), Refusal> {
+fn acceptable(
+    Finished {
+        header, outcome, ..
+    }: &Finished,
+) -> Result<(), Refusal> {
     let (study, verdict) = (&header.id, outcome.verdict);
     if verdict != Verdict::Pass {
-        let refused = format!("the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass");
+        let refused = format!(
+            "the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass"
+        );
         return Err(Refusal(format!("not blessed: {refused}")));
     }
-    let cannot_be_met = |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
+    let cannot_be_met =
+        |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
     outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance }| {
         let refused =
             format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
@@ -284,10 +373,16 @@ impl Works {
     /// Accepts the work of studies that were run; cases that count none are left out.
     pub fn take(&mut self, finished: &[Finished]) {
         for Finished { header, work, .. } in finished {
-            self.0.values_mut().for_each(|tier| drop(tier.remove(&header.id)));
-            let cases: BTreeMap<String, u64> = work.iter().filter(|(_, work)| *work > 0).cloned().collect();
+            self.0
+                .values_mut()
+                .for_each(|tier| drop(tier.remove(&header.id)));
+            let cases: BTreeMap<String, u64> =
+                work.iter().filter(|(_, work)| *work > 0).cloned().collect();
             if !cases.is_empty() {
-                self.0.entry(header.tier.name().to_owned()).or_default().insert(header.id.clone(), cases);
+                self.0
+                    .entry(header.tier.name().to_owned())
+                    .or_default()
+                    .insert(header.id.clone(), cases);
             }
         }
     }

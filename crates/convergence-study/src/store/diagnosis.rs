@@ -74,24 +74,56 @@ pub fn diagnose(
 ) -> Option<Diagnosis> {
     let fails = |study: &&Finished| study.outcome.verdict != Verdict::Pass;
     let failing: Vec<&Finished> = finished.iter().filter(fails).collect();
-    let mut wrong: Vec<&str> = failing.iter().map(|study| study.header.id.as_str()).collect();
-    wrong.extend(changes.iter().filter(|change| is_number(change)).map(|change| change.study.as_str()));
+    let mut wrong: Vec<&str> = failing
+        .iter()
+        .map(|study| study.header.id.as_str())
+        .collect();
+    wrong.extend(
+        changes
+            .iter()
+            .filter(|change| is_number(change))
+            .map(|change| change.study.as_str()),
+    );
     if wrong.is_empty() {
         return None;
     }
-    let claims = changes.iter().filter(|change| change.movement.needs_a_reason());
+    let claims = changes
+        .iter()
+        .filter(|change| change.movement.needs_a_reason());
     let claims: Vec<String> = claims.map(Change::words).collect();
     let contrast = contrast(&votes(project, finished, changes));
     let first = first(finished, changes);
     let clearest = clearest(&failing);
-    let words = contrast.settings.iter().map(|(_, value)| value).chain(first.iter().take(1).map(|field| &field.name));
+    let words = contrast
+        .settings
+        .iter()
+        .map(|(_, value)| value)
+        .chain(first.iter().take(1).map(|field| &field.name));
     let mut look_at: Vec<String> = words
         .filter(|_| claims.is_empty())
-        .filter_map(|word| project.places.iter().find(|(of, _)| names(word, of)).map(|(_, place)| (*place).to_owned()))
+        .filter_map(|word| {
+            project
+                .places
+                .iter()
+                .find(|(of, _)| names(word, of))
+                .map(|(_, place)| (*place).to_owned())
+        })
         .collect();
-    let again = clearest.first().map(String::as_str).or(wrong.first().copied());
-    look_at.extend(again.map(|id| format!("`{} verify {id}` repeats the clearest failure", project.command)));
-    let resembles = if claims.is_empty() { known.nearest(&Fingerprint::of(finished, changes)) } else { vec![] };
+    let again = clearest
+        .first()
+        .map(String::as_str)
+        .or(wrong.first().copied());
+    look_at.extend(again.map(|id| {
+        format!(
+            "`{} verify {id}` repeats the clearest failure",
+            project.command
+        )
+    }));
+    let resembles = if claims.is_empty() {
+        known.nearest(&Fingerprint::of(finished, changes))
+    } else {
+        vec![]
+    };
     Some(Diagnosis {
         claims,
         contrast,
@@ -106,7 +138,10 @@ pub fn diagnose(
 
 /// Whether the words of a setting are `what`, alone or in brackets: `ID alone (SETTING)`.
 pub fn names(words: &str, what: &str) -> bool {
-    words == what || words.strip_suffix(')').is_some_and(|words| words.ends_with(&format!("({what}")))
+    words == what
+        || words
+            .strip_suffix(')')
+            .is_some_and(|words| words.ends_with(&format!("({what}")))
 }
 
 /// Whether a number has moved or vanished: a new one has no cause.
@@ -115,35 +150,65 @@ fn is_number(change: &Change) -> bool {
 }
 
 /// The numbers of a study that moved or vanished.
-fn numbers<'c>(changes: &'c [Change], study: &'c str) -> impl Iterator<Item = (&'c str, &'c Movement)> {
+fn numbers<'c>(
+    changes: &'c [Change],
+    study: &'c str,
+) -> impl Iterator<Item = (&'c str, &'c Movement)> {
     let of = move |change: &&Change| change.study == study && is_number(change);
-    changes.iter().filter(of).map(|change| (change.name.as_str(), &change.movement))
+    changes
+        .iter()
+        .filter(of)
+        .map(|change| (change.name.as_str(), &change.movement))
 }
 
 /// One vote for each study and set of settings.
 fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vote> {
-    let any_judged = finished.iter().any(|study| study.outcome.verdict != Verdict::Pass);
+    let any_judged = finished
+        .iter()
+        .any(|study| study.outcome.verdict != Verdict::Pass);
     let mut votes = vec![];
-    for Finished { header, outcome, .. } in finished {
+    for Finished {
+        header, outcome, ..
+    } in finished
+    {
         let mut own: Vec<Vote> = vec![];
         let mut count = |item: &str, fails: bool, counts: bool| {
             let settings = (project.settings)(header, item);
             let new = [usize::from(fails && counts), usize::from(counts)];
             match own.iter_mut().find(|vote| vote.settings == settings) {
-                Some(Vote { fails: any, count, .. }) => {
+                Some(Vote {
+                    fails: any, count, ..
+                }) => {
                     *any |= fails;
                     *count = [count[0] + new[0], count[1] + new[1]];
                 }
-                None => own.push(Vote { settings, fails, count: new }),
+                None => own.push(Vote {
+                    settings,
+                    fails,
+                    count: new,
+                }),
             }
         };
-        outcome.rates.iter().for_each(|(norm, rate)| count(norm, !rate.verdict.is_pass(), any_judged));
-        let checks = outcome.checks.iter().filter(|check| check.claim != COMPLETION || !check.verdict.is_pass());
+        outcome
+            .rates
+            .iter()
+            .for_each(|(norm, rate)| count(norm, !rate.verdict.is_pass(), any_judged));
+        let checks = outcome
+            .checks
+            .iter()
+            .filter(|check| check.claim != COMPLETION || !check.verdict.is_pass());
         checks.for_each(|check| count(&check.claim, !check.verdict.is_pass(), any_judged));
         let moved: Vec<&str> = numbers(changes, &header.id).map(|(name, _)| name).collect();
-        let kept = outcome.quantities.iter().map(|quantity| quantity.name.as_str());
-        let gone = moved.iter().copied().filter(|name| !outcome.quantities.iter().any(|known| known.name == *name));
-        kept.chain(gone).for_each(|name| count(name, moved.contains(&name), !any_judged));
+        let kept = outcome
+            .quantities
+            .iter()
+            .map(|quantity| quantity.name.as_str());
+        let gone = moved
+            .iter()
+            .copied()
+            .filter(|name| !outcome.quantities.iter().any(|known| known.name == *name));
+        kept.chain(gone)
+            .for_each(|name| count(name, moved.contains(&name), !any_judged));
         votes.append(&mut own);
     }
     votes
@@ -153,29 +218,71 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
 /// its own error has had the least time to mix with those of others.
 fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
     let mut fields: Vec<Field> = vec![];
-    for Finished { header, outcome, .. } in finished {
+    for Finished {
+        header, outcome, ..
+    } in finished
+    {
         // Levels are in order: the last number of a field belongs to its finest level.
         let mut finest: Vec<(String, f64, f64)> = vec![];
-        for (name, movement) in numbers(changes, &header.id).filter(|(name, _)| !name.starts_with("rate ")) {
+        for (name, movement) in
+            numbers(changes, &header.id).filter(|(name, _)| !name.starts_with("rate "))
+        {
             let weight = movement.weight().clamp(0.0, 1e12);
-            let Movement::Moved { from, to, .. } = movement else { continue };
+            let Movement::Moved { from, to, .. } = movement else {
+                continue;
+            };
             let factor = (to / from).abs();
             finest.retain(|(known, ..)| *known != field(name));
-            finest.push((field(name), weight.ln_1p(), if factor.is_nan() { f64::INFINITY } else { factor }));
+            finest.push((
+                field(name),
+                weight.ln_1p(),
+                if factor.is_nan() {
+                    f64::INFINITY
+                } else {
+                    factor
+                },
+            ));
         }
-        let rates = outcome.rates.iter().filter(|(_, rate)| !rate.verdict.is_pass());
-        let rates: Vec<(String, &RateVerdict)> = rates.map(|(norm, rate)| (field(norm), rate)).collect();
+        let rates = outcome
+            .rates
+            .iter()
+            .filter(|(_, rate)| !rate.verdict.is_pass());
+        let rates: Vec<(String, &RateVerdict)> =
+            rates.map(|(norm, rate)| (field(norm), rate)).collect();
         let unmoved = |name: &&String| finest.iter().all(|(known, ..)| known != *name);
-        let unmoved: Vec<_> = rates.iter().map(|(name, _)| name).filter(unmoved).cloned().collect();
+        let unmoved: Vec<_> = rates
+            .iter()
+            .map(|(name, _)| name)
+            .filter(unmoved)
+            .cloned()
+            .collect();
         finest.extend(unmoved.into_iter().map(|name| (name, 1.0, 1.0)));
-        let most = finest.iter().map(|(_, weight, _)| *weight).fold(f64::MIN_POSITIVE, f64::max);
+        let most = finest
+            .iter()
+            .map(|(_, weight, _)| *weight)
+            .fold(f64::MIN_POSITIVE, f64::max);
         for (name, weight, factor) in &finest {
-            let rate = rates.iter().filter(|(of, _)| of == name).find_map(|(_, rate)| Some([rate.fitted?, rate.order]));
+            let rate = rates
+                .iter()
+                .filter(|(of, _)| of == name)
+                .find_map(|(_, rate)| Some([rate.fitted?, rate.order]));
             // A study with one wrong field does not show which is first.
-            let share = if finest.len() > 1 { (weight / most).powi(8) } else { 0.1 };
-            let found = fields.iter().position(|field| field.name == *name).unwrap_or(fields.len());
+            let share = if finest.len() > 1 {
+                (weight / most).powi(8)
+            } else {
+                0.1
+            };
+            let found = fields
+                .iter()
+                .position(|field| field.name == *name)
+                .unwrap_or(fields.len());
             if found == fields.len() {
-                fields.push(Field { name: name.clone(), share: 0.0, rate: None, factor: 1.0 });
+                fields.push(Field {
+                    name: name.clone(),
+                    share: 0.0,
+                    rate: None,
+                    factor: 1.0,
+                });
             }
             let field = &mut fields[found];
             field.share += share;
@@ -183,7 +290,11 @@ fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
                 .into_iter()
                 .flatten()
                 .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
-            field.factor = if factor.ln().abs() > field.factor.ln().abs() { *factor } else { field.factor };
+            field.factor = if factor.ln().abs() > field.factor.ln().abs() {
+                *factor
+            } else {
+                field.factor
+            };
         }
     }
     fields.sort_by(|one, next| next.share.total_cmp(&one.share));
@@ -192,10 +303,20 @@ fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
 
 /// The claims of failing checks without the case before the colon, the commonest first.
 fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
-    let checks = failing.iter().flat_map(|study| &study.outcome.checks).filter(|check| !check.verdict.is_pass());
-    let claims = checks.map(|check| check.claim.rsplit_once(": ").map_or(check.claim.as_str(), |(_, rest)| rest));
+    let checks = failing
+        .iter()
+        .flat_map(|study| &study.outcome.checks)
+        .filter(|check| !check.verdict.is_pass());
+    let claims = checks.map(|check| {
+        check
+            .claim
+            .rsplit_once(": ")
+            .map_or(check.claim.as_str(), |(_, rest)| rest)
+    });
     let claims = grouped(claims.map(|claim| (claim, ()))).into_iter();
-    let mut claims: Vec<(String, usize)> = claims.map(|(claim, count)| (claim.to_owned(), count.len())).collect();
+    let mut claims: Vec<(String, usize)> = claims
+        .map(|(claim, count)| (claim.to_owned(), count.len()))
+        .collect();
     claims.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     claims.truncate(2 * NAMED);
     claims
@@ -204,18 +325,32 @@ fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
 /// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then studies with failing checks.
 fn clearest(failing: &[&Finished]) -> Vec<String> {
     let distance = |study: &Finished| {
-        let missed = study.outcome.rates.iter().filter(|(_, rate)| !rate.verdict.is_pass());
-        let distances = missed.filter_map(|(_, rate)| Some((rate.fitted? - rate.order).abs() / rate.tolerance));
+        let missed = study
+            .outcome
+            .rates
+            .iter()
+            .filter(|(_, rate)| !rate.verdict.is_pass());
+        let distances =
+            missed.filter_map(|(_, rate)| Some((rate.fitted? - rate.order).abs() / rate.tolerance));
         distances.fold(0.0, f64::max)
     };
-    let mut clear: Vec<(f64, &str)> = failing.iter().map(|study| (distance(study), study.header.id.as_str())).collect();
+    let mut clear: Vec<(f64, &str)> = failing
+        .iter()
+        .map(|study| (distance(study), study.header.id.as_str()))
+        .collect();
     clear.sort_by(|(one, _), (next, _)| next.total_cmp(one));
-    clear.into_iter().take(NAMED).map(|(_, id)| id.to_owned()).collect()
+    clear
+        .into_iter()
+        .take(NAMED)
+        .map(|(_, id)| id.to_owned())
+        .collect()
 }
 
 /// Moved numbers of passing studies: those of the same field that changed by the same factor have one cause.
 fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
-    let passing = finished.iter().filter(|study| study.outcome.verdict == Verdict::Pass);
+    let passing = finished
+        .iter()
+        .filter(|study| study.outcome.verdict == Verdict::Pass);
     let moved = passing.flat_map(|Finished { header, .. }| {
         numbers(changes, &header.id).map(|(name, movement)| {
             let how = match movement {
@@ -254,33 +389,67 @@ fn some(mut items: Vec<String>, what: &str) -> String {
 impl Diagnosis {
     /// The planted mistakes with a similar effect, in words; empty if there are none.
     pub fn alike(&self) -> String {
-        let words = |one: &Resembling| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file);
-        self.resembles.iter().map(words).collect::<Vec<_>>().join(", ")
+        let words =
+            |one: &Resembling| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file);
+        self.resembles
+            .iter()
+            .map(words)
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
     /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = vec![];
         if !self.claims.is_empty() {
-            lines.push(("claims", format!("changed: {}", some(self.claims.clone(), ""))));
+            lines.push((
+                "claims",
+                format!("changed: {}", some(self.claims.clone(), "")),
+            ));
         }
         lines.extend(self.contrasted());
         if !self.first.is_empty() {
             let named: Vec<String> = self.first.iter().take(NAMED).map(Field::words).collect();
-            let rest = if self.first.len() > NAMED { ", then the rest" } else { "" };
+            let rest = if self.first.len() > NAMED {
+                ", then the rest"
+            } else {
+                ""
+            };
             lines.push(("first", named.join(", then ") + rest));
         }
         if !self.checks.is_empty() {
             let one = |(claim, count): &(String, usize)| {
-                if *count > 1 { format!("{claim} ({count} times)") } else { claim.clone() }
+                if *count > 1 {
+                    format!("{claim} ({count} times)")
+                } else {
+                    claim.clone()
+                }
             };
             lines.push(("not so", some(self.checks.iter().map(one).collect(), "")));
         }
-        for (count, Resembling { mistake, file, likeness, .. }) in self.resembles.iter().enumerate() {
-            lines.push((if count == 0 { "resembles" } else { "" }, format!("\"{mistake}\" ({likeness:.2})  {file}")));
+        for (
+            count,
+            Resembling {
+                mistake,
+                file,
+                likeness,
+                ..
+            },
+        ) in self.resembles.iter().enumerate()
+        {
+            lines.push((
+                if count == 0 { "resembles" } else { "" },
+                format!("\"{mistake}\" ({likeness:.2})  {file}"),
+            ));
         }
         if !self.moved.is_empty() {
-            lines.push(("moved", format!("in studies that pass {}", some(self.moved.clone(), " groups"))));
+            lines.push((
+                "moved",
+                format!(
+                    "in studies that pass {}",
+                    some(self.moved.clone(), " groups")
+                ),
+            ));
         }
         if !self.look_at.is_empty() {
             lines.push(("look at", self.look_at.join("; ")));
@@ -289,7 +458,13 @@ impl Diagnosis {
     }
 
     fn contrasted(&self) -> Vec<(&'static str, String)> {
-        let Contrast { settings, shared, fails: [failed, all], passes, .. } = &self.contrast;
+        let Contrast {
+            settings,
+            shared,
+            fails: [failed, all],
+            passes,
+            ..
+        } = &self.contrast;
         let mut lines = vec![];
         let values: Vec<&str> = settings.iter().map(|(_, value)| value.as_str()).collect();
         let what = match values[..] {
@@ -298,12 +473,25 @@ impl Diagnosis {
             _ => values.join(", "),
         };
         let shared: Vec<&str> = shared.iter().map(|(_, value)| value.as_str()).collect();
-        let all_with = if shared.is_empty() { String::new() } else { format!("; all with {}", shared.join(", ")) };
-        let count = if *failed == 0 { "numbers moved".to_owned() } else { format!("{failed} of {all}") };
+        let all_with = if shared.is_empty() {
+            String::new()
+        } else {
+            format!("; all with {}", shared.join(", "))
+        };
+        let count = if *failed == 0 {
+            "numbers moved".to_owned()
+        } else {
+            format!("{failed} of {all}")
+        };
         lines.push(("fails", format!("{what}: {count}{all_with}")));
         if !passes.is_empty() {
-            let group = |(name, [passing, all]): &(String, [usize; 2])| format!("{name}: {passing} of {all}");
-            lines.push(("passes", passes.iter().map(group).collect::<Vec<_>>().join("; ")));
+            let group = |(name, [passing, all]): &(String, [usize; 2])| {
+                format!("{name}: {passing} of {all}")
+            };
+            lines.push((
+                "passes",
+                passes.iter().map(group).collect::<Vec<_>>().join("; "),
+            ));
         }
         lines
     }
@@ -311,10 +499,20 @@ impl Diagnosis {
 
 impl Field {
     fn words(&self) -> String {
-        let rate = self.rate.map(|[rate, order]| format!("rate {rate:.3} for {order}"));
-        let times = if self.factor.is_finite() { short_text(self.factor) } else { "infinity".to_owned() };
+        let rate = self
+            .rate
+            .map(|[rate, order]| format!("rate {rate:.3} for {order}"));
+        let times = if self.factor.is_finite() {
+            short_text(self.factor)
+        } else {
+            "infinity".to_owned()
+        };
         let factor = (times != "1").then(|| format!("by a factor up to {times}"));
         let words: Vec<String> = rate.into_iter().chain(factor).collect();
-        if words.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, words.join(", ")) }
+        if words.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{} ({})", self.name, words.join(", "))
+        }
     }
 }

@@ -32,13 +32,21 @@ impl ReportSet {
     /// A path that already exists in the set or that leads out of the folder.
     pub fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> io::Result<()> {
         let path = path.into();
-        let refuse =
-            |what: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, format!("the report `{path}` {what}")));
+        let refuse = |what: &str| {
+            Err(io::Error::new(
+                io::ErrorKind::InvalidInput,
+                format!("the report `{path}` {what}"),
+            ))
+        };
         if !stays_inside(&path) || path == MANIFEST {
             return refuse("has a name that no report may have");
         }
         // Some file systems ignore case in names.
-        if self.files.keys().any(|known| known.eq_ignore_ascii_case(&path)) {
+        if self
+            .files
+            .keys()
+            .any(|known| known.eq_ignore_ascii_case(&path))
+        {
             return refuse("is there twice");
         }
         self.files.insert(path, bytes.into());
@@ -47,7 +55,9 @@ impl ReportSet {
 
     /// The files: path and bytes.
     pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
-        self.files.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
+        self.files
+            .iter()
+            .map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
     }
 
     fn manifest(&self) -> String {
@@ -89,7 +99,10 @@ impl ReportFolder {
         let _writing = atomic::begin_write();
         self.tidy()?;
         let (staging, manifest) = (self.staging(), set.manifest());
-        let changed: Vec<_> = set.files().filter(|(path, bytes)| !self.holds(path, bytes)).collect();
+        let changed: Vec<_> = set
+            .files()
+            .filter(|(path, bytes)| !self.holds(path, bytes))
+            .collect();
         if changed.is_empty() && self.holds(MANIFEST, manifest.as_bytes()) {
             return Ok(());
         }
@@ -120,15 +133,23 @@ impl ReportFolder {
         let pending = self.pending();
         // The manifest is moved last: without it only the empty folder is left.
         if let Some(manifest) = if_there(store::read_to_string(&pending.join(MANIFEST)))? {
-            if let Some(path) = manifest.lines().find(|path| !stays_inside(path) || *path == MANIFEST) {
+            if let Some(path) = manifest
+                .lines()
+                .find(|path| !stays_inside(path) || *path == MANIFEST)
+            {
                 return Err(leads_out(&pending, path));
             }
-            let former = if_there(store::read_to_string(&self.folder.join(MANIFEST)))?.unwrap_or_default();
+            let former =
+                if_there(store::read_to_string(&self.folder.join(MANIFEST)))?.unwrap_or_default();
             for path in manifest.lines() {
                 move_if_there(&pending.join(path), &self.folder.join(path))?;
             }
-            let stale = former.lines().filter(|path| stays_inside(path) && !manifest.lines().any(|new| new == *path));
-            stale.map(|path| self.folder.join(path)).try_for_each(|path| self.remove_stale(&path))?;
+            let stale = former
+                .lines()
+                .filter(|path| stays_inside(path) && !manifest.lines().any(|new| new == *path));
+            stale
+                .map(|path| self.folder.join(path))
+                .try_for_each(|path| self.remove_stale(&path))?;
             move_if_there(&pending.join(MANIFEST), &self.folder.join(MANIFEST))?;
         }
         remove_if_there(&pending)
@@ -154,9 +175,18 @@ impl ReportFolder {
 }
 
 fn leads_out(pending: &Path, path: &str) -> io::Error {
-    let (manifest, path) = (visible::path(&pending.join(MANIFEST)), visible::visible(path));
-    let (expected, remedy) = ("paths of files below the report's folder", "remove this folder and run again");
-    io::Error::new(io::ErrorKind::InvalidData, format!("{manifest}: found `{path}`; expected {expected}; {remedy}"))
+    let (manifest, path) = (
+        visible::path(&pending.join(MANIFEST)),
+        visible::visible(path),
+    );
+    let (expected, remedy) = (
+        "paths of files below the report's folder",
+        "remove this folder and run again",
+    );
+    io::Error::new(
+        io::ErrorKind::InvalidData,
+        format!("{manifest}: found `{path}`; expected {expected}; {remedy}"),
+    )
 }
 
 fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {

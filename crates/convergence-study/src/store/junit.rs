@@ -23,34 +23,63 @@ pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
 /// A document with one suite.
 ///
 /// * `judged`: the name of each test case, its verdict, and the reason unless it is a pass.
-pub fn junit_of(name: &str, suite: &str, judged: &[(String, Verdict, String)]) -> Result<String, SerializeError> {
+pub fn junit_of(
+    name: &str,
+    suite: &str,
+    judged: &[(String, Verdict, String)],
+) -> Result<String, SerializeError> {
     let mut cases = TestSuite::new(suite);
-    cases.add_test_cases(judged.iter().map(|(name, verdict, reason)| case(suite, name, *verdict, reason)));
+    cases.add_test_cases(
+        judged
+            .iter()
+            .map(|(name, verdict, reason)| case(suite, name, *verdict, reason)),
+    );
     let mut report = Report::new(name);
     report.add_test_suite(cases);
     report.to_string()
 }
 
-fn suite(Finished { header, outcome, failed_cases, .. }: &Finished) -> TestSuite {
+fn suite(
+    Finished {
+        header,
+        outcome,
+        failed_cases,
+        ..
+    }: &Finished,
+) -> TestSuite {
     let mut suite = TestSuite::new(header.id.as_str());
     suite.add_property(("claim", header.claim.as_str()));
     for (norm, rate) in &outcome.rates {
         let name = format!("{norm}: order {}", rate.order);
         let mut judged = case(&header.id, &name, rate.verdict, &rate.reason);
         if let Some(advice) = rate.advice() {
-            judged.status.set_description(format!("{}: {advice}", rate.kind.code()));
+            judged
+                .status
+                .set_description(format!("{}: {advice}", rate.kind.code()));
         }
         suite.add_test_case(judged);
     }
     for check in &outcome.checks {
-        suite.add_test_case(case(&header.id, &check.claim, check.verdict, &check.evidence));
+        suite.add_test_case(case(
+            &header.id,
+            &check.claim,
+            check.verdict,
+            &check.evidence,
+        ));
     }
     // A study may fail although each rate and check passes, or may have none: then its verdict is a test case.
     if outcome.verdict != Verdict::Pass && suite.failures == 0 {
-        suite.add_test_case(case(&header.id, "verdict", outcome.verdict, &outcome.summary));
+        suite.add_test_case(case(
+            &header.id,
+            "verdict",
+            outcome.verdict,
+            &outcome.summary,
+        ));
     }
     if !failed_cases.is_empty() {
-        let lines = failed_cases.iter().map(|failed| format!("{}: {}\n", failed.label, failed.reason));
+        let lines = failed_cases
+            .iter()
+            .map(|failed| format!("{}: {}\n", failed.label, failed.reason));
         suite.set_system_err(lines.collect::<String>());
     }
     suite
@@ -59,7 +88,9 @@ fn suite(Finished { header, outcome, failed_cases, .. }: &Finished) -> TestSuite
 fn case(study: &str, name: &str, verdict: Verdict, reason: &str) -> TestCase {
     let mut status = match verdict {
         Verdict::Pass => TestCaseStatus::success(),
-        Verdict::Fail | Verdict::Inconclusive => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        Verdict::Fail | Verdict::Inconclusive => {
+            TestCaseStatus::non_success(NonSuccessKind::Failure)
+        }
     };
     if verdict != Verdict::Pass {
         status.set_type(verdict.name()).set_message(reason);
@@ -81,11 +112,21 @@ fn cause(diagnosis: &Diagnosis) -> TestSuite {
 fn baseline(changes: &[Change]) -> TestSuite {
     let mut suite = TestSuite::new("baseline");
     if changes.is_empty() {
-        suite.add_test_case(case("baseline", "all baseline values unchanged", Verdict::Pass, ""));
+        suite.add_test_case(case(
+            "baseline",
+            "all baseline values unchanged",
+            Verdict::Pass,
+            "",
+        ));
     }
     for change in changes {
         let name = format!("{}: {}", change.study, change.subject());
-        suite.add_test_case(case("baseline", &name, Verdict::Fail, &change.movement.to_string()));
+        suite.add_test_case(case(
+            "baseline",
+            &name,
+            Verdict::Fail,
+            &change.movement.to_string(),
+        ));
     }
     suite
 }

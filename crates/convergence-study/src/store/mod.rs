@@ -45,13 +45,20 @@ pub(crate) fn parsed<T: DeserializeOwned>(
         schema: u32,
     }
     let refused = |found: &str, expected: &str| {
-        io::Error::new(io::ErrorKind::InvalidData, format!("{}: {found}; {expected}", visible::path(path)))
+        io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!("{}: {found}; {expected}", visible::path(path)),
+        )
     };
-    let malformed = |error: serde_json::Error| refused(&visible::visible(&error.to_string()), expected[0]);
+    let malformed =
+        |error: serde_json::Error| refused(&visible::visible(&error.to_string()), expected[0]);
     if let Some(schema) = schema {
         let Version { schema: found } = serde_json::from_str(text).map_err(malformed)?;
         if found != schema {
-            return Err(refused(&format!("schema: found {found}"), &format!("expected {}", expected[1])));
+            return Err(refused(
+                &format!("schema: found {found}"),
+                &format!("expected {}", expected[1]),
+            ));
         }
     }
     serde_json::from_str(text).map_err(malformed)
@@ -64,7 +71,8 @@ pub(crate) fn read_if_there<T: DeserializeOwned>(
     expected: [&str; 2],
 ) -> io::Result<Option<T>> {
     let text = if_there(read_to_string(path)).map_err(atomic::naming(path))?;
-    text.map(|text| parsed(&text, path, schema, expected)).transpose()
+    text.map(|text| parsed(&text, path, schema, expected))
+        .transpose()
 }
 
 /// An object as JSON text with a line end, as in files; a number that is not finite becomes `null`, because JSON has none.
@@ -83,7 +91,9 @@ pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> io::Result<()>
 pub fn content_hash(bytes: &[u8]) -> u64 {
     const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
     const PRIME: u64 = 0x0000_0100_0000_01B3;
-    let fnv = bytes.iter().fold(OFFSET, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME));
+    let fnv = bytes.iter().fold(OFFSET, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(PRIME)
+    });
     SplitMix::new(fnv).next_u64()
 }
 
@@ -121,7 +131,10 @@ fn check(path: &Path) -> io::Result<()> {
     if fs::metadata(path)?.is_file() {
         Ok(())
     } else {
-        Err(io::Error::new(io::ErrorKind::InvalidInput, "expected a regular file, found a folder, a pipe or a device"))
+        Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "expected a regular file, found a folder, a pipe or a device",
+        ))
     }
 }
 
@@ -133,7 +146,13 @@ mod tests {
     fn pipes_devices_and_folders_are_refused_at_once() {
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("pipe");
-        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        assert!(
+            std::process::Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .unwrap()
+                .success()
+        );
         for path in [pipe.as_path(), Path::new("/dev/zero"), folder.path()] {
             let refused = [
                 read_to_string(path).unwrap_err(),
@@ -141,7 +160,10 @@ mod tests {
                 open(path, File::options().append(true)).unwrap_err(),
             ];
             for error in refused {
-                assert!(error.to_string().contains("expected a regular file"), "{error}");
+                assert!(
+                    error.to_string().contains("expected a regular file"),
+                    "{error}"
+                );
             }
         }
         let file = folder.path().join("file");

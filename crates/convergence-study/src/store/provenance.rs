@@ -73,15 +73,26 @@ impl Provenance {
             schema: SCHEMA,
             crate_version: env!("CARGO_PKG_VERSION").to_owned(),
             command,
-            git_revision: output_of(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root)),
-            git_modified: output_of(Command::new("git").args(["status", "--porcelain"]).current_dir(root))
-                .map(|changes| !changes.is_empty()),
+            git_revision: output_of(
+                Command::new("git")
+                    .args(["rev-parse", "HEAD"])
+                    .current_dir(root),
+            ),
+            git_modified: output_of(
+                Command::new("git")
+                    .args(["status", "--porcelain"])
+                    .current_dir(root),
+            )
+            .map(|changes| !changes.is_empty()),
             toolchain: output_of(Command::new(rustc).arg("--version").current_dir(root)),
             cpu: entry("/proc/cpuinfo", "model name"),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             threads_available: thread::available_parallelism().ok().map(usize::from),
             jobs,
-            finished_at: SystemTime::now().duration_since(UNIX_EPOCH).ok().map(|since| since.as_secs()),
+            finished_at: SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .ok()
+                .map(|since| since.as_secs()),
             peak_memory_bytes: peak_memory(),
             studies: finished.iter().map(time).collect(),
         }
@@ -94,8 +105,15 @@ impl Provenance {
 
     /// Commit, date, machine and tools in a sentence each, as far as known.
     pub fn sentences(&self) -> Vec<String> {
-        let changed = if self.git_modified == Some(true) { ", with changes that are not committed" } else { "" };
-        let commit = self.git_revision.as_ref().map(|revision| format!("Commit {revision}{changed}."));
+        let changed = if self.git_modified == Some(true) {
+            ", with changes that are not committed"
+        } else {
+            ""
+        };
+        let commit = self
+            .git_revision
+            .as_ref()
+            .map(|revision| format!("Commit {revision}{changed}."));
         let date = self.finished_at.and_then(date).map(|date| date + ".");
         let threads = match self.threads_available {
             Some(available) => format!("{} of {available} threads", self.jobs),
@@ -103,8 +121,14 @@ impl Provenance {
         };
         let cpu = self.cpu.as_deref().unwrap_or("an unknown processor");
         let machine = Some(format!("{cpu}, {}, {threads}.", self.platform));
-        let toolchain = self.toolchain.as_ref().map(|toolchain| format!("{toolchain}."));
-        [commit, date, machine, toolchain].into_iter().flatten().collect()
+        let toolchain = self
+            .toolchain
+            .as_ref()
+            .map(|toolchain| format!("{toolchain}."));
+        [commit, date, machine, toolchain]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 }
 
@@ -128,20 +152,31 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
 /// Known only on Linux.
 fn peak_memory() -> Option<u64> {
     let kilobytes = entry("/proc/self/status", "VmHWM")?;
-    kilobytes.strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| 1024 * kilobytes)
+    kilobytes
+        .strip_suffix("kB")?
+        .trim()
+        .parse::<u64>()
+        .ok()
+        .map(|kilobytes| 1024 * kilobytes)
 }
 
 /// Trimmed standard output of a command that succeeds.
 fn output_of(command: &mut Command) -> Option<String> {
-    let output = command.output().ok().filter(|output| output.status.success())?;
-    String::from_utf8(output.stdout).ok().map(|text| text.trim().to_owned())
+    let output = command
+        .output()
+        .ok()
+        .filter(|output| output.status.success())?;
+    String::from_utf8(output.stdout)
+        .ok()
+        .map(|text| text.trim().to_owned())
 }
 
 /// The first value of that name in a file of Linux's `/proc`.
 fn entry(file: &str, name: &str) -> Option<String> {
     let text = fs::read_to_string(file).ok()?;
     let line = text.lines().find(|line| line.starts_with(name))?;
-    line.split_once(':').map(|(_, value)| value.trim().to_owned())
+    line.split_once(':')
+        .map(|(_, value)| value.trim().to_owned())
 }
 
 #[cfg(all(test, target_os = "linux"))]
@@ -155,6 +190,9 @@ mod tests {
         let used = vec![1_u8; SIZE];
         let during = peak_memory().expect("a number");
         assert!(during >= before + (SIZE as u64) / 2, "{before} {during}");
-        assert_eq!(used.iter().map(|byte| usize::from(*byte)).sum::<usize>(), SIZE);
+        assert_eq!(
+            used.iter().map(|byte| usize::from(*byte)).sum::<usize>(),
+            SIZE
+        );
     }
 }

@@ -21,7 +21,8 @@ use crate::text::number::{committed, committed_rate};
 pub const SCHEMA: u32 = 1;
 
 /// What counts as a record.
-const EXPECTED: &str = "expected a record as `verify` writes it to results.json, or `study --format json` prints it";
+const EXPECTED: &str =
+    "expected a record as `verify` writes it to results.json, or `study --format json` prints it";
 
 /// The folder of the pictures, next to the record.
 pub const FIGURES: &str = "figures";
@@ -55,7 +56,10 @@ pub struct Record {
 impl Record {
     /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
     pub fn read(path: &Path) -> io::Result<Self> {
-        Self::parse(&store::read_to_string(path).map_err(atomic::naming(path))?, path)
+        Self::parse(
+            &store::read_to_string(path).map_err(atomic::naming(path))?,
+            path,
+        )
     }
 
     /// The same from its text.
@@ -79,7 +83,11 @@ impl Record {
             scope: scope.to_owned(),
             command: command.to_owned(),
             verdict,
-            baseline_changes: changes.unwrap_or_default().iter().map(Change::to_string).collect(),
+            baseline_changes: changes
+                .unwrap_or_default()
+                .iter()
+                .map(Change::to_string)
+                .collect(),
             changes: changes.map(<[Change]>::to_vec),
             diagnosis: None,
             studies,
@@ -94,23 +102,34 @@ impl Record {
     /// The same with digits that do not vary between runs and hardly between machines: see [`committed`].
     #[must_use]
     pub fn committed(mut self) -> Self {
-        for Finished { outcome, untested, .. } in &mut self.studies {
+        for Finished {
+            outcome, untested, ..
+        } in &mut self.studies
+        {
             // Whether it was searched for depends on the command.
             untested.clear();
             for level in &mut outcome.levels {
-                level.errors.iter_mut().for_each(|(_, error)| *error = committed(*error));
+                level
+                    .errors
+                    .iter_mut()
+                    .for_each(|(_, error)| *error = committed(*error));
                 level.step = level.step.map(committed);
                 level.work = level.work.map(committed);
             }
             outcome.rates.iter_mut().for_each(|(_, rate)| round(rate));
-            outcome.quantities.iter_mut().for_each(|quantity| quantity.value = committed(quantity.value));
+            outcome
+                .quantities
+                .iter_mut()
+                .for_each(|quantity| quantity.value = committed(quantity.value));
         }
         self
     }
 }
 
 fn round(rate: &mut RateVerdict) {
-    rate.pairwise.iter_mut().for_each(|rate| *rate = committed_rate(*rate));
+    rate.pairwise
+        .iter_mut()
+        .for_each(|rate| *rate = committed_rate(*rate));
     rate.fitted = rate.fitted.map(committed_rate);
     rate.constant = rate.constant.map(committed);
     rate.interval = rate.interval.map(|ends| ends.map(committed_rate));

@@ -69,8 +69,15 @@ impl StudyFile {
     fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
         let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
             let header = Header::from_document(root)?;
-            if let Some(earlier) = earlier.iter().find(|earlier| earlier.study.header().id == header.id) {
-                let found = format!("\"{}\", which {} has too", header.id, visible::path(&earlier.path));
+            if let Some(earlier) = earlier
+                .iter()
+                .find(|earlier| earlier.study.header().id == header.id)
+            {
+                let found = format!(
+                    "\"{}\", which {} has too",
+                    header.id,
+                    visible::path(&earlier.path)
+                );
                 return Err(root.require("study", "a table")?.section()?.refuse(
                     "id",
                     found,
@@ -80,15 +87,25 @@ impl StudyFile {
             let row = row(kinds, root, &header)?;
             (row.read)(header, root, folder)
         })?;
-        Ok(Self { path: path.to_owned(), study })
+        Ok(Self {
+            path: path.to_owned(),
+            study,
+        })
     }
 }
 
-fn row<'k>(kinds: &'k [KindRow], root: &Section<'_>, header: &Header) -> Result<&'k KindRow, InputError> {
+fn row<'k>(
+    kinds: &'k [KindRow],
+    root: &Section<'_>,
+    header: &Header,
+) -> Result<&'k KindRow, InputError> {
     if let Some(row) = kinds.iter().find(|row| row.name == header.kind) {
         return Ok(row);
     }
-    let names: Vec<String> = kinds.iter().map(|row| format!("\"{}\"", row.name)).collect();
+    let names: Vec<String> = kinds
+        .iter()
+        .map(|row| format!("\"{}\"", row.name))
+        .collect();
     let study = root.require("study", "a table")?.section()?;
     // A file without kind has the default kind, which not every project knows.
     study.require("kind", &names.join(", "))?;
@@ -102,7 +119,11 @@ pub trait FromFile: Kind + Sized {
     /// * `header`: the table `[study]`, already read.
     /// * `root`: the document.
     /// * `folder`: the folder of the file; names of other files are relative to it.
-    fn from_document(header: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError>;
 
     /// Reads a study from `text`; messages name `file`, and other files are searched for next to it.
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
@@ -123,7 +144,10 @@ impl<K: FromFile> Described<K> {
     pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         input::parse_beside(text, file, |root, folder| {
             let header = Header::from_document(root)?;
-            Ok(Self { kind: K::from_document(&header, root, folder)?, header })
+            Ok(Self {
+                kind: K::from_document(&header, root, folder)?,
+                header,
+            })
         })
     }
 
@@ -136,15 +160,27 @@ impl<K: FromFile> Described<K> {
 impl Header {
     /// Reads `[study]` of a document, and records every value of the document.
     pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        let study = root.require("study", "a table with id, claim and tier")?.section()?;
+        let study = root
+            .require("study", "a table with id, claim and tier")?
+            .section()?;
         study.allow(&["id", "claim", "tier", "kind", "group"])?;
         let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
-        let kind = if study.get("kind").is_some() { name(&study, "kind")? } else { DEFAULT_KIND.to_owned() };
+        let kind = if study.get("kind").is_some() {
+            name(&study, "kind")?
+        } else {
+            DEFAULT_KIND.to_owned()
+        };
         Ok(Self {
             id: name(&study, "id")?,
             claim: line(&study, "claim")?,
-            tier: study.require("tier", "\"quick\" or \"full\"")?.choice(&tiers)?,
-            group: if study.get("group").is_some() { line(&study, "group")? } else { kind.clone() },
+            tier: study
+                .require("tier", "\"quick\" or \"full\"")?
+                .choice(&tiers)?,
+            group: if study.get("group").is_some() {
+                line(&study, "group")?
+            } else {
+                kind.clone()
+            },
             kind,
             settings: root.settings(),
         })
@@ -154,7 +190,11 @@ impl Header {
 fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
     let field = study.require(key, NAME)?;
     let text = field.text()?;
-    if is_name(text) { Ok(text.to_owned()) } else { Err(field.refuse_as_written(NAME)) }
+    if is_name(text) {
+        Ok(text.to_owned())
+    } else {
+        Err(field.refuse_as_written(NAME))
+    }
 }
 
 /// One line of text, without control characters: it is printed to terminals and logs.
@@ -163,7 +203,11 @@ fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
     let field = study.require(key, allowed)?;
     let text = field.text()?;
     let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
-    if is_line { Ok(text.to_owned()) } else { Err(field.refuse_as_written(allowed)) }
+    if is_line {
+        Ok(text.to_owned())
+    } else {
+        Err(field.refuse_as_written(allowed))
+    }
 }
 
 /// The claim of a table, with the default tolerance: each kind decides which claims its studies allow.
@@ -176,18 +220,28 @@ pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError>
     let allowed = "a number > 0, or a text such as \">= 2\"";
     let field = section.require(key, allowed)?;
     let (order, at_least) = match field.text() {
-        Ok(text) => {
-            order_from_text(text).filter(|(_, least)| *least).ok_or_else(|| field.refuse_as_written(allowed))?
-        }
+        Ok(text) => order_from_text(text)
+            .filter(|(_, least)| *least)
+            .ok_or_else(|| field.refuse_as_written(allowed))?,
         Err(_) => (field.positive()?, false),
     };
-    Ok(Claim { at_least, constant: constant(section)?, ..Claim::new(order, DEFAULT_TOLERANCE) })
+    Ok(Claim {
+        at_least,
+        constant: constant(section)?,
+        ..Claim::new(order, DEFAULT_TOLERANCE)
+    })
 }
 
 fn constant(section: &Section<'_>) -> Result<Option<[f64; 2]>, InputError> {
-    let Some(field) = section.get("constant") else { return Ok(None) };
+    let Some(field) = section.get("constant") else {
+        return Ok(None);
+    };
     let allowed = "two numbers > 0, the smaller first, beside order";
-    let ends: Vec<f64> = field.items(allowed)?.iter().map(Field::positive).collect::<Result<_, _>>()?;
+    let ends: Vec<f64> = field
+        .items(allowed)?
+        .iter()
+        .map(Field::positive)
+        .collect::<Result<_, _>>()?;
     match ends[..] {
         [least, most] if least < most && section.get("order").is_some() => Ok(Some([least, most])),
         _ => Err(field.refuse_as_written(allowed)),

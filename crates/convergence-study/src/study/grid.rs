@@ -49,25 +49,47 @@ impl Grid {
         let [h, dt] = self.steps();
         if let Some(different) = self.off_grid(&h, &dt) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
-            let check = Check { verdict: Verdict::Inconclusive, ..Check::that(false, claim, different) };
+            let check = Check {
+                verdict: Verdict::Inconclusive,
+                ..Check::that(false, claim, different)
+            };
             return Outcome::new("", vec![], vec![check]);
         }
         let (mut rates, mut checks) = (vec![], vec![]);
         for column in &self.columns {
-            let errors = GridErrors { h: &h, dt: &dt, errors: &column.errors };
+            let errors = GridErrors {
+                h: &h,
+                dt: &dt,
+                errors: &column.errors,
+            };
             let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
             let squares = self.squares_add || misfits[1] <= misfits[0];
-            let adding = if squares { Adding::Squares } else { Adding::Plain };
-            let Claim { order, tolerance, .. } = column.space;
+            let adding = if squares {
+                Adding::Squares
+            } else {
+                Adding::Plain
+            };
+            let Claim {
+                order, tolerance, ..
+            } = column.space;
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
             match errors.judge(adding, [order, column.time], tolerance) {
                 Ok(judged) => rates.extend(names.into_iter().zip(judged).map(|(name, rate)| {
                     let all = missing.is_empty();
-                    (name, if all { rate } else { rate.without_result(self.points.len(), &missing) })
+                    (
+                        name,
+                        if all {
+                            rate
+                        } else {
+                            rate.without_result(self.points.len(), &missing)
+                        },
+                    )
                 })),
                 // Readers of study files have already refused such a tolerance.
-                Err(error) => checks.extend(names.map(|name| Check::that(false, name, error.to_string()))),
+                Err(error) => {
+                    checks.extend(names.map(|name| Check::that(false, name, error.to_string())))
+                }
             }
             checks.push(self.judge_model(&column.name, misfits));
         }
@@ -76,8 +98,14 @@ impl Grid {
 
     /// The points without a result.
     fn without_result(&self, column: &GridColumn) -> Vec<String> {
-        let missing = self.points.iter().zip(&column.errors).filter(|(_, error)| error.is_nan());
-        missing.map(|([h, dt], _)| format!("h = {}, dt = {}", plain_text(*h), plain_text(*dt))).collect()
+        let missing = self
+            .points
+            .iter()
+            .zip(&column.errors)
+            .filter(|(_, error)| error.is_nan());
+        missing
+            .map(|([h, dt], _)| format!("h = {}, dt = {}", plain_text(*h), plain_text(*dt)))
+            .collect()
     }
 
     /// The mesh widths at the finest time step, and the time steps on the finest mesh.
@@ -85,7 +113,11 @@ impl Grid {
         let times = self.times.max(1);
         let finest = self.points.chunks(times).last().unwrap_or_default();
         [
-            self.points.chunks(times).filter_map(|row| row.last()).map(|[h, _]| *h).collect(),
+            self.points
+                .chunks(times)
+                .filter_map(|row| row.last())
+                .map(|[h, _]| *h)
+                .collect(),
             finest.iter().map(|[_, dt]| *dt).collect(),
         ]
     }
@@ -94,10 +126,16 @@ impl Grid {
     fn off_grid(&self, h: &[f64], dt: &[f64]) -> Option<String> {
         let differ = |one: f64, other: f64| (one / other - 1.0).abs() > SAME_STEP;
         self.points.iter().enumerate().find_map(|(index, point)| {
-            let expected = [h[index / self.times.max(1)], *dt.get(index % self.times.max(1))?];
+            let expected = [
+                h[index / self.times.max(1)],
+                *dt.get(index % self.times.max(1))?,
+            ];
             let off = differ(point[0], expected[0]) || differ(point[1], expected[1]);
             off.then(|| {
-                format!("expected h = {}, dt = {}, found h = {}, dt = {}", expected[0], expected[1], point[0], point[1])
+                format!(
+                    "expected h = {}, dt = {}, found h = {}, dt = {}",
+                    expected[0], expected[1], point[0], point[1]
+                )
             })
         })
     }
@@ -107,39 +145,75 @@ impl Grid {
     ///
     /// * `what`: the meaning of an error's name, such as `norm`.
     pub fn figures(&self, what: &str) -> Vec<Figure> {
-        let widths: Vec<f64> = self.points.iter().step_by(self.times.max(1)).map(|[h, _]| *h).collect();
-        let steps: Vec<f64> = self.points.iter().take(self.times).map(|[_, dt]| *dt).collect();
+        let widths: Vec<f64> = self
+            .points
+            .iter()
+            .step_by(self.times.max(1))
+            .map(|[h, _]| *h)
+            .collect();
+        let steps: Vec<f64> = self
+            .points
+            .iter()
+            .take(self.times)
+            .map(|[_, dt]| *dt)
+            .collect();
         let figure = |column: &GridColumn| {
-            let at = |k: usize, j: usize| column.errors.get(j * self.times + k).copied().unwrap_or(f64::NAN);
+            let at = |k: usize, j: usize| {
+                column
+                    .errors
+                    .get(j * self.times + k)
+                    .copied()
+                    .unwrap_or(f64::NAN)
+            };
             let svg = plots::surface(&plots::Surface {
                 x: plots::Axis::log("mesh width h"),
                 y: plots::Axis::log("time step dt"),
                 z: plots::Axis::log(format!("error, {}", column.name)),
                 x_values: widths.clone(),
                 y_values: steps.clone(),
-                values: (0..steps.len()).map(|k| (0..widths.len()).map(|j| at(k, j)).collect()).collect(),
+                values: (0..steps.len())
+                    .map(|k| (0..widths.len()).map(|j| at(k, j)).collect())
+                    .collect(),
                 ..plots::Surface::default()
             });
-            let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '-' };
+            let plain = |c: char| {
+                if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') {
+                    c
+                } else {
+                    '-'
+                }
+            };
             let name: String = column.name.chars().map(plain).collect();
-            let caption = format!("Error in the {what} `{}` over mesh width and time step.", column.name);
+            let caption = format!(
+                "Error in the {what} `{}` over mesh width and time step.",
+                column.name
+            );
             Figure::new(&format!("surface-{name}"), caption, svg)
         };
         self.columns.iter().map(figure).collect()
     }
 
     fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
-        let evidence =
-            format!("misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none");
+        let evidence = format!(
+            "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"
+        );
         if self.squares_add {
             let claim = format!("{name}: the squares of space and time error add");
             return Check::that(squares < plain && squares <= MISFIT, claim, evidence);
         }
         // Nobody claimed it: if it does not hold, the orders are unknown.
-        let verdict = if plain.min(squares) <= MISFIT { Verdict::Pass } else { Verdict::Inconclusive };
+        let verdict = if plain.min(squares) <= MISFIT {
+            Verdict::Pass
+        } else {
+            Verdict::Inconclusive
+        };
         Check {
             verdict,
-            ..Check::that(false, format!("{name}: the errors of space and time add, or their squares"), evidence)
+            ..Check::that(
+                false,
+                format!("{name}: the errors of space and time add, or their squares"),
+                evidence,
+            )
         }
     }
 }

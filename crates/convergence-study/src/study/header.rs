@@ -8,7 +8,9 @@ pub(super) const DEFAULT_KIND: &str = "convergence";
 const LONGEST_NAME: usize = 100;
 
 /// When a study is run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Tier {
     /// Always.
@@ -68,12 +70,15 @@ impl Header {
 }
 
 /// What [`is_name`] requires.
-pub const NAME: &str = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
+pub const NAME: &str =
+    "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
 
 /// Whether a text can be a study's id, for file names and command lines.
 pub fn is_name(text: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
-    text.len() <= LONGEST_NAME && text.starts_with(plain) && text.chars().all(|c| plain(c) || c == '.' || c == '-')
+    text.len() <= LONGEST_NAME
+        && text.starts_with(plain)
+        && text.chars().all(|c| plain(c) || c == '.' || c == '-')
 }
 
 /// A setting: its key, and its value in words that can stand alone, such as `axis` and `refined in space`.
@@ -83,16 +88,24 @@ pub type Setting = (String, String);
 ///
 /// * `item`: the name of a rate, the claim of a check, or the name of a guarded number.
 pub fn field(item: &str) -> String {
-    let item = ["error ", "rate "].iter().fold(item, |item, kind| item.strip_prefix(kind).unwrap_or(item));
+    let item = ["error ", "rate "]
+        .iter()
+        .fold(item, |item, kind| item.strip_prefix(kind).unwrap_or(item));
     let item = item.rsplit_once(": ").map_or(item, |(_, rest)| rest);
     let is_level = |part: &&str| {
-        let is_set = part.split_once(" = ").is_some_and(|(name, _)| !name.contains(' '));
+        let is_set = part
+            .split_once(" = ")
+            .is_some_and(|(name, _)| !name.contains(' '));
         // The second argument of `u(1, 1)` is no level.
         let is_number = part.starts_with(|c: char| c.is_ascii_digit()) && !part.ends_with(')');
         is_set || is_number || *part == "finest level"
     };
     let parts: Vec<&str> = item.split(", ").filter(|part| !is_level(part)).collect();
-    if parts.is_empty() { item.to_owned() } else { parts.join(", ") }
+    if parts.is_empty() {
+        item.to_owned()
+    } else {
+        parts.join(", ")
+    }
 }
 
 /// The setting that only the items of one study share.
@@ -109,14 +122,27 @@ pub fn study(header: &Header) -> Setting {
 pub fn of_file(header: &Header, item: &str) -> Vec<Setting> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
     let told = |path: &str| !path.starts_with("study.") && !path.contains('[');
-    let own = [study(header), pair("field", &field(item)), pair("kind", &header.kind)];
+    let own = [
+        study(header),
+        pair("field", &field(item)),
+        pair("kind", &header.kind),
+    ];
     // Each entry of a list, such as the words of a command, is a separate setting.
     let entries = |(path, value): &Setting| {
         let entries = value.trim_matches(['[', ']']).split(", ").enumerate();
-        let entry = |(k, entry): (usize, &str)| (format!("{path}[{k}]"), format!("{path} {}", entry.trim_matches('"')));
+        let entry = |(k, entry): (usize, &str)| {
+            (
+                format!("{path}[{k}]"),
+                format!("{path} {}", entry.trim_matches('"')),
+            )
+        };
         entries.map(entry).collect::<Vec<_>>()
     };
-    let of_file = header.settings.iter().filter(|(path, _)| told(path)).flat_map(entries);
+    let of_file = header
+        .settings
+        .iter()
+        .filter(|(path, _)| told(path))
+        .flat_map(entries);
     own.into_iter().chain(of_file).collect()
 }
 
@@ -129,7 +155,10 @@ mod tests {
         for (item, expected) in [
             ("error shear, n = 8, 128 steps", "shear"),
             ("rate p = 1, fields", "fields"),
-            ("error mean, successive, n = 16, 800 steps", "mean, successive"),
+            (
+                "error mean, successive, n = 16, 800 steps",
+                "mean, successive",
+            ),
             ("case-1: u(1) at t = 1", "u(1) at t = 1"),
             ("error u(1, 1), n = 8", "u(1, 1)"),
             ("n = 8", "n = 8"),

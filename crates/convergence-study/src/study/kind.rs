@@ -20,7 +20,11 @@ pub struct Case<D> {
 impl<D> Case<D> {
     /// A computation with its label and the estimate of its work.
     pub fn new(label: impl Into<String>, cost: f64, data: D) -> Self {
-        Self { label: label.into(), cost, data }
+        Self {
+            label: label.into(),
+            cost,
+            data,
+        }
     }
 }
 
@@ -52,7 +56,10 @@ pub struct CaseFailure {
 impl CaseFailure {
     /// * `reason`: in words, with step, time and numbers.
     pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into(), advice: String::new() }
+        Self {
+            reason: reason.into(),
+            advice: String::new(),
+        }
     }
 }
 
@@ -64,9 +71,15 @@ impl<E: std::error::Error> From<E> for CaseFailure {
 
 /// The reasons of failed cases; the first case with advice has it behind its reason.
 pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
-    let advised = failures.iter().position(|failure| !failure.advice.is_empty());
+    let advised = failures
+        .iter()
+        .position(|failure| !failure.advice.is_empty());
     let reason = |(k, CaseFailure { reason, advice }): (usize, CaseFailure)| {
-        if Some(k) == advised { format!("{reason}; {advice}") } else { reason }
+        if Some(k) == advised {
+            format!("{reason}; {advice}")
+        } else {
+            reason
+        }
     };
     failures.into_iter().enumerate().map(reason).collect()
 }
@@ -76,7 +89,9 @@ pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
 /// * `failed`: label and reason of each.
 pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
     let reasons = grouped(failed.into_iter().map(|(label, reason)| (reason, label)));
-    let line = |(reason, labels): (&str, Vec<&str>)| format!("{}{}: {reason}", labels[0], and_more(labels.len(), 1));
+    let line = |(reason, labels): (&str, Vec<&str>)| {
+        format!("{}{}: {reason}", labels[0], and_more(labels.len(), 1))
+    };
     reasons.into_iter().map(line).collect()
 }
 
@@ -141,7 +156,10 @@ pub struct Untested {
 
 /// Runs all cases on this thread, one after the other.
 pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
-    let run = |case: Case<K::Data>| Ran { found: kind.run(&case.data), case };
+    let run = |case: Case<K::Data>| Ran {
+        found: kind.run(&case.data),
+        case,
+    };
     let mut ran: Vec<_> = kind.cases().into_iter().map(run).collect();
     while let Some(case) = kind.more(&ran) {
         ran.push(run(case));
@@ -159,20 +177,43 @@ const SHOWN: usize = 8;
 ///
 /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
 pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
-    let failed: Vec<_> = ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().err()?))).collect();
-    let reasons = reasons(failed.iter().map(|(_, failure)| (*failure).clone()).collect());
+    let failed: Vec<_> = ran
+        .iter()
+        .filter_map(|Ran { case, found }| Some((case, found.as_ref().err()?)))
+        .collect();
+    let reasons = reasons(
+        failed
+            .iter()
+            .map(|(_, failure)| (*failure).clone())
+            .collect(),
+    );
     let labels = failed.iter().map(|(case, _)| case.label.as_str());
     let mut complaints = by_reason(labels.zip(reasons.iter().map(String::as_str)));
-    for (case, found) in ran.iter().filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?))) {
-        complaints.extend(not_finite(found).iter().map(|name| format!("{}: {name} is not finite", case.label)));
+    for (case, found) in ran
+        .iter()
+        .filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?)))
+    {
+        complaints.extend(
+            not_finite(found)
+                .iter()
+                .map(|name| format!("{}: {name} is not finite", case.label)),
+        );
     }
     let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
     let mut evidence = format!("{completed} of {} cases completed", ran.len());
-    complaints.iter().take(SHOWN).for_each(|complaint| evidence += &format!("; {complaint}"));
+    complaints
+        .iter()
+        .take(SHOWN)
+        .for_each(|complaint| evidence += &format!("; {complaint}"));
     if complaints.len() > SHOWN {
         evidence += &format!("; and {} more", complaints.len() - SHOWN);
     }
-    Check::that(complaints.is_empty() && !ran.is_empty(), COMPLETION, evidence).stated_by(Origin::Completion)
+    Check::that(
+        complaints.is_empty() && !ran.is_empty(),
+        COMPLETION,
+        evidence,
+    )
+    .stated_by(Origin::Completion)
 }
 
 /// A study of any kind, as the runner sees it.
@@ -224,8 +265,18 @@ pub fn erased<'k, K: Kind + 'k>(header: Header, kind: K) -> Box<dyn Study + 'k> 
 
 /// The cases of a typed study, with a place for the result of each.
 pub(crate) fn plan<K: Kind>(kind: &K) -> Box<dyn Plan + '_> {
-    let ran = kind.cases().into_iter().map(|case| Ran { case, found: Err(never_run()) }).collect();
-    Box::new(Typed { kind, ran: Mutex::new(ran) })
+    let ran = kind
+        .cases()
+        .into_iter()
+        .map(|case| Ran {
+            case,
+            found: Err(never_run()),
+        })
+        .collect();
+    Box::new(Typed {
+        kind,
+        ran: Mutex::new(ran),
+    })
 }
 
 /// A typed study with its header.
@@ -284,7 +335,10 @@ impl<K: Kind> Plan for Typed<'_, K> {
     fn more(&self) -> Option<usize> {
         let mut ran = self.ran();
         let case = self.kind.more(&ran)?;
-        ran.push(Ran { case, found: Err(never_run()) });
+        ran.push(Ran {
+            case,
+            found: Err(never_run()),
+        });
         Some(ran.len() - 1)
     }
 
@@ -306,7 +360,9 @@ impl<K: Kind> Plan for Typed<'_, K> {
     }
 
     fn is_kept(&self, index: usize) -> bool {
-        self.ran()[index].ok().is_some_and(|found| self.kind.is_kept(found))
+        self.ran()[index]
+            .ok()
+            .is_some_and(|found| self.kind.is_kept(found))
     }
 
     fn judge(&self) -> Outcome {
@@ -330,13 +386,28 @@ mod tests {
     fn a_failed_case_or_a_nan_fails_the_completion() {
         let verdict = |found: Vec<Result<f64, CaseFailure>>| {
             let case = || Case::new("n = 8", 1.0, ());
-            let ran: Vec<_> = found.into_iter().map(|found| Ran { case: case(), found }).collect();
-            let names = |value: &f64| if value.is_finite() { vec![] } else { vec!["error".to_owned()] };
+            let ran: Vec<_> = found
+                .into_iter()
+                .map(|found| Ran {
+                    case: case(),
+                    found,
+                })
+                .collect();
+            let names = |value: &f64| {
+                if value.is_finite() {
+                    vec![]
+                } else {
+                    vec!["error".to_owned()]
+                }
+            };
             completion(&ran, names).verdict
         };
         assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
         assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);
-        assert_eq!(verdict(vec![Ok(1.0), Err(CaseFailure::new("diverged"))]), Verdict::Fail);
+        assert_eq!(
+            verdict(vec![Ok(1.0), Err(CaseFailure::new("diverged"))]),
+            Verdict::Fail
+        );
         assert_eq!(verdict(vec![]), Verdict::Fail);
     }
 }

@@ -12,7 +12,9 @@ use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
 #[cfg(feature = "reports")]
 use crate::plots::{self, ErrorSeries, xy::Xy};
 use crate::text::lists::distinct;
-use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text};
+use crate::text::number::{
+    RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text,
+};
 
 /// The explanation of the lines in a caption.
 #[cfg(feature = "reports")]
@@ -76,17 +78,34 @@ impl ErrorColumn {
     /// A column for every error claimed or found: claimed ones first, then the others in order of occurrence.
     ///
     /// * `found`: the errors of each level by name, coarse to fine; `None` if the case failed.
-    pub fn of<N: AsRef<str>, M: AsRef<str>>(claims: &[(N, Claim)], found: &[Option<&[(M, f64)]>]) -> Vec<Self> {
-        let found_names = found.iter().copied().flatten().flatten().map(|(name, _)| name.as_ref());
-        let names = distinct(claims.iter().map(|(name, _)| name.as_ref()).chain(found_names));
+    pub fn of<N: AsRef<str>, M: AsRef<str>>(
+        claims: &[(N, Claim)],
+        found: &[Option<&[(M, f64)]>],
+    ) -> Vec<Self> {
+        let found_names = found
+            .iter()
+            .copied()
+            .flatten()
+            .flatten()
+            .map(|(name, _)| name.as_ref());
+        let names = distinct(
+            claims
+                .iter()
+                .map(|(name, _)| name.as_ref())
+                .chain(found_names),
+        );
         let error = |errors: &Option<&[(M, f64)]>, name: &str| {
-            let named = errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
+            let named =
+                errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
             named.map(|(_, error)| *error)
         };
         let column = |(look, name): (usize, &str)| Self {
             name: name.to_owned(),
             errors: found.iter().map(|errors| error(errors, name)).collect(),
-            claim: claims.iter().find(|(known, _)| known.as_ref() == name).map(|(_, claim)| *claim),
+            claim: claims
+                .iter()
+                .find(|(known, _)| known.as_ref() == name)
+                .map(|(_, claim)| *claim),
             look,
         };
         names.into_iter().enumerate().map(column).collect()
@@ -107,8 +126,15 @@ pub struct Refinement {
 impl Refinement {
     /// * `parameters`: counts by name, such as elements and steps.
     pub fn new(label: String, parameters: &[(&str, usize)], step: f64) -> Self {
-        let parameters = parameters.iter().map(|(name, count)| ((*name).to_owned(), *count as f64)).collect();
-        Self { label, parameters, step }
+        let parameters = parameters
+            .iter()
+            .map(|(name, count)| ((*name).to_owned(), *count as f64))
+            .collect();
+        Self {
+            label,
+            parameters,
+            step,
+        }
     }
 }
 
@@ -135,8 +161,16 @@ impl Levels {
         refinements: impl IntoIterator<Item = Refinement>,
         columns: impl IntoIterator<Item = ErrorColumn>,
     ) -> Self {
-        let (refinements, columns) = (refinements.into_iter().collect(), columns.into_iter().collect());
-        Self { axis, refinements, columns, floor: 0.0 }
+        let (refinements, columns) = (
+            refinements.into_iter().collect(),
+            columns.into_iter().collect(),
+        );
+        Self {
+            axis,
+            refinements,
+            columns,
+            floor: 0.0,
+        }
     }
 
     /// The same where errors up to this one are round-off.
@@ -147,27 +181,53 @@ impl Levels {
     }
 
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
-        let level = |(i, level): (usize, &Refinement)| Some(Level { step: level.step, error: at(&column.errors, i)? });
-        self.refinements.iter().enumerate().filter_map(level).collect()
+        let level = |(i, level): (usize, &Refinement)| {
+            Some(Level {
+                step: level.step,
+                error: at(&column.errors, i)?,
+            })
+        };
+        self.refinements
+            .iter()
+            .enumerate()
+            .filter_map(level)
+            .collect()
     }
 
     /// For each level whether it has a result.
     fn has_result(&self, column: &ErrorColumn) -> Vec<bool> {
-        (0..self.refinements.len()).map(|i| at(&column.errors, i).is_some()).collect()
+        (0..self.refinements.len())
+            .map(|i| at(&column.errors, i).is_some())
+            .collect()
     }
 
     /// The labels of levels that lack a result for some claimed error.
     #[cfg(feature = "reports")]
     fn without_result(&self) -> Vec<&str> {
-        let lacks =
-            |i: usize| self.columns.iter().any(|column| column.claim.is_some() && at(&column.errors, i).is_none());
-        self.refinements.iter().enumerate().filter(|(i, _)| lacks(*i)).map(|(_, level)| level.label.as_str()).collect()
+        let lacks = |i: usize| {
+            self.columns
+                .iter()
+                .any(|column| column.claim.is_some() && at(&column.errors, i).is_none())
+        };
+        self.refinements
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| lacks(*i))
+            .map(|(_, level)| level.label.as_str())
+            .collect()
     }
 
     /// One verdict for each error with a claimed order. A level without a result makes it fail; the rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
-        let labels: Vec<&str> = self.refinements.iter().map(|level| level.label.as_str()).collect();
-        let known = self.columns.iter().filter(|column| column.errors.iter().any(Option::is_some));
+        let labels: Vec<&str> = self
+            .refinements
+            .iter()
+            .map(|level| level.label.as_str())
+            .collect();
+        let known = self
+            .columns
+            .iter()
+            .filter(|column| column.errors.iter().any(Option::is_some));
         let known: Vec<&str> = known.map(|column| column.name.as_str()).collect();
         let verdict = |column: &ErrorColumn| {
             let claim = column.claim?;
@@ -175,11 +235,22 @@ impl Levels {
             // No verdict can be based on such a tolerance; readers of study files have already refused it.
             let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
             let judged = judge.map(|judge| claim.judge(&judge, &points));
-            let judged = judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
+            let judged =
+                judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
             let judged = judged.among(&labels, &self.has_result(column));
             let is_unknown = !column.errors.iter().any(Option::is_some) && !known.is_empty();
-            let unknown = || format!("no level has an error `{}`; there are {}", column.name, known.join(", "));
-            let judged = if is_unknown { judged.with_reason(Reason::NoResult, &unknown()) } else { judged };
+            let unknown = || {
+                format!(
+                    "no level has an error `{}`; there are {}",
+                    column.name,
+                    known.join(", ")
+                )
+            };
+            let judged = if is_unknown {
+                judged.with_reason(Reason::NoResult, &unknown())
+            } else {
+                judged
+            };
             Some((column.name.clone(), judged))
         };
         self.columns.iter().filter_map(verdict).collect()
@@ -189,8 +260,17 @@ impl Levels {
     /// The judged errors, each with the line of its rate if that is known, and triangles for the orders claimed.
     ///
     /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there are any.
-    pub fn figure(&self, what: &str, title: Option<String>, caption: String, rates: &Rates) -> Figure {
-        let claimed = self.columns.iter().filter_map(|column| column.claim.map(|claim| (column, claim)));
+    pub fn figure(
+        &self,
+        what: &str,
+        title: Option<String>,
+        caption: String,
+        rates: &Rates,
+    ) -> Figure {
+        let claimed = self
+            .columns
+            .iter()
+            .filter_map(|column| column.claim.map(|claim| (column, claim)));
         let series = claimed.map(|(column, claim)| {
             let points = self.points(column);
             let rate = rates.iter().find(|(name, _)| *name == column.name);
@@ -198,7 +278,10 @@ impl Levels {
                 label: column.name.clone(),
                 fit: rate.and_then(|(_, rate)| rate.power_law()),
                 interval: rate.and_then(|(_, rate)| rate.interval),
-                points: points.iter().map(|level| (level.step, level.error)).collect(),
+                points: points
+                    .iter()
+                    .map(|level| (level.step, level.error))
+                    .collect(),
                 order: Some(claim.order),
                 used: rate.map(|(_, rate)| drawn(&rate.used, &self.has_result(column))),
                 look: Some(column.look),
@@ -208,10 +291,25 @@ impl Levels {
         let has_line = series.iter().any(|series| series.line().is_some());
         let caption = if has_line { caption + LINES } else { caption };
         let without = self.without_result();
-        let notes: Vec<String> = without.iter().map(|label| format!("{label}: no result")).collect();
-        let missing = if without.is_empty() { String::new() } else { format!(" No result: {}.", without.join("; ")) };
-        let xy = Xy { title, notes, ..Xy::of_errors(self.axis.label()) };
-        Figure::new(what, caption + &missing, plots::convergence(xy, &series, &[]))
+        let notes: Vec<String> = without
+            .iter()
+            .map(|label| format!("{label}: no result"))
+            .collect();
+        let missing = if without.is_empty() {
+            String::new()
+        } else {
+            format!(" No result: {}.", without.join("; "))
+        };
+        let xy = Xy {
+            title,
+            notes,
+            ..Xy::of_errors(self.axis.label())
+        };
+        Figure::new(
+            what,
+            caption + &missing,
+            plots::convergence(xy, &series, &[]),
+        )
     }
 
     /// The same with only the coarsest levels.
@@ -225,7 +323,13 @@ impl Levels {
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
-    pub fn outcome(&self, what: &str, title: Option<&str>, caption: &str, checks: Vec<Check>) -> Outcome {
+    pub fn outcome(
+        &self,
+        what: &str,
+        title: Option<&str>,
+        caption: &str,
+        checks: Vec<Check>,
+    ) -> Outcome {
         let rates = self.judge();
         #[cfg(feature = "reports")]
         let figure = Some(self.figure(what, title.map(str::to_owned), caption.to_owned(), &rates));
@@ -249,7 +353,12 @@ impl Levels {
                 step: Some(level.step),
                 work: None,
                 errors: self.columns.iter().map(error).collect(),
-                without: self.columns.iter().filter(lacks).map(|column| column.name.clone()).collect(),
+                without: self
+                    .columns
+                    .iter()
+                    .filter(lacks)
+                    .map(|column| column.name.clone())
+                    .collect(),
             }
         };
         self.refinements.iter().enumerate().map(level).collect()
@@ -259,7 +368,9 @@ impl Levels {
     pub fn quantities(&self, rates: &Rates) -> Vec<Quantity> {
         let errors = self.refinements.iter().enumerate().flat_map(|(i, level)| {
             let name = |column: &ErrorColumn| format!("error {}, {}", column.name, level.label);
-            let quantity = move |column| Quantity::new(name(column), number(&column.errors, i), ERROR_TOLERANCE);
+            let quantity = move |column| {
+                Quantity::new(name(column), number(&column.errors, i), ERROR_TOLERANCE)
+            };
             self.columns.iter().map(quantity)
         });
         rate_quantities(rates).chain(errors).collect()
@@ -285,14 +396,27 @@ fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
 
 /// The observed rates, as numbers that the baseline guards.
 pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(|(name, rate)| Some(Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE)))
+    rates.iter().filter_map(|(name, rate)| {
+        Some(Quantity::new(
+            format!("rate {name}"),
+            rate.fitted?,
+            RATE_TOLERANCE,
+        ))
+    })
 }
 
 /// Order, rate, interval and verdict of each error, in a separate table: for rates that decide nothing.
 pub fn rate_table(title: &str, rates: &Rates) -> Table {
     let row = |(name, rate): &(String, RateVerdict)| {
-        let pairwise: Vec<String> = rate.pairwise.iter().map(|rate| format!("{rate:.3}")).collect();
-        let interval = rate.interval.map_or_else(|| "-".to_owned(), |interval| interval_text(interval, RATE_PLACES));
+        let pairwise: Vec<String> = rate
+            .pairwise
+            .iter()
+            .map(|rate| format!("{rate:.3}"))
+            .collect();
+        let interval = rate.interval.map_or_else(
+            || "-".to_owned(),
+            |interval| interval_text(interval, RATE_PLACES),
+        );
         vec![
             name.clone(),
             rate.order.to_string(),
@@ -303,7 +427,15 @@ pub fn rate_table(title: &str, rates: &Rates) -> Table {
             rate.kind.text().to_owned(),
         ]
     };
-    let head = ["error of", "order", "pairwise rates", "rate", "95 % interval", "verdict", "because"];
+    let head = [
+        "error of",
+        "order",
+        "pairwise rates",
+        "rate",
+        "95 % interval",
+        "verdict",
+        "because",
+    ];
     Table::new(title, head, rates.iter().map(row))
 }
 
@@ -319,10 +451,19 @@ fn rate_in(rate: &RateVerdict) -> String {
 /// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with its reason.
 pub fn summary(rates: &Rates) -> String {
     let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
-    let shown = rates.iter().filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
+    let shown = rates
+        .iter()
+        .filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
     let one = |(name, rate): &(String, RateVerdict)| {
-        let found = rate.fitted.map_or_else(|| rate.rate_in_words(RATE_PLACES), |fitted| format!("{fitted:.4}"));
-        let reason = if passes { String::new() } else { format!(": {}", rate.reason) };
+        let found = rate.fitted.map_or_else(
+            || rate.rate_in_words(RATE_PLACES),
+            |fitted| format!("{fitted:.4}"),
+        );
+        let reason = if passes {
+            String::new()
+        } else {
+            format!(": {}", rate.reason)
+        };
         format!("{name} {found} (order {}){reason}", rate.order)
     };
     shown.map(one).collect::<Vec<_>>().join("; ")
@@ -336,31 +477,64 @@ mod tests {
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
         let refinements = halved();
         let judged = |count: usize, tolerance: f64| {
-            let errors = refinements.iter().take(count).map(|level| Some(level.step * level.step)).collect();
+            let errors = refinements
+                .iter()
+                .take(count)
+                .map(|level| Some(level.step * level.step))
+                .collect();
             let claim = Some(Claim::new(2.0, tolerance));
-            let column = ErrorColumn { name: "L2".into(), errors, claim, look: 0 };
-            Levels::new(Axis::Space, refinements.clone(), [column]).judge().remove(0).1
+            let column = ErrorColumn {
+                name: "L2".into(),
+                errors,
+                claim,
+                look: 0,
+            };
+            Levels::new(Axis::Space, refinements.clone(), [column])
+                .judge()
+                .remove(0)
+                .1
         };
         assert_eq!(judged(5, 0.1).verdict, Verdict::Pass);
-        assert_eq!(judged(4, 0.1).verdict, Verdict::Fail, "the finest level has no error");
+        assert_eq!(
+            judged(4, 0.1).verdict,
+            Verdict::Fail,
+            "the finest level has no error"
+        );
         for tolerance in [-0.1, 0.7, f64::NAN] {
             let judged = judged(5, tolerance);
             assert_eq!(judged.verdict, Verdict::Inconclusive, "{tolerance}");
-            assert!(judged.fitted.is_some_and(|rate| (rate - 2.0).abs() < 1e-6), "{tolerance}");
+            assert!(
+                judged.fitted.is_some_and(|rate| (rate - 2.0).abs() < 1e-6),
+                "{tolerance}"
+            );
         }
     }
 
     fn halved() -> Vec<Refinement> {
-        [4, 8, 16, 32, 64].map(|n| Refinement::new(format!("cells = {n}"), &[("cells", n)], 1.0 / n as f64)).into()
+        [4, 8, 16, 32, 64]
+            .map(|n| Refinement::new(format!("cells = {n}"), &[("cells", n)], 1.0 / n as f64))
+            .into()
     }
 
     /// Errors of second order on five levels, times these factors.
     fn scattered(factors: [f64; 5]) -> Levels {
         let refinements = halved();
-        let errors =
-            refinements.iter().zip(factors).map(|(level, factor)| Some(factor * level.step * level.step)).collect();
+        let errors = refinements
+            .iter()
+            .zip(factors)
+            .map(|(level, factor)| Some(factor * level.step * level.step))
+            .collect();
         let claim = Some(Claim::new(2.0, 0.1));
-        Levels::new(Axis::Space, refinements, [ErrorColumn { name: "L2".into(), errors, claim, look: 0 }])
+        Levels::new(
+            Axis::Space,
+            refinements,
+            [ErrorColumn {
+                name: "L2".into(),
+                errors,
+                claim,
+                look: 0,
+            }],
+        )
     }
 
     /// The errors zigzag: their rate may be anything.
@@ -374,7 +548,10 @@ mod tests {
         };
         assert_eq!(cells([1.0; 5]), ["2.0000", "2.0000 ± 0.00005"]);
         let [rate, interval] = cells([1.0, 1.02, 1.0, 1.02, 1.0]);
-        assert!((4..=5).contains(&rate.len()) && interval.contains(" to "), "{rate}, {interval}");
+        assert!(
+            (4..=5).contains(&rate.len()) && interval.contains(" to "),
+            "{rate}, {interval}"
+        );
         assert_eq!(cells(ZIGZAG)[0], "no rate");
     }
 

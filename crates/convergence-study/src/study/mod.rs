@@ -19,7 +19,9 @@ pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, l
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};
 pub use header::{Header, Tier};
-pub use kind::{Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here};
+pub use kind::{
+    Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here,
+};
 pub use levels::{Axis, Claim, Refinement};
 pub use outcome::{Check, Figure, LevelErrors, Origin, Outcome, Quantity, Table};
 pub use readings::Reading;

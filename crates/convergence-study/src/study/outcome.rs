@@ -52,19 +52,29 @@ pub struct LevelErrors {
     #[serde(with = "json::named")]
     pub errors: Vec<(String, f64)>,
     /// The names of the errors for which the level has no result.
-    #[serde(rename = "without_result", default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(
+        rename = "without_result",
+        default,
+        skip_serializing_if = "Vec::is_empty"
+    )]
     pub without: Vec<String>,
 }
 
 impl LevelErrors {
     /// The parameter of that name.
     pub fn parameter(&self, name: &str) -> Option<f64> {
-        self.parameters.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
+        self.parameters
+            .iter()
+            .find(|(known, _)| known == name)
+            .map(|(_, value)| *value)
     }
 
     /// The error of that name; NaN if there is none.
     pub fn error(&self, name: &str) -> f64 {
-        self.errors.iter().find(|(known, _)| known == name).map_or(f64::NAN, |(_, error)| *error)
+        self.errors
+            .iter()
+            .find(|(known, _)| known == name)
+            .map_or(f64::NAN, |(_, error)| *error)
     }
 }
 
@@ -101,7 +111,12 @@ impl Check {
     /// Passes or fails on a condition; `holds` must be false for NaN.
     pub fn that(holds: bool, claim: impl Into<String>, evidence: impl Into<String>) -> Self {
         let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
-        Self { claim: claim.into(), verdict, evidence: evidence.into(), origin: Origin::Own }
+        Self {
+            claim: claim.into(),
+            verdict,
+            evidence: evidence.into(),
+            origin: Origin::Own,
+        }
     }
 
     /// The same as somebody's statement.
@@ -130,7 +145,11 @@ impl Table {
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Self {
         let head = head.into_iter().map(Into::into).collect();
-        Self { title: title.into(), head, rows: rows.into_iter().collect() }
+        Self {
+            title: title.into(),
+            head,
+            rows: rows.into_iter().collect(),
+        }
     }
 }
 
@@ -149,7 +168,11 @@ pub struct Figure {
 impl Figure {
     /// A picture of a study, in the file `<what>.svg`.
     pub fn new(what: &str, caption: impl Into<String>, svg: String) -> Self {
-        Self { file: format!("{what}.svg"), caption: caption.into(), svg }
+        Self {
+            file: format!("{what}.svg"),
+            caption: caption.into(),
+            svg,
+        }
     }
 }
 
@@ -169,7 +192,11 @@ pub struct Quantity {
 impl Quantity {
     /// * `tolerance`: relative change tolerated.
     pub fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
-        Self { name: name.into(), value, tolerance }
+        Self {
+            name: name.into(),
+            value,
+            tolerance,
+        }
     }
 }
 
@@ -205,28 +232,48 @@ mod rates {
         rate: RateVerdict,
     }
 
-    pub(super) fn serialize<S: Serializer>(rates: &[(String, RateVerdict)], serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(rates.iter().map(|(norm, rate)| Written { norm, rate, advice: rate.advice() }))
+    pub(super) fn serialize<S: Serializer>(
+        rates: &[(String, RateVerdict)],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(rates.iter().map(|(norm, rate)| Written {
+            norm,
+            rate,
+            advice: rate.advice(),
+        }))
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Vec<(String, RateVerdict)>, D::Error> {
         let rates: Vec<Read> = Vec::deserialize(deserializer)?;
-        Ok(rates.into_iter().map(|Read { norm, rate }| (norm, rate)).collect())
+        Ok(rates
+            .into_iter()
+            .map(|Read { norm, rate }| (norm, rate))
+            .collect())
     }
 }
 
 impl Outcome {
     /// The errors of that name over their steps; NaN on a level without one.
     pub fn levels_of(&self, name: &str) -> Vec<Level> {
-        let level = |level: &LevelErrors| Level { step: level.step.unwrap_or(f64::NAN), error: level.error(name) };
+        let level = |level: &LevelErrors| Level {
+            step: level.step.unwrap_or(f64::NAN),
+            error: level.error(name),
+        };
         self.levels.iter().map(level).collect()
     }
 
     /// Builds an outcome; the verdict is the worst of all rates and checks.
-    pub fn new(summary: impl Into<String>, rates: Vec<(String, RateVerdict)>, checks: Vec<Check>) -> Self {
-        let verdicts = rates.iter().map(|(_, rate)| rate.verdict).chain(checks.iter().map(|check| check.verdict));
+    pub fn new(
+        summary: impl Into<String>,
+        rates: Vec<(String, RateVerdict)>,
+        checks: Vec<Check>,
+    ) -> Self {
+        let verdicts = rates
+            .iter()
+            .map(|(_, rate)| rate.verdict)
+            .chain(checks.iter().map(|check| check.verdict));
         Self {
             verdict: Verdict::worst(verdicts),
             summary: summary.into(),
@@ -256,18 +303,33 @@ impl Outcome {
         let mut found = Vec::new();
         let mut look = |at: String, value: f64| {
             if !value.is_finite() {
-                found.push(NotFinite { at, value: value.to_string() });
+                found.push(NotFinite {
+                    at,
+                    value: value.to_string(),
+                });
             }
         };
         for (i, level) in self.levels.iter().enumerate() {
-            level.errors.iter().for_each(|(norm, error)| look(format!("levels[{i}].errors.{norm}"), *error));
+            level
+                .errors
+                .iter()
+                .for_each(|(norm, error)| look(format!("levels[{i}].errors.{norm}"), *error));
         }
         for (i, (_, rate)) in self.rates.iter().enumerate() {
-            rate.pairwise.iter().enumerate().for_each(|(j, rate)| look(format!("rates[{i}].pairwise[{j}]"), *rate));
+            rate.pairwise
+                .iter()
+                .enumerate()
+                .for_each(|(j, rate)| look(format!("rates[{i}].pairwise[{j}]"), *rate));
             let interval = rate.interval.into_iter().flatten();
-            interval.enumerate().for_each(|(j, end)| look(format!("rates[{i}].interval[{j}]"), end));
-            rate.fitted.into_iter().for_each(|fitted| look(format!("rates[{i}].fitted"), fitted));
-            rate.extrapolated.into_iter().for_each(|rate| look(format!("rates[{i}].extrapolated"), rate));
+            interval
+                .enumerate()
+                .for_each(|(j, end)| look(format!("rates[{i}].interval[{j}]"), end));
+            rate.fitted
+                .into_iter()
+                .for_each(|fitted| look(format!("rates[{i}].fitted"), fitted));
+            rate.extrapolated
+                .into_iter()
+                .for_each(|rate| look(format!("rates[{i}].extrapolated"), rate));
         }
         for (i, quantity) in self.quantities.iter().enumerate() {
             look(format!("quantities[{i}].value"), quantity.value);
@@ -278,10 +340,17 @@ impl Outcome {
 
 /// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a failing check if it does not meet the requirements.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
-    outcome.figures.iter_mut().for_each(|figure| figure.file = format!("{id}-{}", figure.file));
+    outcome
+        .figures
+        .iter_mut()
+        .for_each(|figure| figure.file = format!("{id}-{}", figure.file));
     let defects = defects(id, &outcome);
     if !defects.is_empty() {
-        outcome.checks.push(Check::that(false, "the outcome of the study is sound", defects.join("; ")));
+        outcome.checks.push(Check::that(
+            false,
+            "the outcome of the study is sound",
+            defects.join("; "),
+        ));
     }
     let claimed = outcome.verdict;
     let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
@@ -296,28 +365,56 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
 }
 
 pub(super) fn joined(summary: &str, more: &str) -> String {
-    if summary.is_empty() { more.to_owned() } else { format!("{summary}; {more}") }
+    if summary.is_empty() {
+        more.to_owned()
+    } else {
+        format!("{summary}; {more}")
+    }
 }
 
 fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
     let mut defects = Vec::new();
-    defects.extend(twice("the rate", outcome.rates.iter().map(|(norm, _)| norm)));
-    defects.extend(twice("the quantity", outcome.quantities.iter().map(|quantity| &quantity.name)));
-    defects.extend(twice("the figure", outcome.figures.iter().map(|figure| &figure.file)));
+    defects.extend(twice(
+        "the rate",
+        outcome.rates.iter().map(|(norm, _)| norm),
+    ));
+    defects.extend(twice(
+        "the quantity",
+        outcome.quantities.iter().map(|quantity| &quantity.name),
+    ));
+    defects.extend(twice(
+        "the figure",
+        outcome.figures.iter().map(|figure| &figure.file),
+    ));
     for level in &outcome.levels {
-        defects.extend(twice("at one level the norm", level.errors.iter().map(|(norm, _)| norm)));
+        defects.extend(twice(
+            "at one level the norm",
+            level.errors.iter().map(|(norm, _)| norm),
+        ));
     }
     for (norm, rate) in &outcome.rates {
         if rate.verdict == Verdict::Pass && !rests_on_numbers(rate) {
-            defects.push(format!("`{norm}` passes without a finite rate in a finite interval"));
+            defects.push(format!(
+                "`{norm}` passes without a finite rate in a finite interval"
+            ));
         }
     }
-    for figure in outcome.figures.iter().filter(|figure| !well_named(id, figure)) {
-        defects.push(format!("the figure `{}` is not called {id}-<what>.svg", figure.file));
+    for figure in outcome
+        .figures
+        .iter()
+        .filter(|figure| !well_named(id, figure))
+    {
+        defects.push(format!(
+            "the figure `{}` is not called {id}-<what>.svg",
+            figure.file
+        ));
     }
     for table in &outcome.tables {
         if table.rows.iter().any(|row| row.len() != table.head.len()) {
-            defects.push(format!("the table `{}` has rows that do not match its head", table.title));
+            defects.push(format!(
+                "the table `{}` has rows that do not match its head",
+                table.title
+            ));
         }
     }
     defects
@@ -325,20 +422,29 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
 
 /// Whether a passing rate has the numbers to justify it.
 fn rests_on_numbers(rate: &RateVerdict) -> bool {
-    let interval = rate.interval.is_some_and(|[low, high]| low.is_finite() && high.is_finite());
+    let interval = rate
+        .interval
+        .is_some_and(|[low, high]| low.is_finite() && high.is_finite());
     interval && rate.fitted.is_some_and(f64::is_finite)
 }
 
 /// A plain file name that begins with the study's id: figures of all studies share one folder.
 fn well_named(id: &str, figure: &Figure) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
-    let what = figure.file.strip_prefix(id).and_then(|rest| rest.strip_prefix('-'));
-    what.and_then(|what| what.strip_suffix(".svg")).is_some_and(|what| !what.is_empty() && what.chars().all(plain))
+    let what = figure
+        .file
+        .strip_prefix(id)
+        .and_then(|rest| rest.strip_prefix('-'));
+    what.and_then(|what| what.strip_suffix(".svg"))
+        .is_some_and(|what| !what.is_empty() && what.chars().all(plain))
 }
 
 fn twice<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<String> {
     let mut seen = HashSet::new();
-    names.filter(|name| !seen.insert(*name)).map(|name| format!("{what} `{name}` occurs twice")).collect()
+    names
+        .filter(|name| !seen.insert(*name))
+        .map(|name| format!("{what} `{name}` occurs twice"))
+        .collect()
 }
 
 #[cfg(test)]
@@ -348,7 +454,10 @@ mod tests {
 
     fn passing() -> Outcome {
         let levels = [(0.5, 0.5), (0.25, 0.25), (0.125, 0.125), (0.0625, 0.0625)];
-        let rates = vec![("velocity".to_owned(), verdict::judge_pairs(levels, 1.0, 0.1))];
+        let rates = vec![(
+            "velocity".to_owned(),
+            verdict::judge_pairs(levels, 1.0, 0.1),
+        )];
         Outcome::new("fine", rates, vec![Check::that(true, "c", "e")])
     }
 
@@ -368,14 +477,23 @@ mod tests {
 
     #[test]
     fn figures_are_named_after_the_study() {
-        let drawn = Outcome { figures: vec![Figure::new("errors", "", String::new())], ..passing() };
+        let drawn = Outcome {
+            figures: vec![Figure::new("errors", "", String::new())],
+            ..passing()
+        };
         let settled = settle("id", drawn);
-        assert_eq!((settled.verdict, settled.figures[0].file.as_str()), (Verdict::Pass, "id-errors.svg"));
+        assert_eq!(
+            (settled.verdict, settled.figures[0].file.as_str()),
+            (Verdict::Pass, "id-errors.svg")
+        );
     }
 
     #[test]
     fn nothing_judged_is_inconclusive_even_where_a_pass_is_claimed() {
-        let empty = Outcome { verdict: Verdict::Pass, ..Outcome::new("all well", vec![], vec![]) };
+        let empty = Outcome {
+            verdict: Verdict::Pass,
+            ..Outcome::new("all well", vec![], vec![])
+        };
         let settled = settle("id", empty);
         assert_eq!(settled.verdict, Verdict::Inconclusive);
         assert_eq!(settled.summary, "all well; nothing was judged");
@@ -386,23 +504,53 @@ mod tests {
         let mut hidden = passing();
         hidden.checks.push(Check::that(false, "c", "e"));
         assert_eq!(settle("id", hidden).verdict, Verdict::Fail);
-        let strict = Outcome { verdict: Verdict::Fail, ..passing() };
+        let strict = Outcome {
+            verdict: Verdict::Fail,
+            ..passing()
+        };
         assert_eq!(settle("id", strict).verdict, Verdict::Fail);
     }
 
     #[test]
     fn every_defect_of_an_outcome_fails_and_is_named() {
-        let quantity = |value| Quantity { name: "q".into(), value, tolerance: 0.1 };
+        let quantity = |value| Quantity {
+            name: "q".into(),
+            value,
+            tolerance: 0.1,
+        };
         refused(
-            Outcome { quantities: vec![quantity(1.0), quantity(2.0)], ..passing() },
+            Outcome {
+                quantities: vec![quantity(1.0), quantity(2.0)],
+                ..passing()
+            },
             "the quantity `q` occurs twice",
         );
         for file in ["../x.svg", ".svg", "a/b.svg", "x.png"] {
-            let figure = Figure { file: file.into(), caption: String::new(), svg: String::new() };
-            refused(Outcome { figures: vec![figure], ..passing() }, file);
+            let figure = Figure {
+                file: file.into(),
+                caption: String::new(),
+                svg: String::new(),
+            };
+            refused(
+                Outcome {
+                    figures: vec![figure],
+                    ..passing()
+                },
+                file,
+            );
         }
-        let table = Table { title: "ragged".into(), head: vec!["a".into()], rows: vec![vec![]] };
-        refused(Outcome { tables: vec![table], ..passing() }, "ragged");
+        let table = Table {
+            title: "ragged".into(),
+            head: vec!["a".into()],
+            rows: vec![vec![]],
+        };
+        refused(
+            Outcome {
+                tables: vec![table],
+                ..passing()
+            },
+            "ragged",
+        );
         let mut nan = passing();
         nan.rates[0].1.fitted = Some(f64::NAN);
         refused(nan, "`velocity` passes without");

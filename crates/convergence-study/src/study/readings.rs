@@ -19,17 +19,28 @@ pub struct Reading {
 impl Reading {
     /// A number that is neither shown in tables nor guarded.
     pub fn new(name: impl Into<String>, value: impl Into<Option<f64>>) -> Self {
-        Self { name: name.into(), value: value.into(), text: None, guard: None }
+        Self {
+            name: name.into(),
+            value: value.into(),
+            text: None,
+            guard: None,
+        }
     }
 
     /// A cell that is not a number.
     pub fn text(name: impl Into<String>, text: impl Into<String>) -> Self {
-        Self { text: Some(text.into()), ..Self::new(name, None) }
+        Self {
+            text: Some(text.into()),
+            ..Self::new(name, None)
+        }
     }
 
     /// The same number, shown in tables; as a dash if it is missing.
     pub fn shown(self, text: impl Fn(f64) -> String) -> Self {
-        Self { text: Some(self.value.map_or_else(|| "-".to_owned(), text)), ..self }
+        Self {
+            text: Some(self.value.map_or_else(|| "-".to_owned(), text)),
+            ..self
+        }
     }
 
     /// The same number, shown with this many digits after the first.
@@ -46,13 +57,18 @@ impl Reading {
     ///
     /// * `tolerance`: relative change tolerated.
     pub fn guarded(self, name: impl Into<String>, tolerance: f64) -> Self {
-        Self { guard: Some((name.into(), tolerance)), ..self }
+        Self {
+            guard: Some((name.into(), tolerance)),
+            ..self
+        }
     }
 }
 
 /// Names of the readings that are NaN or infinite, for [`completion`](super::kind::completion).
 pub fn not_finite(readings: &[Reading]) -> Vec<String> {
-    let broken = readings.iter().filter(|reading| reading.value.is_some_and(|value| !value.is_finite()));
+    let broken = readings
+        .iter()
+        .filter(|reading| reading.value.is_some_and(|value| !value.is_finite()));
     broken.map(|reading| reading.name.clone()).collect()
 }
 
@@ -60,7 +76,11 @@ pub fn not_finite(readings: &[Reading]) -> Vec<String> {
 pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quantity> {
     let quantity = |reading: &Reading| {
         let (name, tolerance) = reading.guard.clone()?;
-        Some(Quantity { name, value: reading.value.unwrap_or(f64::NAN), tolerance })
+        Some(Quantity {
+            name,
+            value: reading.value.unwrap_or(f64::NAN),
+            tolerance,
+        })
     };
     readings.into_iter().filter_map(quantity).collect()
 }
@@ -68,17 +88,35 @@ pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quant
 /// The readings that are shown, one column each; a dash for a missing one.
 ///
 /// * `rows`: the leading cells of a row, which are not readings, and its readings.
-pub fn table(title: impl Into<String>, first: &[&str], rows: &[(Vec<String>, Vec<Reading>)]) -> Table {
-    let shown = rows.iter().flat_map(|(_, readings)| readings).filter(|reading| reading.text.is_some());
+pub fn table(
+    title: impl Into<String>,
+    first: &[&str],
+    rows: &[(Vec<String>, Vec<Reading>)],
+) -> Table {
+    let shown = rows
+        .iter()
+        .flat_map(|(_, readings)| readings)
+        .filter(|reading| reading.text.is_some());
     let names = distinct(shown.map(|reading| reading.name.as_str()));
     let cell = |readings: &[Reading], name: &str| {
-        let text = readings.iter().find(|reading| reading.name == name).and_then(|reading| reading.text.clone());
+        let text = readings
+            .iter()
+            .find(|reading| reading.name == name)
+            .and_then(|reading| reading.text.clone());
         text.unwrap_or_else(|| "-".to_owned())
     };
     let row = |(first, readings): &(Vec<String>, Vec<Reading>)| {
-        [first.clone(), names.iter().map(|name| cell(readings, name)).collect()].concat()
+        [
+            first.clone(),
+            names.iter().map(|name| cell(readings, name)).collect(),
+        ]
+        .concat()
     };
-    Table::new(title, first.iter().chain(&names).copied(), rows.iter().map(row))
+    Table::new(
+        title,
+        first.iter().chain(&names).copied(),
+        rows.iter().map(row),
+    )
 }
 
 #[cfg(test)]
@@ -88,8 +126,14 @@ mod tests {
     #[test]
     fn one_declaration_gives_completion_table_and_guarded_numbers() {
         let readings = |force: f64, time: Option<f64>| {
-            let force = Reading::new("force", force).scientific(1).guarded("peak", 1e-6);
-            vec![force, Reading::new("time", time).fixed(2), Reading::new("size", f64::NAN)]
+            let force = Reading::new("force", force)
+                .scientific(1)
+                .guarded("peak", 1e-6);
+            vec![
+                force,
+                Reading::new("time", time).fixed(2),
+                Reading::new("size", f64::NAN),
+            ]
         };
         let rows = [
             (vec!["a".to_owned()], readings(0.25, None)),
@@ -98,10 +142,21 @@ mod tests {
         ];
         let table = table("t", &["case"], &rows);
         assert_eq!(table.head, ["case", "force", "time", "end"]);
-        assert_eq!(table.rows, [["a", "2.5e-1", "-", "-"], ["b", "NaN", "1.00", "-"], ["c", "-", "-", "rest"]]);
+        assert_eq!(
+            table.rows,
+            [
+                ["a", "2.5e-1", "-", "-"],
+                ["b", "NaN", "1.00", "-"],
+                ["c", "-", "-", "rest"]
+            ]
+        );
         assert_eq!(not_finite(&rows[0].1), ["size"]);
         assert_eq!(not_finite(&rows[1].1), ["force", "size"]);
         assert_eq!(guarded(&rows[0].1), [Quantity::new("peak", 0.25, 1e-6)]);
-        assert!(guarded([&Reading::new("x", None).guarded("x", 0.1)])[0].value.is_nan());
+        assert!(
+            guarded([&Reading::new("x", None).guarded("x", 0.1)])[0]
+                .value
+                .is_nan()
+        );
     }
 }

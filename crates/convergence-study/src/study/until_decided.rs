@@ -34,9 +34,14 @@ pub enum Next {
 /// * `rates`: those of the levels so far.
 /// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
 pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
-    let open: Vec<Reason> =
-        rates.iter().map(|(_, rate)| rate.kind).filter(|kind| kind.verdict() == Verdict::Inconclusive).collect();
-    let Some(&first) = open.first() else { return Next::Decided };
+    let open: Vec<Reason> = rates
+        .iter()
+        .map(|(_, rate)| rate.kind)
+        .filter(|kind| kind.verdict() == Verdict::Inconclusive)
+        .collect();
+    let Some(&first) = open.first() else {
+        return Next::Decided;
+    };
     if !open.iter().any(|reason| reason.wants_a_level()) {
         return Next::Beyond(first);
     }
@@ -52,18 +57,38 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
 ///
 /// * `seconds`: time of each level; at least two.
 pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
-    let [.., before, last] = seconds else { return Next::Another };
-    next(rates, seconds.len(), last * (last / before).max(2.0), seconds.iter().sum(), budget)
+    let [.., before, last] = seconds else {
+        return Next::Another;
+    };
+    next(
+        rates,
+        seconds.len(),
+        last * (last / before).max(2.0),
+        seconds.iter().sum(),
+        budget,
+    )
 }
 
 /// The outcome of a study that adds levels: it says how the study ended, and guards only its first levels, because
 /// another machine may afford others.
-pub fn ended(mut outcome: Outcome, next: Next, levels: &Levels, budget: f64, unit: &str) -> Outcome {
+pub fn ended(
+    mut outcome: Outcome,
+    next: Next,
+    levels: &Levels,
+    budget: f64,
+    unit: &str,
+) -> Outcome {
     let words = in_words(next, levels, &outcome.rates, budget, unit);
     outcome.summary = joined(&outcome.summary, &words);
-    let first: Vec<String> =
-        levels.refinements.iter().take(FIRST.len()).map(|level| format!(", {}", level.label)).collect();
-    outcome.quantities.retain(|quantity| first.iter().any(|label| quantity.name.ends_with(label)));
+    let first: Vec<String> = levels
+        .refinements
+        .iter()
+        .take(FIRST.len())
+        .map(|level| format!(", {}", level.label))
+        .collect();
+    outcome
+        .quantities
+        .retain(|quantity| first.iter().any(|label| quantity.name.ends_with(label)));
     outcome
 }
 
@@ -75,11 +100,18 @@ fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str)
     let undecided = format!("undecided after {count} levels");
     match next {
         Next::Another | Next::Decided => {
-            let fewer =
-                fewer(levels, rates).into_iter().map(|(name, enough)| format!("{enough} were enough for {name}"));
-            [format!("decided after {count} levels")].into_iter().chain(fewer).collect::<Vec<_>>().join("; ")
+            let fewer = fewer(levels, rates)
+                .into_iter()
+                .map(|(name, enough)| format!("{enough} were enough for {name}"));
+            [format!("decided after {count} levels")]
+                .into_iter()
+                .chain(fewer)
+                .collect::<Vec<_>>()
+                .join("; ")
         }
-        Next::Beyond(reason) => format!("{undecided}: {}, which no finer level mends", reason.text()),
+        Next::Beyond(reason) => {
+            format!("{undecided}: {}, which no finer level mends", reason.text())
+        }
         Next::Most => format!("{undecided}, the most that are tried"),
         Next::TooDear(cost) => {
             format!(
@@ -91,11 +123,20 @@ fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str)
 
 /// Errors whose verdict has not changed since fewer levels, each with that number of levels.
 fn fewer(levels: &Levels, rates: &Rates) -> Vec<(String, usize)> {
-    let looks: Vec<_> =
-        (FIRST.len()..levels.refinements.len()).map(|count| (count, levels.coarsest(count).judge())).collect();
+    let looks: Vec<_> = (FIRST.len()..levels.refinements.len())
+        .map(|count| (count, levels.coarsest(count).judge()))
+        .collect();
     let enough = |(index, (name, rate)): (usize, &(String, RateVerdict))| {
-        let agrees = |looked: &Rates| looked.get(index).is_some_and(|(_, earlier)| earlier.verdict == rate.verdict);
-        let first = looks.iter().rev().take_while(|(_, looked)| agrees(looked)).last();
+        let agrees = |looked: &Rates| {
+            looked
+                .get(index)
+                .is_some_and(|(_, earlier)| earlier.verdict == rate.verdict)
+        };
+        let first = looks
+            .iter()
+            .rev()
+            .take_while(|(_, looked)| agrees(looked))
+            .last();
         first.map(|(count, _)| (name.clone(), *count))
     };
     rates.iter().enumerate().filter_map(enough).collect()
@@ -126,15 +167,27 @@ pub fn budget(
     let lists: Vec<Field<'_>> = counts.iter().filter_map(|key| section.get(key)).collect();
     let listed = lists.iter().find(|field| field.is_list());
     let Some(auto) = lists.iter().find(|field| is_auto(field)) else {
-        let beside =
-            |field: Field<'_>| Err(field.refuse("a budget beside lists", "lists alone, or \"auto\" in their place"));
+        let beside = |field: Field<'_>| {
+            Err(field.refuse(
+                "a budget beside lists",
+                "lists alone, or \"auto\" in their place",
+            ))
+        };
         return section.get("budget").map_or(Ok(None), beside);
     };
     if let Some(listed) = listed {
-        return Err(listed.refuse(format!("{} beside \"auto\"", listed.as_written()), "\"auto\" for both"));
+        return Err(listed.refuse(
+            format!("{} beside \"auto\"", listed.as_written()),
+            "\"auto\" for both",
+        ));
     }
     if grid {
         return Err(auto.refuse_as_written("lists where grid = true"));
     }
-    section.get("budget").map_or(Ok(usual), |field| field.number_where(allowed, |budget| budget > 0.0)).map(Some)
+    section
+        .get("budget")
+        .map_or(Ok(usual), |field| {
+            field.number_where(allowed, |budget| budget > 0.0)
+        })
+        .map(Some)
 }

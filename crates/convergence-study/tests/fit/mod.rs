@@ -8,7 +8,13 @@ use convergence_study::judge::fit::{
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 fn levels(steps: &[f64], error: impl Fn(f64) -> f64) -> Vec<Level> {
-    steps.iter().map(|&step| Level { step, error: error(step) }).collect()
+    steps
+        .iter()
+        .map(|&step| Level {
+            step,
+            error: error(step),
+        })
+        .collect()
 }
 
 const HALVED: [f64; 6] = [0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625];
@@ -28,7 +34,11 @@ fn student_quantiles_are_those_of_a_library() {
 fn every_reading_of_a_pure_power_is_its_order() {
     for steps in [HALVED, UNEVEN] {
         let data = levels(&steps, |h| 3.0 * h.powf(1.7));
-        assert!(pairwise_rates(&data).iter().all(|rate| (rate - 1.7).abs() < 1e-12));
+        assert!(
+            pairwise_rates(&data)
+                .iter()
+                .all(|rate| (rate - 1.7).abs() < 1e-12)
+        );
         let line = fit_line(&data).expect("regular");
         assert!((line.slope - 1.7).abs() < 1e-12 && (line.intercept - 3.0_f64.ln()).abs() < 1e-12);
         let fit = rate_interval(&data).expect("regular");
@@ -43,19 +53,29 @@ fn the_interval_of_a_line_is_that_of_the_textbook() {
     let data: Vec<Level> = [-1.0, -2.1, -2.9, -4.0_f64]
         .iter()
         .zip(1..)
-        .map(|(exponent, k)| Level { step: 0.5_f64.powi(k), error: exponent.exp2() })
+        .map(|(exponent, k)| Level {
+            step: 0.5_f64.powi(k),
+            error: exponent.exp2(),
+        })
         .collect();
     let line = fit_line(&data).expect("regular");
     let half = 4.302_652_73 * (0.009_f64 / 5.0).sqrt();
     assert!((line.slope - 0.98).abs() < 1e-12);
-    assert!((line.interval[1] - line.slope - half).abs() < 1e-8, "{line:?} {half}");
+    assert!(
+        (line.interval[1] - line.slope - half).abs() < 1e-8,
+        "{line:?} {half}"
+    );
 }
 
 #[test]
 fn extrapolation_of_a_constant_ratio_is_aitkens() {
     let (q1, q2, q3): (f64, f64, f64) = (0.93, 0.96, 0.98);
     let errors = [0.0, q1, q1 + q2, q1 + q2 + q3].map(|sum: f64| (-sum).exp2());
-    let data: Vec<Level> = errors.iter().zip(&HALVED).map(|(&error, &step)| Level { step, error }).collect();
+    let data: Vec<Level> = errors
+        .iter()
+        .zip(&HALVED)
+        .map(|(&error, &step)| Level { step, error })
+        .collect();
     let aitken = q3 - (q3 - q2).powi(2) / ((q3 - q2) - (q2 - q1));
     assert!((extrapolated_rate(&data).expect("closing in") - aitken).abs() < 1e-9);
 }
@@ -65,12 +85,17 @@ fn extrapolation_gains_digits_on_smooth_data_with_uneven_steps() {
     let data = levels(&UNEVEN.map(|h| h / 8.0), |h| h * (1.0 + h));
     let finest = pairwise_rates(&data)[4];
     let limit = extrapolated_rate(&data).expect("closing in");
-    assert!((limit - 1.0).abs() < 0.1 * (finest - 1.0).abs(), "{limit} against {finest}");
+    assert!(
+        (limit - 1.0).abs() < 0.1 * (finest - 1.0).abs(),
+        "{limit} against {finest}"
+    );
 }
 
 #[test]
 fn extrapolation_declines_scatter_and_too_few_levels() {
-    let noisy = levels(&HALVED, |h| h * if h.log2() as i64 % 2 == 0 { 1.02 } else { 0.98 });
+    let noisy = levels(&HALVED, |h| {
+        h * if h.log2() as i64 % 2 == 0 { 1.02 } else { 0.98 }
+    });
     assert_eq!(extrapolated_rate(&noisy), None);
     assert_eq!(extrapolated_rate(&levels(&HALVED[..3], |h| h)), None);
     assert_eq!(extrapolated_rate(&[]), None);
@@ -90,7 +115,11 @@ fn extrapolation_declines_scatter_and_too_few_levels() {
 #[test]
 fn pairwise_rates_keep_what_is_not_finite() {
     let data = [1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1];
-    let data: Vec<Level> = data.iter().zip(&HALVED).map(|(&error, &step)| Level { step, error }).collect();
+    let data: Vec<Level> = data
+        .iter()
+        .zip(&HALVED)
+        .map(|(&error, &step)| Level { step, error })
+        .collect();
     let rates = pairwise_rates(&data);
     assert!(rates[0].is_nan() && rates[1].is_nan() && rates[4].is_nan());
     assert_eq!((rates[2], rates[3]), (f64::INFINITY, f64::NEG_INFINITY));
@@ -126,25 +155,50 @@ fn the_range_is_what_its_three_rules_leave() {
                 Some(*sum)
             }))
             .collect();
-        assert_eq!(asymptotic_range(&with_log2(&errors), 0.0).start, dropped, "{rates:?}");
+        assert_eq!(
+            asymptotic_range(&with_log2(&errors), 0.0).start,
+            dropped,
+            "{rates:?}"
+        );
     }
-    assert_eq!(asymptotic_range(&with_log2(&[f64::NAN, -1.0, -2.0, -3.0]), 0.0).start, 1);
+    assert_eq!(
+        asymptotic_range(&with_log2(&[f64::NAN, -1.0, -2.0, -3.0]), 0.0).start,
+        1
+    );
 }
 
 /// Steps 1, 1/2, 1/4, ... and errors with these logarithms to base 2.
 fn with_log2(errors: &[f64]) -> Vec<Level> {
-    errors.iter().zip(0..).map(|(error, k)| Level { step: 0.5_f64.powi(k), error: error.exp2() }).collect()
+    errors
+        .iter()
+        .zip(0..)
+        .map(|(error, k)| Level {
+            step: 0.5_f64.powi(k),
+            error: error.exp2(),
+        })
+        .collect()
 }
 
 #[test]
 fn a_limit_is_found_wherever_the_pollution_is_one_that_is_looked_for() {
     // Rates 1 + c w_k(r) to first order in c, w for halved steps proportional to 2^-rk.
-    for (contraction, found) in [(0.9, false), (0.8, true), (0.5, true), (0.01, true), (0.003, false), (-0.5, false)] {
-        let rates = [0.1, 0.1 * contraction, 0.1 * contraction * contraction].map(|shift| 1.0 + shift);
+    for (contraction, found) in [
+        (0.9, false),
+        (0.8, true),
+        (0.5, true),
+        (0.01, true),
+        (0.003, false),
+        (-0.5, false),
+    ] {
+        let rates =
+            [0.1, 0.1 * contraction, 0.1 * contraction * contraction].map(|shift| 1.0 + shift);
         let sums = [0.0, rates[0], rates[0] + rates[1], rates.iter().sum()];
         let limit = extrapolated_rate(&with_log2(&sums.map(|sum| -sum)));
         assert_eq!(limit.is_some(), found, "{contraction}: {limit:?}");
-        assert!(limit.is_none_or(|limit| (limit - 1.0).abs() < 1e-9), "{contraction}: {limit:?}");
+        assert!(
+            limit.is_none_or(|limit| (limit - 1.0).abs() < 1e-9),
+            "{contraction}: {limit:?}"
+        );
     }
 }
 

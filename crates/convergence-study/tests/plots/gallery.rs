@@ -8,7 +8,10 @@ use convergence_study::plots::*;
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     vec![
         ("convergence-space", over_h(&space_errors())),
-        ("convergence-time", convergence(over_dt(), &time_errors(), &[])),
+        (
+            "convergence-time",
+            convergence(over_dt(), &time_errors(), &[]),
+        ),
         ("surface", surface(&error_surface())),
         ("history-long", long_history(100_000).draw()),
         ("history-energy", energy_history().draw()),
@@ -16,23 +19,35 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
         ("space-time", space_time(&wave(400, 200))),
         ("iterations", iteration_counts().draw()),
         ("parameter-map", surface(&stability_map())),
-        ("work-precision", work_precision("run time (s)", "error in u(T) (dimensionless)", &costs()).draw()),
+        (
+            "work-precision",
+            work_precision("run time (s)", "error in u(T) (dimensionless)", &costs()).draw(),
+        ),
         ("forest", forest("All rates", &all_rates())),
         ("hostile", hostile().draw()),
     ]
 }
 
 fn series(label: &str, points: Vec<(f64, f64)>) -> Series {
-    Series { label: label.into(), points }
+    Series {
+        label: label.into(),
+        points,
+    }
 }
 
 fn errors(label: &str, constant: f64, order: f64, steps: &[f64]) -> ErrorSeries {
-    let points: Vec<_> = steps.iter().map(|&h| (h, constant * h.powf(order) * (1.0 + 0.3 * h))).collect();
+    let points: Vec<_> = steps
+        .iter()
+        .map(|&h| (h, constant * h.powf(order) * (1.0 + 0.3 * h)))
+        .collect();
     ErrorSeries {
         label: label.into(),
         points,
         order: Some(order),
-        fit: Some(PowerLaw { rate: order * 1.002, constant }),
+        fit: Some(PowerLaw {
+            rate: order * 1.002,
+            constant,
+        }),
         ..ErrorSeries::default()
     }
 }
@@ -55,7 +70,10 @@ pub(crate) fn space_errors() -> Vec<ErrorSeries> {
     // Coarse levels that the rate does not use.
     norms[0].used = Some(3..10);
     // A norm that hides another one.
-    norms.push(ErrorSeries { label: "energy norm, lumped".into(), ..norms[5].clone() });
+    norms.push(ErrorSeries {
+        label: "energy norm, lumped".into(),
+        ..norms[5].clone()
+    });
     norms
 }
 
@@ -68,12 +86,22 @@ pub(crate) fn time_errors() -> Vec<ErrorSeries> {
 
 pub(crate) fn over_dt() -> Xy {
     let title = Some("Time isolated: error over dt".into());
-    Xy { title, guides: vec![Guide { label: "round-off".into(), value: 1e-8 }], ..Xy::of_errors("time step dt") }
+    Xy {
+        title,
+        guides: vec![Guide {
+            label: "round-off".into(),
+            value: 1e-8,
+        }],
+        ..Xy::of_errors("time step dt")
+    }
 }
 
 pub(crate) fn error_surface() -> Surface {
     let h: Vec<f64> = (2..=9).map(|k| 0.5_f64.powi(k)).collect();
-    let values = h.iter().map(|h| h.iter_dt().map(|dt| (0.9 * h).hypot(1.2 * dt)).collect()).collect();
+    let values = h
+        .iter()
+        .map(|h| h.iter_dt().map(|dt| (0.9 * h).hypot(1.2 * dt)).collect())
+        .collect();
     Surface {
         x: Axis::log("time step dt"),
         y: Axis::log("mesh width h"),
@@ -116,19 +144,36 @@ fn stop_phases(t_end: f64) -> Phases {
             _ => {}
         }
     }
-    Phases { label: "at a stop".into(), intervals }
+    Phases {
+        label: "at a stop".into(),
+        intervals,
+    }
 }
 
 pub(crate) fn long_history(samples: u32) -> Xy {
     let t = |k: u32| 10.0 * f64::from(k) / f64::from(samples);
     let curves = [
-        series("euler-crank-nicolson", (0..samples).map(|k| (t(k), position(t(k)))).collect()),
-        series("midpoint", (0..samples).map(|k| (t(k), 0.7 * position(t(k) + 0.05))).collect()),
+        series(
+            "euler-crank-nicolson",
+            (0..samples).map(|k| (t(k), position(t(k)))).collect(),
+        ),
+        series(
+            "midpoint",
+            (0..samples)
+                .map(|k| (t(k), 0.7 * position(t(k) + 0.05)))
+                .collect(),
+        ),
     ];
     Xy {
         guides: vec![
-            Guide { label: "g₁ = −0.01".into(), value: -0.01 },
-            Guide { label: "g₂ = 0.1".into(), value: 0.1 },
+            Guide {
+                label: "g₁ = −0.01".into(),
+                value: -0.01,
+            },
+            Guide {
+                label: "g₂ = 0.1".into(),
+                value: 0.1,
+            },
         ],
         phases: stop_phases(10.0),
         ..history(Axis::linear("displacement u(t) (dimensionless)"), &curves)
@@ -139,14 +184,32 @@ pub(crate) fn energy_history() -> Xy {
     let t = |k: u32| 10.0 * f64::from(k) / 2000.0;
     let energy = |beta: f64, rate: f64| {
         (0..2000)
-            .map(|k| (t(k), 0.25 * beta * beta + 4.0 * (-rate * t(k)).exp() * (1.0 + 0.1 * (5.0 * t(k)).cos())))
+            .map(|k| {
+                (
+                    t(k),
+                    0.25 * beta * beta
+                        + 4.0 * (-rate * t(k)).exp() * (1.0 + 0.1 * (5.0 * t(k)).cos()),
+                )
+            })
             .collect()
     };
-    let curves =
-        [series("β = 0", energy(0.0, 0.5)), series("β = −2", energy(2.0, 0.9)), series("β = 2.1", energy(2.1, 1.4))];
+    let curves = [
+        series("β = 0", energy(0.0, 0.5)),
+        series("β = −2", energy(2.0, 0.9)),
+        series("β = 2.1", energy(2.1, 1.4)),
+    ];
     Xy {
         title: Some("Energy falls to its level at rest".into()),
-        guides: vec![Guide { label: "β²/(4ρ)".into(), value: 1.0 }, Guide { label: "2.1²/(4ρ)".into(), value: 1.1025 }],
+        guides: vec![
+            Guide {
+                label: "β²/(4ρ)".into(),
+                value: 1.0,
+            },
+            Guide {
+                label: "2.1²/(4ρ)".into(),
+                value: 1.1025,
+            },
+        ],
         ..history(Axis::linear("energy E (dimensionless)"), &curves)
     }
 }
@@ -154,22 +217,43 @@ pub(crate) fn energy_history() -> Xy {
 pub(crate) fn balance_history() -> Xy {
     let noise = |k: u32| f64::from(k.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
     let residual = |scale: f64, seed: u32| {
-        (0..30_000).map(|k| (f64::from(k) / 3000.0, if k == 7 { 0.0 } else { scale * noise(k + seed) })).collect()
+        (0..30_000)
+            .map(|k| {
+                (
+                    f64::from(k) / 3000.0,
+                    if k == 7 { 0.0 } else { scale * noise(k + seed) },
+                )
+            })
+            .collect()
     };
-    let curves = [series("newton", residual(5e-15, 1)), series("fixed-point", residual(3e-11, 2))];
-    Xy { phases: stop_phases(10.0), ..history(Axis::log("residual of the energy balance"), &curves) }
+    let curves = [
+        series("newton", residual(5e-15, 1)),
+        series("fixed-point", residual(3e-11, 2)),
+    ];
+    Xy {
+        phases: stop_phases(10.0),
+        ..history(Axis::log("residual of the energy balance"), &curves)
+    }
 }
 
 pub(crate) fn wave(frames: u32, nodes: u32) -> SpaceTime {
-    let times: Vec<f64> = (0..frames).map(|n| 10.0 * f64::from(n) / f64::from(frames - 1)).collect();
-    let x: Vec<f64> = (0..nodes).map(|i| f64::from(i) / f64::from(nodes - 1)).collect();
+    let times: Vec<f64> = (0..frames)
+        .map(|n| 10.0 * f64::from(n) / f64::from(frames - 1))
+        .collect();
+    let x: Vec<f64> = (0..nodes)
+        .map(|i| f64::from(i) / f64::from(nodes - 1))
+        .collect();
     let field = |t: f64, x: f64| {
-        position(t) * x * x * (3.0 - x) / 2.0 + 0.02 * (-0.1 * t).exp() * (7.85 * x).sin() * (19.0 * t).cos()
+        position(t) * x * x * (3.0 - x) / 2.0
+            + 0.02 * (-0.1 * t).exp() * (7.85 * x).sin() * (19.0 * t).cos()
     };
     SpaceTime {
         title: None,
         label: "displacement u (dimensionless)".into(),
-        frames: times.iter().map(|&t| x.iter().map(|&x| field(t, x)).collect()).collect(),
+        frames: times
+            .iter()
+            .map(|&t| x.iter().map(|&x| field(t, x)).collect())
+            .collect(),
         times,
         nodes: x,
     }
@@ -180,24 +264,55 @@ pub(crate) fn iteration_counts() -> Xy {
     let is_stopped = |t: f64| phases.intervals.iter().any(|&(a, b)| a <= t && t <= b);
     let count = |base: f64, more: f64| {
         (1..=3000)
-            .map(|k| (f64::from(k) * 1e-3, base + if is_stopped(f64::from(k) * 1e-3) { more } else { 0.0 }))
+            .map(|k| {
+                (
+                    f64::from(k) * 1e-3,
+                    base + if is_stopped(f64::from(k) * 1e-3) {
+                        more
+                    } else {
+                        0.0
+                    },
+                )
+            })
             .collect()
     };
-    let curves = [series("fixed point", count(5.0, 7.0)), series("newton", count(2.0, 1.0))];
-    Xy { phases: phases.clone(), ..iterations(&curves) }
+    let curves = [
+        series("fixed point", count(5.0, 7.0)),
+        series("newton", count(2.0, 1.0)),
+    ];
+    Xy {
+        phases: phases.clone(),
+        ..iterations(&curves)
+    }
 }
 
 pub(crate) fn stability_map() -> Surface {
-    let dt: Vec<f64> = (0..33).map(|k| 10f64.powf(-5.0 + 0.1 * f64::from(k))).collect();
-    let eps: Vec<f64> = (0..25).map(|k| 10f64.powf(-4.0 + 0.1 * f64::from(k))).collect();
+    let dt: Vec<f64> = (0..33)
+        .map(|k| 10f64.powf(-5.0 + 0.1 * f64::from(k)))
+        .collect();
+    let eps: Vec<f64> = (0..25)
+        .map(|k| 10f64.powf(-4.0 + 0.1 * f64::from(k)))
+        .collect();
     let alpha = |dt: f64, eps: f64| dt.powf(1.5) / (eps * 0.1_f64.sqrt());
-    let count = |a: f64| if a < 1.0 { (23.0 / -a.ln()).ceil().clamp(2.0, 100.0) } else { f64::NAN };
+    let count = |a: f64| {
+        if a < 1.0 {
+            (23.0 / -a.ln()).ceil().clamp(2.0, 100.0)
+        } else {
+            f64::NAN
+        }
+    };
     let grid = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
-        eps.iter().map(|&e| dt.iter().map(|&d| f(alpha(d, e))).collect()).collect()
+        eps.iter()
+            .map(|&e| dt.iter().map(|&d| f(alpha(d, e))).collect())
+            .collect()
     };
     let marked = grid(&|a| if a < 1.0 { 0.0 } else { 1.0 });
-    let boundary =
-        |factor: f64| dt.iter().map(|&d| (d, factor * alpha(d, 1.0))).filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4).collect();
+    let boundary = |factor: f64| {
+        dt.iter()
+            .map(|&d| (d, factor * alpha(d, 1.0)))
+            .filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4)
+            .collect()
+    };
     Surface {
         x: Axis::log("time step dt"),
         y: Axis::log("compliance ε (dimensionless)"),
@@ -205,15 +320,26 @@ pub(crate) fn stability_map() -> Surface {
         values: grid(&count),
         x_values: dt.clone(),
         y_values: eps.clone(),
-        marked: marked.iter().map(|row| row.iter().map(|&v| v > 0.0).collect()).collect(),
+        marked: marked
+            .iter()
+            .map(|row| row.iter().map(|&v| v > 0.0).collect())
+            .collect(),
         marked_label: "diverged".into(),
-        boundaries: vec![series("predicted, α = 1", boundary(1.0)), series("measured", boundary(1.12))],
+        boundaries: vec![
+            series("predicted, α = 1", boundary(1.0)),
+            series("measured", boundary(1.12)),
+        ],
     }
 }
 
 pub(crate) fn costs() -> Vec<Series> {
     let run = |label: &str, c: f64, p: f64| {
-        series(label, (0..7).map(|k| (2e-3 * 2f64.powi(k), c * 0.5_f64.powf(p * f64::from(k)))).collect())
+        series(
+            label,
+            (0..7)
+                .map(|k| (2e-3 * 2f64.powi(k), c * 0.5_f64.powf(p * f64::from(k))))
+                .collect(),
+        )
     };
     vec![
         run("euler-crank-nicolson, newton", 3e-2, 1.0),
@@ -224,11 +350,19 @@ pub(crate) fn costs() -> Vec<Series> {
 
 /// Labels too long, markup, values that cannot be drawn, hardly any range.
 pub(crate) fn hostile() -> Xy {
-    let y = Axis::log("a vertical label that goes on & on <for ever> and then for a little longer than that");
+    let y = Axis::log(
+        "a vertical label that goes on & on <for ever> and then for a little longer than that",
+    );
     let curves = [
         series(
             "a series whose name does not fit into a legend of any reasonable width, whatever one may try to do",
-            vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 1.000_000_1), (f64::INFINITY, 1.0), (3.0, -1.0)],
+            vec![
+                (0.0, 1.0),
+                (1.0, f64::NAN),
+                (2.0, 1.000_000_1),
+                (f64::INFINITY, 1.0),
+                (3.0, -1.0),
+            ],
         ),
         series("<b>&\u{0}", vec![(0.5, 1.000_000_05)]),
     ];
@@ -243,20 +377,46 @@ pub(crate) fn hostile() -> Xy {
 /// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
 pub(crate) fn all_rates() -> [(&'static str, Vec<ForestRow>); 2] {
     // Claimed are an order of 0 and a tolerance of 1.
-    let none = || RateVerdict { verdict: Verdict::Inconclusive, ..judge_pairs([], 0.0, 1.0) };
+    let none = || RateVerdict {
+        verdict: Verdict::Inconclusive,
+        ..judge_pairs([], 0.0, 1.0)
+    };
     let rate = |rate: f64, half: f64, verdict| {
         let interval = Some([rate - half, rate + half]);
-        RateVerdict { fitted: Some(rate), interval, verdict, ..none() }
+        RateVerdict {
+            fitted: Some(rate),
+            interval,
+            verdict,
+            ..none()
+        }
     };
-    let row = |label: &str, rates: Vec<RateVerdict>| ForestRow { label: label.into(), rates, note: String::new() };
+    let row = |label: &str, rates: Vec<RateVerdict>| ForestRow {
+        label: label.into(),
+        rates,
+        note: String::new(),
+    };
     let space = vec![
-        row("first-order", vec![rate(0.1, 0.2, Verdict::Pass), rate(-0.3, 0.1, Verdict::Pass)]),
+        row(
+            "first-order",
+            vec![
+                rate(0.1, 0.2, Verdict::Pass),
+                rate(-0.3, 0.1, Verdict::Pass),
+            ],
+        ),
         ForestRow {
             note: "1.000, claimed 2".into(),
-            ..row("lost-order", vec![rate(-20.0, 0.1, Verdict::Fail), none(), none()])
+            ..row(
+                "lost-order",
+                vec![rate(-20.0, 0.1, Verdict::Fail), none(), none()],
+            )
         },
     ];
-    let time =
-        vec![row("scattered", vec![rate(0.4, 1.1, Verdict::Inconclusive), rate(0.2, 3.0, Verdict::Inconclusive)])];
+    let time = vec![row(
+        "scattered",
+        vec![
+            rate(0.4, 1.1, Verdict::Inconclusive),
+            rate(0.2, 3.0, Verdict::Inconclusive),
+        ],
+    )];
     [("space", space), ("time", time)]
 }

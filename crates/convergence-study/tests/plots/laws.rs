@@ -12,12 +12,17 @@ pub(crate) fn parse(svg: &str) -> Document<'_> {
     Document::parse(svg).unwrap_or_else(|e| panic!("not well-formed: {e}"))
 }
 
-pub(crate) fn elements<'a>(doc: &'a Document<'a>, tag: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+pub(crate) fn elements<'a>(
+    doc: &'a Document<'a>,
+    tag: &'a str,
+) -> impl Iterator<Item = Node<'a, 'a>> {
     doc.descendants().filter(move |n| n.has_tag_name(tag))
 }
 
 pub(crate) fn number(node: Node<'_, '_>, attribute: &str) -> f64 {
-    node.attribute(attribute).and_then(|v| v.parse().ok()).unwrap_or_else(|| panic!("{attribute} in {node:?}"))
+    node.attribute(attribute)
+        .and_then(|v| v.parse().ok())
+        .unwrap_or_else(|| panic!("{attribute} in {node:?}"))
 }
 
 /// Left, top, right, bottom of a text in page units; widths estimated on the narrow side.
@@ -31,19 +36,35 @@ pub(crate) fn bounds(node: Node<'_, '_>) -> [f64; 4] {
         _ => 0.5 * width,
     };
     if node.attribute("transform").is_some() {
-        return [x - 0.5 * size, y - 0.5 * width, x + 0.5 * size, y + 0.5 * width];
+        return [
+            x - 0.5 * size,
+            y - 0.5 * width,
+            x + 0.5 * size,
+            y + 0.5 * width,
+        ];
     }
-    [x - before, y - 0.4 * size, x - before + width, y + 0.4 * size]
+    [
+        x - before,
+        y - 0.4 * size,
+        x - before + width,
+        y + 0.4 * size,
+    ]
 }
 
 pub(crate) fn every_figure_is_well_formed_and_free_of_nan(figures: &Figures) {
     for (name, svg) in figures {
         let doc = parse(svg);
         assert!(doc.root_element().has_tag_name("svg"), "{name}");
-        let numbers = doc.descendants().flat_map(|n| n.attributes()).filter(|a| a.name() != "font-family");
+        let numbers = doc
+            .descendants()
+            .flat_map(|n| n.attributes())
+            .filter(|a| a.name() != "font-family");
         for a in numbers {
             let value = a.value().to_lowercase();
-            assert!(!value.contains("nan") && !value.contains("inf"), "{name}: {a:?}");
+            assert!(
+                !value.contains("nan") && !value.contains("inf"),
+                "{name}: {a:?}"
+            );
         }
     }
 }
@@ -52,9 +73,16 @@ pub(crate) fn every_text_is_large_enough_and_on_the_page(figures: &Figures) {
     for (name, svg) in figures {
         let doc = parse(svg);
         let page = doc.root_element();
-        let (width, height) = (UNITS * number(page, "width"), UNITS * number(page, "height"));
+        let (width, height) = (
+            UNITS * number(page, "width"),
+            UNITS * number(page, "height"),
+        );
         for text in elements(&doc, "text") {
-            assert!(number(text, "font-size") >= 14.0 * UNITS, "{name}: {:?}", text.text());
+            assert!(
+                number(text, "font-size") >= 14.0 * UNITS,
+                "{name}: {:?}",
+                text.text()
+            );
             let [left, top, right, bottom] = bounds(text);
             let is_inside = left >= 0.0 && top >= 0.0 && right <= width && bottom <= height;
             assert!(is_inside, "{name}: {:?} at {:?}", text.text(), bounds(text));
@@ -65,7 +93,9 @@ pub(crate) fn every_text_is_large_enough_and_on_the_page(figures: &Figures) {
 pub(crate) fn no_two_texts_overlap(figures: &Figures) {
     for (name, svg) in figures {
         let doc = parse(svg);
-        let all: Vec<_> = elements(&doc, "text").map(|n| (n.text().unwrap_or(""), bounds(n))).collect();
+        let all: Vec<_> = elements(&doc, "text")
+            .map(|n| (n.text().unwrap_or(""), bounds(n)))
+            .collect();
         for (k, (a, p)) in all.iter().enumerate() {
             for (b, q) in &all[..k] {
                 let apart = p[0] >= q[2] || q[0] >= p[2] || p[1] >= q[3] || q[1] >= p[3];
@@ -78,33 +108,47 @@ pub(crate) fn no_two_texts_overlap(figures: &Figures) {
 pub(crate) fn every_curve_belongs_to_an_entry_of_the_legend(figures: &Figures) {
     for (name, svg) in figures {
         let doc = parse(svg);
-        let named = |attribute: &'static str| elements(&doc, "g").filter_map(move |n| n.attribute(attribute));
+        let named = |attribute: &'static str| {
+            elements(&doc, "g").filter_map(move |n| n.attribute(attribute))
+        };
         let entries: Vec<&str> = named("data-entry").collect();
-        assert!(named("data-series").all(|series| entries.contains(&series)), "{name}: {entries:?}");
+        assert!(
+            named("data-series").all(|series| entries.contains(&series)),
+            "{name}: {entries:?}"
+        );
         let has_curves = !matches!(*name, "surface" | "space-time" | "animation" | "forest");
         assert_eq!(named("data-series").next().is_some(), has_curves, "{name}");
     }
 }
 
-pub(crate) fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(figures: &Figures) {
+pub(crate) fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(
+    figures: &Figures,
+) {
     for (name, svg) in figures {
         let doc = parse(svg);
         let page = doc.root_element();
         if page.has_attribute("data-plot") {
-            let label = |axis| page.attribute(axis).is_some_and(|label| !label.trim().is_empty());
+            let label = |axis| {
+                page.attribute(axis)
+                    .is_some_and(|label| !label.trim().is_empty())
+            };
             assert!(label("data-x-label") && label("data-y-label"), "{name}");
         }
-        let texts = elements(&doc, "text").filter(|n| n.text().is_some_and(|text| text.contains("dimensionless")));
+        let texts = elements(&doc, "text")
+            .filter(|n| n.text().is_some_and(|text| text.contains("dimensionless")));
         assert!(texts.count() <= 1, "{name}");
     }
 }
 
 /// What distinguishes the sample of a legend's entry from the others: shapes, colours and dashes, without positions.
 fn sample(entry: Node<'_, '_>) -> Vec<String> {
-    let shapes = entry.descendants().filter(|n| n.is_element() && !n.has_tag_name("text"));
+    let shapes = entry
+        .descendants()
+        .filter(|n| n.is_element() && !n.has_tag_name("text"));
     let attribute = |n: &Node<'_, '_>, name| n.attribute(name).unwrap_or("").to_owned();
     let shape = |n: Node<'_, '_>| {
-        let [fill, stroke, dash] = ["fill", "stroke", "stroke-dasharray"].map(|name| attribute(&n, name));
+        let [fill, stroke, dash] =
+            ["fill", "stroke", "stroke-dasharray"].map(|name| attribute(&n, name));
         format!("{} {fill} {stroke} {dash}", n.tag_name().name())
     };
     shapes.map(shape).collect()
@@ -113,7 +157,9 @@ fn sample(entry: Node<'_, '_>) -> Vec<String> {
 pub(crate) fn no_two_entries_of_a_legend_look_alike(figures: &Figures) {
     for (name, svg) in figures {
         let doc = parse(svg);
-        let entries: Vec<_> = elements(&doc, "g").filter(|n| n.has_attribute("data-entry")).collect();
+        let entries: Vec<_> = elements(&doc, "g")
+            .filter(|n| n.has_attribute("data-entry"))
+            .collect();
         for (k, one) in entries.iter().enumerate() {
             for other in &entries[..k] {
                 let names = [one, other].map(|n| n.attribute("data-entry"));
@@ -125,19 +171,27 @@ pub(crate) fn no_two_entries_of_a_legend_look_alike(figures: &Figures) {
 
 /// The points of a series as numbers.
 fn values(node: Node<'_, '_>) -> Vec<f64> {
-    let words = node.attribute("data-points").unwrap_or("").split([' ', ',']);
+    let words = node
+        .attribute("data-points")
+        .unwrap_or("")
+        .split([' ', ',']);
     words.filter_map(|word| word.parse().ok()).collect()
 }
 
 pub(crate) fn curves_with_the_same_values_are_noted(figures: &Figures) {
     for (name, svg) in figures {
         let doc = parse(svg);
-        let drawn = elements(&doc, "g").filter_map(|n| Some((n.attribute("data-series")?, values(n))));
+        let drawn =
+            elements(&doc, "g").filter_map(|n| Some((n.attribute("data-series")?, values(n))));
         let drawn: Vec<_> = drawn.filter(|(_, values)| values.len() > 2).collect();
-        let noted = elements(&doc, "text").any(|n| n.text().is_some_and(|text| text.contains(" coincide")));
+        let noted =
+            elements(&doc, "text").any(|n| n.text().is_some_and(|text| text.contains(" coincide")));
         for (k, (one, p)) in drawn.iter().enumerate() {
             for (other, q) in drawn[..k].iter().filter(|(other, _)| other != one) {
-                let alike = p.len() == q.len() && p.iter().zip(q).all(|(a, b)| (a - b).abs() <= 1e-4 * a.abs());
+                let alike = p.len() == q.len()
+                    && p.iter()
+                        .zip(q)
+                        .all(|(a, b)| (a - b).abs() <= 1e-4 * a.abs());
                 assert!(!alike || noted, "{name}: {one} lies on {other}");
             }
         }

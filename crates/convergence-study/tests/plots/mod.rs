@@ -12,17 +12,30 @@ use roxmltree::Node;
 
 #[test]
 fn every_figure_is_in_the_gallery() {
-    let (plots, gallery) = (include_str!("../../src/plots/mod.rs"), include_str!("gallery.rs"));
-    let exported = plots.lines().filter(|line| line.starts_with("pub use ")).flat_map(|line| {
-        let names = line.split(['{', '}']).nth(1).unwrap_or_default();
-        names.split(", ").filter(|name| name.starts_with(char::is_lowercase))
-    });
+    let (plots, gallery) = (
+        include_str!("../../src/plots/mod.rs"),
+        include_str!("gallery.rs"),
+    );
+    let exported = plots
+        .lines()
+        .filter(|line| line.starts_with("pub use "))
+        .flat_map(|line| {
+            let names = line.split(['{', '}']).nth(1).unwrap_or_default();
+            names
+                .split(", ")
+                .filter(|name| name.starts_with(char::is_lowercase))
+        });
     let figures: Vec<_> = exported.collect();
     assert!(figures.len() >= 7);
     for figure in figures {
-        let is_drawn = [", ", ".."].iter().any(|before| gallery.contains(&format!("{before}{figure}(")));
+        let is_drawn = [", ", ".."]
+            .iter()
+            .any(|before| gallery.contains(&format!("{before}{figure}(")));
         assert!(is_drawn, "{figure} is not in the gallery");
-        assert!(plots.contains(&format!("//! | [`{figure}`] | ")), "{figure} has no row at the head of plots/mod.rs");
+        assert!(
+            plots.contains(&format!("//! | [`{figure}`] | ")),
+            "{figure} has no row at the head of plots/mod.rs"
+        );
     }
 }
 
@@ -62,14 +75,20 @@ fn curves_with_the_same_values_are_noted() {
 }
 
 fn texts(svg: &str) -> Vec<String> {
-    elements(&parse(svg), "text").map(|n| n.text().unwrap_or("").trim().to_owned()).collect()
+    elements(&parse(svg), "text")
+        .map(|n| n.text().unwrap_or("").trim().to_owned())
+        .collect()
 }
 
 /// Number of points of all lines in a colour that are longer than a legend's.
 fn points_of(svg: &str, colour: &str) -> usize {
     let doc = parse(svg);
     let lines = elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some(colour));
-    lines.filter_map(|n| n.attribute("points")).map(|p| p.split_whitespace().count()).filter(|&n| n > 2).sum()
+    lines
+        .filter_map(|n| n.attribute("points"))
+        .map(|p| p.split_whitespace().count())
+        .filter(|&n| n > 2)
+        .sum()
 }
 
 #[test]
@@ -79,8 +98,18 @@ fn the_same_data_give_the_same_bytes() {
 
 #[test]
 fn every_finite_point_is_drawn() {
-    let points = (1..40).map(|k| (f64::from(k), 1.0 / f64::from(k))).collect();
-    let svg = work_precision("run time (s)", "error", &[Series { label: "s".into(), points }]).draw();
+    let points = (1..40)
+        .map(|k| (f64::from(k), 1.0 / f64::from(k)))
+        .collect();
+    let svg = work_precision(
+        "run time (s)",
+        "error",
+        &[Series {
+            label: "s".into(),
+            points,
+        }],
+    )
+    .draw();
     // The legend has one more marker.
     assert_eq!(elements(&parse(&svg), "circle").count(), 39 + 1);
     assert_eq!(points_of(&svg, "#0072B2"), 39);
@@ -88,9 +117,18 @@ fn every_finite_point_is_drawn() {
 
 #[test]
 fn points_that_cannot_be_drawn_are_counted() {
-    let points =
-        vec![(1.0, 1.0), (2.0, f64::NAN), (f64::NEG_INFINITY, 1.0), (3.0, -1.0), (4.0, f64::INFINITY), (5.0, 2.0)];
-    let series = vec![Series { label: "s".into(), points }];
+    let points = vec![
+        (1.0, 1.0),
+        (2.0, f64::NAN),
+        (f64::NEG_INFINITY, 1.0),
+        (3.0, -1.0),
+        (4.0, f64::INFINITY),
+        (5.0, 2.0),
+    ];
+    let series = vec![Series {
+        label: "s".into(),
+        points,
+    }];
     let log = history(Axis::log("v"), &series).draw();
     assert!(texts(&log).contains(&"3 non-finite points not drawn".to_owned()));
     assert!(texts(&log).contains(&"1 non-positive point not drawn (logarithmic axis)".to_owned()));
@@ -113,28 +151,79 @@ fn figures_without_data_do_not_panic() {
 
 #[test]
 fn figures_of_extreme_data_do_not_panic() {
-    let values = [0.0, -0.0, 1.0, -1.0, 1e-320, 1e308, -1e308, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    let values = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        1e-320,
+        1e308,
+        -1e308,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+    ];
     for x in values {
         for y in values {
             let points = vec![(x, y), (y, x), (x, x)];
-            let series = vec![Series { label: "s".into(), points: points.clone() }];
+            let series = vec![Series {
+                label: "s".into(),
+                points: points.clone(),
+            }];
             let intervals = points.clone();
-            let phases = Phases { label: "p".into(), intervals };
-            let guides = vec![Guide { label: "g".into(), value: y }];
+            let phases = Phases {
+                label: "p".into(),
+                intervals,
+            };
+            let guides = vec![Guide {
+                label: "g".into(),
+                value: y,
+            }];
             for axis in [Axis::linear("y"), Axis::log("y")] {
                 let (guides, phases) = (guides.clone(), phases.clone());
-                parse(&Xy { guides, phases, ..history(axis, &series) }.draw());
+                parse(
+                    &Xy {
+                        guides,
+                        phases,
+                        ..history(axis, &series)
+                    }
+                    .draw(),
+                );
             }
-            let fit = Some(PowerLaw { rate: x, constant: y });
-            let norm = ErrorSeries { points: points.clone(), order: Some(x), fit, ..Default::default() };
+            let fit = Some(PowerLaw {
+                rate: x,
+                constant: y,
+            });
+            let norm = ErrorSeries {
+                points: points.clone(),
+                order: Some(x),
+                fit,
+                ..Default::default()
+            };
             parse(&convergence(Xy::of_errors(""), &[norm], &[x, 1.0]));
-            let (x_values, y_values, values) = (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
-            let cells = Surface { x_values, y_values, values, z: Axis::log("z"), ..Default::default() };
+            let (x_values, y_values, values) =
+                (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
+            let cells = Surface {
+                x_values,
+                y_values,
+                values,
+                z: Axis::log("z"),
+                ..Default::default()
+            };
             parse(&surface(&cells));
-            parse(&surface(&Surface { marked: vec![vec![true]], boundaries: series, ..cells }));
+            parse(&surface(&Surface {
+                marked: vec![vec![true]],
+                boundaries: series,
+                ..cells
+            }));
             let frames = vec![vec![x, y], vec![y, 1.0]];
             let (times, nodes) = (vec![x, y], vec![y, x]);
-            parse(&space_time(&SpaceTime { times, nodes, frames, ..Default::default() }));
+            parse(&space_time(&SpaceTime {
+                times,
+                nodes,
+                frames,
+                ..Default::default()
+            }));
         }
     }
 }
@@ -144,29 +233,56 @@ fn a_cell_with_room_for_its_value_has_it_written_in_it() {
     let figure = gallery::error_surface();
     let written = |figure: &Surface| {
         let svg = surface(figure);
-        let expected = figure.values.iter().flatten().map(|value| format!("{value:.1e}"));
+        let expected = figure
+            .values
+            .iter()
+            .flatten()
+            .map(|value| format!("{value:.1e}"));
         let (texts, doc) = (texts(&svg), parse(&svg));
-        let edges: Vec<f64> =
-            doc.root_element().attribute("data-plot").unwrap().split(' ').map(|v| v.parse().unwrap()).collect();
-        for text in elements(&doc, "text").filter(|n| n.text().is_some_and(|text| text.contains("e-"))) {
+        let edges: Vec<f64> = doc
+            .root_element()
+            .attribute("data-plot")
+            .unwrap()
+            .split(' ')
+            .map(|v| v.parse().unwrap())
+            .collect();
+        for text in
+            elements(&doc, "text").filter(|n| n.text().is_some_and(|text| text.contains("e-")))
+        {
             let [left, top, right, bottom] = bounds(text);
-            assert!(edges[0] < left && edges[1] < top && right < edges[2] && bottom < edges[3], "{:?}", text.text());
+            assert!(
+                edges[0] < left && edges[1] < top && right < edges[2] && bottom < edges[3],
+                "{:?}",
+                text.text()
+            );
         }
         expected.filter(|value| texts.contains(value)).count()
     };
     assert_eq!(written(&figure), figure.values.iter().flatten().count());
     let mut missing = figure.clone();
     missing.values[0][0] = f64::NAN;
-    assert_eq!(written(&missing), figure.values.iter().flatten().count() - 1);
+    assert_eq!(
+        written(&missing),
+        figure.values.iter().flatten().count() - 1
+    );
     // In narrower cells there are only colours.
     assert_eq!(written(&gallery::stability_map()), 0);
 }
 
 #[test]
 fn constant_data_have_an_axis_with_ticks() {
-    let series = vec![Series { label: "s".into(), points: vec![(0.0, 3.0), (1.0, 3.0)] }];
+    let series = vec![Series {
+        label: "s".into(),
+        points: vec![(0.0, 3.0), (1.0, 3.0)],
+    }];
     let svg = history(Axis::linear("v"), &series).draw();
-    assert!(texts(&svg).iter().filter(|t| t.parse::<f64>().is_ok()).count() >= 5);
+    assert!(
+        texts(&svg)
+            .iter()
+            .filter(|t| t.parse::<f64>().is_ok())
+            .count()
+            >= 5
+    );
 }
 
 #[test]
@@ -177,9 +293,12 @@ fn a_spike_in_a_long_history_is_drawn() {
     figure.curves[0].points[123_456].1 = 5.0;
     let svg = figure.draw();
     let doc = parse(&svg);
-    let coordinates = elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some("#0072B2"));
+    let coordinates =
+        elements(&doc, "polyline").filter(|n| n.attribute("stroke") == Some("#0072B2"));
     let heights = coordinates.flat_map(|n| n.attribute("points").unwrap_or("").split_whitespace());
-    let highest = heights.filter_map(|p| p.split_once(',')?.1.parse::<f64>().ok()).fold(f64::INFINITY, f64::min);
+    let highest = heights
+        .filter_map(|p| p.split_once(',')?.1.parse::<f64>().ok())
+        .fold(f64::INFINITY, f64::min);
     // The top of the plot is 16 px down the page, and 1/22 of the plot's 430 px stays free above the data.
     assert!(highest < UNITS * (16.0 + 430.0 / 20.0), "{highest}");
 }
@@ -189,15 +308,30 @@ fn figures_stay_small() {
     let noise = |k: usize| (k.wrapping_mul(2_654_435_761) % 1_000_003) as f64 / 1_000_003.0 - 0.5;
     let line = |s: usize| Series {
         label: format!("series {s}"),
-        points: (0..100_000).map(|k| (k as f64, noise(k + 31 * s))).collect(),
+        points: (0..100_000)
+            .map(|k| (k as f64, noise(k + 31 * s)))
+            .collect(),
     };
-    let intervals = (0..50_000).map(|k| (2.0 * f64::from(k), 2.0 * f64::from(k) + 1.0)).collect();
-    let phases = Phases { label: "at a stop".into(), intervals };
-    let long = Xy { phases, ..history(Axis::linear("v"), &(0..8).map(line).collect::<Vec<_>>()) };
+    let intervals = (0..50_000)
+        .map(|k| (2.0 * f64::from(k), 2.0 * f64::from(k) + 1.0))
+        .collect();
+    let phases = Phases {
+        label: "at a stop".into(),
+        intervals,
+    };
+    let long = Xy {
+        phases,
+        ..history(Axis::linear("v"), &(0..8).map(line).collect::<Vec<_>>())
+    };
     assert!(long.draw().len() < 200_000);
 
     let mut picture = gallery::wave(600, 400);
-    picture.frames.iter_mut().flatten().enumerate().for_each(|(k, u)| *u = noise(k * k));
+    picture
+        .frames
+        .iter_mut()
+        .flatten()
+        .enumerate()
+        .for_each(|(k, u)| *u = noise(k * k));
     let noisy = space_time(&picture);
     assert!(noisy.len() < 400_000, "{}", noisy.len());
 }
@@ -205,11 +339,24 @@ fn figures_stay_small() {
 #[test]
 fn labels_are_all_there() {
     let words = texts(&gallery::long_history(1000).draw());
-    for label in ["g₁ = −0.01", "g₂ = 0.1", "at a stop", "euler-crank-nicolson", "midpoint", "time t"] {
+    for label in [
+        "g₁ = −0.01",
+        "g₂ = 0.1",
+        "at a stop",
+        "euler-crank-nicolson",
+        "midpoint",
+        "time t",
+    ] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
     let words = texts(&over_h(&gallery::space_errors()));
-    for label in ["energy norm, order 1, rate 1.002", "mesh width h", "10⁻³", "1", "2"] {
+    for label in [
+        "energy norm, order 1, rate 1.002",
+        "mesh width h",
+        "10⁻³",
+        "1",
+        "2",
+    ] {
         assert!(words.iter().any(|w| w == label), "{label}");
     }
     assert!(texts(&surface(&gallery::stability_map())).contains(&"diverged".to_owned()));
@@ -221,8 +368,11 @@ fn series_differ_without_colour() {
     let svg = figure.draw();
     let doc = parse(&svg);
     let dashes = |colour: &'static str| {
-        let of_colour = elements(&doc, "polyline").filter(move |n| n.attribute("stroke") == Some(colour));
-        of_colour.filter_map(|n| n.parent()?.attribute("stroke-dasharray")).count()
+        let of_colour =
+            elements(&doc, "polyline").filter(move |n| n.attribute("stroke") == Some(colour));
+        of_colour
+            .filter_map(|n| n.parent()?.attribute("stroke-dasharray"))
+            .count()
     };
     assert_eq!(dashes("#0072B2"), 0);
     assert!(dashes("#D55E00") >= 2);
@@ -231,9 +381,17 @@ fn series_differ_without_colour() {
 #[test]
 fn a_missing_cell_is_noted_unless_it_is_marked() {
     let mut map = gallery::stability_map();
-    assert!(!texts(&surface(&map)).iter().any(|t| t.contains("not drawn")));
+    assert!(
+        !texts(&surface(&map))
+            .iter()
+            .any(|t| t.contains("not drawn"))
+    );
     map.marked.clear();
-    assert!(texts(&surface(&map)).iter().any(|t| t.contains("non-finite points not drawn")));
+    assert!(
+        texts(&surface(&map))
+            .iter()
+            .any(|t| t.contains("non-finite points not drawn"))
+    );
 }
 
 #[test]
@@ -241,17 +399,34 @@ fn markers_lie_where_the_values_in_the_picture_say() {
     let svg = over_h(&gallery::space_errors());
     let doc = parse(&svg);
     let root = doc.root_element();
-    let words = |name: &str| root.attribute(name).unwrap().split(' ').map(str::to_owned).collect::<Vec<_>>();
-    let plot: Vec<f64> = words("data-plot").iter().map(|v| v.parse().unwrap()).collect();
+    let words = |name: &str| {
+        root.attribute(name)
+            .unwrap()
+            .split(' ')
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    let plot: Vec<f64> = words("data-plot")
+        .iter()
+        .map(|v| v.parse().unwrap())
+        .collect();
     let place = |axis: &str, value: f64, from: f64, to: f64| {
         let words = words(axis);
         assert_eq!(words[0], "log");
         let ends: Vec<f64> = words[1..].iter().map(|v| v.parse().unwrap()).collect();
         from + (value.log10() - ends[0]) / (ends[1] - ends[0]) * (to - from)
     };
-    let is_velocity = |n: &Node<'_, '_>| n.attribute("data-series").is_some_and(|name| name.starts_with("velocity"));
-    let group = elements(&doc, "g").find(|n| is_velocity(n) && n.has_attribute("data-points")).unwrap();
-    let markers: Vec<_> = group.descendants().filter(|n| n.has_tag_name("circle")).collect();
+    let is_velocity = |n: &Node<'_, '_>| {
+        n.attribute("data-series")
+            .is_some_and(|name| name.starts_with("velocity"))
+    };
+    let group = elements(&doc, "g")
+        .find(|n| is_velocity(n) && n.has_attribute("data-points"))
+        .unwrap();
+    let markers: Vec<_> = group
+        .descendants()
+        .filter(|n| n.has_tag_name("circle"))
+        .collect();
     let points: Vec<&str> = group.attribute("data-points").unwrap().split(' ').collect();
     // Of ten levels the rate uses seven; the others form a separate group.
     assert_eq!((markers.len(), points.len()), (7, 7));
@@ -261,53 +436,101 @@ fn markers_lie_where_the_values_in_the_picture_say() {
             place("data-x", x.parse().unwrap(), plot[0], plot[2]),
             place("data-y", y.parse().unwrap(), plot[3], plot[1]),
         );
-        assert!((at.0 - number(*marker, "cx")).abs() < 2.0 && (at.1 - number(*marker, "cy")).abs() < 2.0, "{point}");
+        assert!(
+            (at.0 - number(*marker, "cx")).abs() < 2.0
+                && (at.1 - number(*marker, "cy")).abs() < 2.0,
+            "{point}"
+        );
     }
 }
 
 /// A straight line of errors; the rate uses all levels except the two coarsest.
 fn partly_used() -> ErrorSeries {
-    let points: Vec<_> = (2..8).rev().map(|k| 0.5_f64.powi(9 - k)).map(|h| (h, h * h)).collect();
-    let fit = Some(PowerLaw { rate: 2.0, constant: 1.0 });
-    ErrorSeries { label: "L2".into(), points, fit, used: Some(2..6), ..ErrorSeries::default() }
+    let points: Vec<_> = (2..8)
+        .rev()
+        .map(|k| 0.5_f64.powi(9 - k))
+        .map(|h| (h, h * h))
+        .collect();
+    let fit = Some(PowerLaw {
+        rate: 2.0,
+        constant: 1.0,
+    });
+    ErrorSeries {
+        label: "L2".into(),
+        points,
+        fit,
+        used: Some(2..6),
+        ..ErrorSeries::default()
+    }
 }
 
 #[test]
 fn a_fitted_line_ends_with_the_levels_that_it_uses() {
     let svg = over_h(&[partly_used()]);
     let doc = parse(&svg);
-    let line = elements(&doc, "g").find(|n| n.has_attribute("data-series")).expect("the line comes first");
-    let line = line.descendants().find(|n| n.has_tag_name("polyline")).expect("a line");
+    let line = elements(&doc, "g")
+        .find(|n| n.has_attribute("data-series"))
+        .expect("the line comes first");
+    let line = line
+        .descendants()
+        .find(|n| n.has_tag_name("polyline"))
+        .expect("a line");
     let corners = line.attribute("points").unwrap().split_whitespace();
-    let mut ends: Vec<f64> = corners.filter_map(|p| p.split_once(',')?.0.parse().ok()).collect();
+    let mut ends: Vec<f64> = corners
+        .filter_map(|p| p.split_once(',')?.0.parse().ok())
+        .collect();
     ends.sort_by(f64::total_cmp);
-    let used =
-        elements(&doc, "g").find(|n| n.attribute("data-points").is_some_and(|points| !points.is_empty())).unwrap();
-    let mut markers: Vec<f64> =
-        used.descendants().filter(|n| n.has_tag_name("circle")).map(|n| number(n, "cx")).collect();
+    let used = elements(&doc, "g")
+        .find(|n| {
+            n.attribute("data-points")
+                .is_some_and(|points| !points.is_empty())
+        })
+        .unwrap();
+    let mut markers: Vec<f64> = used
+        .descendants()
+        .filter(|n| n.has_tag_name("circle"))
+        .map(|n| number(n, "cx"))
+        .collect();
     markers.sort_by(f64::total_cmp);
     assert_eq!((markers.len(), ends.len()), (4, 2));
-    assert!((ends[0] - markers[0]).abs() < 2.0 && (ends[1] - markers[3]).abs() < 2.0, "{ends:?} {markers:?}");
+    assert!(
+        (ends[0] - markers[0]).abs() < 2.0 && (ends[1] - markers[3]).abs() < 2.0,
+        "{ends:?} {markers:?}"
+    );
 }
 
 #[test]
 fn levels_without_a_say_have_open_markers_and_a_note() {
     let note = "open markers: points that the rate does not use";
     let svg = over_h(&[partly_used()]);
-    let white = elements(&parse(&svg), "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF")).count();
+    let white = elements(&parse(&svg), "circle")
+        .filter(|n| n.attribute("fill") == Some("#FFFFFF"))
+        .count();
     assert_eq!(white, 2);
     assert!(texts(&svg).iter().any(|text| text == note));
-    let all = ErrorSeries { used: None, ..partly_used() };
+    let all = ErrorSeries {
+        used: None,
+        ..partly_used()
+    };
     assert!(!texts(&over_h(&[all])).iter().any(|text| text == note));
 }
 
 /// The legend's text, and whether a line is drawn, for a rate with this interval.
 fn rate_known_as(interval: Option<[f64; 2]>) -> (String, bool) {
-    let svg = over_h(&[ErrorSeries { order: Some(2.0), interval, ..partly_used() }]);
+    let svg = over_h(&[ErrorSeries {
+        order: Some(2.0),
+        interval,
+        ..partly_used()
+    }]);
     let doc = parse(&svg);
-    let label = elements(&doc, "g").find_map(|n| n.attribute("data-entry")).expect("an entry").to_owned();
+    let label = elements(&doc, "g")
+        .find_map(|n| n.attribute("data-entry"))
+        .expect("an entry")
+        .to_owned();
     let lines = elements(&doc, "g").filter(|n| n.has_attribute("data-series"));
-    let has_line = lines.flat_map(|n| n.descendants()).any(|n| n.has_tag_name("polyline"));
+    let has_line = lines
+        .flat_map(|n| n.descendants())
+        .any(|n| n.has_tag_name("polyline"));
     (label, has_line)
 }
 
@@ -322,7 +545,11 @@ fn a_rate_has_the_digits_of_its_interval_and_none_with_its_line_where_that_says_
         (Some([-8.2, 12.2]), "L2, order 2, no rate", false),
         (Some([f64::NAN, 2.0]), "L2, order 2, no rate", false),
     ] {
-        assert_eq!(rate_known_as(interval), (label.to_owned(), has_line), "{interval:?}");
+        assert_eq!(
+            rate_known_as(interval),
+            (label.to_owned(), has_line),
+            "{interval:?}"
+        );
     }
 }
 
@@ -330,13 +557,21 @@ fn a_rate_has_the_digits_of_its_interval_and_none_with_its_line_where_that_says_
 fn lines_that_coincide_are_noted_whatever_the_points_that_draw_them() {
     let wave = |t: f64| (9.0 * t).sin();
     let sampled = |count: u32, value: &dyn Fn(f64) -> f64| {
-        (0..=count).map(|k| f64::from(k) / f64::from(count)).map(|t| (t, value(t))).collect::<Vec<_>>()
+        (0..=count)
+            .map(|k| f64::from(k) / f64::from(count))
+            .map(|t| (t, value(t)))
+            .collect::<Vec<_>>()
     };
     let note = |other: Vec<(f64, f64)>| {
-        let series = [("fine", sampled(1000, &wave)), ("coarse", other)]
-            .map(|(label, points)| Series { label: label.into(), points });
+        let series =
+            [("fine", sampled(1000, &wave)), ("coarse", other)].map(|(label, points)| Series {
+                label: label.into(),
+                points,
+            });
         let svg = history(Axis::default(), &series).draw();
-        texts(&svg).iter().any(|text| text == "fine and coarse coincide")
+        texts(&svg)
+            .iter()
+            .any(|text| text == "fine and coarse coincide")
     };
     assert!(note(sampled(150, &wave)));
     // A different curve, one that ends early, and one with the right points but wrong lines between them.
@@ -348,9 +583,18 @@ fn lines_that_coincide_are_noted_whatever_the_points_that_draw_them() {
 #[test]
 fn a_note_names_the_curves_that_coincide() {
     let words = texts(&over_h(&gallery::space_errors()));
-    assert!(words.iter().any(|text| text == "energy norm and energy norm, lumped coincide"), "{words:?}");
+    assert!(
+        words
+            .iter()
+            .any(|text| text == "energy norm and energy norm, lumped coincide"),
+        "{words:?}"
+    );
     // Half a decade apart they do not.
-    assert!(!texts(&over_h(&gallery::time_errors())).iter().any(|text| text.contains("coincide")));
+    assert!(
+        !texts(&over_h(&gallery::time_errors()))
+            .iter()
+            .any(|text| text.contains("coincide"))
+    );
 }
 
 #[test]
@@ -365,7 +609,10 @@ fn a_series_keeps_its_look_in_every_figure() {
 
 #[test]
 fn the_series_of_a_history_have_the_looks_that_they_are_given() {
-    let series = vec![Series { label: "s".into(), points: vec![(0.0, 1.0), (1.0, 2.0)] }];
+    let series = vec![Series {
+        label: "s".into(),
+        points: vec![(0.0, 1.0), (1.0, 2.0)],
+    }];
     let drawn = |looks: &[usize]| history(Axis::default(), &series).with_looks(looks).draw();
     let is_purple = |svg: &str| svg.contains("#AA4499");
     assert!(is_purple(&drawn(&[3])) && !is_purple(&drawn(&[])));
@@ -373,7 +620,10 @@ fn the_series_of_a_history_have_the_looks_that_they_are_given() {
 
 #[test]
 fn the_first_64_looks_differ() {
-    let looks: Vec<_> = (0..64).map(look::look).map(|look| (look.colour, look.marker)).collect();
+    let looks: Vec<_> = (0..64)
+        .map(look::look)
+        .map(|look| (look.colour, look.marker))
+        .collect();
     for (k, one) in looks.iter().enumerate() {
         assert!(!looks[..k].contains(one), "{k}");
     }
@@ -381,10 +631,22 @@ fn the_first_64_looks_differ() {
 
 #[test]
 fn ticks_of_counts_are_whole() {
-    let series = vec![Series { label: "solver".into(), points: vec![(0.1, 3.0), (0.2, 3.0)] }];
+    let series = vec![Series {
+        label: "solver".into(),
+        points: vec![(0.1, 3.0), (0.2, 3.0)],
+    }];
     let svg = iterations(&series).draw();
     let is_height = |n: &Node<'_, '_>| n.attribute("text-anchor") == Some("end");
     let doc = parse(&svg);
-    let heights: Vec<_> = elements(&doc, "text").filter(is_height).filter_map(|n| n.text()).collect();
-    assert!(heights.len() >= 4 && heights.iter().all(|text| text.trim().parse::<u32>().is_ok()), "{heights:?}");
+    let heights: Vec<_> = elements(&doc, "text")
+        .filter(is_height)
+        .filter_map(|n| n.text())
+        .collect();
+    assert!(
+        heights.len() >= 4
+            && heights
+                .iter()
+                .all(|text| text.trim().parse::<u32>().is_ok()),
+        "{heights:?}"
+    );
 }

@@ -14,7 +14,10 @@ pub(crate) struct Printed {
 pub(crate) fn fenced(page: &str) -> Vec<(String, String)> {
     let parts: Vec<&str> = page.split("\n```").collect();
     let inside = parts.iter().skip(1).step_by(2);
-    let block = |part: &&str| part.split_once('\n').map(|(language, text)| (language.to_owned(), text.to_owned()));
+    let block = |part: &&str| {
+        part.split_once('\n')
+            .map(|(language, text)| (language.to_owned(), text.to_owned()))
+    };
     inside.filter_map(block).collect()
 }
 
@@ -24,9 +27,19 @@ pub(crate) fn printed(page: &str) -> Vec<Printed> {
     let mut command = None;
     for (language, text) in fenced(page) {
         match language.as_str() {
-            "sh" => command = text.lines().rfind(|line| !line.starts_with('#')).map(str::to_owned),
+            "sh" => {
+                command = text
+                    .lines()
+                    .rfind(|line| !line.starts_with('#'))
+                    .map(str::to_owned)
+            }
             "text" => all.push(Printed {
-                command: command.take().expect("a command before its output").split(' ').map(str::to_owned).collect(),
+                command: command
+                    .take()
+                    .expect("a command before its output")
+                    .split(' ')
+                    .map(str::to_owned)
+                    .collect(),
                 lines: text.lines().map(str::to_owned).collect(),
             }),
             _ => {}
@@ -37,7 +50,10 @@ pub(crate) fn printed(page: &str) -> Vec<Printed> {
 
 /// Whether two words are the same, or both round-off.
 fn are_alike(one: &str, other: &str) -> bool {
-    let is_round_off = |word: &str| word.parse::<f64>().is_ok_and(|number| number != 0.0 && number.abs() < ROUND_OFF);
+    let is_round_off = |word: &str| {
+        word.parse::<f64>()
+            .is_ok_and(|number| number != 0.0 && number.abs() < ROUND_OFF)
+    };
     one == other || is_round_off(one) && is_round_off(other)
 }
 
@@ -45,7 +61,11 @@ fn are_alike(one: &str, other: &str) -> bool {
 pub(crate) fn missing(block: &[String], output: &str) -> Option<String> {
     let is_line = |line: &str, found: &str| {
         let [line, found] = [line, found].map(|text| text.split(' ').collect::<Vec<_>>());
-        line.len() == found.len() && line.iter().zip(&found).all(|(one, other)| are_alike(one, other))
+        line.len() == found.len()
+            && line
+                .iter()
+                .zip(&found)
+                .all(|(one, other)| are_alike(one, other))
     };
     let mut output = output.lines().filter(|line| !line.trim().is_empty());
     let mut may_skip = false;
@@ -64,5 +84,8 @@ pub(crate) fn missing(block: &[String], output: &str) -> Option<String> {
         }
         may_skip = false;
     }
-    output.next().filter(|_| !may_skip).map(|line| format!("nothing, found {line}"))
+    output
+        .next()
+        .filter(|_| !may_skip)
+        .map(|line| format!("nothing, found {line}"))
 }

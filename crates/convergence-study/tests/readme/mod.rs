@@ -16,23 +16,36 @@ const README: &str = include_str!("../../README.md");
 
 /// A study with errors `L2`, claimed to be of order 2, and `H1`, of order 1, for n = 8, 16, ...; NaN: no such error.
 fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f64) -> Finished {
-    let counts: Vec<f64> = (0..levels).map(|k| 8.0 * f64::powi(2.0, k as i32)).collect();
-    let errors = |n: f64| [("L2", l2(1.0 / n)), ("H1", h1(1.0 / n))].map(|(name, error)| (name.to_owned(), error));
+    let counts: Vec<f64> = (0..levels)
+        .map(|k| 8.0 * f64::powi(2.0, k as i32))
+        .collect();
+    let errors = |n: f64| {
+        [("L2", l2(1.0 / n)), ("H1", h1(1.0 / n))].map(|(name, error)| (name.to_owned(), error))
+    };
     let level = |n: &f64| LevelErrors {
         parameters: vec![("n".to_owned(), *n)],
         step: Some(1.0 / n),
         work: None,
-        errors: errors(*n).into_iter().filter(|(_, error)| !error.is_nan()).collect(),
+        errors: errors(*n)
+            .into_iter()
+            .filter(|(_, error)| !error.is_nan())
+            .collect(),
         without: vec![],
     };
     let rate = |k: usize, order: f64| {
-        let pairs = counts.iter().map(|n| (1.0 / n, errors(*n)[k].1)).filter(|(_, error)| !error.is_nan());
+        let pairs = counts
+            .iter()
+            .map(|n| (1.0 / n, errors(*n)[k].1))
+            .filter(|(_, error)| !error.is_nan());
         (["L2", "H1"][k].to_owned(), judge_pairs(pairs, order, 0.1))
     };
     let levels = counts.iter().map(level).collect();
     Finished {
         header: Header::new(id, "c"),
-        outcome: Outcome { levels, ..Outcome::new("s", vec![rate(0, 2.0), rate(1, 1.0)], vec![]) },
+        outcome: Outcome {
+            levels,
+            ..Outcome::new("s", vec![rate(0, 2.0), rate(1, 1.0)], vec![])
+        },
         failed_cases: vec![],
         not_finite: vec![],
         untested: vec![],
@@ -48,7 +61,13 @@ fn smooth(constant: f64, order: f64) -> impl Fn(f64) -> f64 {
 
 /// Two records: the new one has a larger error, a lost order, and lacks an error on the finest level.
 fn records() -> [Record; 2] {
-    let coarse = |h: f64| if h < 1.0 / 200.0 { f64::NAN } else { smooth(1.0, 2.0)(h) };
+    let coarse = |h: f64| {
+        if h < 1.0 / 200.0 {
+            f64::NAN
+        } else {
+            smooth(1.0, 2.0)(h)
+        }
+    };
     let old = vec![
         study("poisson", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
         study("heat", 6, smooth(1.0, 2.0), smooth(3.0, 1.0)),
@@ -64,7 +83,10 @@ fn records() -> [Record; 2] {
 
 /// The files that the commands read: the table is on the page.
 fn fill(folder: &Path) {
-    let (_, table) = fenced(README).into_iter().find(|(language, _)| language == "csv").expect("a table on the page");
+    let (_, table) = fenced(README)
+        .into_iter()
+        .find(|(language, _)| language == "csv")
+        .expect("a table on the page");
     fs::write(folder.join("errors.csv"), table + "\n").unwrap();
     for (name, record) in ["old.json", "new.json"].iter().zip(records()) {
         fs::write(folder.join(name), json(&record).unwrap()).unwrap();
@@ -80,9 +102,18 @@ fn every_block_of_output_is_what_the_program_prints() {
     for Printed { command, lines } in printed {
         assert_eq!(command[0], "convergence-study");
         let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
-        let output = program.args(&command[1..]).current_dir(folder.path()).output().unwrap();
+        let output = program
+            .args(&command[1..])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
-        assert_eq!(missing(&lines, &text), None, "{command:?}:\n{text}{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(
+            missing(&lines, &text),
+            None,
+            "{command:?}:\n{text}{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
 }
 
@@ -101,6 +132,10 @@ fn a_line_that_is_not_printed_is_found() {
         ("a 1\nb 3e-5 c\n...", Some("b 3e-5 c")),
         ("a 1\nb 0 c\n...", Some("b 0 c")),
     ] {
-        assert_eq!(missing(&lines(block), output), found.map(str::to_owned), "{block}");
+        assert_eq!(
+            missing(&lines(block), output),
+            found.map(str::to_owned),
+            "{block}"
+        );
     }
 }

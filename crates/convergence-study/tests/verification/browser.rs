@@ -70,10 +70,12 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("index.html");
-    let page = page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
+    let page =
+        page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
     std::fs::write(&file, page).expect("a file");
     // On a busy machine the browser may give up before the page has finished: so there are several attempts.
-    let said = (0..3).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
+    let said =
+        (0..3).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
     assert_eq!(said.as_deref(), Some("RIGHT"));
 }
 
@@ -82,9 +84,23 @@ fn said(file: &Path, profile: &Path) -> Option<String> {
     // A browser that hangs is ended.
     let output = Command::new("timeout")
         .args(["60", CHROMIUM])
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
-        .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
-        .args(["--window-size=500,800", "--virtual-time-budget=2000", "--dump-dom"])
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-quic",
+            "--no-first-run",
+        ])
+        .args([
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+        ])
+        .args([
+            "--window-size=500,800",
+            "--virtual-time-budget=2000",
+            "--dump-dom",
+        ])
         .arg(format!("--user-data-dir={}", profile.display()))
         .arg(format!("file://{}#good-1.0", file.display()))
         .output()

@@ -8,13 +8,16 @@ use convergence_study::project::Project;
 use convergence_study::run::time_limit::Patience;
 use convergence_study::run::{self, Finished};
 use convergence_study::study::{
-    Case, CaseFailure, Check, Figure, Header, Kind, LevelErrors, Outcome, Quantity, Ran, Study, Table, Tier, erased,
+    Case, CaseFailure, Check, Figure, Header, Kind, LevelErrors, Outcome, Quantity, Ran, Study,
+    Table, Tier, erased,
 };
 use convergence_study::verify::{Request, Scope};
 
 /// The project of these studies; none of them is read from a file.
-pub(crate) const PROJECT: Project =
-    Project { front_pictures: &[("a-front.svg", "front.svg")], ..Project::new("fakes", "cargo xtask") };
+pub(crate) const PROJECT: Project = Project {
+    front_pictures: &[("a-front.svg", "front.svg")],
+    ..Project::new("fakes", "cargo xtask")
+};
 
 /// What the cases of a study do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +51,17 @@ pub(crate) struct Fake {
 }
 
 pub(crate) fn fake(id: &str, does: Does) -> Fake {
-    let header = Header { kind: "fake".to_owned(), ..Header::new(id, "errors | fall < with *h*") };
-    Fake { header, does, scale: 1.0, tolerance: 1e-3, quantity: "finest error" }
+    let header = Header {
+        kind: "fake".to_owned(),
+        ..Header::new(id, "errors | fall < with *h*")
+    };
+    Fake {
+        header,
+        does,
+        scale: 1.0,
+        tolerance: 1e-3,
+        quantity: "finest error",
+    }
 }
 
 pub(crate) fn study(id: &str, does: Does) -> Box<dyn Study> {
@@ -70,7 +82,13 @@ impl Kind for Fake {
 
     fn cases(&self) -> Vec<Case<usize>> {
         let levels = if self.does == Does::TooShort { 2 } else { 5 };
-        (0..levels).map(|i| Case { label: format!("n = {}", 8 << i), cost: f64::from(8 << i), data: i }).collect()
+        (0..levels)
+            .map(|i| Case {
+                label: format!("n = {}", 8 << i),
+                cost: f64::from(8 << i),
+                data: i,
+            })
+            .collect()
     }
 
     fn run(&self, &level: &usize) -> Result<f64, CaseFailure> {
@@ -93,21 +111,41 @@ impl Kind for Fake {
             panic!("no conclusion");
         }
         if self.does == Does::Nothing {
-            return Outcome { verdict: Verdict::Pass, ..Outcome::new("all well", vec![], vec![]) };
+            return Outcome {
+                verdict: Verdict::Pass,
+                ..Outcome::new("all well", vec![], vec![])
+            };
         }
-        let errors: Vec<f64> = ran.iter().map(|ran| ran.ok().copied().unwrap_or(f64::NAN)).collect();
-        let pairs = errors.iter().enumerate().map(|(i, error)| (1.0 / f64::from(8 << i), *error));
+        let errors: Vec<f64> = ran
+            .iter()
+            .map(|ran| ran.ok().copied().unwrap_or(f64::NAN))
+            .collect();
+        let pairs = errors
+            .iter()
+            .enumerate()
+            .map(|(i, error)| (1.0 / f64::from(8 << i), *error));
         let rate = verdict::judge_pairs(pairs, 1.0, 0.1);
         let level = |(i, error): (usize, &f64)| LevelErrors {
-            parameters: vec![("elements".to_owned(), f64::from(8 << i)), ("steps".to_owned(), 20.0)],
+            parameters: vec![
+                ("elements".to_owned(), f64::from(8 << i)),
+                ("steps".to_owned(), 20.0),
+            ],
             step: Some(1.0 / f64::from(8 << i)),
             work: None,
             errors: vec![("velocity".to_owned(), *error)],
             without: vec![],
         };
         let finest = *errors.last().unwrap();
-        let quantity = Quantity { name: self.quantity.to_owned(), value: finest, tolerance: self.tolerance };
-        let table = Table { title: "Two | three".into(), head: vec!["a|b".into()], rows: vec![vec!["c|d".into()]] };
+        let quantity = Quantity {
+            name: self.quantity.to_owned(),
+            value: finest,
+            tolerance: self.tolerance,
+        };
+        let table = Table {
+            title: "Two | three".into(),
+            head: vec!["a|b".into()],
+            rows: vec![vec!["c|d".into()]],
+        };
         let figure = Figure::new("errors", "errors | h", "<svg/>".into());
         Outcome {
             levels: errors.iter().enumerate().map(level).collect(),
@@ -117,7 +155,11 @@ impl Kind for Fake {
             ..Outcome::new(
                 rate.reason.clone(),
                 vec![("velocity".to_owned(), rate)],
-                vec![Check::that(finest < 10.0, "|error| < 10", format!("{finest:.1e}"))],
+                vec![Check::that(
+                    finest < 10.0,
+                    "|error| < 10",
+                    format!("{finest:.1e}"),
+                )],
             )
         }
     }
@@ -144,7 +186,9 @@ pub(crate) fn finished(studies: Vec<Box<dyn Study>>) -> Vec<Finished> {
 
 /// Headers of studies with these ids.
 pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
-    ids.iter().map(|id| fake(id, Does::Converge).header).collect()
+    ids.iter()
+        .map(|id| fake(id, Does::Converge).header)
+        .collect()
 }
 
 /// A verification of the quick tier with these known studies.

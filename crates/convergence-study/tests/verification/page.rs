@@ -13,22 +13,47 @@ use super::fake::{Does, PROJECT, finished, study};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
     let see_also = Some("full/index.html");
-    let record = Record::new("quick", "cargo xtask verify", Verdict::Fail, Some(&[]), finished.to_vec());
-    Findings { project: &PROJECT, record: &record, see_also, provenance: None }.page()
+    let record = Record::new(
+        "quick",
+        "cargo xtask verify",
+        Verdict::Fail,
+        Some(&[]),
+        finished.to_vec(),
+    );
+    Findings {
+        project: &PROJECT,
+        record: &record,
+        see_also,
+        provenance: None,
+    }
+    .page()
 }
 
 /// One study that passes and one that fails, each with a picture of two curves.
 pub(crate) fn two() -> Vec<Finished> {
-    let mut both = finished(vec![study("good-1.0", Does::Converge), study("bad", Does::Stay)]);
+    let mut both = finished(vec![
+        study("good-1.0", Does::Converge),
+        study("bad", Does::Stay),
+    ]);
     for finished in &mut both {
         let series = |label: &str, order: i32| ErrorSeries {
             label: label.to_owned(),
-            points: (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k))).collect(),
+            points: (3..8)
+                .map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k)))
+                .collect(),
             ..ErrorSeries::default()
         };
-        let svg = convergence(Xy::of_errors("mesh width h"), &[series("a<b", 1), series("c", 2)], &[]);
+        let svg = convergence(
+            Xy::of_errors("mesh width h"),
+            &[series("a<b", 1), series("c", 2)],
+            &[],
+        );
         let file = format!("{}-errors.svg", finished.header.id);
-        finished.outcome.figures = vec![Figure { file, caption: "Two curves".to_owned(), svg }];
+        finished.outcome.figures = vec![Figure {
+            file,
+            caption: "Two curves".to_owned(),
+            svg,
+        }];
     }
     both
 }
@@ -46,26 +71,51 @@ fn parsed<T>(page: &str, read: impl FnOnce(&Document<'_>) -> T) -> T {
 }
 
 fn named<'d>(document: &'d Document<'d>, name: &'d str) -> impl Iterator<Item = Node<'d, 'd>> {
-    document.descendants().filter(move |node| node.tag_name().name() == name)
+    document
+        .descendants()
+        .filter(move |node| node.tag_name().name() == name)
 }
 
-fn with_class<'d>(document: &'d Document<'d>, class: &'d str) -> impl Iterator<Item = Node<'d, 'd>> {
-    document.descendants().filter(move |node| node.attribute("class") == Some(class))
+fn with_class<'d>(
+    document: &'d Document<'d>,
+    class: &'d str,
+) -> impl Iterator<Item = Node<'d, 'd>> {
+    document
+        .descendants()
+        .filter(move |node| node.attribute("class") == Some(class))
 }
 
 #[test]
 fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
     parsed(&page_of(&two()), |document| {
         let studies: Vec<_> = with_class(document, "study").collect();
-        assert_eq!(studies.iter().map(|study| study.attribute("id").unwrap()).collect::<Vec<_>>(), ["bad", "good-1.0"]);
+        assert_eq!(
+            studies
+                .iter()
+                .map(|study| study.attribute("id").unwrap())
+                .collect::<Vec<_>>(),
+            ["bad", "good-1.0"]
+        );
         for study in &studies {
-            let pictures = study.descendants().filter(|node| node.attribute("data-plot").is_some()).count();
+            let pictures = study
+                .descendants()
+                .filter(|node| node.attribute("data-plot").is_some())
+                .count();
             assert_eq!(pictures, 1);
-            assert!(study.descendants().any(|node| node.tag_name().name() == "table"));
+            assert!(
+                study
+                    .descendants()
+                    .any(|node| node.tag_name().name() == "table")
+            );
         }
-        let ids: Vec<&str> = document.descendants().filter_map(|node| node.attribute("id")).collect();
+        let ids: Vec<&str> = document
+            .descendants()
+            .filter_map(|node| node.attribute("id"))
+            .collect();
         assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
-        let links: Vec<&str> = named(document, "a").filter_map(|link| link.attribute("href")).collect();
+        let links: Vec<&str> = named(document, "a")
+            .filter_map(|link| link.attribute("href"))
+            .collect();
         // Failures come first.
         assert_eq!(links, ["#bad", "full/index.html", "#bad", "#good-1.0"]);
     });
@@ -74,21 +124,34 @@ fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
 #[test]
 fn studies_that_do_not_pass_head_the_list_and_the_details_follow_its_order() {
     let mut studies = finished(
-        [("a", Does::Converge), ("b", Does::TooShort), ("c", Does::Converge), ("d", Does::Stay)]
-            .map(|(id, does)| study(id, does))
-            .into(),
+        [
+            ("a", Does::Converge),
+            ("b", Does::TooShort),
+            ("c", Does::Converge),
+            ("d", Does::Stay),
+        ]
+        .map(|(id, does)| study(id, does))
+        .into(),
     );
     for (finished, group) in studies.iter_mut().zip(["time", "time", "space", "space"]) {
         finished.header.group = group.to_owned();
     }
     parsed(&page_of(&studies), |document| {
-        let body = named(document, "tbody").find(|body| body.children().any(|row| row.has_attribute("data-study")));
+        let body = named(document, "tbody")
+            .find(|body| body.children().any(|row| row.has_attribute("data-study")));
         let rows = body.unwrap().children().filter(Node::is_element);
         let label = |row: Node<'_, '_>| {
-            row.attribute("data-study").unwrap_or_else(|| row.first_child().unwrap().text().unwrap()).to_owned()
+            row.attribute("data-study")
+                .unwrap_or_else(|| row.first_child().unwrap().text().unwrap())
+                .to_owned()
         };
-        assert_eq!(rows.map(label).collect::<Vec<_>>(), ["did not pass", "d", "b", "time", "a", "space", "c"]);
-        let details: Vec<_> = with_class(document, "study").map(|study| study.attribute("id").unwrap()).collect();
+        assert_eq!(
+            rows.map(label).collect::<Vec<_>>(),
+            ["did not pass", "d", "b", "time", "a", "space", "c"]
+        );
+        let details: Vec<_> = with_class(document, "study")
+            .map(|study| study.attribute("id").unwrap())
+            .collect();
         assert_eq!(details, ["d", "b", "a", "c"]);
     });
 }
@@ -96,8 +159,14 @@ fn studies_that_do_not_pass_head_the_list_and_the_details_follow_its_order() {
 #[test]
 fn what_wrote_the_page_is_said_below_what_failed_and_one_picture_is_wide() {
     let page = page_of(&two());
-    let place = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text} in {page}"));
-    assert!(place("What did not pass") < place("Written by") && place("Written by") < place("class=\"scroll wide\""));
+    let place = |text: &str| {
+        page.find(text)
+            .unwrap_or_else(|| panic!("{text} in {page}"))
+    };
+    assert!(
+        place("What did not pass") < place("Written by")
+            && place("Written by") < place("class=\"scroll wide\"")
+    );
     assert_eq!(page.matches("class=\"scroll wide\"").count(), 1);
 }
 
@@ -106,18 +175,35 @@ fn verdicts_come_first_and_studies_that_do_not_pass_are_unfolded() {
     let page = page_of(&two());
     assert!(page.find("class=\"overview\"") < page.find("class=\"study\""));
     parsed(&page, |document| {
-        let open: Vec<bool> = with_class(document, "study").map(|study| study.has_attribute("open")).collect();
+        let open: Vec<bool> = with_class(document, "study")
+            .map(|study| study.has_attribute("open"))
+            .collect();
         assert_eq!(open, [true, false]);
-        let badges: Vec<_> = document.descendants().filter_map(|node| node.attribute("class")).collect();
-        assert_eq!(badges.iter().filter(|class| **class == "badge fail").count(), 4);
+        let badges: Vec<_> = document
+            .descendants()
+            .filter_map(|node| node.attribute("class"))
+            .collect();
+        assert_eq!(
+            badges
+                .iter()
+                .filter(|class| **class == "badge fail")
+                .count(),
+            4
+        );
     });
 }
 
 #[test]
 fn of_many_studies_that_fail_three_are_unfolded() {
-    let studies = finished((0..5).map(|k| study(&format!("s{k}"), Does::Stay)).collect());
+    let studies = finished(
+        (0..5)
+            .map(|k| study(&format!("s{k}"), Does::Stay))
+            .collect(),
+    );
     parsed(&page_of(&studies), |document| {
-        let open: Vec<bool> = with_class(document, "study").map(|study| study.has_attribute("open")).collect();
+        let open: Vec<bool> = with_class(document, "study")
+            .map(|study| study.has_attribute("open"))
+            .collect();
         assert_eq!(open, [true, true, true, false, false]);
     });
 }
@@ -127,21 +213,37 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
     let front = Front {
         verified: "Errors fall.",
         plot: "a-errors.svg",
-        statements: &[("First order", "a", "velocity"), ("All checks", "a", ""), ("Elsewhere", "gone", "")],
+        statements: &[
+            ("First order", "a", "velocity"),
+            ("All checks", "a", ""),
+            ("Elsewhere", "gone", ""),
+        ],
     };
     let project = Project { front, ..PROJECT };
     let page = |does: Does, verdict: Verdict| {
         let studies = finished(vec![study("a", does)]);
         let record = Record::new("quick", "verify", verdict, None, studies);
-        Findings { project: &project, record: &record, see_also: None, provenance: None }.readme()
+        Findings {
+            project: &project,
+            record: &record,
+            see_also: None,
+            provenance: None,
+        }
+        .readme()
     };
     let passing = page(Does::Converge, Verdict::Pass);
-    let place = |text: &str| passing.find(text).unwrap_or_else(|| panic!("{text} in {passing}"));
+    let place = |text: &str| {
+        passing
+            .find(text)
+            .unwrap_or_else(|| panic!("{text} in {passing}"))
+    };
     assert!(
-        place("Errors fall.") < place("](figures/a-errors.svg)") && place("| First order") < place("## All studies")
+        place("Errors fall.") < place("](figures/a-errors.svg)")
+            && place("| First order") < place("## All studies")
     );
     assert!(
-        passing.contains("| rate 1.0000 ± 0.00005, claimed 1 ± 0.1 |") && !passing.contains("Elsewhere"),
+        passing.contains("| rate 1.0000 ± 0.00005, claimed 1 ± 0.1 |")
+            && !passing.contains("Elsewhere"),
         "{passing}"
     );
     assert!(!page(Does::Stay, Verdict::Fail).contains("What is verified"));
@@ -149,8 +251,7 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
 
 #[test]
 fn the_page_loads_nothing_and_escapes_hostile_texts() {
-    let hostile =
-        "``` <script>alert(1)</script> ` ``\"><img src=http://x/y onerror=z> [a](javascript:b) ![c](//d) ]]> &amp;";
+    let hostile = "``` <script>alert(1)</script> ` ``\"><img src=http://x/y onerror=z> [a](javascript:b) ![c](//d) ]]> &amp;";
     let mut studies = two();
     for finished in &mut studies {
         finished.header.claim = hostile.to_owned();
@@ -164,19 +265,34 @@ fn the_page_loads_nothing_and_escapes_hostile_texts() {
     assert_eq!(page.matches("<script").count(), 3, "the page's own");
     assert!(page.contains("default-src 'none'"));
     parsed(&page, |document| {
-        assert_eq!(named(document, "img").chain(named(document, "iframe")).chain(named(document, "object")).count(), 0);
+        assert_eq!(
+            named(document, "img")
+                .chain(named(document, "iframe"))
+                .chain(named(document, "object"))
+                .count(),
+            0
+        );
         for node in document.descendants() {
             for attribute in node.attributes() {
                 let (name, value) = (attribute.name(), attribute.value());
                 assert!(!name.starts_with("on") && name != "src", "{name}");
-                let stays = value == "data:," || value.starts_with('#') || value == "full/index.html";
+                let stays =
+                    value == "data:," || value.starts_with('#') || value == "full/index.html";
                 assert!(name != "href" || stays, "{value}");
             }
         }
         // Claim twice, summary, evidence, title, caption under the picture, and forty rows.
-        let shown = document.descendants().filter(|node| node.is_element() && node.text().is_some());
-        let text: String = shown.flat_map(|node| node.children()).filter_map(|node| node.text()).collect();
-        assert!(text.matches("<script>alert(1)</script>").count() >= 2 * (6 + 40), "{text}");
+        let shown = document
+            .descendants()
+            .filter(|node| node.is_element() && node.text().is_some());
+        let text: String = shown
+            .flat_map(|node| node.children())
+            .filter_map(|node| node.text())
+            .collect();
+        assert!(
+            text.matches("<script>alert(1)</script>").count() >= 2 * (6 + 40),
+            "{text}"
+        );
     });
 }
 

@@ -9,17 +9,47 @@ use roxmltree::Document;
 use super::fake::{Does, PROJECT, finished, study};
 
 fn several() -> Vec<Finished> {
-    let does = [Does::Converge, Does::Panic, Does::TooShort, Does::Nothing, Does::PanicAtTheEnd];
-    finished(does.iter().enumerate().map(|(i, does)| study(&format!("study-{i}.0"), *does)).collect())
+    let does = [
+        Does::Converge,
+        Does::Panic,
+        Does::TooShort,
+        Does::Nothing,
+        Does::PanicAtTheEnd,
+    ];
+    finished(
+        does.iter()
+            .enumerate()
+            .map(|(i, does)| study(&format!("study-{i}.0"), *does))
+            .collect(),
+    )
 }
 
 fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
-    compared(finished, Some(&Baseline::default().compare(finished, None)), read)
+    compared(
+        finished,
+        Some(&Baseline::default().compare(finished, None)),
+        read,
+    )
 }
 
-fn compared<T>(finished: &[Finished], changes: Option<&[Change]>, read: impl FnOnce(&Findings<'_>) -> T) -> T {
-    let record = Record::new("quick", "cargo xtask verify", Verdict::Fail, changes, finished.to_vec());
-    read(&Findings { project: &PROJECT, record: &record, see_also: None, provenance: None })
+fn compared<T>(
+    finished: &[Finished],
+    changes: Option<&[Change]>,
+    read: impl FnOnce(&Findings<'_>) -> T,
+) -> T {
+    let record = Record::new(
+        "quick",
+        "cargo xtask verify",
+        Verdict::Fail,
+        changes,
+        finished.to_vec(),
+    );
+    read(&Findings {
+        project: &PROJECT,
+        record: &record,
+        see_also: None,
+        provenance: None,
+    })
 }
 
 /// Columns of a line of a table, from its unescaped pipes.
@@ -33,8 +63,16 @@ fn every_table_is_well_formed_and_lined_up() {
     let mut tables = 0;
     for block in page.split("\n\n").filter(|block| block.starts_with('|')) {
         let lines: Vec<&str> = block.lines().filter(|line| line.starts_with('|')).collect();
-        assert!(lines.iter().all(|line| columns(line) == columns(lines[0])), "{block}");
-        assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()), "{block}");
+        assert!(
+            lines.iter().all(|line| columns(line) == columns(lines[0])),
+            "{block}"
+        );
+        assert!(
+            lines
+                .iter()
+                .all(|line| line.chars().count() == lines[0].chars().count()),
+            "{block}"
+        );
         assert!(lines[1].chars().all(|c| "|-: ".contains(c)), "{block}");
         tables += 1;
     }
@@ -68,7 +106,10 @@ fn the_verdict_comes_first_and_every_study_has_its_section() {
 fn a_comment_is_never_longer_than_it_may_be_and_what_failed_comes_first() {
     let studies = several();
     let digest = with(&studies, |findings| findings.digest());
-    assert!(digest.contains("<details>") && digest.find("study-1.0") < digest.find("Moved from"), "{digest}");
+    assert!(
+        digest.contains("<details>") && digest.find("study-1.0") < digest.find("Moved from"),
+        "{digest}"
+    );
     let change = |k: usize| Change {
         study: "study-0.0".to_owned(),
         name: format!("error {k}"),
@@ -76,7 +117,11 @@ fn a_comment_is_never_longer_than_it_may_be_and_what_failed_comes_first() {
     };
     let many: Vec<Change> = (0..5000).map(change).collect();
     let long = compared(&studies, Some(&many), |findings| findings.digest());
-    assert!(long.len() <= LONGEST && long.ends_with("A comment holds no more: see the report.\n"), "{}", long.len());
+    assert!(
+        long.len() <= LONGEST && long.ends_with("A comment holds no more: see the report.\n"),
+        "{}",
+        long.len()
+    );
     assert!(long.contains("study-1.0") && !long.contains("error 4999"));
 }
 
@@ -96,10 +141,19 @@ fn csv_has_one_error_a_line() {
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = with(&studies, |findings| junit(PROJECT.name, findings.record).unwrap());
+    let text = with(&studies, |findings| {
+        junit(PROJECT.name, findings.record).unwrap()
+    });
     let document = Document::parse(&text).unwrap();
-    let suites: Vec<_> = document.root_element().children().filter(|node| node.is_element()).collect();
-    let failures: Vec<&str> = suites.iter().map(|suite| suite.attribute("failures").unwrap()).collect();
+    let suites: Vec<_> = document
+        .root_element()
+        .children()
+        .filter(|node| node.is_element())
+        .collect();
+    let failures: Vec<&str> = suites
+        .iter()
+        .map(|suite| suite.attribute("failures").unwrap())
+        .collect();
     assert_eq!(failures, ["0", "1", "1", "1", "1", "3"]);
     let types: Vec<&str> = document
         .descendants()
@@ -109,7 +163,18 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
             failure.attribute("type").unwrap()
         })
         .collect();
-    assert_eq!(types, ["fail", "inconclusive", "inconclusive", "fail", "fail", "fail", "fail"]);
+    assert_eq!(
+        types,
+        [
+            "fail",
+            "inconclusive",
+            "inconclusive",
+            "fail",
+            "fail",
+            "fail",
+            "fail"
+        ]
+    );
     assert!(!text.contains("time"), "times vary: {text}");
 }
 
@@ -118,13 +183,20 @@ fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
-    let text = compared(&studies, None, |findings| junit(PROJECT.name, findings.record).unwrap());
+    let text = compared(&studies, None, |findings| {
+        junit(PROJECT.name, findings.record).unwrap()
+    });
     let document = Document::parse(&text).unwrap();
-    let message =
-        document.descendants().filter_map(|node| node.attribute("message")).find(|text| text.contains("a < b"));
+    let message = document
+        .descendants()
+        .filter_map(|node| node.attribute("message"))
+        .find(|text| text.contains("a < b"));
     assert!(message.is_some(), "{text}");
     let page = with(&studies, |findings| findings.readme());
-    assert!(page.contains("a < b & \"c\"  \\[31m \\| \\]\\]> next"), "{page}");
+    assert!(
+        page.contains("a < b & \"c\"  \\[31m \\| \\]\\]> next"),
+        "{page}"
+    );
 }
 
 #[test]
@@ -135,9 +207,18 @@ fn the_same_outcomes_give_the_same_bytes() {
 
 #[test]
 fn a_reason_is_given_where_a_rate_does_not_hold() {
-    let studies = finished(vec![study("good", Does::Converge), study("bad", Does::Stay)]);
-    let heads: Vec<bool> =
-        studies.iter().map(|finished| tables(finished, false)[0].head.contains(&"reason".to_owned())).collect();
+    let studies = finished(vec![
+        study("good", Does::Converge),
+        study("bad", Does::Stay),
+    ]);
+    let heads: Vec<bool> = studies
+        .iter()
+        .map(|finished| {
+            tables(finished, false)[0]
+                .head
+                .contains(&"reason".to_owned())
+        })
+        .collect();
     assert_eq!(heads, [false, true]);
     assert_eq!(
         tables(&studies[1], false)[0].rows[0].last().unwrap(),
@@ -154,7 +235,9 @@ fn the_picture_for_the_front_page_has_a_name_of_its_own() {
     let mut studies = finished(vec![study("a", Does::Converge)]);
     let has_front = |studies: &[Finished]| {
         let files = with(studies, |findings| findings.files().unwrap());
-        files.files().any(|(path, bytes)| path == "front.svg" && bytes == b"<svg/>")
+        files
+            .files()
+            .any(|(path, bytes)| path == "front.svg" && bytes == b"<svg/>")
     };
     assert!(!has_front(&studies));
     studies[0].outcome.figures[0].file = "a-front.svg".to_owned();
@@ -162,38 +245,91 @@ fn the_picture_for_the_front_page_has_a_name_of_its_own() {
 }
 
 fn moved(study: &str, name: &str, to: f64) -> Change {
-    let movement = Movement::Moved { from: 1.0, to, tolerance: 1e-3 };
-    Change { study: study.to_owned(), name: name.to_owned(), movement }
+    let movement = Movement::Moved {
+        from: 1.0,
+        to,
+        tolerance: 1e-3,
+    };
+    Change {
+        study: study.to_owned(),
+        name: name.to_owned(),
+        movement,
+    }
 }
 
 #[test]
 fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
-    let studies = finished(vec![study("a", Does::Converge), study("b-1.0", Does::Converge)]);
-    let changes = [moved("a", "q0", 1.002), moved("a", "q1", 1.5), moved("a", "q2", 1.1), moved("b-1.0", "q", 4.0)];
+    let studies = finished(vec![
+        study("a", Does::Converge),
+        study("b-1.0", Does::Converge),
+    ]);
+    let changes = [
+        moved("a", "q0", 1.002),
+        moved("a", "q1", 1.5),
+        moved("a", "q2", 1.1),
+        moved("b-1.0", "q", 4.0),
+    ];
     let page = |changes: &[Change]| compared(&studies, Some(changes), |findings| findings.readme());
     let readme = page(&changes);
-    let section = readme.split("## Moved from the baseline\n\n").nth(1).unwrap();
+    let section = readme
+        .split("## Moved from the baseline\n\n")
+        .nth(1)
+        .unwrap();
     let lines: Vec<&str> = section.lines().collect();
-    assert!(lines[0].starts_with("The worst number of each study; first those that moved by the largest multiple"));
-    let cells = |line: &str| line.split(" | ").map(|cell| cell.trim_matches(['|', ' ']).to_owned()).collect::<Vec<_>>();
+    assert!(lines[0].starts_with(
+        "The worst number of each study; first those that moved by the largest multiple"
+    ));
+    let cells = |line: &str| {
+        line.split(" | ")
+            .map(|cell| cell.trim_matches(['|', ' ']).to_owned())
+            .collect::<Vec<_>>()
+    };
     let row = |cells: [&str; 5]| cells.map(str::to_owned).to_vec();
-    let moved_by = |to: &str, by: &str| format!("moved from 1 to {to}, by +{by} %, tolerated 0.1 %");
-    assert_eq!(cells(lines[4]), row(["[b-1.0](#b-10)", "1", "q", &moved_by("4", "300"), "3000"]));
-    assert_eq!(cells(lines[5]), row(["[a](#a)", "3", "q1", &moved_by("1.5", "50"), "500"]));
+    let moved_by =
+        |to: &str, by: &str| format!("moved from 1 to {to}, by +{by} %, tolerated 0.1 %");
+    assert_eq!(
+        cells(lines[4]),
+        row(["[b-1.0](#b-10)", "1", "q", &moved_by("4", "300"), "3000"])
+    );
+    assert_eq!(
+        cells(lines[5]),
+        row(["[a](#a)", "3", "q1", &moved_by("1.5", "50"), "500"])
+    );
     // Empty lines separate the parts, which would otherwise form one paragraph.
-    assert_eq!(lines[6..10], ["", "If it is meant: `cargo xtask verify --bless`.", "", "<details>"]);
+    assert_eq!(
+        lines[6..10],
+        [
+            "",
+            "If it is meant: `cargo xtask verify --bless`.",
+            "",
+            "<details>"
+        ]
+    );
     assert_eq!(lines[10], "<summary>all 4 numbers</summary>");
-    assert!(readme.contains("</details>\n\n![All 2 judged rates"), "{readme}");
+    assert!(
+        readme.contains("</details>\n\n![All 2 judged rates"),
+        "{readme}"
+    );
     let short = page(&changes[2..]);
-    assert!(!short.contains("<details>") && short.contains("`.\n\n![All 2 judged rates"), "{short}");
+    assert!(
+        !short.contains("<details>") && short.contains("`.\n\n![All 2 judged rates"),
+        "{short}"
+    );
     // A comment has no sections to link to.
     let digest = compared(&studies, Some(&changes), |findings| findings.digest());
-    assert!(digest.contains("| b-1.0 |") && !digest.contains("]("), "{digest}");
+    assert!(
+        digest.contains("| b-1.0 |") && !digest.contains("]("),
+        "{digest}"
+    );
 }
 
 #[test]
 fn a_number_that_moved_by_little_is_shown_with_the_digits_that_moved() {
-    let movement = Movement::Moved { from: 0.008_482_598_7, to: 0.008_482_598_4, tolerance: 1e-8 };
+    let movement = Movement::Moved {
+        from: 0.008_482_598_7,
+        to: 0.008_482_598_4,
+        tolerance: 1e-8,
+    };
     let told = "moved from 0.0084825987 to 0.0084825984, by -3.5e-6 %, tolerated 1e-6 %";
     assert_eq!(movement.to_string(), told);
 }
@@ -203,14 +339,25 @@ fn where_a_study_fails_the_report_says_that_nothing_is_blessed() {
     let studies = finished(vec![study("a", Does::Stay)]);
     let page = with(&studies, |findings| findings.readme());
     let said = "\n\n`--bless` refuses until the studies that did not pass are mended.\n\n";
-    assert!(page.contains(said) && !page.contains("If it is meant"), "{page}");
+    assert!(
+        page.contains(said) && !page.contains("If it is meant"),
+        "{page}"
+    );
 }
 
 #[test]
 fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
-    let mut studies =
-        finished(vec![study("a-controls", Does::Converge), study("b", Does::TooShort), study("c-1.0", Does::Stay)]);
-    let order = |studies: &[Finished]| not_passed(studies).into_iter().map(|study| study.id).collect::<Vec<_>>();
+    let mut studies = finished(vec![
+        study("a-controls", Does::Converge),
+        study("b", Does::TooShort),
+        study("c-1.0", Does::Stay),
+    ]);
+    let order = |studies: &[Finished]| {
+        not_passed(studies)
+            .into_iter()
+            .map(|study| study.id)
+            .collect::<Vec<_>>()
+    };
     studies[0].outcome.verdict = Verdict::Fail;
     studies[0].outcome.checks[0].verdict = Verdict::Fail;
     for (evidence, expected) in [
@@ -233,11 +380,13 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
     finished.outcome.verdict = Verdict::Fail;
     finished.outcome.summary = levels::summary(&finished.outcome.rates);
     let studies = [finished];
-    let together =
-        "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
+    let together = "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
     let page = with(&studies, |findings| findings.readme());
     assert!(page.contains(&format!("**fail**: {together}\n")), "{page}");
-    assert!(page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low (too-low)\n"), "{page}");
+    assert!(
+        page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low (too-low)\n"),
+        "{page}"
+    );
 }
 
 #[test]
@@ -246,8 +395,13 @@ fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     let steps = (0..6).map(|level| 0.5_f64.powi(level + 3));
     finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
     finished.outcome.verdict = Verdict::Fail;
-    let NotPassed { reasons, advice, .. } = not_passed(&[finished]).remove(0);
-    assert_eq!(reasons[0], "L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite (non-finite)");
+    let NotPassed {
+        reasons, advice, ..
+    } = not_passed(&[finished]).remove(0);
+    assert_eq!(
+        reasons[0],
+        "L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite (non-finite)"
+    );
     assert!(
         reasons.len() == 1 && advice.len() == 1 && advice[0].starts_with("non-finite: "),
         "{reasons:?}, {advice:?}"
@@ -263,13 +417,24 @@ fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finish
         .enumerate()
         .map(|(level, h)| {
             let present = names.iter().enumerate().filter(|(k, _)| !lacks(*k, level));
-            let errors = present.map(|(_, (name, order))| ((*name).to_owned(), h.powf(*order))).collect();
+            let errors = present
+                .map(|(_, (name, order))| ((*name).to_owned(), h.powf(*order)))
+                .collect();
             let parameters = vec![("cells".to_owned(), 1.0 / h)];
-            LevelErrors { parameters, step: Some(h), work: None, errors, without: vec![] }
+            LevelErrors {
+                parameters,
+                step: Some(h),
+                work: None,
+                errors,
+                without: vec![],
+            }
         })
         .collect();
     let rate = |(k, (name, order)): (usize, &(&str, f64))| {
-        let pairs = steps().enumerate().filter(|(level, _)| !lacks(k, *level)).map(|(_, h)| (h, h.powf(*order)));
+        let pairs = steps()
+            .enumerate()
+            .filter(|(level, _)| !lacks(k, *level))
+            .map(|(_, h)| (h, h.powf(*order)));
         ((*name).to_owned(), judge_pairs(pairs, *order, 0.05))
     };
     outcome.rates = names.iter().enumerate().map(rate).collect();
@@ -277,7 +442,10 @@ fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finish
 }
 
 fn errors_of(finished: &Finished) -> Vec<Table> {
-    tables(finished, false).into_iter().filter(|table| table.title.starts_with("Errors")).collect()
+    tables(finished, false)
+        .into_iter()
+        .filter(|table| table.title.starts_with("Errors"))
+        .collect()
 }
 
 #[test]
@@ -286,7 +454,10 @@ fn the_rate_from_the_level_before_stands_beside_each_error() {
     assert_eq!(tables.len(), 1);
     assert_eq!(tables[0].head, ["cells", "L2", "rate", "H1", "rate"]);
     assert_eq!(tables[0].rows[0], ["8", "1.562e-2", "-", "1.250e-1", "-"]);
-    assert_eq!(tables[0].rows[5], ["256", "1.526e-5", "2.000", "3.906e-3", "1.000"]);
+    assert_eq!(
+        tables[0].rows[5],
+        ["256", "1.526e-5", "2.000", "3.906e-3", "1.000"]
+    );
     // An unjudged number has no rate.
     let mut unclaimed = judged(&[("L2", 2.0), ("H1", 1.0)], |_, _| false);
     unclaimed.outcome.rates.pop();
@@ -299,19 +470,44 @@ fn many_errors_are_several_tables_of_which_none_is_wide() {
     let names: Vec<(&str, f64)> = names.iter().map(|name| (name.as_str(), 2.0)).collect();
     let tables = errors_of(&judged(&names, |_, _| false));
     let width = |table: &Table| {
-        let widest = |k: usize| table.rows.iter().chain([&table.head]).map(|row| row[k].chars().count()).max().unwrap();
+        let widest = |k: usize| {
+            table
+                .rows
+                .iter()
+                .chain([&table.head])
+                .map(|row| row[k].chars().count())
+                .max()
+                .unwrap()
+        };
         (0..table.head.len()).map(|k| widest(k) + 3).sum::<usize>()
     };
-    assert!(tables.len() > 2 && tables.iter().all(|table| width(table) <= 120), "{tables:?}");
-    let shown: Vec<&String> =
-        tables.iter().flat_map(|table| &table.head).filter(|name| name.starts_with("norm")).collect();
-    assert_eq!(shown, names.iter().map(|(name, _)| name).collect::<Vec<_>>());
+    assert!(
+        tables.len() > 2 && tables.iter().all(|table| width(table) <= 120),
+        "{tables:?}"
+    );
+    let shown: Vec<&String> = tables
+        .iter()
+        .flat_map(|table| &table.head)
+        .filter(|name| name.starts_with("norm"))
+        .collect();
+    assert_eq!(
+        shown,
+        names.iter().map(|(name, _)| name).collect::<Vec<_>>()
+    );
 }
 
 #[test]
 fn errors_on_other_levels_are_a_table_without_gaps() {
-    let tables = errors_of(&judged(&[("coarse", 1.0), ("fine", 2.0)], |k, level| (k == 0) == (level >= 3)));
-    assert_eq!(tables.iter().map(|table| table.rows.len()).collect::<Vec<_>>(), [3, 3]);
+    let tables = errors_of(&judged(&[("coarse", 1.0), ("fine", 2.0)], |k, level| {
+        (k == 0) == (level >= 3)
+    }));
+    assert_eq!(
+        tables
+            .iter()
+            .map(|table| table.rows.len())
+            .collect::<Vec<_>>(),
+        [3, 3]
+    );
     assert_eq!(tables[1].rows[0], ["64", "2.441e-4", "-"]);
     assert_eq!(tables[1].rows[1][2], "2.000");
 }
@@ -320,8 +516,16 @@ fn errors_on_other_levels_are_a_table_without_gaps() {
 fn without_a_baseline_nothing_is_said_of_it() {
     let studies = finished(vec![study("a", Does::Converge)]);
     let speaks = |changes| {
-        let text = compared(&studies, changes, |findings| junit(PROJECT.name, findings.record).unwrap());
-        (text.contains("baseline"), sentence(&studies, changes).contains("baseline"))
+        let text = compared(&studies, changes, |findings| {
+            junit(PROJECT.name, findings.record).unwrap()
+        });
+        (
+            text.contains("baseline"),
+            sentence(&studies, changes).contains("baseline"),
+        )
     };
-    assert_eq!((speaks(Some(&[])), speaks(None)), ((true, true), (false, false)));
+    assert_eq!(
+        (speaks(Some(&[])), speaks(None)),
+        ((true, true), (false, false))
+    );
 }

@@ -28,7 +28,10 @@ pub(crate) enum Quantity {
 
 /// A target error from the command line.
 pub(super) fn target(text: &str) -> Result<f64, String> {
-    let target = text.parse().ok().filter(|target: &f64| *target > 0.0 && target.is_finite());
+    let target = text
+        .parse()
+        .ok()
+        .filter(|target: &f64| *target > 0.0 && target.is_finite());
     target.ok_or_else(|| "expected a finite number > 0".to_owned())
 }
 
@@ -43,9 +46,19 @@ pub(crate) struct Planned {
 }
 
 /// Searches with a limit of work and a bar that shows the part used; also ends at the time limit.
-fn search<T>(arguments: &Arguments, scene: &Scene, limit: f64, find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
+fn search<T>(
+    arguments: &Arguments,
+    scene: &Scene,
+    limit: f64,
+    find: impl FnOnce(&mut Work<'_>) -> T,
+) -> (T, Cost) {
     let unit = "thousandths of the work allowed";
-    let bar = running::counting(&format!("{}: its error", scene.name), TICKS as usize, unit, arguments.flags.quiet);
+    let bar = running::counting(
+        &format!("{}: its error", scene.name),
+        TICKS as usize,
+        unit,
+        arguments.flags.quiet,
+    );
     exit::say(|| "the error was not known yet".to_owned());
     let mut told = |part: f64| bar.set_position((TICKS * part) as u64);
     let mut work = Work::new(limit, &mut told);
@@ -56,15 +69,30 @@ fn search<T>(arguments: &Arguments, scene: &Scene, limit: f64, find: impl FnOnce
 }
 
 /// The run with the requested error.
-pub(super) fn plan(arguments: &Arguments, scene: &Scene, target: f64) -> Result<Planned, Unreachable> {
+pub(super) fn plan(
+    arguments: &Arguments,
+    scene: &Scene,
+    target: f64,
+) -> Result<Planned, Unreachable> {
     let quantity = match arguments.quantity {
         Quantity::Tip => choice::Quantity::Tip,
         Quantity::Theorem34 => choice::Quantity::Norm,
     };
-    let (choose, limit): (fn(&Scene, _, _, &mut Work<'_>) -> _, f64) =
-        if arguments.keep_scheme { (keep_scheme, MOST_WORK_KEPT) } else { (choose, MOST_WORK) };
-    let (choice, spent) = search(arguments, scene, limit, |work| choose(scene, quantity, target, work));
-    Ok(Planned { quantity, target, scheme: scene.method.name(), choice: choice?, spent })
+    let (choose, limit): (fn(&Scene, _, _, &mut Work<'_>) -> _, f64) = if arguments.keep_scheme {
+        (keep_scheme, MOST_WORK_KEPT)
+    } else {
+        (choose, MOST_WORK)
+    };
+    let (choice, spent) = search(arguments, scene, limit, |work| {
+        choose(scene, quantity, target, work)
+    });
+    Ok(Planned {
+        quantity,
+        target,
+        scheme: scene.method.name(),
+        choice: choice?,
+        spent,
+    })
 }
 
 /// The errors of a scene.
@@ -110,7 +138,13 @@ impl Planned {
     }
 
     pub(super) fn object(&self) -> Object<'_> {
-        let Choice { scene, parts: [space_error, time_error], run, needed, .. } = &self.choice;
+        let Choice {
+            scene,
+            parts: [space_error, time_error],
+            run,
+            needed,
+            ..
+        } = &self.choice;
         let is_dg = scene.method.dg().is_some();
         Object {
             quantity: self.quantity.name(),
@@ -136,7 +170,15 @@ impl Planned {
 
     /// Lines of the summary: name, value, meaning.
     pub(super) fn lines(&self) -> Vec<Line> {
-        let Choice { scene, parts: [space, time], parts_by, error, run, needed, is_kept } = &self.choice;
+        let Choice {
+            scene,
+            parts: [space, time],
+            parts_by,
+            error,
+            run,
+            needed,
+            is_kept,
+        } = &self.choice;
         let line = |name, value: String, meaning: &str| (name, value, meaning.to_owned());
         let why = if *is_kept {
             "the scene's own, as --keep-scheme asks for"
@@ -144,21 +186,46 @@ impl Planned {
             "the cheapest: the error of any other run is its difference to such a run"
         };
         let mut lines = vec![
-            line("target", format!("{:.3e}", self.target), self.quantity.meaning()),
+            line(
+                "target",
+                format!("{:.3e}", self.target),
+                self.quantity.meaning(),
+            ),
             line(
                 "made",
                 format!("{error:.3e}"),
                 "estimated: the sum of the differences below, or the difference to a run of any order",
             ),
-            line("space", format!("{space:.3e}"), &format!("{parts_by}, in space")),
-            line("time", format!("{time:.3e}"), &format!("{parts_by}, in time")),
+            line(
+                "space",
+                format!("{space:.3e}"),
+                &format!("{parts_by}, in space"),
+            ),
+            line(
+                "time",
+                format!("{time:.3e}"),
+                &format!("{parts_by}, in time"),
+            ),
             line("scheme", scene.method.name().to_owned(), why),
         ];
         if let Some(stepping) = scene.method.dg() {
-            let nodes: Vec<String> = scene.mesh.nodes().iter().map(|x| format!("{x:.4}")).collect();
-            lines.push(line("growth", format!("{:.4}", stepping.growth), "of the steps after a contact event"));
+            let nodes: Vec<String> = scene
+                .mesh
+                .nodes()
+                .iter()
+                .map(|x| format!("{x:.4}"))
+                .collect();
+            lines.push(line(
+                "growth",
+                format!("{:.4}", stepping.growth),
+                "of the steps after a contact event",
+            ));
             let between = format!("between x = {}", nodes.join(", "));
-            lines.push(line("elements", scene.mesh.elements().to_string(), &between));
+            lines.push(line(
+                "elements",
+                scene.mesh.elements().to_string(),
+                &between,
+            ));
         }
         if let Some(needed) = needed {
             let [elements, steps] = needed.at;
@@ -166,11 +233,22 @@ impl Planned {
                 "node-steps by {}: {elements:.0} elements, {steps:.1e} steps, about {:.1e} s",
                 self.scheme, needed.seconds
             );
-            lines.push(line("instead of", format!("{:.0e}", needed.node_steps()), &meaning));
+            lines.push(line(
+                "instead of",
+                format!("{:.0e}", needed.node_steps()),
+                &meaning,
+            ));
         }
         let ratio = self.spent.work / run.work;
-        let meaning = format!("in {} runs to find it, {ratio:.1} times the work of this one", self.spent.runs);
-        lines.push(line("search", format!("{:.3} s", self.spent.seconds), &meaning));
+        let meaning = format!(
+            "in {} runs to find it, {ratio:.1} times the work of this one",
+            self.spent.runs
+        );
+        lines.push(line(
+            "search",
+            format!("{:.3} s", self.spent.seconds),
+            &meaning,
+        ));
         lines
     }
 }

@@ -17,21 +17,40 @@ const CONTRACT: &str = "schema verdict scene elements steps dt t_end iterations 
     scheme solver heated contact_steps degree time_degree restart_dt growth work _passes _factorizations events __t __from __to";
 
 fn expected(contract: &str) -> Vec<String> {
-    contract.split_whitespace().map(|key| key.replace('_', "\0").trim_start_matches('\0').replace('\0', "_")).collect()
+    contract
+        .split_whitespace()
+        .map(|key| {
+            key.replace('_', "\0")
+                .trim_start_matches('\0')
+                .replace('\0', "_")
+        })
+        .collect()
 }
 
 fn bare(json: &str) -> Vec<String> {
-    keys(json).iter().map(|key| key.trim_start().to_owned()).collect()
+    keys(json)
+        .iter()
+        .map(|key| key.trim_start().to_owned())
+        .collect()
 }
 
 #[test]
 fn the_keys_and_their_order_are_the_contract() {
     let folder = Folder::new();
-    let (ended, json) = run_json(&folder.file("thrown.toml", &thrown("degree = 16", "degree = 4\ndt = 0.01")));
+    let (ended, json) = run_json(&folder.file(
+        "thrown.toml",
+        &thrown("degree = 16", "degree = 4\ndt = 0.01"),
+    ));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
     assert_eq!(bare(&ended.stdout), expected(CONTRACT));
-    assert_eq!((json["scheme"].as_str(), json["scene"].as_str()), (Some("dg"), Some("thrown")));
-    assert_eq!([&json["elements"], &json["degree"], &json["time_degree"]], [1, 16, 4]);
+    assert_eq!(
+        (json["scheme"].as_str(), json["scene"].as_str()),
+        (Some("dg"), Some("thrown"))
+    );
+    assert_eq!(
+        [&json["elements"], &json["degree"], &json["time_degree"]],
+        [1, 16, 4]
+    );
     // The first touch, from experiments-exact.
     let events = json["events"].as_array().expect("a list");
     assert_eq!(events.len(), 1, "{events:?}");
@@ -39,17 +58,38 @@ fn the_keys_and_their_order_are_the_contract() {
     assert!((t - 0.203_413_276_1).abs() < 1e-8, "{t}");
     assert_eq!([&events[0]["from"], &events[0]["to"]], ["free", "upper"]);
     assert_eq!(json["final"]["t"], 0.5);
-    assert!(json["energy"]["largest_increase"].as_f64().is_some_and(|increase| increase < 0.0));
-    assert!(json["energy"]["largest_balance_residual"].as_f64().is_some_and(|residual| residual < 1e-12));
-    assert!(json["steps"].as_u64().is_some_and(|steps| (50..200).contains(&steps)));
+    assert!(
+        json["energy"]["largest_increase"]
+            .as_f64()
+            .is_some_and(|increase| increase < 0.0)
+    );
+    assert!(
+        json["energy"]["largest_balance_residual"]
+            .as_f64()
+            .is_some_and(|residual| residual < 1e-12)
+    );
+    assert!(
+        json["steps"]
+            .as_u64()
+            .is_some_and(|steps| (50..200).contains(&steps))
+    );
 }
 
 #[test]
 fn the_summary_shows_degrees_work_and_events() {
     let folder = Folder::new();
-    let ended = ended(thermobeam().arg("run").arg(folder.file("thrown.toml", &thrown("degree = 8", ""))));
+    let ended = ended(
+        thermobeam()
+            .arg("run")
+            .arg(folder.file("thrown.toml", &thrown("degree = 8", ""))),
+    );
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
-    for piece in ["thrown: 1 element of degree 8, dG(2) in time", "free -> upper", "factorizations", "0.2034"] {
+    for piece in [
+        "thrown: 1 element of degree 8, dG(2) in time",
+        "free -> upper",
+        "factorizations",
+        "0.2034",
+    ] {
         assert!(ended.stdout.contains(piece), "{piece}: {}", ended.stdout);
     }
 }
@@ -57,7 +97,11 @@ fn the_summary_shows_degrees_work_and_events() {
 #[test]
 fn a_misspelt_scheme_is_named_before_the_keys_that_depend_on_it() {
     let text = thrown("degree = 8", "degree = 3\ndt = 0.01").replace("\"dg\"", "\"dgx\"");
-    let ended = ended(thermobeam().arg("run").arg(Folder::new().file("bad.toml", &text)));
+    let ended = ended(
+        thermobeam()
+            .arg("run")
+            .arg(Folder::new().file("bad.toml", &text)),
+    );
     assert_eq!(ended.status, Some(2));
     let message = "time.scheme: found the text \"dgx\" (did you mean \"dg\"?)";
     assert!(ended.stderr.contains(message), "{}", ended.stderr);
@@ -81,8 +125,16 @@ fn bad_input_is_refused_with_file_and_field() {
         let scene = folder.file("bad.toml", &thrown(mesh, time));
         let out = folder.path("out");
         let ended = ended(thermobeam().arg("run").arg(scene).arg("--out").arg(&out));
-        assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{message}");
-        assert!(ended.stderr.contains("bad.toml") && ended.stderr.contains(message), "{message}: {}", ended.stderr);
+        assert_eq!(
+            (ended.status, ended.stdout.as_str()),
+            (Some(2), ""),
+            "{message}"
+        );
+        assert!(
+            ended.stderr.contains("bad.toml") && ended.stderr.contains(message),
+            "{message}: {}",
+            ended.stderr
+        );
         assert!(!out.exists(), "{message}");
     }
 }
@@ -91,21 +143,43 @@ fn bad_input_is_refused_with_file_and_field() {
 fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
     let folder = Folder::new();
     let scene = folder.file("thrown.toml", &thrown("degree = 3", "degree = 0"));
-    let json = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-7", "--format", "json"]));
+    let json = ended(thermobeam().arg("run").arg(&scene).args([
+        "--target-error",
+        "1e-7",
+        "--format",
+        "json",
+    ]));
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     let accuracy = &value["accuracy"];
     let number = |key: &str| accuracy[key].as_f64().unwrap_or_else(|| panic!("no {key}"));
     assert_eq!(accuracy["quantity"], "tip");
     assert!(number("target_error") == 1e-7 && number("believed_error") <= 1e-7);
-    assert_eq!(number("believed_error"), number("space_error") + number("time_error"));
+    assert_eq!(
+        number("believed_error"),
+        number("space_error") + number("time_error")
+    );
     assert!(number("search_work") <= 9.0 * number("unknown_solves"));
-    assert_eq!(accuracy["nodes"].as_array().map(Vec::len), value["elements"].as_u64().map(|n| n as usize + 1));
+    assert_eq!(
+        accuracy["nodes"].as_array().map(Vec::len),
+        value["elements"].as_u64().map(|n| n as usize + 1)
+    );
     assert!(value["degree"].as_u64() > Some(3) && value["time_degree"].as_u64() > Some(0));
 
-    let text = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-4"]));
+    let text = ended(
+        thermobeam()
+            .arg("run")
+            .arg(&scene)
+            .args(["--target-error", "1e-4"]),
+    );
     assert_eq!(text.status, Some(0));
-    for piece in ["target", "estimated", "inside steps included", "half the steps", "runs to find it"] {
+    for piece in [
+        "target",
+        "estimated",
+        "inside steps included",
+        "half the steps",
+        "runs to find it",
+    ] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }
@@ -113,13 +187,25 @@ fn an_accuracy_asked_for_is_told_with_its_parts_and_its_cost() {
 #[test]
 fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
     let folder = Folder::new();
-    let scene = folder.file("thrown.toml", &thrown("", "").replace("t_end = 0.5", "t_end = 0.05"));
-    let far = ended(thermobeam().arg("run").arg(&scene).args(["--target-error", "1e-18"]));
+    let scene = folder.file(
+        "thrown.toml",
+        &thrown("", "").replace("t_end = 0.5", "t_end = 0.05"),
+    );
+    let far = ended(
+        thermobeam()
+            .arg("run")
+            .arg(&scene)
+            .args(["--target-error", "1e-18"]),
+    );
     assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
     assert!(far.stderr.contains("can be reached"), "{}", far.stderr);
     for arguments in [["--target-error", "0"], ["--target-error", "nan"]] {
         let ended = ended(thermobeam().arg("run").arg(&scene).args(arguments));
-        assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
+        assert_eq!(
+            (ended.status, ended.stdout.as_str()),
+            (Some(2), ""),
+            "{arguments:?}"
+        );
         assert!(ended.stderr.contains("expected"), "{}", ended.stderr);
     }
 }
@@ -128,7 +214,13 @@ fn an_accuracy_out_of_reach_fails_and_a_senseless_one_is_refused() {
 fn the_error_budget_has_space_and_time() {
     let folder = Folder::new();
     let scene = folder.file("thrown.toml", &thrown("degree = 20", "degree = 1"));
-    let json = ended(thermobeam().arg("run").arg(&scene).args(["--estimate-error", "--format", "json"]));
+    let json =
+        ended(
+            thermobeam()
+                .arg("run")
+                .arg(&scene)
+                .args(["--estimate-error", "--format", "json"]),
+        );
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     let budget = &value["error_budget"];
@@ -140,11 +232,18 @@ fn the_error_budget_has_space_and_time() {
         let [reference, total, space, time] = keys.map(|key| of[key].as_f64().expect(key));
         assert!(0.0 < reference && reference <= total, "{of}");
         // A single number may be accurate by chance.
-        assert!(of["kind"] != "curve" || time < 0.5 * total && space > 0.5 * total, "{of}");
+        assert!(
+            of["kind"] != "curve" || time < 0.5 * total && space > 0.5 * total,
+            "{of}"
+        );
     }
     assert_eq!(quantities[0]["value"], value["final"]["u_tip"]);
     let text = ended(thermobeam().arg("run").arg(&scene).arg("--estimate-error"));
-    for piece in ["Errors, by a run of any order", "u(1) over time", "Time first"] {
+    for piece in [
+        "Errors, by a run of any order",
+        "u(1) over time",
+        "Time first",
+    ] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }

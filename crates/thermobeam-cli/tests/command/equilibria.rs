@@ -9,33 +9,60 @@ fn scene(beta: f64) -> String {
 fn the_states_below_the_buckling_force_are_listed() {
     let folder = Folder::new();
     let path = folder.file("buckled.toml", &scene(-0.8));
-    let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"]));
+    let json = ended(
+        thermobeam()
+            .arg("equilibria")
+            .arg(&path)
+            .args(["--format", "json"]),
+    );
     assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
     let state = ["contact", "n_value", "u_tip", "phi_tip", "stable"];
     let found = keys(&json.stdout);
     assert_eq!(found[..3], ["schema", "verdict", "equilibria"]);
-    assert_eq!(found[3..8].iter().map(|key| key.trim_start()).collect::<Vec<_>>(), state);
+    assert_eq!(
+        found[3..8]
+            .iter()
+            .map(|key| key.trim_start())
+            .collect::<Vec<_>>(),
+        state
+    );
 
     let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
     assert_eq!(value["complete"], true);
     let states = value["equilibria"].as_array().expect("a list");
-    let expected = [("lower", -0.0100012352, true), ("free", 0.0, false), ("upper", 0.1000098954, true)];
+    let expected = [
+        ("lower", -0.0100012352, true),
+        ("free", 0.0, false),
+        ("upper", 0.1000098954, true),
+    ];
     assert_eq!(states.len(), expected.len());
     for (state, (contact, u_tip, stable)) in states.iter().zip(expected) {
-        assert_eq!([&state["contact"], &state["stable"]], [&contact.into(), &serde_json::Value::from(stable)]);
-        assert!(state["u_tip"].as_f64().is_some_and(|found| (found - u_tip).abs() < 1e-10), "{state}");
+        assert_eq!(
+            [&state["contact"], &state["stable"]],
+            [&contact.into(), &serde_json::Value::from(stable)]
+        );
+        assert!(
+            state["u_tip"]
+                .as_f64()
+                .is_some_and(|found| (found - u_tip).abs() < 1e-10),
+            "{state}"
+        );
     }
 
     let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
-    assert!(text.contains("3 steady states") && text.contains("unstable in 1 direction"), "{text}");
+    assert!(
+        text.contains("3 steady states") && text.contains("unstable in 1 direction"),
+        "{text}"
+    );
 }
 
 #[test]
 fn a_list_is_called_complete_where_it_is() {
     let folder = Folder::new();
     let time = "[initial]\ntheta = \"2*(1-x)\"\n[time]\ndt = 0.1\nt_end = 1\n";
-    let hot =
-        |beta: f64, obstacles: &str| format!("[beam]\nbeta = {beta:?}\na = 0.5\ntheta_a = 2.0\n{obstacles}{time}");
+    let hot = |beta: f64, obstacles: &str| {
+        format!("[beam]\nbeta = {beta:?}\na = 0.5\ntheta_a = 2.0\n{obstacles}{time}")
+    };
     let cold = |beta: f64| format!("[beam]\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
     for (name, scene, states, complete, said) in [
         // One state although beta = -1: no beam with a heated end has a slope so small.
@@ -44,14 +71,32 @@ fn a_list_is_called_complete_where_it_is() {
         ("held", hot(-4.0, "[obstacles]\n"), None, true, ""),
         // Of 37 states 33 are listed.
         ("few", cold(-0.9997), Some(33), false, "Perhaps not all"),
-        ("many", hot(-4.0, ""), None, false, "Not all: infinitely many"),
-        ("straight", cold(-1.0), Some(33), false, "Not all: infinitely many"),
+        (
+            "many",
+            hot(-4.0, ""),
+            None,
+            false,
+            "Not all: infinitely many",
+        ),
+        (
+            "straight",
+            cold(-1.0),
+            Some(33),
+            false,
+            "Not all: infinitely many",
+        ),
     ] {
         let path = folder.file(&format!("{name}.toml"), &scene);
         let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
         assert_eq!(text.contains("ot all"), !complete, "{name}: {text}");
         assert!(text.contains(said), "{name}: {text}");
-        let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"])).stdout;
+        let json = ended(
+            thermobeam()
+                .arg("equilibria")
+                .arg(&path)
+                .args(["--format", "json"]),
+        )
+        .stdout;
         let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
         assert_eq!(value["complete"], complete, "{name}");
         let count = value["equilibria"].as_array().expect("a list").len();
@@ -65,7 +110,13 @@ fn a_list_that_is_not_complete_says_so() {
     let path = folder.file("crushed.toml", &scene(-1.5));
     let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
     assert!(text.contains("Not all"), "{text}");
-    let json = ended(thermobeam().arg("equilibria").arg(&path).args(["--format", "json"])).stdout;
+    let json = ended(
+        thermobeam()
+            .arg("equilibria")
+            .arg(&path)
+            .args(["--format", "json"]),
+    )
+    .stdout;
     let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(value["complete"], false);
 }
@@ -76,7 +127,15 @@ fn a_question_without_an_answer_fails() {
     // The linear beam without contact at its second buckling force: a continuum of states.
     let beta = -(1.5 * std::f64::consts::PI).powi(2) / (1.0 + (1.5 * std::f64::consts::PI).powi(2));
     let text = format!("[beam]\nrho = 0\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
-    let ended = ended(thermobeam().arg("equilibria").arg(folder.file("linear.toml", &text)));
+    let ended = ended(
+        thermobeam()
+            .arg("equilibria")
+            .arg(folder.file("linear.toml", &text)),
+    );
     assert_eq!((ended.status, ended.stdout.as_str()), (Some(1), ""));
-    assert!(ended.stderr.contains("linear.toml") && ended.stderr.contains("buckling value"), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("linear.toml") && ended.stderr.contains("buckling value"),
+        "{}",
+        ended.stderr
+    );
 }

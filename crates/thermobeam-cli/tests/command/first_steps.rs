@@ -7,14 +7,33 @@ use super::{Folder, ended, thermobeam};
 #[test]
 fn a_new_study_passes_as_it_is() {
     let folder = Folder::new();
-    let ended = ended(thermobeam().args(["new", "study", "my-own.1", "--out"]).arg(folder.path("")));
+    let ended = ended(
+        thermobeam()
+            .args(["new", "study", "my-own.1", "--out"])
+            .arg(folder.path("")),
+    );
     assert_eq!(ended.status, Some(0), "{}", ended.stderr);
-    assert!(ended.stdout.contains("thermobeam study"), "{}", ended.stdout);
+    assert!(
+        ended.stdout.contains("thermobeam study"),
+        "{}",
+        ended.stdout
+    );
     let study = super::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
-    assert!(study.stdout.starts_with("my-own.1: pass"), "{}", study.stdout);
-    let untested = study.stdout.split_once("\nno test of").map(|(_, untested)| untested);
-    assert!(untested.is_some_and(|untested| untested.contains("theta_a  ")), "{}", study.stdout);
+    assert!(
+        study.stdout.starts_with("my-own.1: pass"),
+        "{}",
+        study.stdout
+    );
+    let untested = study
+        .stdout
+        .split_once("\nno test of")
+        .map(|(_, untested)| untested);
+    assert!(
+        untested.is_some_and(|untested| untested.contains("theta_a  ")),
+        "{}",
+        study.stdout
+    );
     // Each table once.
     for title in ["\nRates\n", "\nErrors\n"] {
         assert_eq!(study.stdout.matches(title).count(), 1, "{}", study.stdout);
@@ -23,12 +42,26 @@ fn a_new_study_passes_as_it_is() {
 
 #[test]
 fn a_new_scene_of_either_sort_runs_as_it_is() {
-    for (what, elements) in [("scene", "mine: 100 elements"), ("any-order-scene", "mine: 1 element")] {
+    for (what, elements) in [
+        ("scene", "mine: 100 elements"),
+        ("any-order-scene", "mine: 1 element"),
+    ] {
         let folder = Folder::new();
-        let new = output(thermobeam().args(["new", what, "mine", "--quiet"]).current_dir(folder.path("")));
-        assert!(new.status.success() && new.stdout == b"pass: wrote mine.toml\n", "{what}");
+        let new = output(
+            thermobeam()
+                .args(["new", what, "mine", "--quiet"])
+                .current_dir(folder.path("")),
+        );
+        assert!(
+            new.status.success() && new.stdout == b"pass: wrote mine.toml\n",
+            "{what}"
+        );
         let ended = ended(thermobeam().arg("run").arg(folder.path("mine.toml")));
-        assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""), "{what}");
+        assert_eq!(
+            (ended.status, ended.stderr.as_str()),
+            (Some(0), ""),
+            "{what}"
+        );
         assert!(ended.stdout.starts_with(elements), "{}", ended.stdout);
     }
 }
@@ -37,21 +70,37 @@ fn a_new_scene_of_either_sort_runs_as_it_is() {
 fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
     let folder = Folder::new();
     let path = folder.file("taken.toml", "mine");
-    let again = ended(thermobeam().args(["new", "scene", "taken", "--out"]).arg(folder.path("")));
+    let again = ended(
+        thermobeam()
+            .args(["new", "scene", "taken", "--out"])
+            .arg(folder.path("")),
+    );
     assert!(
-        again.status == Some(2) && again.stderr.contains("taken.toml: expected a new file, found one of that name"),
+        again.status == Some(2)
+            && again
+                .stderr
+                .contains("taken.toml: expected a new file, found one of that name"),
         "{}",
         again.stderr
     );
     assert_eq!(std::fs::read_to_string(path).expect("the file"), "mine");
     for name in ["", "../x", "A", "a b", ".hidden", "-x"] {
         assert_eq!(
-            ended(thermobeam().args(["new", "study", "--", name]).current_dir(folder.path(""))).status,
+            ended(
+                thermobeam()
+                    .args(["new", "study", "--", name])
+                    .current_dir(folder.path(""))
+            )
+            .status,
             Some(2),
             "{name}"
         );
     }
-    let in_a_file = ended(thermobeam().args(["new", "study", "x", "--out"]).arg(folder.path("taken.toml")));
+    let in_a_file = ended(
+        thermobeam()
+            .args(["new", "study", "x", "--out"])
+            .arg(folder.path("taken.toml")),
+    );
     assert_eq!(in_a_file.status, Some(2), "{}", in_a_file.stderr);
 }
 
@@ -61,16 +110,29 @@ fn studies_norms_reasons_and_files_are_explained() {
     let explain = |name: &str| ended(thermobeam().args(["explain", name, "--dir"]).arg(&studies));
     let study = explain("theorem-3.4-space");
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
-    for piece in ["what is claimed", "superclose, order 2", "time error is exactly zero", "what a failure would mean"] {
+    for piece in [
+        "what is claimed",
+        "superclose, order 2",
+        "time error is exactly zero",
+        "what a failure would mean",
+    ] {
         assert!(study.stdout.contains(piece), "{piece}: {}", study.stdout);
     }
     let file = studies.join("energy-decay.toml");
-    assert!(explain(&file.display().to_string()).stdout.contains("Proposition 3.1"));
+    assert!(
+        explain(&file.display().to_string())
+            .stdout
+            .contains("Proposition 3.1")
+    );
     assert!(explain("superclose").stdout.contains("(3.16)"));
     assert!(explain("too-low").stdout.contains("a reason for fail"));
     let unknown = explain("theorem-3.4-spce");
     assert_eq!((unknown.status, unknown.stdout.as_str()), (Some(2), ""));
-    assert!(unknown.stderr.contains("did you mean theorem-3.4-space?"), "{}", unknown.stderr);
+    assert!(
+        unknown.stderr.contains("did you mean theorem-3.4-space?"),
+        "{}",
+        unknown.stderr
+    );
     assert_eq!(explain("missing.toml").status, Some(2));
     let contents = ended(thermobeam().arg("explain"));
     assert!(
@@ -79,7 +141,11 @@ fn studies_norms_reasons_and_files_are_explained() {
         contents.stdout
     );
     // From any folder in the workspace, not only from its root.
-    let below = ended(thermobeam().args(["explain", "energy-decay"]).current_dir(studies.join("scenes")));
+    let below = ended(
+        thermobeam()
+            .args(["explain", "energy-decay"])
+            .current_dir(studies.join("scenes")),
+    );
     assert_eq!(below.status, Some(0), "{}", below.stderr);
 }
 
@@ -88,13 +154,22 @@ fn every_shell_gets_completions_that_know_the_commands() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let ended = ended(thermobeam().args(["completions", shell]));
         assert_eq!(ended.status, Some(0));
-        assert!(["sweep", "merge", "rates", "explain"].iter().all(|name| ended.stdout.contains(name)), "{shell}");
+        assert!(
+            ["sweep", "merge", "rates", "explain"]
+                .iter()
+                .all(|name| ended.stdout.contains(name)),
+            "{shell}"
+        );
     }
 }
 
 #[test]
 fn nothing_is_coloured_where_nobody_looks() {
-    for program in [&mut thermobeam(), thermobeam().env("NO_COLOR", "1"), thermobeam().env("TERM", "dumb")] {
+    for program in [
+        &mut thermobeam(),
+        thermobeam().env("NO_COLOR", "1"),
+        thermobeam().env("TERM", "dumb"),
+    ] {
         let ended = ended(program.args(["explain", "magic"]));
         let help = super::ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
         for text in [ended.stdout, ended.stderr, help.stdout] {

@@ -29,17 +29,28 @@ fn undisturbed(folder: &Folder, name: &str, studies: &[(&str, String)]) -> (Set,
 
 /// Was a run killed while moving the new set to its place, which the next run completes?
 fn is_pending(root: &Path) -> bool {
-    root.join("reports/local/workshop/quick/pending/manifest.txt").is_file()
+    root.join("reports/local/workshop/quick/pending/manifest.txt")
+        .is_file()
 }
 
 #[test]
 fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
-    let kills = std::env::var("THERMOBEAM_KILLS").map_or(KILLS, |kills| kills.parse().expect("a number"));
+    let kills =
+        std::env::var("THERMOBEAM_KILLS").map_or(KILLS, |kills| kills.parse().expect("a number"));
     let folder = Folder::new();
-    let both = [studies(["a-1", "a-2", "a-3"]), studies(["b-1", "b-2", "b-3"])];
-    let (sets, times): (Vec<Set>, Vec<Duration>) =
-        ["a", "b"].iter().zip(&both).map(|(name, studies)| undisturbed(&folder, name, studies)).unzip();
-    assert_ne!(sets[0].keys().collect::<Vec<_>>(), sets[1].keys().collect::<Vec<_>>());
+    let both = [
+        studies(["a-1", "a-2", "a-3"]),
+        studies(["b-1", "b-2", "b-3"]),
+    ];
+    let (sets, times): (Vec<Set>, Vec<Duration>) = ["a", "b"]
+        .iter()
+        .zip(&both)
+        .map(|(name, studies)| undisturbed(&folder, name, studies))
+        .unzip();
+    assert_ne!(
+        sets[0].keys().collect::<Vec<_>>(),
+        sets[1].keys().collect::<Vec<_>>()
+    );
     let root = workspace(&folder, "killed", &both[0]);
     let reports = root.join("reports");
     let mut before: Option<Set> = None;
@@ -53,7 +64,11 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         std::thread::sleep(times[turn] * (1 + kill * 37 % 101) / 80);
         child.kill().expect("it can be killed");
         finished(child);
-        let is_old = |found: &Set| before.as_ref().map_or(found.is_empty(), |before| found == before);
+        let is_old = |found: &Set| {
+            before
+                .as_ref()
+                .map_or(found.is_empty(), |before| found == before)
+        };
         if is_pending(&root) {
             completed += 1;
             let found = set(&reports);
@@ -65,7 +80,11 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         }
         let found = set(&reports);
         let is_new = found == sets[turn];
-        assert!(is_old(&found) || is_new, "kill {kill}: {:?}", found.keys().collect::<Vec<_>>());
+        assert!(
+            is_old(&found) || is_new,
+            "kill {kill}: {:?}",
+            found.keys().collect::<Vec<_>>()
+        );
         (old, new) = (old + u32::from(!is_new), new + u32::from(is_new));
         before = Some(found).filter(|found| !found.is_empty()).or(before);
     }
@@ -76,8 +95,10 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
     with_studies(&root, &both[0]);
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
     assert_eq!(set(&reports), sets[0]);
-    let left: Vec<String> =
-        all(&root).into_keys().filter(|name| name.contains("workshop/") || name.contains("/.")).collect();
+    let left: Vec<String> = all(&root)
+        .into_keys()
+        .filter(|name| name.contains("workshop/") || name.contains("/."))
+        .collect();
     assert!(left.is_empty(), "{left:?}");
 }
 
@@ -100,15 +121,21 @@ fn what_a_killed_run_has_left_is_cleared_away_even_by_a_run_of_another_scope() {
     }
     assert_eq!(ended(&mut verify(&root, &["a-1"])).status, Some(1));
     assert_eq!(set(&root.join("reports")), before);
-    let half: Vec<String> =
-        all(&root).into_iter().filter(|(_, bytes)| bytes == b"half").map(|(name, _)| name).collect();
+    let half: Vec<String> = all(&root)
+        .into_iter()
+        .filter(|(_, bytes)| bytes == b"half")
+        .map(|(name, _)| name)
+        .collect();
     assert!(half.is_empty(), "{half:?}");
 }
 
 #[test]
 fn several_at_once_leave_one_whole_set() {
     let folder = Folder::new();
-    let both = [studies(["a-1", "a-2", "a-3"]), studies(["b-1", "b-2", "b-3"])];
+    let both = [
+        studies(["a-1", "a-2", "a-3"]),
+        studies(["b-1", "b-2", "b-3"]),
+    ];
     let sets = ["a", "b"].map(|name| undisturbed(&folder, name, &both[usize::from(name == "b")]).0);
     let root = workspace(&folder, "shared", &both[0]);
     let mut children = vec![];
@@ -118,7 +145,12 @@ fn several_at_once_leave_one_whole_set() {
     }
     for child in children {
         let output = finished(child);
-        assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(
+            output.status.code(),
+            Some(1),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
     assert_eq!(set(&root.join("reports")), sets[0]);
     with_studies(&root, &both[1]);

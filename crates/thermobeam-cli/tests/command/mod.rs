@@ -28,7 +28,8 @@ impl Folder {
     fn new() -> Self {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("thermobeam-command-{}-{count}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("thermobeam-command-{}-{count}", std::process::id()));
         std::fs::create_dir_all(&path).expect("a folder");
         Self(path)
     }
@@ -58,8 +59,14 @@ fn thermobeam() -> Command {
 
 /// `run SCENE --format json`, parsed.
 fn run_json(scene: &Path) -> (Ended, serde_json::Value) {
-    let ended = ended(thermobeam().arg("run").arg(scene).args(["--format", "json"]));
-    let value = serde_json::from_str(&ended.stdout).unwrap_or_else(|e| panic!("{e}: {}{}", ended.stdout, ended.stderr));
+    let ended = ended(
+        thermobeam()
+            .arg("run")
+            .arg(scene)
+            .args(["--format", "json"]),
+    );
+    let value = serde_json::from_str(&ended.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}{}", ended.stdout, ended.stderr));
     (ended, value)
 }
 
@@ -75,7 +82,10 @@ fn thrown(time: &str) -> String {
 fn keys(json: &str) -> Vec<String> {
     let key = |line: &str| {
         let (name, _) = line.trim_start().strip_prefix('"')?.split_once("\":")?;
-        Some(format!("{}{name}", " ".repeat((line.len() - line.trim_start().len()) / 2 - 1)))
+        Some(format!(
+            "{}{name}",
+            " ".repeat((line.len() - line.trim_start().len()) / 2 - 1)
+        ))
     };
     json.lines().filter_map(key).collect()
 }

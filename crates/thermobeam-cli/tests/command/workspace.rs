@@ -47,7 +47,9 @@ pub(crate) fn workspace(folder: &Folder, name: &str, studies: &[(&str, String)])
 pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
     let mut command = thermobeam();
     command.arg("verify").args(arguments).current_dir(root);
-    command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
+    command
+        .env_remove("GITHUB_ACTIONS")
+        .env_remove("GITHUB_STEP_SUMMARY");
     command
 }
 
@@ -56,9 +58,14 @@ pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = all(reports);
     // A run killed while testing the folder leaves an empty file outside the set, which the next run removes.
     files.retain(|name, _| !name.starts_with("local/") && !name.starts_with(".probe."));
-    for (_, page) in files.iter_mut().filter(|(name, _)| name.ends_with("index.html")) {
+    for (_, page) in files
+        .iter_mut()
+        .filter(|(name, _)| name.ends_with("index.html"))
+    {
         let text = String::from_utf8_lossy(page);
-        let lines = text.lines().filter(|line| !line.starts_with("<p class=\"provenance\">"));
+        let lines = text
+            .lines()
+            .filter(|line| !line.starts_with("<p class=\"provenance\">"));
         *page = lines.collect::<Vec<_>>().join("\n").into_bytes();
     }
     files
@@ -74,7 +81,11 @@ pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
             if path.is_dir() {
                 folders.push(path);
             } else {
-                let name = path.strip_prefix(folder).expect("below").display().to_string();
+                let name = path
+                    .strip_prefix(folder)
+                    .expect("below")
+                    .display()
+                    .to_string();
                 files.insert(name, fs::read(&path).expect("a file"));
             }
         }

@@ -84,15 +84,31 @@ impl ExpressionError {
         let cut = left.len().saturating_sub(BEFORE);
         let shown: String = left[cut..].iter().collect();
         let rest: String = right.chars().take(AFTER).map(printable).collect();
-        let (start, end) =
-            (if cut > 0 { "..." } else { "" }, if right.chars().nth(AFTER).is_some() { "..." } else { "" });
-        format!("    {start}{shown}{rest}{end}\n    {:1$}^", "", start.len() + left.len() - cut)
+        let (start, end) = (
+            if cut > 0 { "..." } else { "" },
+            if right.chars().nth(AFTER).is_some() {
+                "..."
+            } else {
+                ""
+            },
+        );
+        format!(
+            "    {start}{shown}{rest}{end}\n    {:1$}^",
+            "",
+            start.len() + left.len() - cut
+        )
     }
 }
 
 impl fmt::Display for ExpressionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} (byte {})\n{}", self.problem, self.offset, self.excerpt())
+        write!(
+            f,
+            "{} (byte {})\n{}",
+            self.problem,
+            self.offset,
+            self.excerpt()
+        )
     }
 }
 

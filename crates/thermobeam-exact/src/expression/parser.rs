@@ -17,7 +17,12 @@ const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f6
 
 /// Parses all of `source`.
 pub(super) fn parse(source: &str, variable: Variable) -> Result<Node, ExpressionError> {
-    let mut parser = Parser { source, variable, token: next_token(source, 0), depth: 0 };
+    let mut parser = Parser {
+        source,
+        variable,
+        token: next_token(source, 0),
+        depth: 0,
+    };
     let tree = parser.expression(0)?;
     match parser.token.kind {
         TokenKind::End => Ok(tree.node),
@@ -56,7 +61,11 @@ impl Parser<'_> {
             }
             let at = self.advance().start;
             let right = self.expression(binds_right)?;
-            left = self.grow(at, left.depth.max(right.depth), Node::binary(operator, left.node, right.node))?;
+            left = self.grow(
+                at,
+                left.depth.max(right.depth),
+                Node::binary(operator, left.node, right.node),
+            )?;
         }
         self.depth -= 1;
         Ok(left)
@@ -89,15 +98,26 @@ impl Parser<'_> {
                 self.advance();
                 self.expression(SIGN)
             }
-            _ => Err(self.unexpected(&format!("a number, {}, pi, e, a function or `(`", self.variable.name()))),
+            _ => Err(self.unexpected(&format!(
+                "a number, {}, pi, e, a function or `(`",
+                self.variable.name()
+            ))),
         }
     }
 
     fn number(&self, token: Token, value: f64) -> Result<Tree, ExpressionError> {
         if value.is_finite() {
-            return Ok(Tree { node: Node::Constant(value), depth: 1 });
+            return Ok(Tree {
+                node: Node::Constant(value),
+                depth: 1,
+            });
         }
-        Err(self.error(token.start, ExpressionProblem::NumberTooLarge { found: shorten(self.text(token)) }))
+        Err(self.error(
+            token.start,
+            ExpressionProblem::NumberTooLarge {
+                found: shorten(self.text(token)),
+            },
+        ))
     }
 
     /// Parses the variable, a constant or a call, whose name is `token`.
@@ -116,7 +136,12 @@ impl Parser<'_> {
         Ok(Tree { node, depth: 1 })
     }
 
-    fn call(&mut self, token: Token, name: &'static str, function: Function) -> Result<Tree, ExpressionError> {
+    fn call(
+        &mut self,
+        token: Token,
+        name: &'static str,
+        function: Function,
+    ) -> Result<Tree, ExpressionError> {
         if self.token.kind != TokenKind::Symbol('(') {
             return Err(self.unexpected(&format!("`(` after the function `{name}`")));
         }
@@ -128,13 +153,23 @@ impl Parser<'_> {
         }
         self.close(opened)?;
         let (found, expected) = (arguments.len(), function.arguments());
-        let depth = arguments.iter().map(|argument| argument.depth).max().unwrap_or(0);
+        let depth = arguments
+            .iter()
+            .map(|argument| argument.depth)
+            .max()
+            .unwrap_or(0);
         let mut nodes = arguments.into_iter().map(|argument| argument.node);
         let node = match (nodes.next(), nodes.next()) {
             (Some(only), None) if expected == 1 => Node::call1(function, only),
-            (Some(first), Some(second)) if expected == 2 && found == 2 => Node::call2(function, [first, second]),
+            (Some(first), Some(second)) if expected == 2 && found == 2 => {
+                Node::call2(function, [first, second])
+            }
             _ => {
-                let problem = ExpressionProblem::Arguments { function: name, found, expected };
+                let problem = ExpressionProblem::Arguments {
+                    function: name,
+                    found,
+                    expected,
+                };
                 return Err(self.error(token.start, problem));
             }
         };
@@ -148,17 +183,26 @@ impl Parser<'_> {
                 self.advance();
                 Ok(())
             }
-            TokenKind::Symbol(',') => Err(self.unexpected("an operator or `)`: no function is being called")),
+            TokenKind::Symbol(',') => {
+                Err(self.unexpected("an operator or `)`: no function is being called"))
+            }
             _ => {
                 let found = self.found();
-                Err(self.error(self.token.start, ExpressionProblem::Unclosed { found, opened }))
+                Err(self.error(
+                    self.token.start,
+                    ExpressionProblem::Unclosed { found, opened },
+                ))
             }
         }
     }
 
     /// The tree of `node`, whose subtrees have at most the depth `below`; `at` is its byte offset.
     fn grow(&self, at: usize, below: usize, node: Node) -> Result<Tree, ExpressionError> {
-        let depth = if matches!(node, Node::Constant(_)) { 1 } else { below + 1 };
+        let depth = if matches!(node, Node::Constant(_)) {
+            1
+        } else {
+            below + 1
+        };
         self.limit(depth, at)?;
         Ok(Tree { node, depth })
     }
@@ -194,30 +238,52 @@ impl Parser<'_> {
             "−" | "–" => "; a minus is written -",
             "π" => "; write pi",
             "×" | "·" | "⋅" => "; a product is written *",
-            _ if expected == AFTER_OPERAND && starts_operand(self.token.kind) => "; a product needs its *",
+            _ if expected == AFTER_OPERAND && starts_operand(self.token.kind) => {
+                "; a product needs its *"
+            }
             _ => "",
         };
-        let problem = ExpressionProblem::Unexpected { found: self.found(), expected: expected.to_owned(), hint };
+        let problem = ExpressionProblem::Unexpected {
+            found: self.found(),
+            expected: expected.to_owned(),
+            hint,
+        };
         self.error(self.token.start, problem)
     }
 
     fn unknown(&self, name: &str) -> ExpressionProblem {
         let constants = CONSTANTS.iter().map(|(name, _)| *name);
-        let known: Vec<&str> =
-            std::iter::once(self.variable.name()).chain(constants).chain(FUNCTIONS.iter().map(|f| f.0)).collect();
+        let known: Vec<&str> = std::iter::once(self.variable.name())
+            .chain(constants)
+            .chain(FUNCTIONS.iter().map(|f| f.0))
+            .collect();
         // A single letter is a wrong variable: no suggestion.
-        let suggestion = if name.len() == 1 { None } else { nearest(name, known.iter().copied()).map(str::to_owned) };
-        ExpressionProblem::UnknownName { name: shorten(name), suggestion, known: known.join(" ") }
+        let suggestion = if name.len() == 1 {
+            None
+        } else {
+            nearest(name, known.iter().copied()).map(str::to_owned)
+        };
+        ExpressionProblem::UnknownName {
+            name: shorten(name),
+            suggestion,
+            known: known.join(" "),
+        }
     }
 
     fn error(&self, offset: usize, problem: ExpressionProblem) -> ExpressionError {
-        ExpressionError { source_text: self.source.to_owned(), offset, problem }
+        ExpressionError {
+            source_text: self.source.to_owned(),
+            offset,
+            problem,
+        }
     }
 }
 
 /// An operator, its precedence, and the lowest precedence in its right operand.
 fn infix(kind: TokenKind) -> Option<(Operator, u8, u8)> {
-    let TokenKind::Symbol(symbol) = kind else { return None };
+    let TokenKind::Symbol(symbol) = kind else {
+        return None;
+    };
     match symbol {
         '+' => Some((Operator::Add, 1, 2)),
         '-' => Some((Operator::Subtract, 1, 2)),
@@ -230,7 +296,10 @@ fn infix(kind: TokenKind) -> Option<(Operator, u8, u8)> {
 }
 
 fn starts_operand(kind: TokenKind) -> bool {
-    matches!(kind, TokenKind::Number(_) | TokenKind::Name | TokenKind::Symbol('('))
+    matches!(
+        kind,
+        TokenKind::Number(_) | TokenKind::Name | TokenKind::Symbol('(')
+    )
 }
 
 /// At most 24 characters of a token.

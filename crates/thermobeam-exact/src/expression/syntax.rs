@@ -27,7 +27,11 @@ impl Number for Dual2_64 {
     }
 
     fn chain(self, value: f64, first: f64, second: f64) -> Self {
-        Self::new(value, self.v1 * first, self.v2 * first + self.v1 * self.v1 * second)
+        Self::new(
+            value,
+            self.v1 * first,
+            self.v2 * first + self.v1 * self.v1 * second,
+        )
     }
 }
 
@@ -112,7 +116,9 @@ impl Node {
 
     pub(super) fn binary(operator: Operator, left: Node, right: Node) -> Self {
         match (operator, &right) {
-            (Operator::Power, &Node::Constant(exponent)) => Node::ConstantPower(Box::new(left), exponent),
+            (Operator::Power, &Node::Constant(exponent)) => {
+                Node::ConstantPower(Box::new(left), exponent)
+            }
             _ => Node::Binary(operator, Box::new([left, right])),
         }
         .folded()
@@ -133,10 +139,16 @@ impl Node {
         let constant = |node: &Node| matches!(node, Node::Constant(_));
         let fold = match &self {
             Node::Constant(_) | Node::Variable => false,
-            Node::Negate(operand) | Node::ConstantPower(operand, _) | Node::Call1(_, operand) => constant(operand),
+            Node::Negate(operand) | Node::ConstantPower(operand, _) | Node::Call1(_, operand) => {
+                constant(operand)
+            }
             Node::Binary(_, operands) | Node::Call2(_, operands) => operands.iter().all(constant),
         };
-        if fold { Node::Constant(self.eval(0.0)) } else { self }
+        if fold {
+            Node::Constant(self.eval(0.0))
+        } else {
+            self
+        }
     }
 
     /// The value at `x`, with derivatives if `D` has them.
@@ -162,17 +174,23 @@ impl Node {
     pub(super) fn push_branches(&self, x: f64, branches: &mut Vec<f64>) {
         match self {
             Node::Constant(_) | Node::Variable => (),
-            Node::Negate(operand) | Node::ConstantPower(operand, _) => operand.push_branches(x, branches),
+            Node::Negate(operand) | Node::ConstantPower(operand, _) => {
+                operand.push_branches(x, branches)
+            }
             Node::Call1(function, argument) => {
                 if *function == Function::Abs {
                     branches.push(argument.eval(x));
                 }
                 argument.push_branches(x, branches);
             }
-            Node::Binary(_, operands) => operands.iter().for_each(|operand| operand.push_branches(x, branches)),
+            Node::Binary(_, operands) => operands
+                .iter()
+                .for_each(|operand| operand.push_branches(x, branches)),
             Node::Call2(_, arguments) => {
                 branches.push(arguments[0].eval(x) - arguments[1].eval(x));
-                arguments.iter().for_each(|argument| argument.push_branches(x, branches));
+                arguments
+                    .iter()
+                    .for_each(|argument| argument.push_branches(x, branches));
             }
         }
     }
@@ -194,7 +212,13 @@ fn operate<D: Number>(operator: Operator, left: D, right: D) -> D {
 /// zero factor is zero, although the power in it is infinite at x = 0 for n = 0 or 1.
 fn constant_power<D: Number>(base: D, n: f64) -> D {
     let x = base.value();
-    let term = |factor: f64, exponent: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(exponent) };
+    let term = |factor: f64, exponent: f64| {
+        if factor == 0.0 {
+            0.0
+        } else {
+            factor * x.powf(exponent)
+        }
+    };
     base.chain(x.powf(n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
 }
 
@@ -241,6 +265,11 @@ fn call<D: Number>(function: Function, argument: D) -> D {
 /// The smaller or the larger of two numbers; NaN if either is NaN, which `f64::min` and `f64::max` would drop.
 fn choose<D: Number>(function: Function, left: D, right: D) -> D {
     let (a, b) = (left.value(), right.value());
-    let take_left = a.is_nan() || if function == Function::Min { a <= b } else { a >= b };
+    let take_left = a.is_nan()
+        || if function == Function::Min {
+            a <= b
+        } else {
+            a >= b
+        };
     if take_left { left } else { right }
 }

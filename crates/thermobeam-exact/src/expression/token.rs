@@ -30,17 +30,24 @@ pub(super) fn next_token(source: &str, from: usize) -> Token {
     let (kind, length) = match rest.chars().next() {
         None => (TokenKind::End, 0),
         Some(c) if c.is_ascii_digit() || c == '.' => number(rest),
-        Some(c) if c.is_alphabetic() && c.is_ascii() || c == '_' => (TokenKind::Name, name_length(rest)),
+        Some(c) if c.is_alphabetic() && c.is_ascii() || c == '_' => {
+            (TokenKind::Name, name_length(rest))
+        }
         // The power of other languages, not two products.
         Some('*') if rest.starts_with("**") => (TokenKind::Unknown, 2),
         Some(c @ ('+' | '-' | '*' | '/' | '^' | '(' | ')' | ',')) => (TokenKind::Symbol(c), 1),
         Some(c) => (TokenKind::Unknown, c.len_utf8()),
     };
-    Token { kind, start, end: start + length }
+    Token {
+        kind,
+        start,
+        end: start + length,
+    }
 }
 
 fn name_length(rest: &str) -> usize {
-    rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len())
+    rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .unwrap_or(rest.len())
 }
 
 /// Digits, a point and digits, an exponent: `1`, `.5`, `2.`, `1e-3`.
@@ -59,5 +66,9 @@ fn number(rest: &str) -> (TokenKind, usize) {
         }
     }
     // Only a single point fails to parse.
-    rest[..length].parse().map_or((TokenKind::Unknown, 1), |value| (TokenKind::Number(value), length))
+    rest[..length]
+        .parse()
+        .map_or((TokenKind::Unknown, 1), |value| {
+            (TokenKind::Number(value), length)
+        })
 }

@@ -13,14 +13,23 @@ use thermobeam::vibration::{Mode, TimeFactor};
 
 /// The freely vibrating beam with viscosity ζ: all other terms are switched off.
 pub fn beam(zeta: f64) -> Beam {
-    Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 }
+    Beam {
+        zeta,
+        a: 0.0,
+        rho: 0.0,
+        beta: 0.0,
+        theta_a: 0.0,
+    }
 }
 
 /// The P1 function with the given values at the nodes of a mesh; its second derivative is 0 on each element.
 pub(crate) fn piecewise_linear(mesh: &Mesh, values: Vec<f64>) -> Factor {
     let nodes = mesh.nodes().to_vec();
     Factor::new(move |x: f64| {
-        let left = nodes.partition_point(|node| *node <= x).clamp(1, nodes.len() - 1) - 1;
+        let left = nodes
+            .partition_point(|node| *node <= x)
+            .clamp(1, nodes.len() - 1)
+            - 1;
         let length = nodes[left + 1] - nodes[left];
         let fraction = (x - nodes[left]) / length;
         let value = (1.0 - fraction) * values[left] + fraction * values[left + 1];
@@ -62,9 +71,21 @@ pub(crate) fn add_mode(
     let (t, square) = (damped(mode.omega(), zeta, start)?, mode.omega().powi(2));
     // Second derivatives by the mode's equations `U'' = Φ' - ω² U` and `Φ'' = Φ - U' - ω² Φ`.
     let of_u = move |x: f64| [mode.u(x), mode.u_x(x), mode.phi_x(x) - square * mode.u(x)];
-    let of_phi = move |x: f64| [mode.phi(x), mode.phi_x(x), mode.phi(x) - mode.u_x(x) - square * mode.phi(x)];
-    exact.u.push(Product { x: Factor::new(of_u), t: t.clone() });
-    exact.phi.push(Product { x: Factor::new(of_phi), t });
+    let of_phi = move |x: f64| {
+        [
+            mode.phi(x),
+            mode.phi_x(x),
+            mode.phi(x) - mode.u_x(x) - square * mode.phi(x),
+        ]
+    };
+    exact.u.push(Product {
+        x: Factor::new(of_u),
+        t: t.clone(),
+    });
+    exact.phi.push(Product {
+        x: Factor::new(of_phi),
+        t,
+    });
     Ok(())
 }
 
@@ -75,7 +96,10 @@ pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64
         let (sine, cosine) = (kappa * x).sin_cos();
         [sine, kappa * cosine, -kappa * kappa * sine]
     };
-    exact.theta.push(Product { x: Factor::new(sine), t: decay(kappa * kappa, amplitude) });
+    exact.theta.push(Product {
+        x: Factor::new(sine),
+        t: decay(kappa * kappa, amplitude),
+    });
 }
 
 /// The exact solution made of `modes`, each with its index from 0 and its tip displacement at t = 0, released at rest.
@@ -84,7 +108,9 @@ pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64
 /// [`ParameterError`] if ζ is negative or not finite.
 pub fn vibration(modes: &[(usize, f64)], zeta: f64) -> Result<Manufactured, ParameterError> {
     let mut exact = Manufactured::default();
-    modes.iter().try_for_each(|&(index, amplitude)| add_mode(&mut exact, index, zeta, [amplitude, 0.0]))?;
+    modes
+        .iter()
+        .try_for_each(|&(index, amplitude)| add_mode(&mut exact, index, zeta, [amplitude, 0.0]))?;
     Ok(exact)
 }
 
@@ -99,8 +125,14 @@ mod tests {
         let [left, middle, right] = [at - H, at, at + H].map(|x| function.eval(x));
         let [value, first, second] = function.derivatives(at);
         assert_eq!(value, middle, "{at}");
-        assert!((first - (right - left) / (2.0 * H)).abs() < 1e-6 * size, "{at}: {first}");
-        assert!((second - (right - 2.0 * middle + left) / (H * H)).abs() < 1e-4 * size, "{at}: {second}");
+        assert!(
+            (first - (right - left) / (2.0 * H)).abs() < 1e-6 * size,
+            "{at}: {first}"
+        );
+        assert!(
+            (second - (right - 2.0 * middle + left) / (H * H)).abs() < 1e-4 * size,
+            "{at}: {second}"
+        );
     }
 
     #[test]
@@ -114,7 +146,11 @@ mod tests {
                 .chain(&exact.phi[..2])
                 .chain(&exact.theta)
                 .for_each(|product| check(&product.x, x, 1e3));
-            exact.u.iter().chain(&exact.theta).for_each(|product| check(&product.t, x, 1e3));
+            exact
+                .u
+                .iter()
+                .chain(&exact.theta)
+                .for_each(|product| check(&product.t, x, 1e3));
         }
     }
 
@@ -127,6 +163,10 @@ mod tests {
             assert_eq!(function.eval(*x), value);
         }
         let [value, slope, curvature] = function.derivatives(0.5);
-        assert!((value - 2.5 / 3.0).abs() < 1e-15 && (slope - 17.5 / 3.0).abs() < 1e-14 && curvature == 0.0);
+        assert!(
+            (value - 2.5 / 3.0).abs() < 1e-15
+                && (slope - 17.5 / 3.0).abs() < 1e-14
+                && curvature == 0.0
+        );
     }
 }

@@ -28,7 +28,11 @@ pub enum ErrorMeasure {
 
 impl ErrorMeasure {
     /// All measures, in the order of [`Evaluator::measure`].
-    pub const ALL: [ErrorMeasure; 3] = [ErrorMeasure::Theorem34, ErrorMeasure::Superclose, ErrorMeasure::Tip];
+    pub const ALL: [ErrorMeasure; 3] = [
+        ErrorMeasure::Theorem34,
+        ErrorMeasure::Superclose,
+        ErrorMeasure::Tip,
+    ];
 
     /// The name in files, reports and on the command line.
     pub fn name(self) -> &'static str {
@@ -41,8 +45,15 @@ impl ErrorMeasure {
 }
 
 enum Answer<'a> {
-    Exact { exact: &'a Manufactured, meter: Box<(ErrorMeter, Factors)>, tip: Vec<f64> },
-    Computed { reference: &'a Traced, mesh: Mesh },
+    Exact {
+        exact: &'a Manufactured,
+        meter: Box<(ErrorMeter, Factors)>,
+        tip: Vec<f64>,
+    },
+    Computed {
+        reference: &'a Traced,
+        mesh: Mesh,
+    },
     Tip(&'a [f64]),
 }
 
@@ -56,27 +67,50 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// [`CaseFailure`] if there is neither, or if the reference's mesh does not contain the nodes.
-    pub fn new(family: &'a Family, on: &OnMesh<'_>, reference: Option<&'a Traced>) -> Result<Self, CaseFailure> {
+    pub fn new(
+        family: &'a Family,
+        on: &OnMesh<'_>,
+        reference: Option<&'a Traced>,
+    ) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
         let answer = match (reference, family.exact()) {
             (Some(reference), _) if !reference.mesh.elements().is_multiple_of(mesh.elements()) => {
-                return Err(CaseFailure::new("the reference's number of elements is no multiple of this mesh's"));
+                return Err(CaseFailure::new(
+                    "the reference's number of elements is no multiple of this mesh's",
+                ));
             }
-            (Some(reference), _) => Answer::Computed { reference, mesh: mesh.clone() },
+            (Some(reference), _) => Answer::Computed {
+                reference,
+                mesh: mesh.clone(),
+            },
             (None, Some(exact)) => {
                 let mut meter = ErrorMeter::new(exact, mesh, false);
                 meter.lift(mesh, family.beam.theta_a);
-                let tip = exact.u.iter().map(|product: &Product| product.x.eval(1.0)).collect();
-                Answer::Exact { exact, meter: Box::new((meter, Factors::default())), tip }
+                let tip = exact
+                    .u
+                    .iter()
+                    .map(|product: &Product| product.x.eval(1.0))
+                    .collect();
+                Answer::Exact {
+                    exact,
+                    meter: Box::new((meter, Factors::default())),
+                    tip,
+                }
             }
-            (None, None) => return Err(CaseFailure::new("there is nothing to measure the error against")),
+            (None, None) => {
+                return Err(CaseFailure::new(
+                    "there is nothing to measure the error against",
+                ));
+            }
         };
         Ok(Self { answer })
     }
 
     /// Measures only u(1), against its values at the times of observation.
     pub(crate) fn of_tip(tip: &'a [f64]) -> Self {
-        Self { answer: Answer::Tip(tip) }
+        Self {
+            answer: Answer::Tip(tip),
+        }
     }
 
     /// The three errors of a level at time t, which is observation number `index` from 0; NaN if not measured.
@@ -89,7 +123,11 @@ impl<'a> Evaluator<'a> {
                 factors.at(exact, t);
                 let errors = meter.measure(level, factors);
                 let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
-                [errors[Norm::Theorem34], errors[Norm::Superclose], (u_tip - u).abs()]
+                [
+                    errors[Norm::Theorem34],
+                    errors[Norm::Superclose],
+                    (u_tip - u).abs(),
+                ]
             }
             Answer::Computed { reference, mesh } => {
                 let [full, nodal] = reference.errors_of(level, mesh, index);

@@ -52,7 +52,13 @@ impl Traced {
     /// [`CaseFailure`] if the run does not finish.
     pub fn compute(scene: &Scene, mesh: Mesh, samples: usize) -> Result<Self, CaseFailure> {
         let t_end = scene.t_end;
-        let time = |k: usize| if k == samples { t_end } else { t_end * k as f64 / samples as f64 };
+        let time = |k: usize| {
+            if k == samples {
+                t_end
+            } else {
+                t_end * k as f64 / samples as f64
+            }
+        };
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
         let run = Simulator::new(scene)?.read_at(Recording::Summary, &times, |motion| {
@@ -61,37 +67,63 @@ impl Traced {
         })?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
         let is_solved = scene.method.stopping().tolerance().is_some();
-        let energy_defect = if is_solved { 0.0 } else { run.energy.largest_balance_residual };
-        Ok(Self { mesh, levels, energies, tip_range, energy_defect })
+        let energy_defect = if is_solved {
+            0.0
+        } else {
+            run.energy.largest_balance_residual
+        };
+        Ok(Self {
+            mesh,
+            levels,
+            energies,
+            tip_range,
+            energy_defect,
+        })
     }
 
     /// The largest distance between two references over their times, in the norm of Theorem 3.4; NaN if not comparable.
     pub fn distance(&self, other: &Self) -> f64 {
-        if self.mesh != other.mesh || self.levels.len() != other.levels.len() || self.levels.is_empty() {
+        if self.mesh != other.mesh
+            || self.levels.len() != other.levels.len()
+            || self.levels.is_empty()
+        {
             return f64::NAN;
         }
         let lengths: Vec<f64> = self.mesh.lengths().collect();
         let pairs = self.levels.iter().zip(&other.levels);
-        pairs.map(|(one, other)| distance(&lengths, one, other)).fold(0.0, max_or_nan)
+        pairs
+            .map(|(one, other)| distance(&lengths, one, other))
+            .fold(0.0, max_or_nan)
     }
 
     /// Distances in the norm of Theorem 3.4 between a level of a coarser mesh, whose nodes are nodes here, and the level at time `k`
     /// (from 0): as functions, since a coarse P1 function is also one on the fine mesh, and at the nodes of the coarser mesh.
     pub(crate) fn errors_of(&self, level: &Level, mesh: &Mesh, k: usize) -> [f64; 2] {
-        let (fine, [few, many]) =
-            (&self.levels[k], [mesh, &self.mesh].map(|mesh| mesh.lengths().collect::<Vec<f64>>()));
+        let (fine, [few, many]) = (
+            &self.levels[k],
+            [mesh, &self.mesh].map(|mesh| mesh.lengths().collect::<Vec<f64>>()),
+        );
         let extended = on_mesh(level, mesh, &self.mesh);
         let stride = self.mesh.elements() / mesh.elements();
         let restricted = map_fields(fine, |y| y.iter().step_by(stride).copied().collect());
-        [distance(&many, &extended, fine), distance(&few, level, &restricted)]
+        [
+            distance(&many, &extended, fine),
+            distance(&few, level, &restricted),
+        ]
     }
 }
 
 /// Distance between two levels of one mesh in the norm of Theorem 3.4.
 pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
     let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
-    let [v, u, w, phi, theta] = [(&a.v, &b.v), (&a.u, &b.u), (&a.w, &b.w), (&a.phi, &b.phi), (&a.theta, &b.theta)]
-        .map(|(a, b)| difference(a, b));
+    let [v, u, w, phi, theta] = [
+        (&a.v, &b.v),
+        (&a.u, &b.u),
+        (&a.w, &b.w),
+        (&a.phi, &b.phi),
+        (&a.theta, &b.theta),
+    ]
+    .map(|(a, b)| difference(a, b));
     TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
 }
 
@@ -100,13 +132,20 @@ pub(crate) fn distance_of_curves(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() || a.is_empty() {
         return f64::NAN;
     }
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, max_or_nan)
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, max_or_nan)
 }
 
 /// `weight * a + (1 - weight) * b`, field by field.
 pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
-    let mix =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weight * a + (1.0 - weight) * b).collect::<Vec<f64>>();
+    let mix = |a: &[f64], b: &[f64]| {
+        a.iter()
+            .zip(b)
+            .map(|(a, b)| weight * a + (1.0 - weight) * b)
+            .collect::<Vec<f64>>()
+    };
     Level {
         u: mix(&a.u, &b.u),
         v: mix(&a.v, &b.v),

@@ -28,15 +28,24 @@ const PAPER: [&str; 7] = [
 
 /// A line for each obstacle.
 pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
-    let line = |label: &str, value: f64| Guide { label: label.to_owned(), value };
-    obstacles.map_or(vec![], |obstacles| vec![line("g₁", obstacles.g1), line("g₂", obstacles.g2)])
+    let line = |label: &str, value: f64| Guide {
+        label: label.to_owned(),
+        value,
+    };
+    obstacles.map_or(vec![], |obstacles| {
+        vec![line("g₁", obstacles.g1), line("g₂", obstacles.g2)]
+    })
 }
 
 /// The [`look`](convergence_study::plots::look::look) of each scene of a figure: an experiment of the paper has its own; any
 /// other scene gets, by its place in the figure, one that no experiment has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
-    let look =
-        |(place, name): (usize, &str)| PAPER.iter().position(|known| *known == name).unwrap_or(PAPER.len() + place);
+    let look = |(place, name): (usize, &str)| {
+        PAPER
+            .iter()
+            .position(|known| *known == name)
+            .unwrap_or(PAPER.len() + place)
+    };
     scenes.into_iter().enumerate().map(look).collect()
 }
 
@@ -44,13 +53,20 @@ impl Run {
     /// Names of files and their SVG documents: u over space and time, the beam in motion, tip displacement with the obstacles, tip
     /// rotation, energy with its limit β²/(4ρ). None if no frames were kept.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
-        let Some(history) = self.history.as_ref().filter(|history| !history.frames.times.is_empty()) else {
+        let Some(history) = self
+            .history
+            .as_ref()
+            .filter(|history| !history.frames.times.is_empty())
+        else {
             return vec![];
         };
         let title = |what: &str| Some(format!("{}: {what}", scene.name));
         let over_time = |what: &str, y: &str, label: &str, value: fn(&Sample) -> f64| {
             let series = [Series::new(label, history.over_time(value))];
-            Xy { title: title(what), ..plots::history(Axis::linear(format!("{y} (dimensionless)")), &series) }
+            Xy {
+                title: title(what),
+                ..plots::history(Axis::linear(format!("{y} (dimensionless)")), &series)
+            }
         };
         let frames = &history.frames;
         let space_time = plots::space_time(&SpaceTime {
@@ -63,16 +79,34 @@ impl Run {
         let motion = animation(&Animation {
             title: title("the beam between its obstacles"),
             frames: frames.clone(),
-            obstacles: scene.obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
+            obstacles: scene
+                .obstacles
+                .map(|obstacles| (obstacles.g1, obstacles.g2)),
             seconds: 20.0,
         });
         let displacement = Xy {
             guides: obstacle_lines(scene.obstacles),
-            phases: Phases { label: "in contact".into(), intervals: self.contact_phases() },
-            ..over_time("displacement of the free end", "displacement u(1, t)", "u(1, t)", |sample| sample.u_tip)
+            phases: Phases {
+                label: "in contact".into(),
+                intervals: self.contact_phases(),
+            },
+            ..over_time(
+                "displacement of the free end",
+                "displacement u(1, t)",
+                "u(1, t)",
+                |sample| sample.u_tip,
+            )
         };
-        let rotation = over_time("rotation of the free end", "rotation φ(1, t)", "φ(1, t)", |sample| sample.phi_tip);
-        let at_rest = energy_at_rest(&scene.beam).map(|value| Guide { label: "β²/(4ρ)".into(), value });
+        let rotation = over_time(
+            "rotation of the free end",
+            "rotation φ(1, t)",
+            "φ(1, t)",
+            |sample| sample.phi_tip,
+        );
+        let at_rest = energy_at_rest(&scene.beam).map(|value| Guide {
+            label: "β²/(4ρ)".into(),
+            value,
+        });
         let energy = Xy {
             guides: at_rest.into_iter().collect(),
             ..over_time("energy", "energy E", "E", |sample| sample.energy)
@@ -107,11 +141,31 @@ pub struct Branch {
 pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) -> String {
     let labels = distinct(branches.iter().map(|branch| branch.label.as_str()));
     let family = |b: &Branch| labels.iter().position(|l| *l == b.label).unwrap_or(0);
-    let mut curves: Vec<Curve> = branches.iter().map(|b| branch_curve(b, look(family(b)))).collect();
-    let ends_look = Look { colour: style::INK, ..look(labels.len()) };
-    curves.push(Curve { look: ends_look, width: 0.0, marks: Marks::Open, ..Curve::line(0, ends) });
-    let parameters = || curves.iter().flat_map(|c| &c.points).map(|p| p.0).filter(|x| x.is_finite());
-    let (low, high) = (parameters().fold(f64::INFINITY, f64::min), parameters().fold(f64::NEG_INFINITY, f64::max));
+    let mut curves: Vec<Curve> = branches
+        .iter()
+        .map(|b| branch_curve(b, look(family(b))))
+        .collect();
+    let ends_look = Look {
+        colour: style::INK,
+        ..look(labels.len())
+    };
+    curves.push(Curve {
+        look: ends_look,
+        width: 0.0,
+        marks: Marks::Open,
+        ..Curve::line(0, ends)
+    });
+    let parameters = || {
+        curves
+            .iter()
+            .flat_map(|c| &c.points)
+            .map(|p| p.0)
+            .filter(|x| x.is_finite())
+    };
+    let (low, high) = (
+        parameters().fold(f64::INFINITY, f64::min),
+        parameters().fold(f64::NEG_INFINITY, f64::max),
+    );
     // Branches end at the limits of the parameter, so these must not coincide with the frame.
     let room = 0.03 * (high - low);
     Xy {
@@ -133,9 +187,25 @@ fn branch_curve(branch: &Branch, look: Look) -> Curve {
         (_, false) => Marks::Open,
     };
     // The colour shows the contact state, dashes show instability.
-    let (dash, stability) = if branch.stable { (style::SOLID, "stable") } else { (style::SHORT, "unstable") };
-    let series = Series::new(format!("{}, {stability}", branch.label), branch.points.clone());
-    Curve { look: Look { dash, marker: Marker::Circle, ..look }, width: 2.6, marks, ..Curve::line(0, &series) }
+    let (dash, stability) = if branch.stable {
+        (style::SOLID, "stable")
+    } else {
+        (style::SHORT, "unstable")
+    };
+    let series = Series::new(
+        format!("{}, {stability}", branch.label),
+        branch.points.clone(),
+    );
+    Curve {
+        look: Look {
+            dash,
+            marker: Marker::Circle,
+            ..look
+        },
+        width: 2.6,
+        marks,
+        ..Curve::line(0, &series)
+    }
 }
 
 /// Draws measured over predicted contraction, log-log, with the identity and the region where the iteration diverges. Markers
@@ -150,8 +220,11 @@ pub fn contraction(series: &[Series]) -> String {
         beyond: Some((1.0, "divergence (radius ≥ 1)".into())),
         ..Xy::default()
     };
-    let is_split =
-        |series: &Series| [false, true].iter().all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above));
+    let is_split = |series: &Series| {
+        [false, true]
+            .iter()
+            .all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above))
+    };
     if series.iter().any(is_split) {
         xy.notes.push("open markers: divergence".to_owned());
     }
@@ -165,9 +238,17 @@ pub fn contraction(series: &[Series]) -> String {
 /// A series on both sides of 1, under one legend entry, whose marker is open if all points are.
 fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
     let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
-    let side = |(points, marks)| Curve { points, marks, width: 0.0, ..Curve::line(k, series) };
+    let side = |(points, marks)| Curve {
+        points,
+        marks,
+        width: 0.0,
+        ..Curve::line(k, series)
+    };
     let sides = [(below, Marks::Filled), (above, Marks::Open)].map(side);
-    sides.into_iter().filter(|side| !side.points.is_empty()).collect()
+    sides
+        .into_iter()
+        .filter(|side| !side.points.is_empty())
+        .collect()
 }
 
 /// The line on which prediction and measurement agree.
@@ -175,8 +256,17 @@ fn identity(xy: &Xy) -> Curve {
     let ruler = xy.x_ruler();
     let points = [ruler.lo, ruler.hi].map(|v| (10f64.powf(v), 10f64.powf(v)));
     let line = Curve::line(0, &Series::new("measured = predicted", points));
-    let look = Look { colour: style::MUTED, dash: style::LONG, ..line.look };
-    Curve { look, width: 1.6, is_data: false, ..line }
+    let look = Look {
+        colour: style::MUTED,
+        dash: style::LONG,
+        ..line.look
+    };
+    Curve {
+        look,
+        width: 1.6,
+        is_data: false,
+        ..line
+    }
 }
 
 #[cfg(test)]

@@ -126,15 +126,34 @@ pub struct AnyOrder {
 impl FromFile for AnyOrder {
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
-        let problem: &[&str] = if vibration.is_some() { &["vibration"] } else { &["beam", "obstacles", "exact"] };
+        let problem: &[&str] = if vibration.is_some() {
+            &["vibration"]
+        } else {
+            &["beam", "obstacles", "exact"]
+        };
         root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
-        let run = root.require("run", "a table with over, t_end, degrees and steps")?.section()?;
-        let overs = [("space", Over::Space), ("time", Over::Time), ("degree", Over::Degree)];
-        let over = run.require("over", "\"space\", \"time\" or \"degree\"")?.choice(&overs)?;
+        let run = root
+            .require("run", "a table with over, t_end, degrees and steps")?
+            .section()?;
+        let overs = [
+            ("space", Over::Space),
+            ("time", Over::Time),
+            ("degree", Over::Degree),
+        ];
+        let over = run
+            .require("over", "\"space\", \"time\" or \"degree\"")?
+            .choice(&overs)?;
         let (listed, own, _) = over.keys();
         let common = ["degree", "time_degree", "elements", "steps"];
-        let common = common.into_iter().filter(|key| !own.contains(key) && !listed.starts_with(key));
-        run.allow(&["over", "t_end", "map"].into_iter().chain(common).collect::<Vec<_>>())?;
+        let common = common
+            .into_iter()
+            .filter(|key| !own.contains(key) && !listed.starts_with(key));
+        run.allow(
+            &["over", "t_end", "map"]
+                .into_iter()
+                .chain(common)
+                .collect::<Vec<_>>(),
+        )?;
         let t_end = run.positive("t_end")?;
         let (theory, exact) = match &vibration {
             Some(section) => free(section)?,
@@ -144,10 +163,24 @@ impl FromFile for AnyOrder {
             }
         };
         let series = root.tables("series", "", |section| series(&run, over, section))?;
-        let elements: Vec<usize> = series.iter().flat_map(|series| &series.runs).map(|run| run.elements).collect();
+        let elements: Vec<usize> = series
+            .iter()
+            .flat_map(|series| &series.runs)
+            .map(|run| run.elements)
+            .collect();
         let (solver, layout) = (control(root, theory)?, Layout::read(&run, &elements, None)?);
         let loaded = vibration.is_none();
-        Ok(AnyOrder { theory, solver, defect: None, exact, loaded, layout, t_end, over, series })
+        Ok(AnyOrder {
+            theory,
+            solver,
+            defect: None,
+            exact,
+            loaded,
+            layout,
+            t_end,
+            over,
+            series,
+        })
     }
 }
 
@@ -160,8 +193,14 @@ fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputErro
     let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));
     let modes = section.list("modes", &allowed, mode, |modes| !modes.is_empty())?;
     let refused = |_| section.refuse("modes", "modes without a motion", allowed);
-    let theory = Coefficients { beam: free_vibration::beam(zeta), obstacles: None };
-    Ok((theory, free_vibration::vibration(&modes, zeta).map_err(refused)?))
+    let theory = Coefficients {
+        beam: free_vibration::beam(zeta),
+        obstacles: None,
+    };
+    Ok((
+        theory,
+        free_vibration::vibration(&modes, zeta).map_err(refused)?,
+    ))
 }
 
 impl Over {
@@ -176,7 +215,11 @@ impl Over {
 }
 
 /// A table `[[series]]`, and the settings that all series share.
-fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOfDegree, InputError> {
+fn series(
+    run: &Section<'_>,
+    over: Over,
+    section: &Section<'_>,
+) -> Result<RunsOfDegree, InputError> {
     let (listed, own, key) = over.keys();
     section.allow(&[&[listed, key], own].concat())?;
     let count = |key: &str, field: &Field<'_>| match key {
@@ -186,7 +229,10 @@ fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOf
         _ => field.count(1..=MAX_DEGREE),
     };
     let allowed = "a list of at least three increasing whole numbers";
-    let increasing = ("a whole number >", (|before, level| level > before) as fn(usize, usize) -> bool);
+    let increasing = (
+        "a whole number >",
+        (|before, level| level > before) as fn(usize, usize) -> bool,
+    );
     let list = section.sequence((listed, allowed, 3), |item| count(listed, item), increasing)?;
     let resolution = |level: usize| -> Result<Resolution, InputError> {
         let of = |key: &str| match if own.contains(&key) { section } else { run } {
@@ -194,12 +240,19 @@ fn series(run: &Section<'_>, over: Over, section: &Section<'_>) -> Result<RunsOf
             table => count(key, &table.require(key, "a whole number")?),
         };
         let (degree, time_degree) = (of("degree")?, of("time_degree")?);
-        Ok(Resolution { degree, elements: of("elements")?, time_degree, steps: of("steps")? })
+        Ok(Resolution {
+            degree,
+            elements: of("elements")?,
+            time_degree,
+            steps: of("steps")?,
+        })
     };
     let runs = list.into_iter().map(resolution).collect::<Result<_, _>>()?;
     let least = if over == Over::Degree { 1.0 } else { 0.0 };
     let allowed = format!("a finite number > {least}");
-    let tolerance = section.require(key, &allowed)?.number_where(&allowed, |value| value > least)?;
+    let tolerance = section
+        .require(key, &allowed)?
+        .number_where(&allowed, |value| value > least)?;
     Ok(RunsOfDegree { runs, tolerance })
 }
 
@@ -209,7 +262,12 @@ impl Kind for AnyOrder {
 
     fn cases(&self) -> Vec<Case<Resolution>> {
         let case = |&data: &Resolution| {
-            let Resolution { degree, elements, time_degree, steps } = data;
+            let Resolution {
+                degree,
+                elements,
+                time_degree,
+                steps,
+            } = data;
             let label = match self.over {
                 Over::Space => format!("p = {degree}, n = {elements}"),
                 Over::Time => format!("q = {time_degree}, {steps} steps"),
@@ -218,7 +276,11 @@ impl Kind for AnyOrder {
             let cost = (elements * degree * (time_degree + 1) * (steps + 10)) as f64 * 10.0;
             Case::new(label, cost, data)
         };
-        self.series.iter().flat_map(|series| &series.runs).map(case).collect()
+        self.series
+            .iter()
+            .flat_map(|series| &series.runs)
+            .map(case)
+            .collect()
     }
 
     /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes. A study over time has the
@@ -247,9 +309,14 @@ impl Kind for AnyOrder {
             }
         }
         let [values, slopes] = meter.errors(motion.simulation().level());
-        let together = |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
+        let together =
+            |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
         let named = match self.over {
-            Over::Time => vec![("ends", together(values)), ("u inside", inside_u), ("u_t inside", inside_u_t)],
+            Over::Time => vec![
+                ("ends", together(values)),
+                ("u inside", inside_u),
+                ("u_t inside", inside_u_t),
+            ],
             _ => vec![("fields", together(values)), ("slopes", together(slopes))],
         };
         Ok(Errors { named, start })
@@ -274,74 +341,176 @@ impl Kind for AnyOrder {
 
 impl AnyOrder {
     fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
-        let Resolution { degree, elements, time_degree, steps } = resolution;
+        let Resolution {
+            degree,
+            elements,
+            time_degree,
+            steps,
+        } = resolution;
         let dt = self.t_end / steps as f64;
-        let stepping = Stepping { degree: time_degree, dt, restart_dt: dt, growth: 1.0, ..Stepping::default() };
-        let (loads, mesh) = (self.loaded.then_some(&self.theory), self.layout.mesh(elements)?);
-        Ok(DgMotion::manufactured(&self.exact, loads, self.defect, self.solver, mesh, degree, stepping)?)
+        let stepping = Stepping {
+            degree: time_degree,
+            dt,
+            restart_dt: dt,
+            growth: 1.0,
+            ..Stepping::default()
+        };
+        let (loads, mesh) = (
+            self.loaded.then_some(&self.theory),
+            self.layout.mesh(elements)?,
+        );
+        Ok(DgMotion::manufactured(
+            &self.exact,
+            loads,
+            self.defect,
+            self.solver,
+            mesh,
+            degree,
+            stepping,
+        )?)
     }
 
     /// Rates over h or dt; one figure shows each degree's errors together.
-    fn over_steps(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])], checks: Vec<Check>) -> Outcome {
+    fn over_steps(
+        &self,
+        runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])],
+        checks: Vec<Check>,
+    ) -> Outcome {
         let mut all = Outcome::new("", vec![], checks);
         for (series, runs) in runs {
-            let Resolution { degree, time_degree, .. } = series.runs[0];
-            let (letter, degree) = if self.over == Over::Time { ("q", time_degree) } else { ("p", degree) };
+            let Resolution {
+                degree,
+                time_degree,
+                ..
+            } = series.runs[0];
+            let (letter, degree) = if self.over == Over::Time {
+                ("q", time_degree)
+            } else {
+                ("p", degree)
+            };
             let title = format!("{letter} = {degree}");
             let caption = format!("Errors for {title}, with the orders of theory (triangles).");
             let what = format!("{letter}{degree}");
-            all.extend(self.levels(series, runs).outcome(&what, Some(&title), &caption, vec![]));
+            all.extend(
+                self.levels(series, runs)
+                    .outcome(&what, Some(&title), &caption, vec![]),
+            );
         }
-        Outcome { summary: summary(&all.rates), ..all }
+        Outcome {
+            summary: summary(&all.rates),
+            ..all
+        }
     }
 
     fn levels(&self, series: &RunsOfDegree, ran: &[Ran<Resolution, Errors>]) -> Levels {
         let (name, orders) = match (self.over, &series.runs[0]) {
             (Over::Time, Resolution { time_degree: q, .. }) => {
-                let orders = vec![("ends", 2 * q + 1), ("u inside", (q + 2).min(2 * q + 1)), ("u_t inside", q + 1)];
+                let orders = vec![
+                    ("ends", 2 * q + 1),
+                    ("u inside", (q + 2).min(2 * q + 1)),
+                    ("u_t inside", q + 1),
+                ];
                 (format!("q = {q}"), orders)
             }
-            (_, Resolution { degree: p, .. }) => (format!("p = {p}"), vec![("fields", p + 1), ("slopes", *p)]),
+            (_, Resolution { degree: p, .. }) => {
+                (format!("p = {p}"), vec![("fields", p + 1), ("slopes", *p)])
+            }
         };
-        let claim = |(name, order): (&'static str, usize)| (name, Claim::new(order as f64, series.tolerance));
+        let claim = |(name, order): (&'static str, usize)| {
+            (name, Claim::new(order as f64, series.tolerance))
+        };
         let claims: Vec<(&str, Claim)> = orders.into_iter().map(claim).collect();
-        let errors: Vec<_> = ran.iter().map(|ran| ran.ok().map(|errors| errors.named.as_slice())).collect();
+        let errors: Vec<_> = ran
+            .iter()
+            .map(|ran| ran.ok().map(|errors| errors.named.as_slice()))
+            .collect();
         let mut columns = ErrorColumn::of(&claims, &errors);
-        columns.iter_mut().for_each(|column| column.name = format!("{name}, {}", column.name));
+        columns
+            .iter_mut()
+            .for_each(|column| column.name = format!("{name}, {}", column.name));
         let refinement = |ran: &Ran<Resolution, Errors>| {
-            let Resolution { degree, elements, time_degree, steps } = ran.case.data;
-            let numbers = [("degree", degree), ("elements", elements), ("time degree", time_degree), ("steps", steps)];
+            let Resolution {
+                degree,
+                elements,
+                time_degree,
+                steps,
+            } = ran.case.data;
+            let numbers = [
+                ("degree", degree),
+                ("elements", elements),
+                ("time degree", time_degree),
+                ("steps", steps),
+            ];
             let step = match self.over {
                 Over::Time => self.t_end / steps as f64,
-                _ => self.layout.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
+                _ => self
+                    .layout
+                    .mesh(elements)
+                    .map_or(f64::NAN, |mesh| mesh.size()),
             };
             Refinement::new(ran.case.label.clone(), &numbers, step)
         };
-        let axis = if self.over == Over::Time { Axis::Time } else { Axis::Space };
+        let axis = if self.over == Over::Time {
+            Axis::Time
+        } else {
+            Axis::Space
+        };
         Levels::new(axis, ran.iter().map(refinement), columns).with_floor(FLOOR)
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
-    fn over_degrees(&self, runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])], mut checks: Vec<Check>) -> Outcome {
+    fn over_degrees(
+        &self,
+        runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])],
+        mut checks: Vec<Check>,
+    ) -> Outcome {
         let common = checks.len();
         let (mut curves, mut quantities, mut rows) = (vec![], vec![], vec![]);
         for (series, runs) in runs {
-            let error = |run: &Ran<Resolution, Errors>| run.ok().map_or(f64::NAN, |errors| errors.named[0].1);
-            let points: Vec<(f64, f64)> = runs.iter().map(|run| (run.case.data.degree as f64, error(run))).collect();
+            let error = |run: &Ran<Resolution, Errors>| {
+                run.ok().map_or(f64::NAN, |errors| errors.named[0].1)
+            };
+            let points: Vec<(f64, f64)> = runs
+                .iter()
+                .map(|run| (run.case.data.degree as f64, error(run)))
+                .collect();
             checks.extend(exponential(&points, series.tolerance));
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));
-            let guarded = |(p, error): &(f64, f64)| Quantity::new(format!("error fields, p = {p}"), *error, 1e-4);
+            let guarded = |(p, error): &(f64, f64)| {
+                Quantity::new(format!("error fields, p = {p}"), *error, 1e-4)
+            };
             quantities.extend(measurable.map(guarded));
             let name = counted(series.runs[0].elements, "element");
-            rows.extend(points.iter().map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]));
+            rows.extend(
+                points
+                    .iter()
+                    .map(|(p, error)| vec![name.clone(), format!("{p}"), format!("{error:.2e}")]),
+            );
             curves.push(plots::Series::new(name, points));
         }
-        let history = plots::history(plots::Axis::log("L2 error of all fields (dimensionless)"), &curves).marked();
-        let drawing = Xy { x: plots::Axis::linear("degree p"), ..history };
-        let svg = drawing.titled("Error over the degree of the elements").draw();
+        let history = plots::history(
+            plots::Axis::log("L2 error of all fields (dimensionless)"),
+            &curves,
+        )
+        .marked();
+        let drawing = Xy {
+            x: plots::Axis::linear("degree p"),
+            ..history
+        };
+        let svg = drawing
+            .titled("Error over the degree of the elements")
+            .draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
-        let summary = checks.iter().skip(common).map(|check| check.evidence.clone()).collect::<Vec<_>>().join("; ");
-        let (title, head) = ("Error of all fields at the end over the degree", ["mesh", "degree p", "error"]);
+        let summary = checks
+            .iter()
+            .skip(common)
+            .map(|check| check.evidence.clone())
+            .collect::<Vec<_>>()
+            .join("; ");
+        let (title, head) = (
+            "Error of all fields at the end over the degree",
+            ["mesh", "degree p", "error"],
+        );
         Outcome {
             headline: summary.clone(),
             tables: vec![Table::new(title, head, rows)],
@@ -354,7 +523,11 @@ impl AnyOrder {
 
 /// Whether every run starts from the projection (3.6) of its initial data; with none, completion fails.
 fn projected(ran: &[Ran<Resolution, Errors>]) -> Check {
-    let largest = ran.iter().filter_map(Ran::ok).map(|errors| errors.start).fold(0.0, max_or_nan);
+    let largest = ran
+        .iter()
+        .filter_map(Ran::ok)
+        .map(|errors| errors.start)
+        .fold(0.0, max_or_nan);
     let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";
     let evidence = format!("largest moment on an element {largest:.1e}, allowed {PROJECTED:e}");
     Check::that(largest <= PROJECTED, claim, evidence)
@@ -367,8 +540,15 @@ fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
         (Some((p0, e0)), Some((p1, e1))) if last > 0 => (e0 / e1).powf(1.0 / (p1 - p0)),
         _ => f64::NAN,
     };
-    let monotone = points.iter().zip(points.iter().skip(1)).take(last).all(|(one, next)| next.1 < one.1);
-    let rest = points.iter().skip(last).all(|(_, error)| *error <= ROUND_OFF);
+    let monotone = points
+        .iter()
+        .zip(points.iter().skip(1))
+        .take(last)
+        .all(|(one, next)| next.1 < one.1);
+    let rest = points
+        .iter()
+        .skip(last)
+        .all(|(_, error)| *error <= ROUND_OFF);
     let end = points.get(last).map_or(f64::NAN, |(p, _)| *p);
     [
         Check::that(

@@ -14,7 +14,8 @@
 //! ```
 
 use convergence_study::judge::calibration::{
-    CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, RULES, Row, Sheet, bars::of_the_bars, grids::of_grids, of_the_rule,
+    CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, RULES, Row, Sheet, bars::of_the_bars,
+    grids::of_grids, of_the_rule,
 };
 
 use super::prelude::*;
@@ -43,9 +44,21 @@ struct Part {
 }
 
 static PARTS: [Part; 3] = [
-    Part { name: "rule", cost: 3000, sheets: of_the_rule },
-    Part { name: "bars", cost: 90, sheets: of_the_bars },
-    Part { name: "grids", cost: 40, sheets: of_grids },
+    Part {
+        name: "rule",
+        cost: 3000,
+        sheets: of_the_rule,
+    },
+    Part {
+        name: "bars",
+        cost: 90,
+        sheets: of_the_bars,
+    },
+    Part {
+        name: "grids",
+        cost: 40,
+        sheets: of_grids,
+    },
 ];
 
 /// A part with the number of its tables.
@@ -61,9 +74,15 @@ impl Measure {
         section.allow(&["of", "tables", "seed"])?;
         let parts = PARTS.each_ref().map(|part| (part.name, part));
         Ok(Self {
-            of: section.require("of", "rule, bars or grids")?.choice(&parts)?,
-            tables: section.require("tables", "a number of tables")?.count(1..=10_000)?,
-            seed: section.require("seed", "an integer >= 0")?.count(0..=usize::MAX)? as u64,
+            of: section
+                .require("of", "rule, bars or grids")?
+                .choice(&parts)?,
+            tables: section
+                .require("tables", "a number of tables")?
+                .count(1..=10_000)?,
+            seed: section
+                .require("seed", "an integer >= 0")?
+                .count(0..=usize::MAX)? as u64,
         })
     }
 }
@@ -81,31 +100,58 @@ impl Expectation {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         section.allow(&["sheet", "column", "row", "most", "least"])?;
         let text = |key: &str| Ok(section.require(key, "a text in quotes")?.text()?.to_owned());
-        let bound = |key: &str, open: f64| section.get(key).map_or(Ok(open), |field| field.positive());
+        let bound =
+            |key: &str, open: f64| section.get(key).map_or(Ok(open), |field| field.positive());
         if section.get("most").is_some() == section.get("least").is_some() {
             return Err(section.refuse("most", "both or none of most and least", "one of the two"));
         }
         Ok(Self {
             sheet: text("sheet")?,
             column: text("column")?,
-            row: section.get("row").map(|field| field.text().map(str::to_owned)).transpose()?,
-            bounds: [bound("least", f64::NEG_INFINITY)?, bound("most", f64::INFINITY)?],
+            row: section
+                .get("row")
+                .map(|field| field.text().map(str::to_owned))
+                .transpose()?,
+            bounds: [
+                bound("least", f64::NEG_INFINITY)?,
+                bound("most", f64::INFINITY)?,
+            ],
         })
     }
 
     fn checks(&self, sheets: &[Sheet]) -> Vec<Check> {
-        let Self { sheet, column, row, bounds: [least, most] } = self;
+        let Self {
+            sheet,
+            column,
+            row,
+            bounds: [least, most],
+        } = self;
         let found = sheets.iter().find(|known| known.key == sheet);
         let place = found.and_then(|sheet| sheet.columns.iter().position(|known| known == column));
-        let is_meant = |known: &&Row| row.as_ref().map_or(known.declared, |name| *name == known.name);
-        let rows: Vec<&Row> = found.iter().flat_map(|sheet| &sheet.rows).filter(is_meant).collect();
+        let is_meant = |known: &&Row| {
+            row.as_ref()
+                .map_or(known.declared, |name| *name == known.name)
+        };
+        let rows: Vec<&Row> = found
+            .iter()
+            .flat_map(|sheet| &sheet.rows)
+            .filter(is_meant)
+            .collect();
         let (Some(place), false) = (place, rows.is_empty()) else {
             let names = |sheet: &Sheet| format!("columns: {}", sheet.columns.join("; "));
             let there = found.map_or_else(|| "no such sheet".to_owned(), names);
             let row = row.as_deref().unwrap_or("each declared");
-            return vec![Check::that(false, format!("{sheet} has {column} of {row}"), there)];
+            return vec![Check::that(
+                false,
+                format!("{sheet} has {column} of {row}"),
+                there,
+            )];
         };
-        let bound = if least.is_finite() { format!("at least {least}") } else { format!("at most {most}") };
+        let bound = if least.is_finite() {
+            format!("at least {least}")
+        } else {
+            format!("at most {most}")
+        };
         let check = |row: &Row| {
             let value = row.values.get(place).copied().unwrap_or(f64::NAN);
             Check::that(
@@ -128,7 +174,10 @@ impl FromFile for Calibration {
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "measure", "expect"])?;
         let measures = root.tables("measure", "", Measure::read)?;
-        Ok(Self { measures, expected: root.tables("expect", "", Expectation::read)? })
+        Ok(Self {
+            measures,
+            expected: root.tables("expect", "", Expectation::read)?,
+        })
     }
 }
 
@@ -140,7 +189,11 @@ impl Kind for Calibration {
         let case = |&data: &Measure| {
             let Measure { of, tables, .. } = data;
             let cost = of.cost * tables * ELEMENTS_OF_A_TABLE;
-            Case::new(format!("{}, {tables} tables of each law", of.name), cost as f64, data)
+            Case::new(
+                format!("{}, {tables} tables of each law", of.name),
+                cost as f64,
+                data,
+            )
         };
         self.measures.iter().map(case).collect()
     }
@@ -151,9 +204,17 @@ impl Kind for Calibration {
 
     fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
         let sheets: Vec<Sheet> = ran.iter().filter_map(Ran::ok).flatten().cloned().collect();
-        let mut checks: Vec<Check> = self.expected.iter().flat_map(|expected| expected.checks(&sheets)).collect();
+        let mut checks: Vec<Check> = self
+            .expected
+            .iter()
+            .flat_map(|expected| expected.checks(&sheets))
+            .collect();
         checks.push(completion(ran, |_| vec![]));
-        let summary = format!("{} shares of {} sheets are within their limits", checks.len() - 1, sheets.len());
+        let summary = format!(
+            "{} shares of {} sheets are within their limits",
+            checks.len() - 1,
+            sheets.len()
+        );
         Outcome {
             tables: sheets.iter().map(table).collect(),
             figures: figures(&sheets),
@@ -167,18 +228,36 @@ impl Kind for Calibration {
 /// rule. A few verdicts may differ on another machine.
 fn guarded(sheet: &Sheet) -> Vec<Quantity> {
     let own = sheet.rows.iter().find(|row| row.name == RULES[0]);
-    let shares = own.into_iter().flat_map(|row| sheet.columns.iter().zip(&row.values));
+    let shares = own
+        .into_iter()
+        .flat_map(|row| sheet.columns.iter().zip(&row.values));
     let true_passes = shares.filter(|(column, _)| column.starts_with("true pass"));
-    true_passes.map(|(column, share)| Quantity::new(format!("{}: {column}", sheet.key), *share, 0.01)).collect()
+    true_passes
+        .map(|(column, share)| Quantity::new(format!("{}: {column}", sheet.key), *share, 0.01))
+        .collect()
 }
 
 fn text(value: f64) -> String {
-    if value.is_nan() { "none".to_owned() } else { format!("{value:.4}") }
+    if value.is_nan() {
+        "none".to_owned()
+    } else {
+        format!("{value:.4}")
+    }
 }
 
 fn table(sheet: &Sheet) -> Table {
-    let name = |row: &Row| if row.declared { row.name.clone() } else { format!("({})", row.name) };
-    let cells = |row: &Row| std::iter::once(name(row)).chain(row.values.iter().map(|value| text(*value))).collect();
+    let name = |row: &Row| {
+        if row.declared {
+            row.name.clone()
+        } else {
+            format!("({})", row.name)
+        }
+    };
+    let cells = |row: &Row| {
+        std::iter::once(name(row))
+            .chain(row.values.iter().map(|value| text(*value)))
+            .collect()
+    };
     let head = std::iter::once(String::new()).chain(sheet.columns.iter().cloned());
     Table::new(&sheet.title, head, sheet.rows.iter().map(cells))
 }
@@ -188,26 +267,76 @@ type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 
 /// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order goes unnoticed.
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
-    let figure = |key: &str, caption: &str, [x, y]: [Axis; 2], ends: [f64; 2], note: &str, points: Points| {
+    let figure = |key: &str,
+                  caption: &str,
+                  [x, y]: [Axis; 2],
+                  ends: [f64; 2],
+                  note: &str,
+                  points: Points| {
         let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
         let curve = |row: &Row| plots::Series::new(row.name.clone(), points(sheet, row));
         let history = plots::history(y, &sheet.rows.iter().map(curve).collect::<Vec<_>>()).marked();
         let (show_x, show_y, notes) = (ends.to_vec(), vec![100.0], vec![note.to_owned()]);
-        Some(Figure::new(key, caption, Xy { x, show_x, show_y, notes, ..history }.draw()))
+        Some(Figure::new(
+            key,
+            caption,
+            Xy {
+                x,
+                show_x,
+                show_y,
+                notes,
+                ..history
+            }
+            .draw(),
+        ))
     };
     let trade: Points = |_, row| {
-        (0..CLAIMS.len()).map(|claim| (100.0 * row.values[3 * claim + 1], 100.0 * row.values[3 * claim])).collect()
+        (0..CLAIMS.len())
+            .map(|claim| {
+                (
+                    100.0 * row.values[3 * claim + 1],
+                    100.0 * row.values[3 * claim],
+                )
+            })
+            .collect()
     };
     let hidden: Points = |sheet, row| {
         let share = |column: &String| column.trim_end_matches(" %").parse().unwrap_or(f64::NAN);
-        sheet.columns.iter().map(share).zip(row.values.iter().map(|value| 100.0 * value)).collect()
+        sheet
+            .columns
+            .iter()
+            .map(share)
+            .zip(row.values.iter().map(|value| 100.0 * value))
+            .collect()
     };
-    let of_rules = "What each rule pays for the true claims it passes: wrong claims that pass, too.";
-    let of_hidden = "How often a term of lower order goes unnoticed, by its share of the finest error.";
-    let axes = [Axis::linear("true claims that pass (%)"), Axis::log("wrong claims that pass (%)")];
+    let of_rules =
+        "What each rule pays for the true claims it passes: wrong claims that pass, too.";
+    let of_hidden =
+        "How often a term of lower order goes unnoticed, by its share of the finest error.";
+    let axes = [
+        Axis::linear("true claims that pass (%)"),
+        Axis::log("wrong claims that pass (%)"),
+    ];
     let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
-    let note = format!("tolerances {first}, {second}, {third} from left to right; better: right and down");
+    let note =
+        format!("tolerances {first}, {second}, {third} from left to right; better: right and down");
     let trade = figure("rules", of_rules, axes, [0.0, 100.0], &note, trade);
-    let axes = [Axis::linear("share of the finest error (%)"), Axis::linear("tables that pass (%)")];
-    [trade, figure("hidden-8", of_hidden, axes, [4.0, 21.0], "better: down", hidden)].into_iter().flatten().collect()
+    let axes = [
+        Axis::linear("share of the finest error (%)"),
+        Axis::linear("tables that pass (%)"),
+    ];
+    [
+        trade,
+        figure(
+            "hidden-8",
+            of_hidden,
+            axes,
+            [4.0, 21.0],
+            "better: down",
+            hidden,
+        ),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }

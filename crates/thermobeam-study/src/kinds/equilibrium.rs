@@ -6,7 +6,9 @@
 
 use super::prelude::*;
 pub use super::steady::{AtRest, Nearest};
-use super::steady::{cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance};
+use super::steady::{
+    cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
+};
 use super::tables::{DISCRETISATION_KEYS, Discretisation};
 use crate::error::reference::Traced;
 
@@ -63,7 +65,11 @@ impl FromFile for EndStates {
         let any_order = |section: Section<'_>| {
             section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
             let t_end = section.positive("t_end")?;
-            Ok((Discretisation::read(&section, t_end)?, t_end, section.positive("error")?))
+            Ok((
+                Discretisation::read(&section, t_end)?,
+                t_end,
+                section.positive("error")?,
+            ))
         };
         Ok(Self {
             scenes: listed_scenes(&run, folder)?,
@@ -93,11 +99,18 @@ impl Kind for EndStates {
                     (format!("n = {n}"), cost_to_rest(n, self.dt))
                 }
             };
-            Case::new(format!("{}, {how}", self.scenes[scene].name), cost, (scene, elements))
+            Case::new(
+                format!("{}, {how}", self.scenes[scene].name),
+                cost,
+                (scene, elements),
+            )
         };
         let scenes = || 0..self.scenes.len();
-        let linear = scenes().flat_map(|scene| self.elements.iter().map(move |&n| (scene, Some(n))));
-        let any_order = scenes().filter(|_| self.any_order.is_some()).map(|scene| (scene, None));
+        let linear =
+            scenes().flat_map(|scene| self.elements.iter().map(move |&n| (scene, Some(n))));
+        let any_order = scenes()
+            .filter(|_| self.any_order.is_some())
+            .map(|scene| (scene, None));
         linear.chain(any_order).map(case).collect()
     }
 
@@ -110,40 +123,76 @@ impl Kind for EndStates {
             let (t, level) = settle(&scene, self.speed, self.t_max)?;
             AtRest::of(&scene, &scene.mesh, t, &level, is_stable)
         } else {
-            let (how, t_end, _) = self.any_order.as_ref().ok_or_else(absent("the study has no run of any order"))?;
-            let Traced { mesh, levels, .. } = Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
-            AtRest::of(scene, &mesh, *t_end, levels.last().ok_or_else(absent("the run has no end"))?, is_stable)
+            let (how, t_end, _) = self
+                .any_order
+                .as_ref()
+                .ok_or_else(absent("the study has no run of any order"))?;
+            let Traced { mesh, levels, .. } =
+                Traced::compute(&how.of(scene, *t_end)?, Mesh::uniform(COMPARED)?, 1)?;
+            AtRest::of(
+                scene,
+                &mesh,
+                *t_end,
+                levels.last().ok_or_else(absent("the run has no end"))?,
+                is_stable,
+            )
         }?;
-        end.nearest.map(|_| end).ok_or_else(absent("there is no stable steady state"))
+        end.nearest
+            .map(|_| end)
+            .ok_or_else(absent("there is no stable steady state"))
     }
 
     fn judge(&self, ran: &[Ran<(usize, Option<usize>), AtRest>]) -> Outcome {
-        let scenes: Vec<Ends<'_>> = (0..self.scenes.len()).map(|scene| Ends::of(self, ran, scene)).collect();
+        let scenes: Vec<Ends<'_>> = (0..self.scenes.len())
+            .map(|scene| Ends::of(self, ran, scene))
+            .collect();
         // Errors below the floor cannot be distinguished from the remaining motion.
-        let bent = self.levels(scenes.iter().filter(|ends| !ends.is_straight())).with_floor(MOTION * self.speed);
+        let bent = self
+            .levels(scenes.iter().filter(|ends| !ends.is_straight()))
+            .with_floor(MOTION * self.speed);
         let rates = bent.judge();
         let mut checks = vec![completion(ran, |end| {
-            let fields = [("tip", end.tip), ("exact tip", end.exact_tip()), ("error", end.errors())];
-            let of_fields = fields.map(|(name, [u, phi])| Reading::new(format!("{name} of u or φ"), u + phi));
+            let fields = [
+                ("tip", end.tip),
+                ("exact tip", end.exact_tip()),
+                ("error", end.errors()),
+            ];
+            let of_fields =
+                fields.map(|(name, [u, phi])| Reading::new(format!("{name} of u or φ"), u + phi));
             readings::not_finite(&[&of_fields[..], &[Reading::new("time of rest", end.t)]].concat())
         })];
         checks.extend(scenes.iter().map(Ends::check));
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
-        let caption = "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
+        let caption =
+            "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
         let figure = bent.figure("errors", None, caption.to_owned(), &rates);
-        let rows: Vec<_> = scenes.iter().map(|ends| (vec![ends.scene.name.clone()], ends.readings())).collect();
-        let bent_rows = rows.iter().zip(&scenes).filter(|(_, ends)| !ends.is_straight());
+        let rows: Vec<_> = scenes
+            .iter()
+            .map(|ends| (vec![ends.scene.name.clone()], ends.readings()))
+            .collect();
+        let bent_rows = rows
+            .iter()
+            .zip(&scenes)
+            .filter(|(_, ends)| !ends.is_straight());
         let tips = readings::guarded(bent_rows.flat_map(|((_, readings), _)| readings));
         let elements = self.elements.last().unwrap_or(&0);
-        let title = format!("Ends of long runs ({elements} elements, and extrapolated) and exact steady states");
+        let title = format!(
+            "Ends of long runs ({elements} elements, and extrapolated) and exact steady states"
+        );
         let worst = scenes.iter().map(Ends::error).fold(0.0, max_or_nan);
-        let summary = format!("{} long runs end at most {worst:.1e} from an exact steady state", scenes.len());
+        let summary = format!(
+            "{} long runs end at most {worst:.1e} from an exact steady state",
+            scenes.len()
+        );
         Outcome {
             levels: self.levels(scenes.iter()).errors(),
             tables: vec![readings::table(title, &["scene"], &rows)],
             figures: vec![figure],
             quantities: [tips, bent.quantities(&rates)].concat(),
-            headline: format!("largest error at the finest mesh {worst:.1e}, of {} ends", scenes.len()),
+            headline: format!(
+                "largest error at the finest mesh {worst:.1e}, of {} ends",
+                scenes.len()
+            ),
             ..Outcome::new(summary, rates, checks)
         }
     }
@@ -155,12 +204,17 @@ impl EndStates {
         let columns = scenes.enumerate().flat_map(|(k, ends)| {
             [(0, "u"), (1, "φ")].map(|(field, name)| ErrorColumn {
                 name: format!("{}: {name}", ends.scene.name),
-                errors: ends.ends.iter().map(|end| end.map(|end| end.errors()[field])).collect(),
+                errors: ends
+                    .ends
+                    .iter()
+                    .map(|end| end.map(|end| end.errors()[field]))
+                    .collect(),
                 claim: Some(Claim::new(ORDER, self.tolerance)),
                 look: 2 * k + field,
             })
         });
-        let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
+        let refinement =
+            |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
         Levels::new(Axis::Space, self.elements.iter().map(refinement), columns)
     }
 }
@@ -174,10 +228,23 @@ struct Ends<'a> {
 }
 
 impl<'a> Ends<'a> {
-    fn of(study: &'a EndStates, ran: &'a [Ran<(usize, Option<usize>), AtRest>], scene: usize) -> Self {
+    fn of(
+        study: &'a EndStates,
+        ran: &'a [Ran<(usize, Option<usize>), AtRest>],
+        scene: usize,
+    ) -> Self {
         let end = |elements: Option<usize>| found(ran, &(scene, elements));
-        let ends = study.elements.iter().map(|&elements| end(Some(elements))).collect();
-        Self { study, scene: &study.scenes[scene], ends, any_order: end(None) }
+        let ends = study
+            .elements
+            .iter()
+            .map(|&elements| end(Some(elements)))
+            .collect();
+        Self {
+            study,
+            scene: &study.scenes[scene],
+            ends,
+            any_order: end(None),
+        }
     }
 
     fn finest(&self) -> Option<&AtRest> {
@@ -196,12 +263,15 @@ impl<'a> Ends<'a> {
 
     /// Whether the beam ends straight, in which case the mesh causes no error.
     fn is_straight(&self) -> bool {
-        self.finest().is_some_and(|end| end.exact_tip() == [0.0, 0.0])
+        self.finest()
+            .is_some_and(|end| end.exact_tip() == [0.0, 0.0])
     }
 
     /// The tip extrapolated from the two finest meshes to vanishing mesh width.
     fn extrapolated(&self, field: usize) -> f64 {
-        let (&[.., coarse, fine], &[.., Some(before), Some(last)]) = (&self.study.elements[..], &self.ends[..]) else {
+        let (&[.., coarse, fine], &[.., Some(before), Some(last)]) =
+            (&self.study.elements[..], &self.ends[..])
+        else {
             return f64::NAN;
         };
         let [before, last] = [before.tip[field], last.tip[field]];
@@ -213,14 +283,20 @@ impl<'a> Ends<'a> {
         let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip()[0]));
         // The beam may buckle to either side, but errors are comparable only if it is the same side on all meshes.
         let contact = self.finest().and_then(AtRest::contact);
-        let same_side = self.ends.iter().all(|end| end.is_some() && end.and_then(AtRest::contact) == contact);
+        let same_side = self
+            .ends
+            .iter()
+            .all(|end| end.is_some() && end.and_then(AtRest::contact) == contact);
         let n = self.study.elements.last().unwrap_or(&0);
         let [of_u, of_phi] = self.finest().map_or([f64::NAN; 2], AtRest::errors);
         let [found, expected] = [u, exact].map(|u| decimals(u, 10));
         let errors = format!("largest error at {n} elements: u {of_u:.2e}, φ {of_phi:.2e}");
         Check::that(
             self.error() <= allowed && (u - exact).abs() <= EXTRAPOLATED * allowed && same_side,
-            format!("{} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name),
+            format!(
+                "{} comes to rest in the exact steady state, to {allowed:.0e}",
+                self.scene.name
+            ),
             format!("{errors}; u(1) extrapolated from the last two meshes {found} for {expected}"),
         )
     }
@@ -231,7 +307,11 @@ impl<'a> Ends<'a> {
         let [u, phi] = self.any_order.map_or([f64::NAN; 2], AtRest::errors);
         Some(Check::that(
             max_or_nan(u, phi) <= *allowed,
-            format!("{} by {} comes to rest in the exact steady state, to {allowed:.0e}", self.scene.name, how.label()),
+            format!(
+                "{} by {} comes to rest in the exact steady state, to {allowed:.0e}",
+                self.scene.name,
+                how.label()
+            ),
             format!("largest error: u {u:.1e}, φ {phi:.1e}"),
         ))
     }
@@ -239,19 +319,39 @@ impl<'a> Ends<'a> {
     /// Tips on the finest mesh, extrapolated, and of the exact state.
     fn readings(&self) -> Vec<Reading> {
         let [discrete, exact] = TIP_TOLERANCES;
-        let shown = |head: &str, value: f64| Reading::new(head, value).shown(|value| decimals(value, 10));
+        let shown =
+            |head: &str, value: f64| Reading::new(head, value).shown(|value| decimals(value, 10));
         let tip = |reading: Reading, name: &str, tolerance: f64| {
             reading.guarded(format!("{}: {name}", self.scene.name), tolerance)
         };
         vec![
-            Reading::text("at rest", self.finest().and_then(AtRest::contact).map_or("?", name_of)),
-            tip(shown("u(1)", self.number(|end| end.tip[0])), "u_tip", discrete),
+            Reading::text(
+                "at rest",
+                self.finest().and_then(AtRest::contact).map_or("?", name_of),
+            ),
+            tip(
+                shown("u(1)", self.number(|end| end.tip[0])),
+                "u_tip",
+                discrete,
+            ),
             // The table shows the extrapolated value instead.
-            tip(Reading::new("φ(1)", self.number(|end| end.tip[1])), "phi_tip", discrete),
+            tip(
+                Reading::new("φ(1)", self.number(|end| end.tip[1])),
+                "phi_tip",
+                discrete,
+            ),
             shown("extrapolated", self.extrapolated(0)),
-            tip(shown("exact", self.number(|end| end.exact_tip()[0])), "exact_u_tip", exact),
+            tip(
+                shown("exact", self.number(|end| end.exact_tip()[0])),
+                "exact_u_tip",
+                exact,
+            ),
             shown("φ(1) extrapolated", self.extrapolated(1)),
-            tip(shown("φ(1) exact", self.number(|end| end.exact_tip()[1])), "exact_phi_tip", exact),
+            tip(
+                shown("φ(1) exact", self.number(|end| end.exact_tip()[1])),
+                "exact_phi_tip",
+                exact,
+            ),
             Reading::new("at rest by t", self.number(|end| end.t)).fixed(0),
         ]
     }

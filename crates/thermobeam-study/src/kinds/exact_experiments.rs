@@ -77,20 +77,35 @@ impl FromFile for ExactExperiments {
         let scene = |item: &Field<'_>| Scene::read_one_step(item, folder);
         let allowed = "a list of at least one scene file";
         let scenes = section.list("scenes", allowed, scene, |list| !list.is_empty())?;
-        let end = scenes.iter().map(|scene| scene.t_end).fold(f64::INFINITY, f64::min);
-        let allowed = format!("a list of increasing times > 0, the last at most {end:?}, where the first scene ends");
+        let end = scenes
+            .iter()
+            .map(|scene| scene.t_end)
+            .fold(f64::INFINITY, f64::min);
+        let allowed = format!(
+            "a list of increasing times > 0, the last at most {end:?}, where the first scene ends"
+        );
         let fits = |times: &[f64]| {
-            increases(times) && times.first().is_some_and(|t| *t > 0.0) && times.last().is_some_and(|t| *t <= end)
+            increases(times)
+                && times.first().is_some_and(|t| *t > 0.0)
+                && times.last().is_some_and(|t| *t <= end)
         };
         let times = section.list("times", &allowed, Field::number, fits)?;
         let agreement = section.positive("agreement")?;
-        let compare = section.get("compare").map_or(Ok(false), |field| field.boolean())?;
+        let compare = section
+            .get("compare")
+            .map_or(Ok(false), |field| field.boolean())?;
         if compare {
             comparable(&section, &scenes, &times)?;
         }
         let t_end = times.last().copied().unwrap_or_default();
         let discretisations = discretisations(root, "discretisations", None, t_end)?;
-        Ok(Self { scenes, times, discretisations, agreement, compare })
+        Ok(Self {
+            scenes,
+            times,
+            discretisations,
+            agreement,
+            compare,
+        })
     }
 }
 
@@ -102,7 +117,8 @@ fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<
         let last = times.last().map_or(0, |t| steps(t).round() as usize);
         if !(times.iter().all(is_level) && last.is_multiple_of(TIP_TIMES)) {
             let found = format!("{}, whose dt is {:?}", scene.name, scene.dt());
-            let last = format!("the last after a multiple of {TIP_TIMES} steps, where compare = true");
+            let last =
+                format!("the last after a multiple of {TIP_TIMES} steps, where compare = true");
             let expected = format!("scenes whose time levels include all `times`, {last}");
             return Err(section.refuse("scenes", found, expected));
         }
@@ -120,12 +136,19 @@ impl Kind for ExactExperiments {
             let of = &self.scenes[scene];
             let (how, cost) = match by.map(|k| &self.discretisations[k]) {
                 Some(how) => (how.label(), how.cost(of.t_end)),
-                None => (of.method.name().to_owned(), of.mesh.elements() as f64 * of.steps() as f64),
+                None => (
+                    of.method.name().to_owned(),
+                    of.mesh.elements() as f64 * of.steps() as f64,
+                ),
             };
             Case::new(format!("{}, {how}", of.name), cost, (scene, by))
         };
-        let runs = [Some(0), Some(1), None].into_iter().filter(|by| self.compare || by.is_some());
-        (0..self.scenes.len()).flat_map(|scene| runs.clone().map(move |by| case(scene, by))).collect()
+        let runs = [Some(0), Some(1), None]
+            .into_iter()
+            .filter(|by| self.compare || by.is_some());
+        (0..self.scenes.len())
+            .flat_map(|scene| runs.clone().map(move |by| case(scene, by)))
+            .collect()
     }
 
     fn run(&self, &(scene, by): &Self::Data) -> Result<ShownStates, CaseFailure> {
@@ -133,25 +156,46 @@ impl Kind for ExactExperiments {
         let t_end = self.times.last().copied().unwrap_or(scene.t_end);
         match by {
             Some(k) => self.shown(&self.discretisations[k].of(scene, t_end)?),
-            None => self.shown(&Scene { t_end, ..scene.clone() }),
+            None => self.shown(&Scene {
+                t_end,
+                ..scene.clone()
+            }),
         }
     }
 
     fn judge(&self, ran: &[Ran<(usize, Option<usize>), ShownStates>]) -> Outcome {
-        let scenes: Vec<OfScene<'_>> = (0..self.scenes.len()).map(|scene| OfScene::of(self, ran, scene)).collect();
+        let scenes: Vec<OfScene<'_>> = (0..self.scenes.len())
+            .map(|scene| OfScene::of(self, ran, scene))
+            .collect();
         let mut checks = vec![completion(ran, |shown: &ShownStates| {
-            let tip = shown.tip.iter().map(|(_, u)| *u).reduce(|a, b| if a.is_finite() { b } else { a });
+            let tip = shown
+                .tip
+                .iter()
+                .map(|(_, u)| *u)
+                .reduce(|a, b| if a.is_finite() { b } else { a });
             let tip = Reading::new("u(1, t)", tip.unwrap_or(f64::NAN));
-            readings::not_finite(&shown.states.iter().flat_map(numbers).chain([tip]).collect::<Vec<_>>())
+            readings::not_finite(
+                &shown
+                    .states
+                    .iter()
+                    .flat_map(numbers)
+                    .chain([tip])
+                    .collect::<Vec<_>>(),
+            )
         })];
         checks.extend(scenes.iter().flat_map(|scene| scene.checks(self.agreement)));
-        let [worst, own] =
-            [OfScene::difference, OfScene::own_error].map(|of| scenes.iter().map(of).fold(0.0, max_or_nan));
+        let [worst, own] = [OfScene::difference, OfScene::own_error]
+            .map(|of| scenes.iter().map(of).fold(0.0, max_or_nan));
         let agreement = format!("two discretisations agree within {worst:.1e}");
-        let own = format!("; the scenes' own schemes at their resolution are off by up to {own:.1e} in u(1, t)");
+        let own = format!(
+            "; the scenes' own schemes at their resolution are off by up to {own:.1e} in u(1, t)"
+        );
         let values: Vec<_> = scenes.iter().flat_map(OfScene::values).collect();
         let title = "The free end and the energy, to the digits on which two discretisations agree";
-        let mut tables = vec![readings::table(title, &["scene", "t"], &values), events(&scenes)];
+        let mut tables = vec![
+            readings::table(title, &["scene", "t"], &values),
+            events(&scenes),
+        ];
         if self.compare {
             let errors: Vec<_> = scenes.iter().flat_map(OfScene::errors).collect();
             let title = "Errors of the scenes' own scheme at their own resolution";
@@ -163,7 +207,11 @@ impl Kind for ExactExperiments {
             tables,
             figures: self.figures(&scenes),
             quantities: readings::guarded(values.iter().flat_map(|(_, readings)| readings)),
-            ..Outcome::new(format!("{} experiments, {agreement}", scenes.len()), vec![], checks)
+            ..Outcome::new(
+                format!("{} experiments, {agreement}", scenes.len()),
+                vec![],
+                checks,
+            )
         }
     }
 }
@@ -173,39 +221,91 @@ impl ExactExperiments {
         let mut states = vec![];
         let read = |motion: &mut dyn Motion| states.push(motion.at(motion.t()));
         let run = Simulator::new(scene)?.read_at(Recording::Curve(TIP_TIMES), &self.times, read)?;
-        let balance = [run.energy.largest_balance_residual / run.energy.initial, run.energy.largest_increase];
+        let balance = [
+            run.energy.largest_balance_residual / run.energy.initial,
+            run.energy.largest_increase,
+        ];
         let (tip, steps) = (run.tip(), run.steps);
-        Ok(ShownStates { states, tip, steps, balance, events: run.contact.map_or(vec![], |contact| contact.events) })
+        Ok(ShownStates {
+            states,
+            tip,
+            steps,
+            balance,
+            events: run.contact.map_or(vec![], |contact| contact.events),
+        })
     }
 
     /// The two discretisations, and the steps that they have taken.
     fn how(&self, scenes: &[OfScene<'_>]) -> Table {
-        let row = |(k, Discretisation { elements, degree, stepping }): (usize, &Discretisation)| {
-            let steps = scenes.iter().map(|of| of.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string()));
+        let row = |(
+            k,
+            Discretisation {
+                elements,
+                degree,
+                stepping,
+            },
+        ): (usize, &Discretisation)| {
+            let steps = scenes
+                .iter()
+                .map(|of| of.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string()));
             let counts = [*elements, *degree, stepping.degree].map(|count| count.to_string());
-            let numbers = [stepping.dt, stepping.restart_dt, stepping.growth].map(|number| format!("{number:?}"));
-            counts.into_iter().chain(numbers).chain([steps.collect::<Vec<_>>().join(", ")]).collect()
+            let numbers = [stepping.dt, stepping.restart_dt, stepping.growth]
+                .map(|number| format!("{number:?}"));
+            counts
+                .into_iter()
+                .chain(numbers)
+                .chain([steps.collect::<Vec<_>>().join(", ")])
+                .collect()
         };
-        let head = ["elements", "degree p", "degree q", "largest step", "first step", "growth", "steps of each scene"];
-        Table::new("The two discretisations", head, self.discretisations.iter().enumerate().map(row))
+        let head = [
+            "elements",
+            "degree p",
+            "degree q",
+            "largest step",
+            "first step",
+            "growth",
+            "steps of each scene",
+        ];
+        Table::new(
+            "The two discretisations",
+            head,
+            self.discretisations.iter().enumerate().map(row),
+        )
     }
 
     fn figures(&self, scenes: &[OfScene<'_>]) -> Vec<Figure> {
-        let figure = |what: &str, caption: &str, title: &str, y, points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
+        let figure = |what: &str,
+                      caption: &str,
+                      title: &str,
+                      y,
+                      points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
             let curve = |scene: &OfScene<'_>| plots::Series::new(scene.name, points(scene));
-            let history = plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>()).titled(title);
-            Figure::new(what, caption, history.with_looks(&looks(scenes.iter().map(|scene| scene.name))).draw())
+            let history =
+                plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>()).titled(title);
+            Figure::new(
+                what,
+                caption,
+                history
+                    .with_looks(&looks(scenes.iter().map(|scene| scene.name)))
+                    .draw(),
+            )
         };
         let y = plots::Axis::linear("displacement u(1, t) (dimensionless)");
-        let (caption, title) = ("The free end of every experiment, to ten decimals.", "Displacement of the free end");
-        let tip = |scene: &OfScene<'_>| scene.any_order[0].map_or(vec![], |shown| shown.tip.clone());
+        let (caption, title) = (
+            "The free end of every experiment, to ten decimals.",
+            "Displacement of the free end",
+        );
+        let tip =
+            |scene: &OfScene<'_>| scene.any_order[0].map_or(vec![], |shown| shown.tip.clone());
         let mut figures = vec![figure("tip", caption, title, y, tip)];
         if self.compare {
             let y = plots::Axis::log("error of u(1, t) (dimensionless)");
             let title = "Error of the scenes' own scheme at their own resolution";
             let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of \
                            the free end.";
-            figures.push(figure("error", caption, title, y, |scene| scene.error_over_time()));
+            figures.push(figure("error", caption, title, y, |scene| {
+                scene.error_over_time()
+            }));
         }
         figures
     }
@@ -220,7 +320,15 @@ struct OfScene<'r> {
 
 /// The numbers of a state.
 fn numbers(state: &Sample) -> [Reading; 6] {
-    let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, .. } = *state;
+    let Sample {
+        u_tip,
+        phi_tip,
+        u_t_tip,
+        phi_t_tip,
+        theta_mid,
+        energy,
+        ..
+    } = *state;
     let values = [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy];
     let names = ["u(1)", "φ(1)", "u_t(1)", "φ_t(1)", "θ(1/2)", "E"];
     std::array::from_fn(|k| Reading::new(names[k], values[k]))
@@ -230,15 +338,26 @@ fn numbers(state: &Sample) -> [Reading; 6] {
 fn differences(one: &Sample, other: &Sample) -> [Reading; 6] {
     let (ones, others) = (numbers(one), numbers(other));
     std::array::from_fn(|k| {
-        let difference = ones[k].value.zip(others[k].value).map(|(one, other)| one - other);
+        let difference = ones[k]
+            .value
+            .zip(others[k].value)
+            .map(|(one, other)| one - other);
         Reading::new(ones[k].name.clone(), difference)
     })
 }
 
 impl<'r> OfScene<'r> {
-    fn of(study: &'r ExactExperiments, ran: &'r [Ran<(usize, Option<usize>), ShownStates>], scene: usize) -> Self {
+    fn of(
+        study: &'r ExactExperiments,
+        ran: &'r [Ran<(usize, Option<usize>), ShownStates>],
+        scene: usize,
+    ) -> Self {
         let by = |by: Option<usize>| found(ran, &(scene, by));
-        Self { name: &study.scenes[scene].name, any_order: [by(Some(0)), by(Some(1))], own: by(None) }
+        Self {
+            name: &study.scenes[scene].name,
+            any_order: [by(Some(0)), by(Some(1))],
+            own: by(None),
+        }
     }
 
     /// The states of the first discretisation.
@@ -248,18 +367,34 @@ impl<'r> OfScene<'r> {
 
     /// The largest difference of any number at any time; NaN where one of the runs is missing.
     fn difference(&self) -> f64 {
-        let [Some(one), Some(other)] = self.any_order else { return f64::NAN };
+        let [Some(one), Some(other)] = self.any_order else {
+            return f64::NAN;
+        };
         if one.states.len() != other.states.len() || one.states.is_empty() {
             return f64::NAN;
         }
-        let differences = one.states.iter().zip(&other.states).flat_map(|(one, other)| differences(one, other));
-        differences.filter_map(|reading| reading.value).map(f64::abs).fold(0.0, max_or_nan)
+        let differences = one
+            .states
+            .iter()
+            .zip(&other.states)
+            .flat_map(|(one, other)| differences(one, other));
+        differences
+            .filter_map(|reading| reading.value)
+            .map(f64::abs)
+            .fold(0.0, max_or_nan)
     }
 
     fn checks(&self, agreement: f64) -> [Check; 3] {
         let difference = self.difference();
-        let claim = format!("{}: two discretisations agree within {agreement:e}", self.name);
-        let agree = Check::that(difference <= agreement, claim, format!("largest difference {difference:.1e}"));
+        let claim = format!(
+            "{}: two discretisations agree within {agreement:e}",
+            self.name
+        );
+        let agree = Check::that(
+            difference <= agreement,
+            claim,
+            format!("largest difference {difference:.1e}"),
+        );
         [agree, self.events_agree(agreement), self.balance()]
     }
 
@@ -269,22 +404,40 @@ impl<'r> OfScene<'r> {
             return Check::that(false, claim, "a run is missing");
         };
         let alike = one.events.len() == other.events.len()
-            && one.events.iter().zip(&other.events).all(|(a, b)| (a.from, a.to) == (b.from, b.to));
-        let apart = one.events.iter().zip(&other.events).map(|(a, b)| (a.t - b.t).abs()).fold(0.0, max_or_nan);
-        let evidence =
-            format!("{} and {} events, times at most {apart:.1e} apart", one.events.len(), other.events.len());
+            && one
+                .events
+                .iter()
+                .zip(&other.events)
+                .all(|(a, b)| (a.from, a.to) == (b.from, b.to));
+        let apart = one
+            .events
+            .iter()
+            .zip(&other.events)
+            .map(|(a, b)| (a.t - b.t).abs())
+            .fold(0.0, max_or_nan);
+        let evidence = format!(
+            "{} and {} events, times at most {apart:.1e} apart",
+            one.events.len(),
+            other.events.len()
+        );
         // Times are of order 10, the other numbers of order 1.
         Check::that(alike && apart <= 10.0 * agreement, claim, evidence)
     }
 
     fn balance(&self) -> Check {
         let [residual, increase] = [0, 1].map(|i| {
-            let values = self.any_order.iter().map(|shown| shown.map_or(f64::NAN, |shown| shown.balance[i]));
+            let values = self
+                .any_order
+                .iter()
+                .map(|shown| shown.map_or(f64::NAN, |shown| shown.balance[i]));
             values.fold(f64::NEG_INFINITY, max_or_nan)
         });
         Check::that(
             residual <= CLOSED && increase <= 0.0,
-            format!("{}: the energy falls in every step and its balance closes within {CLOSED:e} of E0", self.name),
+            format!(
+                "{}: the energy falls in every step and its balance closes within {CLOSED:e} of E0",
+                self.name
+            ),
             format!("largest residual {residual:.1e} of E0, largest change {increase:.1e}"),
         )
     }
@@ -292,14 +445,25 @@ impl<'r> OfScene<'r> {
     /// The numbers, to the digits that both discretisations agree on and one more.
     fn values(&self) -> Vec<(Vec<String>, Vec<Reading>)> {
         let apart = self.difference();
-        let decimals = if apart > 0.0 { (-apart.log10()).floor().clamp(0.0, 14.0) as usize } else { 14 };
+        let decimals = if apart > 0.0 {
+            (-apart.log10()).floor().clamp(0.0, 14.0) as usize
+        } else {
+            14
+        };
         let row = |state: &Sample| {
             let guard = |reading: Reading| {
                 let name = reading.name.replace('φ', "phi").replace('θ', "theta");
-                reading.fixed(decimals).guarded(format!("{}: {name} at t = {}", self.name, state.t), TOLERANCE)
+                reading.fixed(decimals).guarded(
+                    format!("{}: {name} at t = {}", self.name, state.t),
+                    TOLERANCE,
+                )
             };
             let apart = Reading::text("largest difference", format!("{apart:.0e}"));
-            let numbers = numbers(state).map(guard).into_iter().chain([apart]).collect();
+            let numbers = numbers(state)
+                .map(guard)
+                .into_iter()
+                .chain([apart])
+                .collect();
             (vec![self.name.to_owned(), state.t.to_string()], numbers)
         };
         self.states().iter().map(row).collect()
@@ -309,22 +473,43 @@ impl<'r> OfScene<'r> {
     fn errors(&self) -> Vec<(Vec<String>, Vec<Reading>)> {
         let row = |(own, exact): (&Sample, &Sample)| {
             let largest = Reading::new("largest |error| of u(1, t)", self.own_error());
-            let errors = differences(own, exact).into_iter().chain([largest]).map(|error| error.scientific(2));
-            (vec![self.name.to_owned(), exact.t.to_string()], errors.collect())
+            let errors = differences(own, exact)
+                .into_iter()
+                .chain([largest])
+                .map(|error| error.scientific(2));
+            (
+                vec![self.name.to_owned(), exact.t.to_string()],
+                errors.collect(),
+            )
         };
-        self.own.iter().flat_map(|own| own.states.iter().zip(self.states())).map(row).collect()
+        self.own
+            .iter()
+            .flat_map(|own| own.states.iter().zip(self.states()))
+            .map(row)
+            .collect()
     }
 
     /// `(t, error)` of u(1, t) by the scene's own scheme.
     fn error_over_time(&self) -> Vec<(f64, f64)> {
-        let (Some(own), Some(exact)) = (self.own, self.any_order[0]) else { return vec![] };
+        let (Some(own), Some(exact)) = (self.own, self.any_order[0]) else {
+            return vec![];
+        };
         // The history of the exact run begins at t = 0. The reader has made sure that both have the same times.
-        own.tip.iter().zip(&exact.tip).skip(1).map(|((t, u), (_, exact))| (*t, (u - exact).abs())).collect()
+        own.tip
+            .iter()
+            .zip(&exact.tip)
+            .skip(1)
+            .map(|((t, u), (_, exact))| (*t, (u - exact).abs()))
+            .collect()
     }
 
     /// The largest of these; NaN where there is none.
     fn own_error(&self) -> f64 {
-        self.error_over_time().into_iter().map(|(_, error)| error).reduce(max_or_nan).unwrap_or(f64::NAN)
+        self.error_over_time()
+            .into_iter()
+            .map(|(_, error)| error)
+            .reduce(max_or_nan)
+            .unwrap_or(f64::NAN)
     }
 }
 
@@ -332,9 +517,21 @@ fn events(scenes: &[OfScene<'_>]) -> Table {
     let of_scene = |scene: &OfScene<'_>| -> Vec<Vec<String>> {
         let row = |event: &ContactEvent| {
             let [from, to] = [event.from, event.to].map(phase_name);
-            vec![scene.name.to_owned(), format!("{:.10}", event.t), format!("{from} to {to}")]
+            vec![
+                scene.name.to_owned(),
+                format!("{:.10}", event.t),
+                format!("{from} to {to}"),
+            ]
         };
-        scene.any_order[0].iter().flat_map(|shown| &shown.events).map(row).collect()
+        scene.any_order[0]
+            .iter()
+            .flat_map(|shown| &shown.events)
+            .map(row)
+            .collect()
     };
-    Table::new("Contact events", ["scene", "t", "free end"], scenes.iter().flat_map(of_scene))
+    Table::new(
+        "Contact events",
+        ["scene", "t", "free end"],
+        scenes.iter().flat_map(of_scene),
+    )
 }

@@ -53,22 +53,40 @@ pub struct Frequencies {
 impl FromFile for Frequencies {
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "frequencies"])?;
-        let keys = ["count", "elements", "order", "tolerance", "first", "degree", "map"];
+        let keys = [
+            "count",
+            "elements",
+            "order",
+            "tolerance",
+            "first",
+            "degree",
+            "map",
+        ];
         let section = root.table("frequencies", &keys)?;
         let allowed = "a list of increasing whole numbers >= 1";
-        let increasing = ("a whole number >", (|before, level| level > before) as fn(usize, usize) -> bool);
+        let increasing = (
+            "a whole number >",
+            (|before, level| level > before) as fn(usize, usize) -> bool,
+        );
         let elements = section.sequence(("elements", allowed, 1), tables::elements, increasing)?;
-        let degree = section.get("degree").map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
+        let degree = section
+            .get("degree")
+            .map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
         // A mesh has twice as many frequencies, but the upper ones are not approximations.
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
         let claim = read_claim(&section, "order")?;
         Ok(Self {
-            first: section.get("first").map_or(Ok(1), |field| field.count(1..=count))?,
+            first: section
+                .get("first")
+                .map_or(Ok(1), |field| field.count(1..=count))?,
             count,
             degree,
             layout: Layout::read(&section, &elements, None)?,
             elements,
-            claim: Claim { tolerance: section.positive("tolerance")?, ..claim },
+            claim: Claim {
+                tolerance: section.positive("tolerance")?,
+                ..claim
+            },
         })
     }
 }
@@ -82,32 +100,57 @@ impl Kind for Frequencies {
     fn cases(&self) -> Vec<Case<usize>> {
         // Bisection to the last bit takes some 60 counts per frequency.
         let cost = |n: usize| 60.0 * (n * self.degree.pow(3) * self.count) as f64;
-        self.elements.iter().map(|&n| Case::new(format!("n = {n}"), cost(n), n)).collect()
+        self.elements
+            .iter()
+            .map(|&n| Case::new(format!("n = {n}"), cost(n), n))
+            .collect()
     }
 
     fn run(&self, &elements: &usize) -> Result<Vec<f64>, CaseFailure> {
         // Each count of the bisection traverses all elements, like a step.
         let mut patience = Patience::new(elements * self.degree.pow(3));
         let mesh = self.layout.mesh(elements)?;
-        Ok(discrete_frequencies_until(&mesh, self.degree, self.count, |known| patience.check(known, || 0.0))??)
+        Ok(discrete_frequencies_until(
+            &mesh,
+            self.degree,
+            self.count,
+            |known| patience.check(known, || 0.0),
+        )??)
     }
 
     fn judge(&self, ran: &[Ran<usize, Vec<f64>>]) -> Outcome {
         let levels = self.levels(ran);
         let not_finite = |found: &Vec<f64>| {
             let complete = found.len() == self.count && found.iter().all(|omega| omega.is_finite());
-            if complete { vec![] } else { vec!["a frequency".to_owned()] }
+            if complete {
+                vec![]
+            } else {
+                vec!["a frequency".to_owned()]
+            }
         };
-        let mut checks = vec![completion(ran, not_finite), self.equation_holds(), self.lie_above(&levels)];
+        let mut checks = vec![
+            completion(ran, not_finite),
+            self.equation_holds(),
+            self.lie_above(&levels),
+        ];
         if self.first > 1 {
             checks.push(self.met_below_first(ran.last().and_then(Ran::ok)));
         }
-        let Self { first, count, degree, .. } = self;
-        let caption =
-            format!("Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}.");
+        let Self {
+            first,
+            count,
+            degree,
+            ..
+        } = self;
+        let caption = format!(
+            "Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}."
+        );
         let title = Some("Discrete frequencies, ω_h - ω");
         let outcome = levels.outcome("errors", title, &caption, checks);
-        Outcome { tables: vec![self.table(&levels, &outcome.rates)], ..outcome }
+        Outcome {
+            tables: vec![self.table(&levels, &outcome.rates)],
+            ..outcome
+        }
     }
 }
 
@@ -116,15 +159,26 @@ impl Frequencies {
         let exact = frequencies(self.count);
         let refinement = |level: &Ran<usize, Vec<f64>>| {
             let (n, label) = (level.case.data, level.case.label.clone());
-            Refinement::new(label, &[("elements", n)], self.layout.mesh(n).map_or(f64::NAN, |mesh| mesh.size()))
+            Refinement::new(
+                label,
+                &[("elements", n)],
+                self.layout.mesh(n).map_or(f64::NAN, |mesh| mesh.size()),
+            )
         };
         let column = |mode: usize| ErrorColumn {
             name: format!("omega-{}", mode + 1),
-            errors: ran.iter().map(|level| Some(level.ok()?.get(mode)? - exact[mode])).collect(),
+            errors: ran
+                .iter()
+                .map(|level| Some(level.ok()?.get(mode)? - exact[mode]))
+                .collect(),
             claim: Some(self.claim),
             look: mode,
         };
-        Levels::new(Axis::Space, ran.iter().map(refinement), (self.first - 1..self.count).map(column))
+        Levels::new(
+            Axis::Space,
+            ran.iter().map(refinement),
+            (self.first - 1..self.count).map(column),
+        )
     }
 
     fn table(&self, levels: &Levels, rates: &[(String, RateVerdict)]) -> Table {
@@ -134,27 +188,55 @@ impl Frequencies {
             let (column, rate) = (&levels.columns[mode], &rates[mode].1);
             let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
             // Known for linear elements only.
-            let leading = (self.degree == 1).then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
+            let leading = (self.degree == 1)
+                .then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
             vec![
                 (mode + self.first).to_string(),
                 format!("{omega:.11}"),
                 format!("{:.11}", omega + error),
                 format!("{error:.3e}"),
                 leading.unwrap_or_else(|| "-".into()),
-                rate.fitted.map_or_else(|| "-".into(), |rate| format!("{rate:.4}")),
-                rate.interval.map_or_else(|| "-".into(), |[low, high]| format!("{low:.4} to {high:.4}")),
+                rate.fitted
+                    .map_or_else(|| "-".into(), |rate| format!("{rate:.4}")),
+                rate.interval.map_or_else(
+                    || "-".into(),
+                    |[low, high]| format!("{low:.4} to {high:.4}"),
+                ),
                 rate.verdict.to_string(),
             ]
         };
-        let head = ["mode", "ω exact", "ω_h", "ω_h - ω", "over ω³h²/24", "rate", "95 % interval", "verdict"];
+        let head = [
+            "mode",
+            "ω exact",
+            "ω_h",
+            "ω_h - ω",
+            "over ω³h²/24",
+            "rate",
+            "95 % interval",
+            "verdict",
+        ];
         let mesh = finest.map_or("-", |level| level.label.as_str());
-        let title = format!("Frequencies {} to {}, exact and discrete ({mesh})", self.first, self.count);
-        Table::new(title, head, frequencies(self.count).into_iter().skip(self.first - 1).enumerate().map(row))
+        let title = format!(
+            "Frequencies {} to {}, exact and discrete ({mesh})",
+            self.first, self.count
+        );
+        Table::new(
+            title,
+            head,
+            frequencies(self.count)
+                .into_iter()
+                .skip(self.first - 1)
+                .enumerate()
+                .map(row),
+        )
     }
 
     fn equation_holds(&self) -> Check {
         let rounding = |omega: f64| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega));
-        let worst = frequencies(self.count).into_iter().map(rounding).fold(0.0, max_or_nan);
+        let worst = frequencies(self.count)
+            .into_iter()
+            .map(rounding)
+            .fold(0.0, max_or_nan);
         Check::that(
             worst <= ROUNDING_ERRORS,
             "the exact frequencies solve the frequency equation 1 + C+ C- - ω² S+ S- = 0",
@@ -165,24 +247,41 @@ impl Frequencies {
     /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
     fn met_below_first(&self, found: Option<&Vec<f64>>) -> Check {
         let error = |(mode, omega): (usize, f64)| {
-            let found = found.and_then(|found| found.get(mode)).copied().unwrap_or(f64::NAN);
+            let found = found
+                .and_then(|found| found.get(mode))
+                .copied()
+                .unwrap_or(f64::NAN);
             (found - omega).abs() / omega
         };
-        let worst = frequencies(self.first - 1).into_iter().enumerate().map(error).fold(0.0, max_or_nan);
+        let worst = frequencies(self.first - 1)
+            .into_iter()
+            .enumerate()
+            .map(error)
+            .fold(0.0, max_or_nan);
         Check::that(
             worst <= MET,
-            format!("the frequencies below number {} are met to {MET:e} of their value on the finest mesh", self.first),
+            format!(
+                "the frequencies below number {} are met to {MET:e} of their value on the finest mesh",
+                self.first
+            ),
             format!("largest relative error {worst:.1e}"),
         )
     }
 
     fn lie_above(&self, levels: &Levels) -> Check {
         // A NaN and a missing mode must stay visible.
-        let errors = levels.columns.iter().flat_map(|column| &column.errors).map(|error| error.unwrap_or(f64::NAN));
+        let errors = levels
+            .columns
+            .iter()
+            .flat_map(|column| &column.errors)
+            .map(|error| error.unwrap_or(f64::NAN));
         let least = errors.fold(f64::INFINITY, min_or_nan);
         Check::that(
             least > 0.0,
-            format!("discrete frequencies {} to {} lie above the exact ones", self.first, self.count),
+            format!(
+                "discrete frequencies {} to {} lie above the exact ones",
+                self.first, self.count
+            ),
             format!("the smallest ω_h - ω of all levels and modes is {least:.3e}"),
         )
     }

@@ -12,10 +12,13 @@ pub(crate) use convergence_study::run::time_limit::Patience;
 pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
-    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow, Origin, Outcome,
-    Quantity, Ran, Reading, Refinement, Study, Table, Untested, read_claim, reader, readings,
+    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow,
+    Origin, Outcome, Quantity, Ran, Reading, Refinement, Study, Table, Untested, read_claim,
+    reader, readings,
 };
-pub(crate) use convergence_study::text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text};
+pub(crate) use convergence_study::text::number::{
+    counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
+};
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
@@ -45,9 +48,17 @@ pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
 }
 
 /// The table of a file that may have only one of these.
-pub(crate) fn only_table<'t>(root: &Section<'_>, tables: [&'t str; 3], allowed: &str) -> Result<&'t str, InputError> {
+pub(crate) fn only_table<'t>(
+    root: &Section<'_>,
+    tables: [&'t str; 3],
+    allowed: &str,
+) -> Result<&'t str, InputError> {
     root.allow(&[&["study"], &tables[..]].concat())?;
-    match tables.into_iter().filter(|table| root.get(table).is_some()).collect::<Vec<_>>()[..] {
+    match tables
+        .into_iter()
+        .filter(|table| root.get(table).is_some())
+        .collect::<Vec<_>>()[..]
+    {
         [] => Err(root.missing(tables[0], allowed)),
         [only] => Ok(only),
         [_, second, ..] => Err(root.refuse(second, "a second table", allowed)),
@@ -60,8 +71,12 @@ pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Opti
 }
 
 /// Names of the numbers that are NaN or infinite, for [`completion`]; `None` is neither.
-pub(crate) fn not_finite<'n>(numbers: impl IntoIterator<Item = (&'n str, impl Into<Option<f64>>)>) -> Vec<String> {
-    let numbers = numbers.into_iter().map(|(name, value)| (name, value.into()));
+pub(crate) fn not_finite<'n>(
+    numbers: impl IntoIterator<Item = (&'n str, impl Into<Option<f64>>)>,
+) -> Vec<String> {
+    let numbers = numbers
+        .into_iter()
+        .map(|(name, value)| (name, value.into()));
     let broken = numbers.filter(|(_, value)| value.is_some_and(|value| !value.is_finite()));
     broken.map(|(name, _)| name.to_owned()).collect()
 }

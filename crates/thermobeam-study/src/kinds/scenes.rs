@@ -101,11 +101,27 @@ const STEADY: &str = "steady states";
 fn listed(key: &str, pairs: &[[f64; 2]]) -> Expected {
     let (what, names) = match key {
         "contact" => ("contacts", ["begin of contact", "end of contact"]),
-        "steady" => (STEADY, ["u(1) of steady state", "unstable directions of steady state"]),
-        _ => return pairs.iter().map(|[t, u]| (format!("u(1, {t})"), *u)).collect(),
+        "steady" => (
+            STEADY,
+            [
+                "u(1) of steady state",
+                "unstable directions of steady state",
+            ],
+        ),
+        _ => {
+            return pairs
+                .iter()
+                .map(|[t, u]| (format!("u(1, {t})"), *u))
+                .collect();
+        }
     };
-    let named = |(k, pair): (usize, &[f64; 2])| [0, 1].map(|i| (format!("{} {}", names[i], k + 1), pair[i]));
-    [(what.to_owned(), pairs.len() as f64)].into_iter().chain(pairs.iter().enumerate().flat_map(named)).collect()
+    let named = |(k, pair): (usize, &[f64; 2])| {
+        [0, 1].map(|i| (format!("{} {}", names[i], k + 1), pair[i]))
+    };
+    [(what.to_owned(), pairs.len() as f64)]
+        .into_iter()
+        .chain(pairs.iter().enumerate().flat_map(named))
+        .collect()
 }
 
 /// Keys of what predictions say: the error of a scene, and the run for an accuracy.
@@ -136,29 +152,64 @@ pub struct Shown {
 }
 
 /// Names of numbers, as in the object of `run --format json`.
-pub const NUMBERS: [&str; 9] =
-    ["u_tip", "phi_tip", "u_t_tip", "phi_t_tip", "theta_mid", "energy", "u_tip_min", "u_tip_max", "largest_increase"];
+pub const NUMBERS: [&str; 9] = [
+    "u_tip",
+    "phi_tip",
+    "u_t_tip",
+    "phi_t_tip",
+    "theta_mid",
+    "energy",
+    "u_tip_min",
+    "u_tip_max",
+    "largest_increase",
+];
 
 /// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any order.
-pub const COUNTS: [&str; 6] = ["steps", "iterations", "most iterations", "passes", "factorizations", "contact"];
+pub const COUNTS: [&str; 6] = [
+    "steps",
+    "iterations",
+    "most iterations",
+    "passes",
+    "factorizations",
+    "contact",
+];
 
 impl FromFile for Scenes {
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "case"])?;
-        Ok(Self { scenes: named_cases(root, case)? })
+        Ok(Self {
+            scenes: named_cases(root, case)?,
+        })
     }
 }
 
 fn case(section: &Section<'_>, name: String) -> Result<Whole, InputError> {
-    section.allow(&[&["name", "claim", "ends", "answer", "most"], &scene::TABLES[..]].concat())?;
-    let end = section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?;
+    section.allow(
+        &[
+            &["name", "claim", "ends", "answer", "most"],
+            &scene::TABLES[..],
+        ]
+        .concat(),
+    )?;
+    let end = section
+        .require("ends", "\"answer\" or an error")?
+        .choice(&End::ALL)?;
     let most = section.section("most")?;
     let (answer, within) = match (section.section("answer")?, end) {
         (Some(answer), End::Answer) => numbers_of(&answer)?,
         (None, End::Answer) if most.is_none() => {
-            return Err(section.missing("answer", "a table with numbers, where a case ends with its answer"));
+            return Err(section.missing(
+                "answer",
+                "a table with numbers, where a case ends with its answer",
+            ));
         }
-        (Some(_), _) => return Err(section.refuse("answer", "an answer", "none, where a case ends with an error")),
+        (Some(_), _) => {
+            return Err(section.refuse(
+                "answer",
+                "an answer",
+                "none, where a case ends with an error",
+            ));
+        }
         (None, _) => (vec![], 0.0),
     };
     if most.is_some() && end != End::Answer {
@@ -181,12 +232,17 @@ impl Most {
         let [iterations, unsolved] = ["iterations_per_step", "unsolved"];
         section.allow(&[iterations, unsolved])?;
         let bound = |key: &str| section.get(key).map(|field| field.positive()).transpose();
-        let most = Self { iterations: bound(iterations)?, unsolved: bound(unsolved)? };
+        let most = Self {
+            iterations: bound(iterations)?,
+            unsolved: bound(unsolved)?,
+        };
         if most == Self::default() {
             return Err(section.missing(iterations, "at least one bound"));
         }
         if most.unsolved.is_some() {
-            scene.one_step().map_err(|error| section.refuse(unsolved, "a bound for dg", error.to_string()))?;
+            scene
+                .one_step()
+                .map_err(|error| section.refuse(unsolved, "a bound for dg", error.to_string()))?;
         }
         Ok(most)
     }
@@ -214,7 +270,11 @@ impl Most {
 fn numbers_of(section: &Section<'_>) -> Result<(Expected, f64), InputError> {
     section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS].concat())?;
     let within = section.positive("within")?;
-    let number = |name: &str| section.get(name).map(|field| Ok((name.to_owned(), field.number()?)));
+    let number = |name: &str| {
+        section
+            .get(name)
+            .map(|field| Ok((name.to_owned(), field.number()?)))
+    };
     let numbers = NUMBERS.into_iter().chain(PREDICTED).filter_map(number);
     let mut answer = numbers.collect::<Result<Expected, InputError>>()?;
     for key in PAIRS {
@@ -248,40 +308,82 @@ impl Kind for Scenes {
             Method::OneStep(_) => 4.0 * cost_of_run(scene),
             Method::Dg(_) => cost_of_run(scene),
         };
-        let case = |(data, whole): (usize, &Whole)| Case::new(whole.name.clone(), cost(&whole.scene), data);
+        let case = |(data, whole): (usize, &Whole)| {
+            Case::new(whole.name.clone(), cost(&whole.scene), data)
+        };
         self.scenes.iter().enumerate().map(case).collect()
     }
 
     fn run(&self, index: &usize) -> Result<Shown, CaseFailure> {
         let whole = &self.scenes[*index];
         let scene = &whole.scene;
-        let shown = Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
-        let lane = run_together(std::slice::from_ref(scene))?.first().map(Shown::of).transpose()?;
+        let shown =
+            Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
+        let lane = run_together(std::slice::from_ref(scene))?
+            .first()
+            .map(Shown::of)
+            .transpose()?;
         let alike_in_lanes = lane.map(|lane| lane.has_the_bits_of(&shown));
         let unsolved = whole.most.unsolved.map(|_| unsolved(scene)).transpose()?;
-        Ok(Shown { alike_in_lanes, others: whole.others()?, unsolved, ..shown })
+        Ok(Shown {
+            alike_in_lanes,
+            others: whole.others()?,
+            unsolved,
+            ..shown
+        })
     }
 
     fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
-        let found: Vec<(&Whole, &Shown)> =
-            ran.iter().filter_map(|ran| Some((&self.scenes[ran.case.data], ran.ok()?))).collect();
+        let found: Vec<(&Whole, &Shown)> = ran
+            .iter()
+            .filter_map(|ran| Some((&self.scenes[ran.case.data], ran.ok()?)))
+            .collect();
         let mut checks = vec![completion(ran, |shown| {
             // A run without a step has no change of the energy.
-            let count = if shown.counts[0] == 0 { NUMBERS.len() - 1 } else { NUMBERS.len() };
+            let count = if shown.counts[0] == 0 {
+                NUMBERS.len() - 1
+            } else {
+                NUMBERS.len()
+            };
             not_finite(NUMBERS.into_iter().zip(shown.numbers).take(count))
         })];
         checks.extend(found.iter().map(|(whole, shown)| whole.check(shown)));
-        checks.extend(found.iter().flat_map(|(whole, shown)| whole.most.checks(&whole.name, shown)));
+        checks.extend(
+            found
+                .iter()
+                .flat_map(|(whole, shown)| whole.most.checks(&whole.name, shown)),
+        );
         checks.push(alike_in_lanes(&found));
         let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
-        let strain = answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within).fold(0.0, max_or_nan);
-        let distance = format!(", at most {strain:.2} of the distance allowed to an independent answer");
+        let strain = answered
+            .map(|(whole, shown)| whole.farthest(shown).1 / whole.within)
+            .fold(0.0, max_or_nan);
+        let distance =
+            format!(", at most {strain:.2} of the distance allowed to an independent answer");
         let any_answer = self.scenes.iter().any(|whole| !whole.answer.is_empty());
-        let headline = format!("{} scenes{}", found.len(), if any_answer { &distance } else { "" });
-        let head = ["scene", "scheme", "solver", "end", "farthest from its answer", "by"];
-        let rows: Vec<_> = found.iter().map(|(whole, shown)| (whole.cells(shown), whole.readings(shown))).collect();
+        let headline = format!(
+            "{} scenes{}",
+            found.len(),
+            if any_answer { &distance } else { "" }
+        );
+        let head = [
+            "scene",
+            "scheme",
+            "solver",
+            "end",
+            "farthest from its answer",
+            "by",
+        ];
+        let rows: Vec<_> = found
+            .iter()
+            .map(|(whole, shown)| (whole.cells(shown), whole.readings(shown)))
+            .collect();
         Outcome {
-            tables: vec![readings::table("Scenes against an independent implementation", &head, &rows)],
+            tables: vec![readings::table(
+                "Scenes against an independent implementation",
+                &head,
+                &rows,
+            )],
             quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
             headline: headline.clone(),
             ..Outcome::new(headline, vec![], checks)
@@ -296,8 +398,14 @@ impl Whole {
         let is_known = |name: &str| self.answer.iter().any(|(of, _)| of == name);
         if is_known(error) {
             let budget = estimate(&self.scene, &mut Work::new(MOST_WORK, &mut ignored))?;
-            let of_tip = budget.quantities.iter().find(|estimate| estimate.name == "u(1) at the end");
-            others.push((error.to_owned(), of_tip.map_or(f64::NAN, |estimate| estimate.total)));
+            let of_tip = budget
+                .quantities
+                .iter()
+                .find(|estimate| estimate.name == "u(1) at the end");
+            others.push((
+                error.to_owned(),
+                of_tip.map_or(f64::NAN, |estimate| estimate.total),
+            ));
         }
         if is_known(chosen) {
             let work = &mut Work::new(MOST_WORK, &mut ignored);
@@ -307,9 +415,18 @@ impl Whole {
         }
         if is_known(STEADY) {
             // Infinitely many unstable directions are no number of an answer.
-            let unstable = |state: &Equilibrium| state.unstable_directions.map_or(f64::INFINITY, |count| count as f64);
+            let unstable = |state: &Equilibrium| {
+                state
+                    .unstable_directions
+                    .map_or(f64::INFINITY, |count| count as f64)
+            };
             let states = exact_states(&self.scene)?.into_iter();
-            others.extend(listed("steady", &states.map(|state| [state.u_tip, unstable(&state)]).collect::<Vec<_>>()));
+            others.extend(listed(
+                "steady",
+                &states
+                    .map(|state| [state.u_tip, unstable(&state)])
+                    .collect::<Vec<_>>(),
+            ));
         }
         Ok(others)
     }
@@ -318,7 +435,10 @@ impl Whole {
     fn farthest(&self, shown: &Shown) -> (&str, f64) {
         let (mut farthest, named) = (("none", 0.0), shown.named());
         for (name, expected) in &self.answer {
-            let found = named.iter().find(|(number, _)| number == name).map_or(f64::NAN, |(_, value)| *value);
+            let found = named
+                .iter()
+                .find(|(number, _)| number == name)
+                .map_or(f64::NAN, |(_, value)| *value);
             let distance = (found - expected).abs();
             if !(distance <= farthest.1) {
                 farthest = (name, distance);
@@ -331,7 +451,11 @@ impl Whole {
         let (name, distance) = self.farthest(shown);
         let holds = shown.end == self.end && (self.end != End::Answer || distance <= self.within);
         let evidence = if shown.end == End::Answer && !self.answer.is_empty() {
-            format!("{name} is {} from its answer, {:e} allowed", short_text(distance), self.within)
+            format!(
+                "{name} is {} from its answer, {:e} allowed",
+                short_text(distance),
+                self.within
+            )
         } else {
             format!("{} after {} steps", shown.end.name(), shown.counts[0])
         };
@@ -341,18 +465,45 @@ impl Whole {
     /// All numbers and counts of a run, unless a run without a step has no change of the energy.
     fn readings(&self, shown: &Shown) -> Vec<Reading> {
         let name = |of: &str| format!("{}: {of}", self.name);
-        let numbers = NUMBERS.into_iter().zip(shown.numbers).filter(|(_, value)| value.is_finite());
-        let numbers = numbers.map(|(of, value)| Reading::new(of, value).guarded(name(of), TOLERANCE));
-        let counts = COUNTS.into_iter().zip(shown.counts).map(|(of, count)| (of, count as f64));
-        let counts = counts.map(|(of, count)| Reading::new(of, count).fixed(0).guarded(name(of), COUNT_TOLERANCE));
+        let numbers = NUMBERS
+            .into_iter()
+            .zip(shown.numbers)
+            .filter(|(_, value)| value.is_finite());
+        let numbers =
+            numbers.map(|(of, value)| Reading::new(of, value).guarded(name(of), TOLERANCE));
+        let counts = COUNTS
+            .into_iter()
+            .zip(shown.counts)
+            .map(|(of, count)| (of, count as f64));
+        let counts = counts.map(|(of, count)| {
+            Reading::new(of, count)
+                .fixed(0)
+                .guarded(name(of), COUNT_TOLERANCE)
+        });
         numbers.chain(counts).collect()
     }
 
     fn cells(&self, shown: &Shown) -> Vec<String> {
-        let solver = self.scene.one_step().map_or("newton", |stepping| stepping.settings.solver.name());
+        let solver = self
+            .scene
+            .one_step()
+            .map_or("newton", |stepping| stepping.settings.solver.name());
         let (name, distance) = self.farthest(shown);
-        let by = if self.answer.is_empty() { "-".to_owned() } else { format!("{distance:.1e}") };
-        [&self.name, self.scene.method.name(), solver, shown.end.name(), name, &by].map(str::to_owned).to_vec()
+        let by = if self.answer.is_empty() {
+            "-".to_owned()
+        } else {
+            format!("{distance:.1e}")
+        };
+        [
+            &self.name,
+            self.scene.method.name(),
+            solver,
+            shown.end.name(),
+            name,
+            &by,
+        ]
+        .map(str::to_owned)
+        .to_vec()
     }
 }
 
@@ -361,18 +512,41 @@ impl Whole {
 fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
     let stepping = scene.one_step()?;
     let tolerance = stepping.settings.stopping.tolerance();
-    let tolerance = tolerance.ok_or_else(|| CaseFailure::new("a fixed number of iterations has no tolerance"))?;
-    let solved = Settings { stopping: Stopping::below(SOLVED), ..stepping.settings };
-    let solved = Stepping { settings: solved, ..stepping };
+    let tolerance = tolerance
+        .ok_or_else(|| CaseFailure::new("a fixed number of iterations has no tolerance"))?;
+    let solved = Settings {
+        stopping: Stopping::below(SOLVED),
+        ..stepping.settings
+    };
+    let solved = Stepping {
+        settings: solved,
+        ..stepping
+    };
     let mut problem = simulate::problem(scene);
-    let lifting: Vec<f64> = scene.mesh.nodes().iter().map(|x| scene.beam.theta_a * (1.0 - x)).collect();
+    let lifting: Vec<f64> = scene
+        .mesh
+        .nodes()
+        .iter()
+        .map(|x| scene.beam.theta_a * (1.0 - x))
+        .collect();
     let lengths: Vec<f64> = scene.mesh.lengths().collect();
     let (mut driver, mut farthest) = (Driver::new(problem.clone(), stepping)?, 0.0);
     for _ in 0..scene.steps() {
         let Step { old, new, .. } = driver.stepped()?;
-        let theta = old.theta.iter().zip(&lifting).map(|(theta, lifting)| theta + lifting).collect();
+        let theta = old
+            .theta
+            .iter()
+            .zip(&lifting)
+            .map(|(theta, lifting)| theta + lifting)
+            .collect();
         let [u, u_t, phi, phi_t] = [&old.u, &old.v, &old.phi, &old.w].map(Clone::clone);
-        problem.initial = Initial { u, u_t, phi, phi_t, theta };
+        problem.initial = Initial {
+            u,
+            u_t,
+            phi,
+            phi_t,
+            theta,
+        };
         let mut same = Driver::new(problem.clone(), solved)?;
         farthest = max_or_nan(farthest, distance(&lengths, new, same.stepped()?.new));
     }
@@ -380,13 +554,22 @@ fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
 }
 
 fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
-    let compared = found.iter().filter(|(_, shown)| shown.alike_in_lanes.is_some()).count();
-    let apart = found.iter().filter(|(_, shown)| shown.alike_in_lanes == Some(false));
+    let compared = found
+        .iter()
+        .filter(|(_, shown)| shown.alike_in_lanes.is_some())
+        .count();
+    let apart = found
+        .iter()
+        .filter(|(_, shown)| shown.alike_in_lanes == Some(false));
     let apart: Vec<&str> = apart.map(|(whole, _)| whole.name.as_str()).collect();
     Check::that(
         compared > 0 && apart.is_empty(),
         "in lanes, in a group that is not full, each scene that can run so has the same bits",
-        format!("{compared} compared, {} with other bits: {}", apart.len(), apart.join(", ")),
+        format!(
+            "{compared} compared, {} with other bits: {}",
+            apart.len(),
+            apart.join(", ")
+        ),
     )
 }
 
@@ -394,8 +577,12 @@ impl Shown {
     /// All numbers by their names.
     fn named(&self) -> Expected {
         let numbers = NUMBERS.into_iter().map(str::to_owned).zip(self.numbers);
-        let lists = [&self.tip, &self.contact].map(|list| list.iter().map(|&(a, b)| [a, b]).collect::<Vec<_>>());
-        let pairs = PAIRS.iter().zip(&lists).flat_map(|(key, list)| listed(key, list));
+        let lists = [&self.tip, &self.contact]
+            .map(|list| list.iter().map(|&(a, b)| [a, b]).collect::<Vec<_>>());
+        let pairs = PAIRS
+            .iter()
+            .zip(&lists)
+            .flat_map(|(key, list)| listed(key, list));
         numbers.chain(pairs).chain(self.others.clone()).collect()
     }
 
@@ -406,15 +593,43 @@ impl Shown {
     }
 
     fn of(run: &Run) -> Result<Self, RunError> {
-        let Run { last, iterations, work, .. } = run;
-        let Sample { u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, .. } = *last;
-        let Extremes { u_tip_min, u_tip_max } = run.extremes;
+        let Run {
+            last,
+            iterations,
+            work,
+            ..
+        } = run;
+        let Sample {
+            u_tip,
+            phi_tip,
+            u_t_tip,
+            phi_t_tip,
+            theta_mid,
+            energy,
+            ..
+        } = *last;
+        let Extremes {
+            u_tip_min,
+            u_tip_max,
+        } = run.extremes;
         let rise = run.energy.largest_increase;
-        let contact = run.contact.as_ref().map_or(run.contact_steps, |contact| contact.events.len());
+        let contact = run
+            .contact
+            .as_ref()
+            .map_or(run.contact_steps, |contact| contact.events.len());
         Ok(Self {
             end: End::of(run.failure.as_ref())?,
-            numbers: [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, u_tip_min, u_tip_max, rise],
-            counts: [run.steps, iterations.total, iterations.max, work.passes, work.factorizations, contact],
+            numbers: [
+                u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy, u_tip_min, u_tip_max, rise,
+            ],
+            counts: [
+                run.steps,
+                iterations.total,
+                iterations.max,
+                work.passes,
+                work.factorizations,
+                contact,
+            ],
             alike_in_lanes: None,
             tip: run.tip(),
             contact: run.contact_phases(),

@@ -5,16 +5,27 @@ use thermobeam::equilibrium::{EquilibriumError, equilibria};
 use super::prelude::*;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
-pub(super) fn listed_scenes(section: &Section<'_>, folder: &Path) -> Result<Vec<Scene>, InputError> {
+pub(super) fn listed_scenes(
+    section: &Section<'_>,
+    folder: &Path,
+) -> Result<Vec<Scene>, InputError> {
     let scene = |item: &Field<'_>| listed_scene(item, folder);
-    section.list("scenes", "a list of at least one scene file", scene, |list| !list.is_empty())
+    section.list(
+        "scenes",
+        "a list of at least one scene file",
+        scene,
+        |list| !list.is_empty(),
+    )
 }
 
 /// Reads the scene of a file name; it must have obstacles.
 pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
     let scene = Scene::read_one_step(field, folder)?;
     if scene.obstacles.is_none() {
-        return Err(field.refuse(format!("{}, without obstacles", scene.name), "a scene with obstacles"));
+        return Err(field.refuse(
+            format!("{}, without obstacles", scene.name),
+            "a scene with obstacles",
+        ));
     }
     Ok(scene)
 }
@@ -41,7 +52,13 @@ impl ToRest {
         let betas = section.list("beta", "a list of numbers, ascending", Field::number, fits)?;
         let (dt, t_max) = steps_to_rest(section)?;
         let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
-        Ok(Self { betas, elements, dt, speed: section.positive("speed")?, t_max })
+        Ok(Self {
+            betas,
+            elements,
+            dt,
+            speed: section.positive("speed")?,
+            t_max,
+        })
     }
 
     /// What a run costs.
@@ -66,20 +83,29 @@ impl ToRest {
 /// The keys dt and t_max of a run to rest.
 pub(super) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputError> {
     let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
-    limits::steps_until(&section.require("t_max", "a number")?, t_max, dt, limits::STEPS)?;
+    limits::steps_until(
+        &section.require("t_max", "a number")?,
+        t_max,
+        dt,
+        limits::STEPS,
+    )?;
     Ok((dt, t_max))
 }
 
 /// The key `elements`: the meshes over which the rate is observed.
 pub(super) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least three numbers of elements, ascending";
-    section.list("elements", allowed, tables::elements, |list| list.len() >= 3 && increases(list))
+    section.list("elements", allowed, tables::elements, |list| {
+        list.len() >= 3 && increases(list)
+    })
 }
 
 /// The key `tolerance`: the allowed deviation of a rate from its order.
 pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
     let allowed = "a number > 0 and < 0.5";
-    section.require("tolerance", allowed)?.number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
+    section
+        .require("tolerance", allowed)?
+        .number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
 }
 
 /// The cost until a beam has come to rest, at about t = 200.
@@ -123,7 +149,8 @@ impl AtRest {
             t,
             tip: [&level.u, &level.phi].map(|field| field[mesh.elements()]),
             states: states.len(),
-            is_complete: completeness(&scene.beam, scene.obstacles.as_ref()) == Completeness::Complete,
+            is_complete: completeness(&scene.beam, scene.obstacles.as_ref())
+                == Completeness::Complete,
             stable: states.iter().filter(|state| state.stable).count(),
             nearest: Nearest::of(mesh, level, states.into_iter().filter(meant)),
         })
@@ -131,12 +158,18 @@ impl AtRest {
 
     /// The number of steady states, in words: a list that may lack some gives only a least number.
     pub(super) fn count(&self) -> String {
-        if self.is_complete { self.states.to_string() } else { format!("at least {}", self.states) }
+        if self.is_complete {
+            self.states.to_string()
+        } else {
+            format!("at least {}", self.states)
+        }
     }
 
     /// u(1) and φ(1) of the nearest exact steady state; NaN if there is none.
     pub(super) fn exact_tip(&self) -> [f64; 2] {
-        self.nearest.map_or([f64::NAN; 2], |Nearest { state, .. }| [state.u_tip, state.phi_tip])
+        self.nearest.map_or([f64::NAN; 2], |Nearest { state, .. }| {
+            [state.u_tip, state.phi_tip]
+        })
     }
 
     /// Its distances in u and in φ; NaN if there is none.
@@ -171,7 +204,9 @@ const QUIET: f64 = 5.0;
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     let (mut driver, mut moved) = (simulate::driver(scene)?, 0.0);
     loop {
-        let Step { new, simulation, .. } = driver.stepped()?;
+        let Step {
+            new, simulation, ..
+        } = driver.stepped()?;
         let t = simulation.t();
         if !new.is_slow(speed) {
             moved = t;
@@ -179,7 +214,10 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
             return Ok((t, new.clone()));
         }
         if !(t < t_max) {
-            return Err(CaseFailure::new(format!("{} still moves faster than {speed:e} at t = {t_max}", scene.name)));
+            return Err(CaseFailure::new(format!(
+                "{} still moves faster than {speed:e} at t = {t_max}",
+                scene.name
+            )));
         }
     }
 }
@@ -205,11 +243,22 @@ impl Nearest {
     fn of(mesh: &Mesh, level: &Level, states: impl Iterator<Item = Equilibrium>) -> Option<Self> {
         let measured = states.map(|state| {
             let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
-                let differences = mesh.nodes().iter().zip(values).map(|(&x, value)| (value - exact(x)).abs());
+                let differences = mesh
+                    .nodes()
+                    .iter()
+                    .zip(values)
+                    .map(|(&x, value)| (value - exact(x)).abs());
                 differences.fold(0.0, max_or_nan)
             };
-            let errors = [largest(&level.u, &|x| state.shape.u(x)), largest(&level.phi, &|x| state.shape.phi(x))];
-            Self { state, distance: max_or_nan(errors[0], errors[1]), errors }
+            let errors = [
+                largest(&level.u, &|x| state.shape.u(x)),
+                largest(&level.phi, &|x| state.shape.phi(x)),
+            ];
+            Self {
+                state,
+                distance: max_or_nan(errors[0], errors[1]),
+                errors,
+            }
         });
         measured.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }

@@ -27,7 +27,12 @@ pub struct Worst {
 impl Default for Worst {
     /// The values before the first step.
     fn default() -> Self {
-        Self { residual: 0.0, rise: f64::NEG_INFINITY, open: 0.0, risen: 0.0 }
+        Self {
+            residual: 0.0,
+            rise: f64::NEG_INFINITY,
+            open: 0.0,
+            risen: 0.0,
+        }
     }
 }
 
@@ -44,8 +49,18 @@ impl Worst {
 
     /// The numbers and their names.
     pub(super) fn named(&self) -> [(&'static str, f64); 4] {
-        let Self { residual, rise, open, risen } = *self;
-        [("residual", residual), ("rise", rise), ("residual over its bound", open), ("rise over its bound", risen)]
+        let Self {
+            residual,
+            rise,
+            open,
+            risen,
+        } = *self;
+        [
+            ("residual", residual),
+            ("rise", rise),
+            ("residual over its bound", open),
+            ("rise over its bound", risen),
+        ]
     }
 }
 
@@ -54,7 +69,11 @@ pub(super) fn of_allowed(share: f64) -> String {
     if share > 1.0 {
         return format!("{} times what is allowed", short_text(share));
     }
-    let share = if share < 0.01 && share > 0.0 { format!("{share:.0e}") } else { format!("{share:.2}") };
+    let share = if share < 0.01 && share > 0.0 {
+        format!("{share:.0e}")
+    } else {
+        format!("{share:.2}")
+    };
     format!("{share} of what is allowed")
 }
 
@@ -86,20 +105,41 @@ const ALIKE: f64 = 0.99;
 impl EnergyWatch {
     /// Starts from a level whose energy has the given size.
     pub(super) fn new(scale: f64) -> Self {
-        Self { scale, worst: Worst::default(), drift: 0.0, squares: 0.0, products: [[0.0; 2]; TERMS.len()] }
+        Self {
+            scale,
+            worst: Worst::default(),
+            drift: 0.0,
+            squares: 0.0,
+            products: [[0.0; 2]; TERMS.len()],
+        }
     }
 
     /// Adds a step; `rounding` is evaluated only if needed.
-    pub(super) fn step(&mut self, balance: &Balance, scale: f64, rounding: impl FnOnce() -> Rounding) {
+    pub(super) fn step(
+        &mut self,
+        balance: &Balance,
+        scale: f64,
+        rounding: impl FnOnce() -> Rounding,
+    ) {
         self.scale = max_or_nan(self.scale, scale);
         let scale = max_or_nan(self.scale, f64::MIN_POSITIVE);
         let (residual, change) = (balance.residual.abs(), balance.change);
         let bound = CLOSED * scale;
-        let mut step =
-            Worst { residual: residual / scale, rise: change / scale, open: residual / bound, ..Worst::default() };
+        let mut step = Worst {
+            residual: residual / scale,
+            rise: change / scale,
+            open: residual / bound,
+            ..Worst::default()
+        };
         self.drift += balance.residual / scale;
         self.squares += balance.residual * balance.residual;
-        let terms = [balance.change, balance.viscous, balance.thermal, balance.inertial, balance.contact];
+        let terms = [
+            balance.change,
+            balance.viscous,
+            balance.thermal,
+            balance.inertial,
+            balance.contact,
+        ];
         for ([product, square], term) in self.products.iter_mut().zip(terms) {
             *product += balance.residual * term;
             *square += term * term;
@@ -120,7 +160,10 @@ impl EnergyWatch {
     /// c = Σ r T / Σ T².
     pub(super) fn open_term(&self) -> Option<(&'static str, f64)> {
         let cosine = |[product, square]: [f64; 2]| (product / (self.squares * square).sqrt()).abs();
-        let named = TERMS.into_iter().zip(self.products).filter(|(_, sums)| cosine(*sums) > ALIKE);
+        let named = TERMS
+            .into_iter()
+            .zip(self.products)
+            .filter(|(_, sums)| cosine(*sums) > ALIKE);
         let most = named.max_by(|(_, one), (_, next)| cosine(*one).total_cmp(&cosine(*next)));
         most.map(|(term, [product, square])| (term, product / square))
     }
@@ -144,23 +187,39 @@ pub(super) fn watched(
     steps: usize,
     mut see: impl FnMut(usize, usize, &Level),
 ) -> Result<Vec<Watched>, CaseFailure> {
-    let settings = Settings { stopping: Stopping::below(SOLVED), ..Settings::default() };
-    let mut new = Level::new(problems.first().map_or(0, |problem| problem.mesh.nodes().len()));
+    let settings = Settings {
+        stopping: Stopping::below(SOLVED),
+        ..Settings::default()
+    };
+    let mut new = Level::new(
+        problems
+            .first()
+            .map_or(0, |problem| problem.mesh.nodes().len()),
+    );
     let mut driver = EnsembleDriver::new(problems, dts, scheme, settings)?;
     let start = |k: usize| {
         let mut level = new.clone();
         driver.ensemble().observe(k, &mut level);
-        (EnergyWatch::new(driver.ensemble().cases()[k].energy_scale(&level)), level)
+        (
+            EnergyWatch::new(driver.ensemble().cases()[k].energy_scale(&level)),
+            level,
+        )
     };
     let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
     for _ in 0..steps {
-        let Some((ensemble, balances)) = driver.stepped()? else { break };
+        let Some((ensemble, balances)) = driver.stepped()? else {
+            break;
+        };
         for (k, ((watch, old), balance)) in runs.iter_mut().zip(balances).enumerate() {
-            let Ok(report) = ensemble.report(k) else { continue };
+            let Ok(report) = ensemble.report(k) else {
+                continue;
+            };
             ensemble.observe(k, &mut new);
             see(k, report.iterations, &new);
             let case = &ensemble.cases()[k];
-            watch.step(balance, case.energy_scale(&new), || case.rounding(old, &new));
+            watch.step(balance, case.energy_scale(&new), || {
+                case.rounding(old, &new)
+            });
             std::mem::swap(old, &mut new);
         }
     }
@@ -183,16 +242,39 @@ mod tests {
                 let (viscous, thermal) = (0.5_f64.powi(k), 0.8_f64.powi(k));
                 let (inertial, contact) = (f64::from(k % 3), f64::from(k % 2));
                 let change = -viscous - thermal;
-                let balance = Balance { change, viscous, thermal, inertial, contact, load: 0.0, residual: 0.0 };
-                let balance = Balance { residual: residual(&balance), ..balance };
-                watch.step(&balance, 1.0, || Rounding { residual: 0.0, contact: 0.0 });
+                let balance = Balance {
+                    change,
+                    viscous,
+                    thermal,
+                    inertial,
+                    contact,
+                    load: 0.0,
+                    residual: 0.0,
+                };
+                let balance = Balance {
+                    residual: residual(&balance),
+                    ..balance
+                };
+                watch.step(&balance, 1.0, || Rounding {
+                    residual: 0.0,
+                    contact: 0.0,
+                });
             }
             watch.open_term()
         };
         let (term, left) = open_term(|balance| -0.5 * balance.viscous).expect("a term");
-        assert!(term == "the viscous loss" && (left + 0.5).abs() < 1e-12, "{term} {left}");
-        assert_eq!(open_term(|balance| 0.25 * balance.thermal).map(|(term, _)| term), Some("the heat flow"));
-        assert_eq!(open_term(|balance| balance.inertial - balance.contact), None);
+        assert!(
+            term == "the viscous loss" && (left + 0.5).abs() < 1e-12,
+            "{term} {left}"
+        );
+        assert_eq!(
+            open_term(|balance| 0.25 * balance.thermal).map(|(term, _)| term),
+            Some("the heat flow")
+        );
+        assert_eq!(
+            open_term(|balance| balance.inertial - balance.contact),
+            None
+        );
         assert_eq!(open_term(|_| 0.0), None);
     }
 }

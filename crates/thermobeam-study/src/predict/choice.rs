@@ -80,7 +80,10 @@ impl Quantity {
 
     /// The comparison of dG runs, for the norm at points of their own meshes.
     fn wanted(self, target: f64) -> Wanted {
-        Wanted { rows: self.rows(&[]), tolerance: [target; 3] }
+        Wanted {
+            rows: self.rows(&[]),
+            tolerance: [target; 3],
+        }
     }
 }
 
@@ -125,11 +128,27 @@ pub struct Choice {
 ///
 /// # Errors
 /// [`Unreachable`]: why there is no such run, and the error reached.
-pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_>) -> Result<Choice, Unreachable> {
-    let Reference { scene: chosen, space, time, run, finer_space, is_narrow, .. } =
-        reference(scene, None, &quantity.wanted(target), work)?;
+pub fn choose(
+    scene: &Scene,
+    quantity: Quantity,
+    target: f64,
+    work: &mut Work<'_>,
+) -> Result<Choice, Unreachable> {
+    let Reference {
+        scene: chosen,
+        space,
+        time,
+        run,
+        finer_space,
+        is_narrow,
+        ..
+    } = reference(scene, None, &quantity.wanted(target), work)?;
     // Coarse levels that miss a narrow feature say nothing about finer ones.
-    let own_scheme = if is_narrow { None } else { own_scheme(scene, target, MOST_STEPS) };
+    let own_scheme = if is_narrow {
+        None
+    } else {
+        own_scheme(scene, target, MOST_STEPS)
+    };
     let law = own_scheme.and_then(|coarse| {
         let own = Own::run(&coarse, quantity, chosen.mesh.nodes(), work).ok()?;
         Law::of(&coarse, &own, work).ok()
@@ -149,7 +168,12 @@ pub fn choose(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_
 ///
 /// # Errors
 /// As [`choose`].
-pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Work<'_>) -> Result<Choice, Unreachable> {
+pub fn keep_scheme(
+    scene: &Scene,
+    quantity: Quantity,
+    target: f64,
+    work: &mut Work<'_>,
+) -> Result<Choice, Unreachable> {
     let Some(mut scene) = own_scheme(scene, target, f64::INFINITY) else {
         return choose(scene, quantity, target, work);
     };
@@ -179,7 +203,15 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
             (Ok((own, error)), Some(law)) if error <= target => {
                 let parts = law.parts(size(&scene));
                 let parts_by = "by runs with twice the elements and with half of dt".to_owned();
-                return Ok(Choice { scene, parts, parts_by, error, is_kept: true, run: own.curves.cost, needed: None });
+                return Ok(Choice {
+                    scene,
+                    parts,
+                    parts_by,
+                    error,
+                    is_kept: true,
+                    run: own.curves.cost,
+                    needed: None,
+                });
             }
             (Ok((_, error)), Some(law)) => {
                 if error < best.0 {
@@ -187,7 +219,8 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
                 }
                 // A run that is clearly too expensive is not started.
                 let [elements, steps] = law.cheapest(AIM * target);
-                work.leaves(0.25 * elements * steps).map_err(|reason| not_reached(best, reason))?;
+                work.leaves(0.25 * elements * steps)
+                    .map_err(|reason| not_reached(best, reason))?;
                 law.next(size(&scene), target)
             }
             // Coarse steps may fail although finer ones succeed.
@@ -205,12 +238,20 @@ pub fn keep_scheme(scene: &Scene, quantity: Quantity, target: f64, work: &mut Wo
 
 /// The scene with its own one-step scheme on coarse levels; `None` for a scene by dG.
 fn own_scheme(scene: &Scene, target: f64, most_steps: f64) -> Option<Scene> {
-    let Method::OneStep(mut stepping) = scene.method else { return None };
+    let Method::OneStep(mut stepping) = scene.method else {
+        return None;
+    };
     if let Stopping::Converged { tolerance, .. } = &mut stepping.settings.stopping {
         *tolerance = tolerance.min((1e-4 * target).clamp(1e-13, 1e-9));
     }
     let steps = (2.0 * scene.t_end / impact(scene)).clamp(8.0, most_steps);
-    resized(&Scene { method: Method::OneStep(stepping), ..scene.clone() }, [ELEMENTS, steps])
+    resized(
+        &Scene {
+            method: Method::OneStep(stepping),
+            ..scene.clone()
+        },
+        [ELEMENTS, steps],
+    )
 }
 
 fn size(scene: &Scene) -> [f64; 2] {
@@ -221,7 +262,11 @@ fn size(scene: &Scene) -> [f64; 2] {
 fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
     // A multiple of the listed elements keeps their nodes.
     let listed = scene.listed.len().saturating_sub(1).max(1);
-    let mesh = resampled(&scene.mesh, (elements.ceil() as usize).next_multiple_of(listed)).ok()?;
+    let mesh = resampled(
+        &scene.mesh,
+        (elements.ceil() as usize).next_multiple_of(listed),
+    )
+    .ok()?;
     Some(scene.with_steps(mesh, steps.ceil() as usize, scene.t_end))
 }
 
@@ -233,7 +278,12 @@ struct Own {
 
 impl Own {
     /// * `nodes`: of the reference, whose polynomials may be steep where the scene's mesh is coarse.
-    fn run(scene: &Scene, quantity: Quantity, nodes: &[f64], work: &mut Work<'_>) -> Result<Self, Reason> {
+    fn run(
+        scene: &Scene,
+        quantity: Quantity,
+        nodes: &[f64],
+        work: &mut Work<'_>,
+    ) -> Result<Self, Reason> {
         let finer = resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(Reason::of_run)?;
         let mut nodes = [finer.nodes(), nodes].concat();
         nodes.sort_by(f64::total_cmp);
@@ -290,25 +340,38 @@ impl Law {
 
     fn parts(&self, [elements, steps]: [f64; 2]) -> [f64; 2] {
         let ([n, s], [p, q]) = (self.at, self.orders);
-        [self.parts[0] * (n / elements).powf(p), self.parts[1] * (s / steps).powf(q)]
+        [
+            self.parts[0] * (n / elements).powf(p),
+            self.parts[1] * (s / steps).powf(q),
+        ]
     }
 
     /// The fewest node-steps with a given error: there the errors of space and time are in the ratio q to p.
     fn cheapest(&self, error: f64) -> [f64; 2] {
         let ([n, s], [p, q]) = (self.at, self.orders);
         let wanted = [error * q / (p + q), error * p / (p + q)];
-        [n * (self.parts[0] / wanted[0]).powf(1.0 / p), s * (self.parts[1] / wanted[1]).powf(1.0 / q)]
+        [
+            n * (self.parts[0] / wanted[0]).powf(1.0 / p),
+            s * (self.parts[1] / wanted[1]).powf(1.0 / q),
+        ]
     }
 
     /// The size after a run that misses the target: larger, but within the range of the law.
     fn next(&self, now: [f64; 2], target: f64) -> [f64; 2] {
         let best = self.cheapest(AIM * target);
         let next: [f64; 2] = std::array::from_fn(|k| best[k].clamp(now[k], MOST_GROWTH * now[k]));
-        if next[0] * next[1] >= 1.5 * now[0] * now[1] { next } else { now.map(|count| 1.3 * count) }
+        if next[0] * next[1] >= 1.5 * now[0] * now[1] {
+            next
+        } else {
+            now.map(|count| 1.3 * count)
+        }
     }
 
     fn needed(&self, target: f64) -> Needed {
         let at = self.cheapest(target).map(|count| count.max(1.0).ceil());
-        Needed { at, seconds: self.seconds_per_node_step * at[0] * at[1] }
+        Needed {
+            at,
+            seconds: self.seconds_per_node_step * at[0] * at[1],
+        }
     }
 }

@@ -50,7 +50,9 @@ impl Rows {
         let gauss = dg::Space::gauss(count);
         let points = nodes.windows(2).flat_map(|x| {
             let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
-            gauss.iter().map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
+            gauss
+                .iter()
+                .map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
         });
         Self::Norm(points.collect())
     }
@@ -78,7 +80,10 @@ impl Rows {
         let differences = one.iter().zip(other).map(|(a, b)| a - b);
         match self {
             Self::Norm(_) => differences.map(|d| d * d).sum::<f64>().sqrt() / tolerance[0],
-            _ => differences.zip(tolerance).map(|(d, tolerance)| d.abs() / tolerance).fold(0.0, max_or_nan),
+            _ => differences
+                .zip(tolerance)
+                .map(|(d, tolerance)| d.abs() / tolerance)
+                .fold(0.0, max_or_nan),
         }
     }
 
@@ -110,16 +115,25 @@ impl Rows {
         simulation.level_into(t, level);
         let space = simulation.space();
         let Self::Norm(points) = self else {
-            row.extend([Field::U, Field::Phi].map(|field| level.value_and_slope(space, field, 1.0).0));
+            row.extend(
+                [Field::U, Field::Phi].map(|field| level.value_and_slope(space, field, 1.0).0),
+            );
             return row.push(simulation.energy(level).total());
         };
         for ((_, weight), point) in points.iter().zip(located) {
-            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] = level.values_and_slopes_at(space, point);
+            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
+                level.values_and_slopes_at(space, point);
             Self::push(row, *weight, [u_x, phi, phi_x, v, w, theta]);
         }
     }
 
-    fn of_one_step(&self, mesh: &Mesh, level: &Level, energy: impl FnOnce() -> f64, row: &mut Vec<f64>) {
+    fn of_one_step(
+        &self,
+        mesh: &Mesh,
+        level: &Level,
+        energy: impl FnOnce() -> f64,
+        row: &mut Vec<f64>,
+    ) {
         let (last, nodes) = (mesh.elements(), mesh.nodes());
         let Self::Norm(points) = self else {
             row.push(level.u[last]);
@@ -137,7 +151,18 @@ impl Rows {
             let value = |y: &[f64]| y[i] + (y[i + 1] - y[i]) * ((x - nodes[i]) / h);
             let slope = |y: &[f64]| (y[i + 1] - y[i]) / h;
             let [v, w, theta] = [&level.v, &level.w, &level.theta].map(|y| value(y));
-            Self::push(row, weight, [slope(&level.u), value(&level.phi), slope(&level.phi), v, w, theta]);
+            Self::push(
+                row,
+                weight,
+                [
+                    slope(&level.u),
+                    value(&level.phi),
+                    slope(&level.phi),
+                    v,
+                    w,
+                    theta,
+                ],
+            );
         }
     }
 }
@@ -169,7 +194,11 @@ pub(super) struct Curves {
 
 impl Curves {
     fn new(rows: &Rows, u_tip: [f64; 2]) -> Self {
-        Self { width: rows.width(), range: u_tip, ..Self::default() }
+        Self {
+            width: rows.width(),
+            range: u_tip,
+            ..Self::default()
+        }
     }
 
     /// Its own times.
@@ -179,11 +208,19 @@ impl Curves {
 
     /// One number over time.
     pub(super) fn column(&self, k: usize) -> Vec<f64> {
-        self.values.iter().skip(k).step_by(self.width.max(1)).copied().collect()
+        self.values
+            .iter()
+            .skip(k)
+            .step_by(self.width.max(1))
+            .copied()
+            .collect()
     }
 
     fn include(&mut self, [low, high]: [f64; 2]) {
-        self.range = [min_or_nan(self.range[0], low), max_or_nan(self.range[1], high)];
+        self.range = [
+            min_or_nan(self.range[0], low),
+            max_or_nan(self.range[1], high),
+        ];
     }
 }
 
@@ -194,7 +231,12 @@ impl Curves {
 ///
 /// # Errors
 /// The scene is refused, a step fails, or the limit of time or work is reached.
-pub(super) fn curves(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
+pub(super) fn curves(
+    scene: &Scene,
+    rows: &Rows,
+    at: Option<&[f64]>,
+    work: &mut Work<'_>,
+) -> Result<Curves, Reason> {
     let curves = match scene.method {
         Method::OneStep(_) => by_one_step(scene, rows, at, work),
         Method::Dg(stepping) => by_dg(scene, stepping, rows, at, work),
@@ -239,47 +281,93 @@ fn by_dg(
             continue;
         }
         for instance in instances(simulation, early) {
-            rows.of_dg(simulation, instance.t, &located, &mut level, &mut curves.values);
+            rows.of_dg(
+                simulation,
+                instance.t,
+                &located,
+                &mut level,
+                &mut curves.values,
+            );
             curves.times.push(instance);
         }
     }
-    curves.cost = Cost { work: (unknowns * solves) as f64, seconds: motion.wall().as_secs_f64(), runs: 1 };
+    curves.cost = Cost {
+        work: (unknowns * solves) as f64,
+        seconds: motion.wall().as_secs_f64(),
+        runs: 1,
+    };
     Ok(curves)
 }
 
 /// Times in the last step; a step is early if it is closer than `early` to the start or an event.
 fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
     let (from, to) = (simulation.old_level().t, simulation.t());
-    let event = simulation.events().iter().rev().map(|event| event.t).find(|t| *t <= from).unwrap_or(0.0);
+    let event = simulation
+        .events()
+        .iter()
+        .rev()
+        .map(|event| event.t)
+        .find(|t| *t <= from)
+        .unwrap_or(0.0);
     std::array::from_fn(|point| {
         let s = 0.5 * (1.0 - (PI * (point + 1) as f64 / POINTS as f64).cos());
-        let t = if point + 1 == POINTS { to } else { from + s * (to - from) };
-        Instance { t, since: t - event, early: from - event < early }
+        let t = if point + 1 == POINTS {
+            to
+        } else {
+            from + s * (to - from)
+        };
+        Instance {
+            t,
+            since: t - event,
+            early: from - event < early,
+        }
     })
 }
 
-fn by_one_step(scene: &Scene, rows: &Rows, at: Option<&[f64]>, work: &mut Work<'_>) -> Result<Curves, Reason> {
+fn by_one_step(
+    scene: &Scene,
+    rows: &Rows,
+    at: Option<&[f64]>,
+    work: &mut Work<'_>,
+) -> Result<Curves, Reason> {
     let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
     let (elements, steps) = (scene.mesh.elements(), scene.steps());
     let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
     for n in 1..=steps {
-        let Step { new, simulation, .. } = driver.stepped().map_err(Reason::of_run)?;
+        let Step {
+            new, simulation, ..
+        } = driver.stepped().map_err(Reason::of_run)?;
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {
             None => n % every == 0 || n == steps,
             // Up to rounding, steps of half the length end there.
-            Some(at) => at.get(curves.times.len()).is_some_and(|time| t >= time - 0.5 * simulation.dt()),
+            Some(at) => at
+                .get(curves.times.len())
+                .is_some_and(|time| t >= time - 0.5 * simulation.dt()),
         };
         if is_read {
-            curves.times.push(Instance { t, since: 0.0, early: false });
-            rows.of_one_step(&scene.mesh, new, || simulation.energy(new).total(), &mut curves.values);
+            curves.times.push(Instance {
+                t,
+                since: 0.0,
+                early: false,
+            });
+            rows.of_one_step(
+                &scene.mesh,
+                new,
+                || simulation.energy(new).total(),
+                &mut curves.values,
+            );
         }
         work.add(elements as f64)?;
     }
-    curves.cost = Cost { work: (elements * steps) as f64, seconds: driver.wall().as_secs_f64(), runs: 1 };
+    curves.cost = Cost {
+        work: (elements * steps) as f64,
+        seconds: driver.wall().as_secs_f64(),
+        runs: 1,
+    };
     Ok(curves)
 }
 
@@ -300,17 +388,28 @@ impl Apart {
     /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not match.
     pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
-            return Self { early: f64::NAN, late: f64::NAN, ..Self::default() };
+            return Self {
+                early: f64::NAN,
+                late: f64::NAN,
+                ..Self::default()
+            };
         }
         let mut apart = Self::default();
-        let pairs = own.values.chunks(own.width).zip(other.values.chunks(own.width));
+        let pairs = own
+            .values
+            .chunks(own.width)
+            .zip(other.values.chunks(own.width));
         for (instance, (one, other)) in own.times.iter().zip(pairs) {
             let difference = rows.distance(one, other, tolerance);
             if !(difference <= apart.most()) {
                 apart.since = instance.since;
                 apart.is_before_events = instance.since == instance.t;
             }
-            let part = if instance.early { &mut apart.early } else { &mut apart.late };
+            let part = if instance.early {
+                &mut apart.early
+            } else {
+                &mut apart.late
+            };
             *part = max_or_nan(*part, difference);
         }
         apart

@@ -71,7 +71,11 @@ impl Datum {
 
     /// The field, or its slope, at x.
     fn at(&self, x: f64) -> f64 {
-        if self.counts_slope() { self.function.derivatives(x)[1] } else { self.function.eval(x) }
+        if self.counts_slope() {
+            self.function.derivatives(x)[1]
+        } else {
+            self.function.eval(x)
+        }
     }
 
     /// Where the field jumps in an element by more than `least`: a difference that stays when the interval becomes shorter, down to
@@ -85,7 +89,11 @@ impl Datum {
                 before = change(from, to);
             }
             let middle = 0.5 * (from + to);
-            if change(from, middle) > change(middle, to) { to = middle } else { from = middle }
+            if change(from, middle) > change(middle, to) {
+                to = middle
+            } else {
+                from = middle
+            }
         }
         let stays = change(from, to);
         (stays > least && stays > 0.5 * before).then_some(0.5 * (from + to))
@@ -117,7 +125,13 @@ pub(super) struct Data {
 
 impl Data {
     pub(super) fn of(scene: &Scene) -> Self {
-        let Initial { u, u_t, phi, phi_t, theta } = &scene.initial;
+        let Initial {
+            u,
+            u_t,
+            phi,
+            phi_t,
+            theta,
+        } = &scene.initial;
         let fields = [
             ("u", Field::U, u),
             ("u_t", Field::V, u_t),
@@ -127,11 +141,24 @@ impl Data {
         ];
         let fields: Vec<Datum> = fields
             .into_iter()
-            .filter_map(|(name, field, function)| Some(Datum { name, field, function: function.clone()? }))
+            .filter_map(|(name, field, function)| {
+                Some(Datum {
+                    name,
+                    field,
+                    function: function.clone()?,
+                })
+            })
             .collect();
-        let mut kinks: Vec<f64> = fields.iter().flat_map(|datum| datum.function.kinks()).collect();
+        let mut kinks: Vec<f64> = fields
+            .iter()
+            .flat_map(|datum| datum.function.kinks())
+            .collect();
         // A function such as x/abs(x) has no value at its jump, which is then inside a short element.
-        let is_defined = |x: f64| fields.iter().all(|datum| datum.function.eval(x).is_finite());
+        let is_defined = |x: f64| {
+            fields
+                .iter()
+                .all(|datum| datum.function.eval(x).is_finite())
+        };
         kinks.retain(|&x| (SHORTEST..=1.0 - SHORTEST).contains(&x) && is_defined(x));
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|next, x| *next - *x < SHORTEST);
@@ -139,19 +166,31 @@ impl Data {
         for &x in &kinks {
             add_node(&mut kept, x, SHORTEST);
         }
-        Self { fields, theta_a: scene.beam.theta_a, nodes: scene.mesh.nodes().to_vec(), kept, kinks }
+        Self {
+            fields,
+            theta_a: scene.beam.theta_a,
+            nodes: scene.mesh.nodes().to_vec(),
+            kept,
+            kinks,
+        }
     }
 
     /// A scene on whose mesh the data are resolved, and whether that took new nodes.
     ///
     /// # Errors
     /// [`Unreachable::Unresolved`]: no mesh of the search resolves a field.
-    pub(super) fn resolve(&self, scene: Scene, wanted: &Wanted) -> Result<(Scene, bool), Unreachable> {
+    pub(super) fn resolve(
+        &self,
+        scene: Scene,
+        wanted: &Wanted,
+    ) -> Result<(Scene, bool), Unreachable> {
         let (mut scene, mut elements) = (scene, vec![]);
         let first = scene.mesh.elements();
         loop {
             elements = self.compare(&scene, &elements, wanted)?;
-            let Some(coarse) = self.coarse(&elements, wanted)? else { break };
+            let Some(coarse) = self.coarse(&elements, wanted)? else {
+                break;
+            };
             let mut nodes = vec![];
             for (element, is_coarse) in elements.iter().zip(coarse) {
                 nodes.push(element.from);
@@ -167,7 +206,11 @@ impl Data {
         }
         let is_finer = scene.mesh.elements() > first;
         if is_finer {
-            scene = on(&scene, neighbours_comparable(scene.mesh.nodes().to_vec()), wanted)?;
+            scene = on(
+                &scene,
+                neighbours_comparable(scene.mesh.nodes().to_vec()),
+                wanted,
+            )?;
         }
         Ok((scene, is_finer))
     }
@@ -175,11 +218,21 @@ impl Data {
     /// Refuses u_t, φ_t and θ that jump, for the norm: in the first steps the front of a jump J leaves an error of about J (ζ dt)^¼ in
     /// it. That falls so slowly that the difference to shorter steps is a third of the error.
     fn refuse_jumps(&self, elements: &[Element], allowed: f64) -> Result<(), Unreachable> {
-        for (k, datum) in self.fields.iter().enumerate().filter(|(_, datum)| !datum.counts_slope()) {
+        for (k, datum) in self
+            .fields
+            .iter()
+            .enumerate()
+            .filter(|(_, datum)| !datum.counts_slope())
+        {
             for element in elements {
                 if let Some(x) = datum.jump([element.from, element.to], allowed) {
                     let error = element.largest[k];
-                    return Err(Unreachable::Unresolved { field: datum.name, x, error, allowed });
+                    return Err(Unreachable::Unresolved {
+                        field: datum.name,
+                        x,
+                        error,
+                        allowed,
+                    });
                 }
             }
         }
@@ -187,56 +240,109 @@ impl Data {
     }
 
     /// The differences on all elements; those that were there before are not computed again.
-    fn compare(&self, scene: &Scene, before: &[Element], wanted: &Wanted) -> Result<Vec<Element>, Unreachable> {
-        let simulation = dg::Simulation::new(scene.dg_problem(), scene.dg_stepping())
-            .map_err(|error| Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error)))?;
+    fn compare(
+        &self,
+        scene: &Scene,
+        before: &[Element],
+        wanted: &Wanted,
+    ) -> Result<Vec<Element>, Unreachable> {
+        let simulation =
+            dg::Simulation::new(scene.dg_problem(), scene.dg_stepping()).map_err(|error| {
+                Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
+            })?;
         let mut before = before.iter().peekable();
         let mut elements = vec![];
         for x in scene.mesh.nodes().windows(2) {
             while before.next_if(|element| element.to <= x[0]).is_some() {}
-            let known = before.peek().filter(|element| element.from == x[0] && element.to == x[1]);
+            let known = before
+                .peek()
+                .filter(|element| element.from == x[0] && element.to == x[1]);
             elements.push(match known {
                 Some(element) => (*element).clone(),
-                None => self.element(&simulation, [x[0], x[1]], matches!(wanted.rows, Rows::Norm(_))),
+                None => self.element(
+                    &simulation,
+                    [x[0], x[1]],
+                    matches!(wanted.rows, Rows::Norm(_)),
+                ),
             });
         }
         Ok(elements)
     }
 
     /// The differences on one element.
-    fn element(&self, simulation: &dg::Simulation, [from, to]: [f64; 2], is_squared: bool) -> Element {
+    fn element(
+        &self,
+        simulation: &dg::Simulation,
+        [from, to]: [f64; 2],
+        is_squared: bool,
+    ) -> Element {
         let (space, level) = (simulation.space(), simulation.level());
-        let (mut integrals, mut largest) = (vec![0.0; self.fields.len()], vec![0.0_f64; self.fields.len()]);
+        let (mut integrals, mut largest) = (
+            vec![0.0; self.fields.len()],
+            vec![0.0_f64; self.fields.len()],
+        );
         let first = self.nodes.partition_point(|node| *node <= from);
-        let inner = self.nodes[first..].iter().copied().take_while(|node| *node < to);
+        let inner = self.nodes[first..]
+            .iter()
+            .copied()
+            .take_while(|node| *node < to);
         let mut left = from;
         for right in inner.chain([to]) {
             let least = POINTS_PER_DEGREE * (space.degree() + 1);
-            let share = (least as f64 * (right - left) / (to - from)).max((right - left) / NARROWEST);
+            let share =
+                (least as f64 * (right - left) / (to - from)).max((right - left) / NARROWEST);
             let count = share.ceil().max(1.0) as usize;
             let part = (right - left) / count as f64;
             for x in (0..count).map(|k| left + (k as f64 + 0.5) * part) {
                 let values = level.values_and_slopes(space, x);
                 for (k, datum) in self.fields.iter().enumerate() {
-                    let (value, slope) = values[Field::ALL.iter().position(|field| *field == datum.field).unwrap_or(0)];
-                    let lifting = if datum.field == Field::Theta { self.theta_a * (1.0 - x) } else { 0.0 };
+                    let (value, slope) = values[Field::ALL
+                        .iter()
+                        .position(|field| *field == datum.field)
+                        .unwrap_or(0)];
+                    let lifting = if datum.field == Field::Theta {
+                        self.theta_a * (1.0 - x)
+                    } else {
+                        0.0
+                    };
                     let exact = datum.at(x);
-                    let difference = exact - lifting - if datum.counts_slope() { slope } else { value };
-                    integrals[k] += part * if is_squared { difference * difference } else { difference.abs() };
+                    let difference =
+                        exact - lifting - if datum.counts_slope() { slope } else { value };
+                    integrals[k] += part
+                        * if is_squared {
+                            difference * difference
+                        } else {
+                            difference.abs()
+                        };
                     largest[k] = largest[k].max(exact.abs());
                 }
             }
             left = right;
         }
-        Element { from, to, integrals, largest }
+        Element {
+            from,
+            to,
+            integrals,
+            largest,
+        }
     }
 
     /// Which elements to halve; `None` if every field is resolved.
-    fn coarse(&self, elements: &[Element], wanted: &Wanted) -> Result<Option<Vec<bool>>, Unreachable> {
+    fn coarse(
+        &self,
+        elements: &[Element],
+        wanted: &Wanted,
+    ) -> Result<Option<Vec<bool>>, Unreachable> {
         let mut coarse = vec![false; elements.len()];
-        let Wanted { rows, tolerance: [u, phi, energy] } = wanted;
+        let Wanted {
+            rows,
+            tolerance: [u, phi, energy],
+        } = wanted;
         for (k, datum) in self.fields.iter().enumerate() {
-            let largest = elements.iter().map(|element| element.largest[k]).fold(0.0, f64::max);
+            let largest = elements
+                .iter()
+                .map(|element| element.largest[k])
+                .fold(0.0, f64::max);
             let wanted = match rows {
                 Rows::Numbers => u.min(*phi).min(energy / largest),
                 Rows::Tip | Rows::Norm(_) => *u,
@@ -258,7 +364,12 @@ impl Data {
                 *is_coarse = true;
                 let Element { from, to, .. } = *element;
                 if to - from < 2.0 * SHORTEST || elements.len() >= MOST_ELEMENTS {
-                    return Err(Unreachable::Unresolved { field: datum.name, x: 0.5 * (from + to), error, allowed });
+                    return Err(Unreachable::Unresolved {
+                        field: datum.name,
+                        x: 0.5 * (from + to),
+                        error,
+                        allowed,
+                    });
                 }
             }
         }
@@ -268,16 +379,24 @@ impl Data {
 
 /// The scene on a mesh with these nodes.
 fn on(scene: &Scene, nodes: Vec<f64>, wanted: &Wanted) -> Result<Scene, Unreachable> {
-    let mesh = Mesh::from_nodes(nodes)
-        .map_err(|error| Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error)))?;
-    Ok(Scene { mesh, ..scene.clone() })
+    let mesh = Mesh::from_nodes(nodes).map_err(|error| {
+        Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
+    })?;
+    Ok(Scene {
+        mesh,
+        ..scene.clone()
+    })
 }
 
 /// Adds a node, unless one is closer than `least`.
 pub(super) fn add_node(nodes: &mut Vec<f64>, x: f64, least: f64) {
     let index = nodes.partition_point(|node| *node < x);
     let is_close = |node: &f64| (x - node).abs() < least;
-    if !nodes[index.saturating_sub(1)..].iter().take(2).any(is_close) {
+    if !nodes[index.saturating_sub(1)..]
+        .iter()
+        .take(2)
+        .any(is_close)
+    {
         nodes.insert(index, x);
     }
 }

@@ -111,15 +111,34 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
         .iter()
         .map(|&(name, kind, k)| {
             let (value, difference) = measured(kind, k, &own, &exact);
-            let error = if kind == Kind::End { reference.end * largest(&exact.column(k)) } else { reference.error(k) };
-            let [finer_space, finer_steps] =
-                finer.each_ref().map(|run| run.as_ref().ok().map(|run| measured(kind, k, run, &exact).1 + error));
-            Estimate { name, kind, value, total: difference + error, reference: error, finer_space, finer_steps }
+            let error = if kind == Kind::End {
+                reference.end * largest(&exact.column(k))
+            } else {
+                reference.error(k)
+            };
+            let [finer_space, finer_steps] = finer.each_ref().map(|run| {
+                run.as_ref()
+                    .ok()
+                    .map(|run| measured(kind, k, run, &exact).1 + error)
+            });
+            Estimate {
+                name,
+                kind,
+                value,
+                total: difference + error,
+                reference: error,
+                finer_space,
+                finer_steps,
+            }
         })
         .collect();
     contradiction(&quantities).map_or(Ok(()), Err)?;
     let dominant = dominant(&quantities);
-    Ok(Budget { dominant, advice: advice(scene, dominant).to_owned(), quantities })
+    Ok(Budget {
+        dominant,
+        advice: advice(scene, dominant).to_owned(),
+        quantities,
+    })
 }
 
 /// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
@@ -132,10 +151,16 @@ fn against(
     work: &mut Work<'_>,
 ) -> Result<(Reference, Curves), Unreachable> {
     let scales = scales(scene, own, times, work)?;
-    let mut wanted = Wanted { rows: Rows::Numbers, tolerance: scales.map(|scale| ROUGH * scale) };
+    let mut wanted = Wanted {
+        rows: Rows::Numbers,
+        tolerance: scales.map(|scale| ROUGH * scale),
+    };
     let mut held: Option<(Reference, Curves, [[f64; 2]; 3])> = None;
     let fits = |errors: &[[f64; 2]; 3], part: f64| {
-        errors.iter().zip(scales).all(|([made, its], scale)| *its <= (part * made).max(FLOOR * scale))
+        errors
+            .iter()
+            .zip(scales)
+            .all(|([made, its], scale)| *its <= (part * made).max(FLOOR * scale))
     };
     for _ in 0..ROUNDS {
         let start = held.as_ref().map(|(reference, ..)| &reference.scene);
@@ -147,28 +172,51 @@ fn against(
         });
         let (reference, exact) = match (found, held) {
             (Ok(found), _) => found,
-            (Err(_), Some((reference, exact, errors))) if fits(&errors, 1.0) => return Ok((reference, exact)),
+            (Err(_), Some((reference, exact, errors))) if fits(&errors, 1.0) => {
+                return Ok((reference, exact));
+            }
             (Err(error), _) => return Err(error),
         };
-        let errors =
-            std::array::from_fn(|k| [distance_of_curves(&own.column(k), &exact.column(k)), reference.error(k)]);
+        let errors = std::array::from_fn(|k| {
+            [
+                distance_of_curves(&own.column(k), &exact.column(k)),
+                reference.error(k),
+            ]
+        });
         if fits(&errors, TENTH) {
             return Ok((reference, exact));
         }
-        for (tolerance, ([made, its], scale)) in wanted.tolerance.iter_mut().zip(errors.iter().zip(scales)) {
-            *tolerance = (TENTH * made.max(TENTH * its)).max(FLOOR * scale).min(*tolerance);
+        for (tolerance, ([made, its], scale)) in
+            wanted.tolerance.iter_mut().zip(errors.iter().zip(scales))
+        {
+            *tolerance = (TENTH * made.max(TENTH * its))
+                .max(FLOOR * scale)
+                .min(*tolerance);
         }
         held = Some((reference, exact, errors));
     }
-    Err(Unreachable::without_comparison(wanted.tolerance[0], Reason::Rounds))
+    Err(Unreachable::without_comparison(
+        wanted.tolerance[0],
+        Reason::Rounds,
+    ))
 }
 
 /// The largest value of each curve: that of the scene or, if its mesh may miss narrow features of the initial data, of the first dG run
 /// on a mesh that resolves them.
-fn scales(scene: &Scene, own: &Curves, times: &[f64], work: &mut Work<'_>) -> Result<[f64; 3], Unreachable> {
-    let largest_of = |curves: &Curves| std::array::from_fn(|k| largest(&curves.column(k)).max(f64::MIN_POSITIVE));
+fn scales(
+    scene: &Scene,
+    own: &Curves,
+    times: &[f64],
+    work: &mut Work<'_>,
+) -> Result<[f64; 3], Unreachable> {
+    let largest_of = |curves: &Curves| {
+        std::array::from_fn(|k| largest(&curves.column(k)).max(f64::MIN_POSITIVE))
+    };
     let of_own: [f64; 3] = largest_of(own);
-    let wanted = Wanted { rows: Rows::Numbers, tolerance: [ROUGH; 3] };
+    let wanted = Wanted {
+        rows: Rows::Numbers,
+        tolerance: [ROUGH; 3],
+    };
     let data = Data::of(scene);
     let (first, is_narrow) = data.resolve(first(scene, &wanted, &data.kept), &wanted)?;
     if !is_narrow {
@@ -199,12 +247,23 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
 
 /// A curve whose error grows much if only space or only steps are refined: single numbers may have small errors by chance.
 fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
-    for &Estimate { name, total, finer_space, finer_steps, .. } in quantities.iter().filter(|of| of.kind == Kind::Curve)
+    for &Estimate {
+        name,
+        total,
+        finer_space,
+        finer_steps,
+        ..
+    } in quantities.iter().filter(|of| of.kind == Kind::Curve)
     {
         for (finer, error) in [("a finer space", finer_space), ("finer steps", finer_steps)] {
             match error {
                 Some(difference) if !(difference <= CONTRADICTION * total) => {
-                    return Some(Unreachable::Contradicted { name, total, finer, difference });
+                    return Some(Unreachable::Contradicted {
+                        name,
+                        total,
+                        finer,
+                        difference,
+                    });
                 }
                 _ => (),
             }
@@ -217,11 +276,17 @@ fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
 fn dominant(quantities: &[Estimate]) -> Option<Source> {
     let gain = |finer: fn(&Estimate) -> Option<f64>| -> f64 {
         let curves = quantities.iter().filter(|of| of.kind == Kind::Curve);
-        let gains: Vec<f64> = curves.map(|of| 1.0 - finer(of).unwrap_or(of.total) / of.total).collect();
+        let gains: Vec<f64> = curves
+            .map(|of| 1.0 - finer(of).unwrap_or(of.total) / of.total)
+            .collect();
         gains.iter().sum::<f64>() / gains.len() as f64
     };
     let (space, time) = (gain(|of| of.finer_space), gain(|of| of.finer_steps));
-    let (source, gain) = if space > time { (Source::Space, space) } else { (Source::Time, time) };
+    let (source, gain) = if space > time {
+        (Source::Space, space)
+    } else {
+        (Source::Time, time)
+    };
     (gain >= GAIN).then_some(source)
 }
 
@@ -237,7 +302,9 @@ fn advice(scene: &Scene, dominant: Option<Source>) -> &'static str {
 
 impl fmt::Display for Budget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cell = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), |error| format!("{error:.1e}"));
+        let cell = |error: Option<f64>| {
+            error.map_or_else(|| "-".to_owned(), |error| format!("{error:.1e}"))
+        };
         writeln!(f, "Errors, by a run of any order")?;
         writeln!(
             f,
@@ -245,9 +312,19 @@ impl fmt::Display for Budget {
             "", "value", "error", "of the run", "finer space", "finer steps"
         )?;
         for of in &self.quantities {
-            let cells = [Some(of.total), Some(of.reference), of.finer_space, of.finer_steps].map(cell);
+            let cells = [
+                Some(of.total),
+                Some(of.reference),
+                of.finer_space,
+                of.finer_steps,
+            ]
+            .map(cell);
             let [total, reference, space, steps] = cells;
-            writeln!(f, "{:<18}{:>20.12}{total:>10}{reference:>12}{space:>14}{steps:>14}", of.name, of.value)?;
+            writeln!(
+                f,
+                "{:<18}{:>20.12}{total:>10}{reference:>12}{space:>14}{steps:>14}",
+                of.name, of.value
+            )?;
         }
         writeln!(
             f,
@@ -277,11 +354,16 @@ mod tests {
         assert_eq!(refused(of(Kind::Curve, None, None)), None);
         // A single number may have a small error by chance.
         assert_eq!(refused(of(Kind::End, Some(0.79), None)), None);
-        for (finer_space, finer_steps, words) in
-            [(Some(0.79), None, "a finer space"), (None, Some(0.79), "finer steps")]
-        {
-            let message = refused(of(Kind::Curve, finer_space, finer_steps)).expect("a contradiction");
-            assert!(message.contains("4.3e-5") && message.contains("7.9e-1") && message.contains(words), "{message}");
+        for (finer_space, finer_steps, words) in [
+            (Some(0.79), None, "a finer space"),
+            (None, Some(0.79), "finer steps"),
+        ] {
+            let message =
+                refused(of(Kind::Curve, finer_space, finer_steps)).expect("a contradiction");
+            assert!(
+                message.contains("4.3e-5") && message.contains("7.9e-1") && message.contains(words),
+                "{message}"
+            );
         }
         assert!(refused(of(Kind::Curve, Some(f64::NAN), None)).is_some());
     }

@@ -56,7 +56,12 @@ impl<'a> Work<'a> {
     /// * `limit`: the allowed work.
     /// * `told`: called after every step with the part of the limit that is used.
     pub fn new(limit: f64, told: &'a mut dyn FnMut(f64)) -> Self {
-        Self { limit, done: 0.0, spent: Cost::default(), told }
+        Self {
+            limit,
+            done: 0.0,
+            spent: Cost::default(),
+            told,
+        }
     }
 
     /// The cost of the completed runs.
@@ -73,7 +78,11 @@ impl<'a> Work<'a> {
     /// Refuses a run that needs more work than is left.
     fn leaves(&self, work: f64) -> Result<(), Reason> {
         let Self { limit, done, .. } = *self;
-        if done + work <= limit { Ok(()) } else { Err(Reason::Work { limit }) }
+        if done + work <= limit {
+            Ok(())
+        } else {
+            Err(Reason::Work { limit })
+        }
     }
 
     fn ran(&mut self, cost: &Cost) {
@@ -174,7 +183,13 @@ pub enum Unreachable {
 impl Unreachable {
     /// The result if no comparison was made.
     fn without_comparison(target: f64, reason: Reason) -> Self {
-        Self::NotReached { target, reached: f64::INFINITY, space: f64::NAN, time: f64::NAN, reason }
+        Self::NotReached {
+            target,
+            reached: f64::INFINITY,
+            space: f64::NAN,
+            time: f64::NAN,
+            reason,
+        }
     }
 }
 

@@ -134,14 +134,33 @@ pub(super) fn reference(
         return Err(Unreachable::Target { target });
     }
     let data = Data::of(scene);
-    let first = start.cloned().unwrap_or_else(|| first(scene, wanted, &data.kept));
+    let first = start
+        .cloned()
+        .unwrap_or_else(|| first(scene, wanted, &data.kept));
     let (first, is_narrow) = data.resolve(first, wanted)?;
-    let mut search = Search { wanted, data, is_narrow, work, last: 0.0, best: [f64::INFINITY; 2] };
-    let begun = if start.is_some() { first } else { search.begin(&first) };
+    let mut search = Search {
+        wanted,
+        data,
+        is_narrow,
+        work,
+        last: 0.0,
+        best: [f64::INFINITY; 2],
+    };
+    let begun = if start.is_some() {
+        first
+    } else {
+        search.begin(&first)
+    };
     search.last = 0.0;
     search.refine(begun).map_err(|reason| {
         let [space, time] = search.best.map(|part| part * target);
-        Unreachable::NotReached { target, reached: space.max(time) / SHARE, space, time, reason }
+        Unreachable::NotReached {
+            target,
+            reached: space.max(time) / SHARE,
+            space,
+            time,
+            reason,
+        }
     })
 }
 
@@ -175,11 +194,22 @@ impl Search<'_, '_> {
             let Stepping { dt, restart_dt, .. } = scene.dg_stepping();
             let t_end = 2.0 * restart_dt;
             // Only shorter steps: each step length needs memory, and only these lengths occur.
-            let method = Method::Dg(Stepping { dt: t_end.min(dt), ..scene.dg_stepping() });
-            let short = Scene { t_end: t_end.min(scene.t_end), method, ..scene.clone() };
+            let method = Method::Dg(Stepping {
+                dt: t_end.min(dt),
+                ..scene.dg_stepping()
+            });
+            let short = Scene {
+                t_end: t_end.min(scene.t_end),
+                method,
+                ..scene.clone()
+            };
             let rows = self.wanted.rows.on(&short);
-            let compared = self.run(&short, &rows, None).and_then(|base| self.compare(&short, &rows, &base));
-            let Ok(Compared { space, time, .. }) = compared else { return first.clone() };
+            let compared = self
+                .run(&short, &rows, None)
+                .and_then(|base| self.compare(&short, &rows, &base));
+            let Ok(Compared { space, time, .. }) = compared else {
+                return first.clone();
+            };
             if space.most() <= SHARE && time.most() <= SHARE {
                 return scene;
             }
@@ -209,7 +239,9 @@ impl Search<'_, '_> {
 
     fn found(&self, scene: Scene, base: &Curves, compared: &Compared) -> Reference {
         let mut found = Reference {
-            finer_space: finer(&scene)[0].as_ref().map_or_else(|_| String::new(), words),
+            finer_space: finer(&scene)[0]
+                .as_ref()
+                .map_or_else(|_| String::new(), words),
             scene,
             space: [compared.space.most() * self.wanted.tolerance[0]; 3],
             time: [compared.time.most() * self.wanted.tolerance[0]; 3],
@@ -219,12 +251,17 @@ impl Search<'_, '_> {
         };
         if !matches!(self.wanted.rows, Rows::Norm(_)) {
             for k in 0..base.width {
-                let [own, finer, shorter] = [base, &compared.finer, &compared.shorter].map(|run| run.column(k));
-                (found.space[k], found.time[k]) =
-                    (distance_of_curves(&own, &finer), distance_of_curves(&own, &shorter));
+                let [own, finer, shorter] =
+                    [base, &compared.finer, &compared.shorter].map(|run| run.column(k));
+                (found.space[k], found.time[k]) = (
+                    distance_of_curves(&own, &finer),
+                    distance_of_curves(&own, &shorter),
+                );
                 let last = own.len() - 1;
                 let end = (own[last] - finer[last]).abs() + (own[last] - shorter[last]).abs();
-                found.end = found.end.max(end / distance_of_curves(&own, &vec![0.0; own.len()]));
+                found.end = found
+                    .end
+                    .max(end / distance_of_curves(&own, &vec![0.0; own.len()]));
             }
         }
         found
@@ -238,7 +275,12 @@ impl Search<'_, '_> {
         let shorter = self.run(&shorter?, rows, Some(&times))?;
         let tolerance = &self.wanted.tolerance;
         let [space, time] = [&finer, &shorter].map(|finer| Apart::of(rows, base, finer, tolerance));
-        Ok(Compared { finer, shorter, space, time })
+        Ok(Compared {
+            finer,
+            shorter,
+            space,
+            time,
+        })
     }
 
     /// Runs a scene for comparison with the run whose times are `at`.
@@ -260,13 +302,19 @@ impl Search<'_, '_> {
         if !found.is_finite() {
             return Err(Reason::NotFinite);
         }
-        if stalled && found * self.wanted.tolerance[0] <= ROUND_OFF { Err(Reason::RoundOff) } else { Ok(()) }
+        if stalled && found * self.wanted.tolerance[0] <= ROUND_OFF {
+            Err(Reason::RoundOff)
+        } else {
+            Ok(())
+        }
     }
 }
 
 /// Time scale t* of the peak of an impact; without obstacles, the longest step.
 pub(super) fn impact(scene: &Scene) -> f64 {
-    scene.obstacles.map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
+    scene
+        .obstacles
+        .map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }
 
 /// The first discretisation, from experience with the scenes of the paper: two degrees in space for every decimal digit,
@@ -288,13 +336,22 @@ pub(super) fn first(scene: &Scene, wanted: &Wanted, kept: &[f64]) -> Scene {
     };
     // Width of the layer at x = 1 some four impacts after a touch.
     let layer = (2.0 * (scene.beam.zeta * 4.0 * impact).sqrt()).clamp(1e-3, 0.5);
-    let nodes = if scene.obstacles.is_some() { graded(layer) } else { vec![0.0, 1.0] };
+    let nodes = if scene.obstacles.is_some() {
+        graded(layer)
+    } else {
+        vec![0.0, 1.0]
+    };
     // An odd degree has as many unknowns as the even one below it, so only odd degrees are used.
     let degree = (4.0 + 1.2 * digits).round() as usize | 1;
     let nodes = with_nodes(kept, &no_longer(&nodes, 2.0 * degree as f64 * wave));
     // Nodes that increase from 0 to 1.
     let mesh = Mesh::from_nodes(nodes).unwrap_or_else(|_| scene.mesh.clone());
-    Scene { mesh, degree, method: Method::Dg(stepping), ..scene.clone() }
+    Scene {
+        mesh,
+        degree,
+        method: Method::Dg(stepping),
+        ..scene.clone()
+    }
 }
 
 /// 1/k of the shortest wave that still grows faster, and the time in which it grows by e, at the axial force at rest: infinite
@@ -330,7 +387,10 @@ fn with_nodes(kept: &[f64], others: &[f64]) -> Vec<f64> {
 /// Elements towards x = 1 that grow by [`GRADING`] away from it; the last one has the given width.
 fn graded(layer: f64) -> Vec<f64> {
     let widths = std::iter::successors(Some(layer), |width| Some(GRADING * width));
-    let inner: Vec<f64> = widths.take_while(|width| *width <= 0.5).map(|width| 1.0 - width).collect();
+    let inner: Vec<f64> = widths
+        .take_while(|width| *width <= 0.5)
+        .map(|width| 1.0 - width)
+        .collect();
     let ends = [0.0].into_iter().chain(inner.into_iter().rev());
     ends.chain([1.0]).collect()
 }
@@ -350,7 +410,10 @@ fn refined(scene: &Scene, space: &Apart, time: &Apart, kinks: &[f64]) -> Option<
         let restart_dt = scene.dg_stepping().restart_dt / shortening(time.early / SHARE);
         stepping.restart_dt = stepping.restart_dt.min(restart_dt);
     }
-    Some(Scene { method: Method::Dg(stepping), ..next })
+    Some(Scene {
+        method: Method::Dg(stepping),
+        ..next
+    })
 }
 
 /// The scene with only space refined, and with only steps refined: p + 4 or the longest elements halved, and all steps halved, with
@@ -364,10 +427,26 @@ pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
         });
     };
     let raised = scene.degree + FINER_DEGREES;
-    let space = if raised <= MAX_DEGREE { Some(Scene { degree: raised, ..scene.clone() }) } else { halved(scene) };
+    let space = if raised <= MAX_DEGREE {
+        Some(Scene {
+            degree: raised,
+            ..scene.clone()
+        })
+    } else {
+        halved(scene)
+    };
     let half = shorter(stepping, 0.5);
-    let method = Method::Dg(Stepping { restart_dt: 0.5 * half.restart_dt, ..half });
-    [space.ok_or(Reason::Finest), Ok(Scene { method, ..scene.clone() })]
+    let method = Method::Dg(Stepping {
+        restart_dt: 0.5 * half.restart_dt,
+        ..half
+    });
+    [
+        space.ok_or(Reason::Finest),
+        Ok(Scene {
+            method,
+            ..scene.clone()
+        }),
+    ]
 }
 
 fn halved(scene: &Scene) -> Option<Scene> {
@@ -384,8 +463,13 @@ fn halved(scene: &Scene) -> Option<Scene> {
 }
 
 fn on(scene: &Scene, nodes: Vec<f64>) -> Option<Scene> {
-    let mesh = (nodes.len() <= MOST_ELEMENTS + 1).then(|| Mesh::from_nodes(nodes).ok()).flatten()?;
-    Some(Scene { mesh, ..scene.clone() })
+    let mesh = (nodes.len() <= MOST_ELEMENTS + 1)
+        .then(|| Mesh::from_nodes(nodes).ok())
+        .flatten()?;
+    Some(Scene {
+        mesh,
+        ..scene.clone()
+    })
 }
 
 /// Space refined for an error smaller by `factor`; `apart` is the difference.
@@ -408,35 +492,64 @@ fn more_space(scene: &Scene, apart: &Apart, factor: f64, kinks: &[f64]) -> Optio
         return on(scene, nodes);
     }
     let wanted = (factor.ln() / FALL_PER_DEGREE.ln()).ceil();
-    let degrees = if wanted.is_finite() { (wanted as usize).clamp(2, MOST_DEGREES) } else { MOST_DEGREES };
+    let degrees = if wanted.is_finite() {
+        (wanted as usize).clamp(2, MOST_DEGREES)
+    } else {
+        MOST_DEGREES
+    };
     let degree = scene.degree + degrees + degrees % 2;
     if degree <= HIGHEST_DEGREE {
-        return Some(Scene { degree, ..scene.clone() });
+        return Some(Scene {
+            degree,
+            ..scene.clone()
+        });
     }
     halved(scene)
 }
 
 /// All steps multiplied by `part`.
 fn shorter(stepping: Stepping, part: f64) -> Stepping {
-    let Stepping { dt, restart_dt, growth, .. } = stepping;
+    let Stepping {
+        dt,
+        restart_dt,
+        growth,
+        ..
+    } = stepping;
     let growth = (1.0 + part * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
-    Stepping { dt: part * dt, restart_dt: part * restart_dt, growth, ..stepping }
+    Stepping {
+        dt: part * dt,
+        restart_dt: part * restart_dt,
+        growth,
+        ..stepping
+    }
 }
 
 /// The divisor of `restart_dt` for an error in the first steps smaller by `factor`.
 fn shortening(factor: f64) -> f64 {
     let wanted = (1.5 * factor).powf(1.0 / START_RATE);
-    if wanted.is_finite() { wanted.clamp(SHORTENED[0], SHORTENED[1]) } else { SHORTENED[1] }
+    if wanted.is_finite() {
+        wanted.clamp(SHORTENED[0], SHORTENED[1])
+    } else {
+        SHORTENED[1]
+    }
 }
 
 /// Steps refined for an error smaller by `factor`.
 fn more_time(stepping: Stepping, factor: f64) -> Stepping {
     let part = (1.5 * factor).powf(-1.0 / EVENT_RATE);
-    let part = if part.is_finite() { part.clamp(SHORTER[0], SHORTER[1]) } else { SHORTER[0] };
+    let part = if part.is_finite() {
+        part.clamp(SHORTER[0], SHORTER[1])
+    } else {
+        SHORTER[0]
+    };
     let degree = (stepping.degree + usize::from(!(factor <= MUCH))).min(MAX_TIME_DEGREE);
     shorter(Stepping { degree, ..stepping }, part)
 }
 
 fn words(scene: &Scene) -> String {
-    format!("{} elements of degree {}", scene.mesh.elements(), scene.degree)
+    format!(
+        "{} elements of degree {}",
+        scene.mesh.elements(),
+        scene.degree
+    )
 }

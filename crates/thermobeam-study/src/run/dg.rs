@@ -65,11 +65,25 @@ impl DgMotion {
         let shift = beam.theta_a - exact_theta_a;
         let start = any_order::initial(exact);
         let theta = start.theta;
-        let missing = if defect == Some(Defect::StartNotLifted) { exact_theta_a } else { 0.0 };
+        let missing = if defect == Some(Defect::StartNotLifted) {
+            exact_theta_a
+        } else {
+            0.0
+        };
         // The value at x = 0 stays: the solver refuses initial data that contradict the boundary conditions.
-        let planted = move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
-        let initial = dg::Initial { theta: Box::new(planted), ..start };
-        let problem = dg::Problem { beam, obstacles, mesh, degree, initial };
+        let planted =
+            move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
+        let initial = dg::Initial {
+            theta: Box::new(planted),
+            ..start
+        };
+        let problem = dg::Problem {
+            beam,
+            obstacles,
+            mesh,
+            degree,
+            initial,
+        };
         let simulation = match loads {
             None => dg::Simulation::new(problem, by),
             Some(theory) => dg::Simulation::with_load(problem, by, |space| {
@@ -79,7 +93,12 @@ impl DgMotion {
         Ok(Self::of(simulation, &beam, obstacles, by))
     }
 
-    fn of(simulation: dg::Simulation, beam: &Beam, obstacles: Option<Obstacles>, by: dg::Stepping) -> Self {
+    fn of(
+        simulation: dg::Simulation,
+        beam: &Beam,
+        obstacles: Option<Obstacles>,
+        by: dg::Stepping,
+    ) -> Self {
         Self {
             level: simulation.level().clone(),
             // The blocks of a step are dense in time.
@@ -99,7 +118,12 @@ impl DgMotion {
 
 impl Motion for DgMotion {
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
-        let Self { simulation, patience, wall, .. } = self;
+        let Self {
+            simulation,
+            patience,
+            wall,
+            ..
+        } = self;
         patience.check(simulation.work().steps, || simulation.t())?;
         let started = Instant::now();
         let outcome = simulation.step(until);
@@ -107,7 +131,11 @@ impl Motion for DgMotion {
         Ok(outcome?.map(|done| {
             patience.also(done.iterations.saturating_sub(1));
             let phase = done.event.map_or(simulation.phase(), |event| event.from);
-            Report { dt: done.dt, iterations: done.iterations, in_contact: phase != Phase::Free }
+            Report {
+                dt: done.dt,
+                iterations: done.iterations,
+                in_contact: phase != Phase::Free,
+            }
         }))
     }
 
@@ -120,7 +148,9 @@ impl Motion for DgMotion {
     }
 
     fn at(&mut self, t: f64) -> Sample {
-        let Self { simulation, level, .. } = self;
+        let Self {
+            simulation, level, ..
+        } = self;
         simulation.level_into(t, level);
         let value = |field, x| level.value_and_slope(simulation.space(), field, x).0;
         let u_tip = value(Field::U, 1.0);
@@ -131,16 +161,28 @@ impl Motion for DgMotion {
             u_t_tip: value(Field::V, 1.0),
             phi_t_tip: value(Field::W, 1.0),
             theta_mid: value(Field::Theta, 0.5) + 0.5 * self.theta_a,
-            contact_force: self.obstacles.map_or(0.0, |obstacles| obstacles.force(u_tip)),
+            contact_force: self
+                .obstacles
+                .map_or(0.0, |obstacles| obstacles.force(u_tip)),
             energy: simulation.energy(level).total(),
         }
     }
 
     fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
         let (from, to) = (self.simulation.old_level().t, self.simulation.t());
-        let time = |k: usize| if k == count { t_end } else { t_end * k as f64 / count as f64 };
+        let time = |k: usize| {
+            if k == count {
+                t_end
+            } else {
+                t_end * k as f64 / count as f64
+            }
+        };
         let first = (from / t_end * count as f64).floor() as usize;
-        (first.max(1)..=count).map(time).skip_while(|&t| t <= from).take_while(|&t| t <= to).collect()
+        (first.max(1)..=count)
+            .map(time)
+            .skip_while(|&t| t <= from)
+            .take_while(|&t| t <= to)
+            .collect()
     }
 
     fn rows(&self) -> usize {
@@ -148,7 +190,9 @@ impl Motion for DgMotion {
     }
 
     fn points(&self) -> Vec<f64> {
-        (0..POINTS).map(|i| i as f64 / (POINTS - 1) as f64).collect()
+        (0..POINTS)
+            .map(|i| i as f64 / (POINTS - 1) as f64)
+            .collect()
     }
 
     fn shape(&self, t: f64) -> Vec<f64> {
@@ -157,7 +201,11 @@ impl Motion for DgMotion {
     }
 
     fn on(&self, mesh: &Mesh) -> Level {
-        nodal(self.simulation.space(), self.simulation.level(), mesh.nodes())
+        nodal(
+            self.simulation.space(),
+            self.simulation.level(),
+            mesh.nodes(),
+        )
     }
 
     fn extremes(&self) -> [f64; 2] {
@@ -174,8 +222,15 @@ impl Motion for DgMotion {
     }
 
     fn solves(&self) -> Solves {
-        let dg::Work { solves, factorizations, .. } = self.simulation.work();
-        Solves { passes: solves, factorizations }
+        let dg::Work {
+            solves,
+            factorizations,
+            ..
+        } = self.simulation.work();
+        Solves {
+            passes: solves,
+            factorizations,
+        }
     }
 
     fn wall(&self) -> Duration {
@@ -189,7 +244,12 @@ impl Motion for DgMotion {
 
 /// A level of any order by its values at the nodes, without the contact force.
 pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
-    let at = |field| nodes.iter().map(|&x| level.value_and_slope(space, field, x).0).collect();
+    let at = |field| {
+        nodes
+            .iter()
+            .map(|&x| level.value_and_slope(space, field, x).0)
+            .collect()
+    };
     Level {
         u: at(Field::U),
         v: at(Field::V),

@@ -63,7 +63,10 @@ impl Driver {
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
-        let (initial, size) = (simulation.energy(&old).total(), simulation.energy_scale(&old));
+        let (initial, size) = (
+            simulation.energy(&old).total(),
+            simulation.energy_scale(&old),
+        );
         Ok(Self {
             simulation,
             old,
@@ -80,12 +83,18 @@ impl Driver {
 
     /// Fills the loads of each step by [`Motion::step`] at its middle t_{n-½}; [`Stepping::loaded`] must be set.
     pub(crate) fn loaded(self, fill: impl FnMut(f64, &mut [[f64; 3]]) + 'static) -> Self {
-        Self { fill: Box::new(fill), ..self }
+        Self {
+            fill: Box::new(fill),
+            ..self
+        }
     }
 
     /// Reads the clock before and after each step, at a cost of some 50 ns.
     pub(crate) fn timed(self) -> Self {
-        Self { is_timed: true, ..self }
+        Self {
+            is_timed: true,
+            ..self
+        }
     }
 
     /// The simulation.
@@ -110,8 +119,15 @@ impl Driver {
     ///
     /// # Errors
     /// [`RunError`]; the simulation then remains at its old level.
-    pub(crate) fn advance(&mut self, fill: impl FnOnce(f64, &mut [[f64; 3]])) -> Result<StepReport, RunError> {
-        let Self { simulation, patience, .. } = self;
+    pub(crate) fn advance(
+        &mut self,
+        fill: impl FnOnce(f64, &mut [[f64; 3]]),
+    ) -> Result<StepReport, RunError> {
+        let Self {
+            simulation,
+            patience,
+            ..
+        } = self;
         patience.check(simulation.step(), || simulation.t())?;
         let middle = (simulation.step() as f64 + 0.5) * simulation.dt();
         if let Some(load) = simulation.load_mut() {
@@ -138,7 +154,12 @@ impl Driver {
         if !u_tip.is_finite() || n.is_multiple_of(CHECKED) || n.is_power_of_two() {
             self.check()?;
         }
-        Ok(Step { report, old: &self.old, new: &self.new, simulation: &self.simulation })
+        Ok(Step {
+            report,
+            old: &self.old,
+            new: &self.new,
+            simulation: &self.simulation,
+        })
     }
 
     /// Refuses an energy that is not finite or has risen.
@@ -146,11 +167,26 @@ impl Driver {
         let Self { initial, size, .. } = *self;
         let last = self.simulation.energy(&self.new).total();
         let largest_increase = last - initial;
-        let energy = EnergySummary { initial, last, largest_increase, largest_balance_residual: 0.0, size };
-        let (step, t, dt) = (self.simulation.step(), self.simulation.t(), self.simulation.dt());
+        let energy = EnergySummary {
+            initial,
+            last,
+            largest_increase,
+            largest_balance_residual: 0.0,
+            size,
+        };
+        let (step, t, dt) = (
+            self.simulation.step(),
+            self.simulation.t(),
+            self.simulation.dt(),
+        );
         // Both energies are rounded, and contain the constant of Kirchhoff's term.
-        let rounded = |now: EnergySize| EnergySize { rounding: now.rounding + ROUNDED * initial.abs(), ..now };
-        energy.sound(|| rounded(self.energy_size())).map_err(|unsound| RunError::unsound(step, t, dt, unsound))
+        let rounded = |now: EnergySize| EnergySize {
+            rounding: now.rounding + ROUNDED * initial.abs(),
+            ..now
+        };
+        energy
+            .sound(|| rounded(self.energy_size()))
+            .map_err(|unsound| RunError::unsound(step, t, dt, unsound))
     }
 
     /// Does a step, and reads the level at its end.
@@ -181,8 +217,22 @@ pub(crate) fn thinned(len: usize, most: usize) -> Vec<usize> {
 
 /// A level with each field replaced.
 pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
-    let Level { u, v, phi, w, theta, contact_force } = level;
-    Level { u: map(u), v: map(v), phi: map(phi), w: map(w), theta: map(theta), contact_force: *contact_force }
+    let Level {
+        u,
+        v,
+        phi,
+        w,
+        theta,
+        contact_force,
+    } = level;
+    Level {
+        u: map(u),
+        v: map(v),
+        phi: map(phi),
+        w: map(w),
+        theta: map(theta),
+        contact_force: *contact_force,
+    }
 }
 
 /// The P1 functions of a level at the nodes of another mesh.
@@ -195,7 +245,12 @@ pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
         (left, (x - nodes[left]) / (nodes[left + 1] - nodes[left]))
     };
     let places: Vec<(usize, f64)> = other.nodes().iter().map(place).collect();
-    map_fields(level, |y| places.iter().map(|&(i, s)| (1.0 - s) * y[i] + s * y[i + 1]).collect())
+    map_fields(level, |y| {
+        places
+            .iter()
+            .map(|&(i, s)| (1.0 - s) * y[i] + s * y[i + 1])
+            .collect()
+    })
 }
 
 impl Motion for Driver {
@@ -205,7 +260,11 @@ impl Motion for Driver {
             return Ok(None);
         }
         let StepReport { iterations, .. } = self.shown()?;
-        Ok(Some(Report { dt, iterations, in_contact: self.new.contact_force != 0.0 }))
+        Ok(Some(Report {
+            dt,
+            iterations,
+            in_contact: self.new.contact_force != 0.0,
+        }))
     }
 
     fn t(&self) -> f64 {
@@ -218,17 +277,33 @@ impl Motion for Driver {
 
     fn at(&mut self, _: f64) -> Sample {
         let (simulation, level) = (&self.simulation, &self.new);
-        let Problem { beam, obstacles, mesh, .. } = simulation.problem();
+        let Problem {
+            beam,
+            obstacles,
+            mesh,
+            ..
+        } = simulation.problem();
         let energy = simulation.energy(level).total();
         let sample = Sample::of(level, simulation.t(), mesh, beam.theta_a, energy);
         // No step leads to the start, so its contact force is that of the law.
-        if simulation.step() == 0 { sample.at_the_start(*obstacles) } else { sample }
+        if simulation.step() == 0 {
+            sample.at_the_start(*obstacles)
+        } else {
+            sample
+        }
     }
 
     fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
         let steps = (t_end / self.simulation.dt()).round() as usize;
-        let is_shown = self.simulation.step().is_multiple_of(steps.div_ceil(count).max(1));
-        if is_shown { vec![self.simulation.t()] } else { vec![] }
+        let is_shown = self
+            .simulation
+            .step()
+            .is_multiple_of(steps.div_ceil(count).max(1));
+        if is_shown {
+            vec![self.simulation.t()]
+        } else {
+            vec![]
+        }
     }
 
     fn rows(&self) -> usize {
@@ -237,15 +312,24 @@ impl Motion for Driver {
 
     fn points(&self) -> Vec<f64> {
         let nodes = self.simulation.problem().mesh.nodes();
-        thinned(nodes.len(), MOST_POINTS).into_iter().map(|i| nodes[i]).collect()
+        thinned(nodes.len(), MOST_POINTS)
+            .into_iter()
+            .map(|i| nodes[i])
+            .collect()
     }
 
     fn shape(&self, _: f64) -> Vec<f64> {
-        thinned(self.new.u.len(), MOST_POINTS).into_iter().map(|i| self.new.u[i]).collect()
+        thinned(self.new.u.len(), MOST_POINTS)
+            .into_iter()
+            .map(|i| self.new.u[i])
+            .collect()
     }
 
     fn on(&self, mesh: &Mesh) -> Level {
-        Level { contact_force: 0.0, ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh) }
+        Level {
+            contact_force: 0.0,
+            ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh)
+        }
     }
 
     fn extremes(&self) -> [f64; 2] {
@@ -263,7 +347,10 @@ impl Motion for Driver {
             // A fixed number of iterations leaves a defect that nothing bounds.
             f64::INFINITY
         };
-        EnergySize { terms: self.simulation.energy_scale(&self.new), rounding }
+        EnergySize {
+            terms: self.simulation.energy_scale(&self.new),
+            rounding,
+        }
     }
 
     fn solves(&self) -> Solves {
@@ -308,7 +395,10 @@ impl Sample {
     /// The same with the contact force of the law.
     pub(super) fn at_the_start(self, obstacles: Option<Obstacles>) -> Self {
         let contact_force = obstacles.map_or(0.0, |obstacles| obstacles.force(self.u_tip) + 0.0);
-        Self { contact_force, ..self }
+        Self {
+            contact_force,
+            ..self
+        }
     }
 }
 
@@ -323,7 +413,8 @@ mod tests {
         // Steps that cannot be solved.
         let text = "[beam]\nrho = 5000\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\n\
                     t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n";
-        let mut driver = driver(&Scene::parse(text, "loose.toml").expect("a scene")).expect("a driver");
+        let mut driver =
+            driver(&Scene::parse(text, "loose.toml").expect("a scene")).expect("a driver");
         let initial = driver.simulation.energy(&driver.new).total();
         let mut risen = usize::MAX;
         let ended = loop {
@@ -338,8 +429,13 @@ mod tests {
                 }
             }
         };
-        let RunError::Unsound { step, t, dt, .. } = ended else { panic!("{ended:?}") };
-        assert!(step <= risen.saturating_add(CHECKED), "{step}, risen at {risen}");
+        let RunError::Unsound { step, t, dt, .. } = ended else {
+            panic!("{ended:?}")
+        };
+        assert!(
+            step <= risen.saturating_add(CHECKED),
+            "{step}, risen at {risen}"
+        );
         assert!((t + dt - 0.1 * step as f64).abs() < 1e-9, "{step} {t} {dt}");
     }
 
@@ -353,7 +449,8 @@ mod tests {
                  t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n",
                 5000.0 / size / size
             );
-            let run = Simulator::new(&Scene::parse(&text, "loose.toml").expect("a scene")).expect("a simulator");
+            let run = Simulator::new(&Scene::parse(&text, "loose.toml").expect("a scene"))
+                .expect("a simulator");
             match run.run(Recording::Summary, &mut |_, _| ()).failure {
                 Some(RunError::Unsound { step, .. }) => step,
                 other => panic!("{size}: {other:?}"),
@@ -371,7 +468,12 @@ mod tests {
             let y: Vec<f64> = nodes.iter().map(|x| 3.0 * x - 1.0).collect();
             middle(&Mesh::from_nodes(nodes).unwrap(), &y)
         };
-        for nodes in [vec![0.0, 1.0], vec![0.0, 0.5, 1.0], vec![0.0, 0.1, 0.7, 1.0], vec![0.0, 0.9, 1.0]] {
+        for nodes in [
+            vec![0.0, 1.0],
+            vec![0.0, 0.5, 1.0],
+            vec![0.0, 0.1, 0.7, 1.0],
+            vec![0.0, 0.9, 1.0],
+        ] {
             assert!((value(nodes) - 0.5).abs() < 1e-15);
         }
     }

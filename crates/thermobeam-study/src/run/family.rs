@@ -81,7 +81,10 @@ impl Family {
     pub fn of_scene(scene: &Scene) -> Self {
         let nodes = scene.mesh.nodes();
         let n = scene.mesh.elements() as f64;
-        let is_uniform = nodes.iter().enumerate().all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON);
+        let is_uniform = nodes
+            .iter()
+            .enumerate()
+            .all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON);
         Self {
             beam: scene.beam,
             obstacles: scene.obstacles,
@@ -93,13 +96,28 @@ impl Family {
     }
 
     /// The problem that `exact` solves with the loads derived from it.
-    pub fn of_solution(exact: Manufactured, beam: Beam, obstacles: Option<Obstacles>, t_end: f64) -> Self {
-        Self { beam, obstacles, t_end, start: Start::Exact(exact), loaded: true, grading: None }
+    pub fn of_solution(
+        exact: Manufactured,
+        beam: Beam,
+        obstacles: Option<Obstacles>,
+        t_end: f64,
+    ) -> Self {
+        Self {
+            beam,
+            obstacles,
+            t_end,
+            start: Start::Exact(exact),
+            loaded: true,
+            grading: None,
+        }
     }
 
     /// The problem that `exact` solves without any load.
     pub fn of_free_solution(exact: Manufactured, beam: Beam, t_end: f64) -> Self {
-        Self { loaded: false, ..Self::of_solution(exact, beam, None, t_end) }
+        Self {
+            loaded: false,
+            ..Self::of_solution(exact, beam, None, t_end)
+        }
     }
 
     /// The exact solution, if there is one.
@@ -114,16 +132,38 @@ impl Family {
     ///
     /// # Errors
     /// [`SetupError`] if the solver refuses the numbers.
-    pub(crate) fn dg(&self, mesh: Mesh, degree: usize, stepping: dg::Stepping) -> Result<DgMotion, SetupError> {
-        let Self { beam, obstacles, .. } = *self;
+    pub(crate) fn dg(
+        &self,
+        mesh: Mesh,
+        degree: usize,
+        stepping: dg::Stepping,
+    ) -> Result<DgMotion, SetupError> {
+        let Self {
+            beam, obstacles, ..
+        } = *self;
         let exact = match &self.start {
             Start::Scene(scene) => {
-                return DgMotion::new(&Scene { mesh, degree, ..Scene::clone(scene) }, stepping);
+                return DgMotion::new(
+                    &Scene {
+                        mesh,
+                        degree,
+                        ..Scene::clone(scene)
+                    },
+                    stepping,
+                );
             }
             Start::Exact(exact) => exact,
         };
         let own = Coefficients { beam, obstacles };
-        DgMotion::manufactured(exact, self.loaded.then_some(&own), None, own, mesh, degree, stepping)
+        DgMotion::manufactured(
+            exact,
+            self.loaded.then_some(&own),
+            None,
+            own,
+            mesh,
+            degree,
+            stepping,
+        )
     }
 
     /// The problem on a mesh of `elements` elements, graded like the scene's.
@@ -142,11 +182,24 @@ impl Family {
                 factors.at(exact, 0.0);
                 let theta_a = self.beam.theta_a;
                 let initial = Nodal::of(exact, &mesh).initial(&mesh, &factors, theta_a, theta_a);
-                (initial, self.loaded.then(|| Arc::new(Sources::strong(exact, &self.beam, &mesh))))
+                (
+                    initial,
+                    self.loaded
+                        .then(|| Arc::new(Sources::strong(exact, &self.beam, &mesh))),
+                )
             }
         };
-        let problem = Problem { beam: self.beam, obstacles: self.obstacles, mesh, initial };
-        Ok(OnMesh { of: self, problem, sources })
+        let problem = Problem {
+            beam: self.beam,
+            obstacles: self.obstacles,
+            mesh,
+            initial,
+        };
+        Ok(OnMesh {
+            of: self,
+            problem,
+            sources,
+        })
     }
 }
 
@@ -167,16 +220,33 @@ impl OnMesh<'_> {
     ///
     /// # Errors
     /// [`CaseFailure`] if the solver refuses the numbers.
-    pub fn start(&self, scheme: Scheme, settings: Settings, steps: usize) -> Result<impl Motion, CaseFailure> {
+    pub fn start(
+        &self,
+        scheme: Scheme,
+        settings: Settings,
+        steps: usize,
+    ) -> Result<impl Motion, CaseFailure> {
         let dt = self.of.t_end / steps as f64;
-        let stepping = Stepping { scheme, settings, dt, loaded: self.sources.is_some() };
+        let stepping = Stepping {
+            scheme,
+            settings,
+            dt,
+            loaded: self.sources.is_some(),
+        };
         let driver = Driver::new(self.problem.clone(), stepping)?.timed();
-        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else { return Ok(driver) };
+        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else {
+            return Ok(driver);
+        };
         let (sources, exact, obstacles) = (sources.clone(), exact.clone(), self.of.obstacles);
         let mut factors = Factors::default();
         Ok(driver.loaded(move |t, load| {
             factors.at(&exact, t);
-            sources.fill(&factors, sources.forces(&factors.u, obstacles.as_ref(), None), None, load);
+            sources.fill(
+                &factors,
+                sources.forces(&factors.u, obstacles.as_ref(), None),
+                None,
+                load,
+            );
         }))
     }
 }

@@ -45,14 +45,32 @@ pub struct RunHistory {
 
 impl RunHistory {
     /// * `parts`: approximate number of rows after the first; `None` chooses one for the method, and adds frames.
-    pub(super) fn new(motion: &dyn Motion, t_end: f64, parts: Option<usize>, first: Sample) -> Self {
-        let rows = vec![Row { sample: first, balance: Balance::default() }];
+    pub(super) fn new(
+        motion: &dyn Motion,
+        t_end: f64,
+        parts: Option<usize>,
+        first: Sample,
+    ) -> Self {
+        let rows = vec![Row {
+            sample: first,
+            balance: Balance::default(),
+        }];
         let mut frames = Frames::default();
         if parts.is_none() {
-            frames = Frames { points: motion.points(), times: vec![first.t], u: vec![motion.shape(first.t)] };
+            frames = Frames {
+                points: motion.points(),
+                times: vec![first.t],
+                u: vec![motion.shape(first.t)],
+            };
         }
         let parts = parts.unwrap_or_else(|| motion.rows());
-        Self { rows, frames, t_end, parts, since_row: Balance::default() }
+        Self {
+            rows,
+            frames,
+            t_end,
+            parts,
+            since_row: Balance::default(),
+        }
     }
 
     /// Adds the last level unless it is already there.
@@ -66,7 +84,10 @@ impl RunHistory {
     }
 
     fn push_row(&mut self, sample: Sample) {
-        self.rows.push(Row { sample, balance: std::mem::take(&mut self.since_row) });
+        self.rows.push(Row {
+            sample,
+            balance: std::mem::take(&mut self.since_row),
+        });
     }
 
     fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
@@ -81,7 +102,10 @@ impl RunHistory {
 
     /// A number over time.
     pub(crate) fn over_time(&self, value: fn(&Sample) -> f64) -> Vec<(f64, f64)> {
-        self.rows.iter().map(|row| (row.sample.t, value(&row.sample))).collect()
+        self.rows
+            .iter()
+            .map(|row| (row.sample.t, value(&row.sample)))
+            .collect()
     }
 
     /// The history as comma-separated values, with enough digits to read back every bit.
@@ -90,9 +114,24 @@ impl RunHistory {
             "t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy,\
              energy_change,viscous,thermal,inertial,contact_gap,residual\n",
         );
-        for Row { sample: s, balance: d } in &self.rows {
-            let sample = [s.t, s.u_tip, s.phi_tip, s.u_t_tip, s.phi_t_tip, s.theta_mid, s.contact_force, s.energy];
-            let terms = [d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual];
+        for Row {
+            sample: s,
+            balance: d,
+        } in &self.rows
+        {
+            let sample = [
+                s.t,
+                s.u_tip,
+                s.phi_tip,
+                s.u_t_tip,
+                s.phi_t_tip,
+                s.theta_mid,
+                s.contact_force,
+                s.energy,
+            ];
+            let terms = [
+                d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual,
+            ];
             for (k, value) in sample.iter().chain(&terms).enumerate() {
                 let comma = if k == 0 { "" } else { "," };
                 // Unlike Display, Debug writes 1e-14 in this form. Writing to a string cannot fail.
@@ -130,7 +169,10 @@ impl Watch for RunHistory {
             self.push_row(sample);
         }
         if is_drawn {
-            motion.parts(self.t_end, FRAMES).iter().for_each(|&t| self.push_frame(motion, t));
+            motion
+                .parts(self.t_end, FRAMES)
+                .iter()
+                .for_each(|&t| self.push_frame(motion, t));
         }
         Ok(ControlFlow::Continue(()))
     }

@@ -57,7 +57,10 @@ pub struct Solves {
 
 impl From<thermobeam::solve::Work> for Solves {
     fn from(work: thermobeam::solve::Work) -> Self {
-        Self { passes: work.passes, factorizations: work.factorizations }
+        Self {
+            passes: work.passes,
+            factorizations: work.factorizations,
+        }
     }
 }
 
@@ -101,7 +104,12 @@ pub enum RunError {
 impl RunError {
     /// For step number `step`, which ended at `t`.
     fn unsound(step: usize, t: f64, dt: f64, unsound: Unsound) -> Self {
-        Self::Unsound { step, t: t - dt, dt, unsound }
+        Self::Unsound {
+            step,
+            t: t - dt,
+            dt,
+            unsound,
+        }
     }
 }
 
@@ -118,7 +126,9 @@ pub enum Unsound {
     #[error("the energy is {0}: {EXPECTED}")]
     NotFinite(f64),
     /// The energy rose by this amount.
-    #[error("the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}")]
+    #[error(
+        "the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}"
+    )]
     Rise(f64),
     /// The balance of the energy is violated by this amount.
     #[error(
@@ -127,8 +137,7 @@ pub enum Unsound {
     Imbalance(f64),
 }
 
-const EXPECTED: &str =
-    "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
+const EXPECTED: &str = "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
 /// A beam in motion, one step at a time. Observed values are computed only on request.
 pub trait Motion {
@@ -195,11 +204,19 @@ pub trait Watch {
     ///
     /// # Errors
     /// [`RunError`] ends the run at this step.
-    fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError>;
+    fn see(
+        &mut self,
+        motion: &mut dyn Motion,
+        report: &Report,
+    ) -> Result<ControlFlow<()>, RunError>;
 }
 
 impl<F: FnMut(&mut dyn Motion, &Report) -> Result<ControlFlow<()>, RunError>> Watch for F {
-    fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(
+        &mut self,
+        motion: &mut dyn Motion,
+        report: &Report,
+    ) -> Result<ControlFlow<()>, RunError> {
         self(motion, report)
     }
 }
@@ -210,13 +227,19 @@ impl<F: FnMut(&mut dyn Motion, &Report) -> Result<ControlFlow<()>, RunError>> Wa
 ///
 /// # Errors
 /// [`RunError`] of the failed step, or of a watch; the motion then stands at the last level.
-pub fn run(motion: &mut dyn Motion, until: f64, ends: &[f64], watches: &mut [&mut dyn Watch]) -> Result<(), RunError> {
+pub fn run(
+    motion: &mut dyn Motion,
+    until: f64,
+    ends: &[f64],
+    watches: &mut [&mut dyn Watch],
+) -> Result<(), RunError> {
     let mut passed = 0;
     loop {
         while ends.get(passed).is_some_and(|&end| end <= motion.t()) {
             passed += 1;
         }
-        let Some(report) = motion.step(ends.get(passed).copied().unwrap_or(until).min(until))? else {
+        let Some(report) = motion.step(ends.get(passed).copied().unwrap_or(until).min(until))?
+        else {
             if passed >= ends.len() {
                 return Ok(());
             }

@@ -37,10 +37,23 @@ struct Failure {
 #[derive(Debug, serde::Serialize)]
 #[serde(untagged)]
 enum FailureNumbers {
-    Iteration { iterations: usize, increment: f64, contraction: f64 },
-    NonFinite { iterations: usize, increment: f64 },
-    Indefinite { node: usize, pivot: f64, n_value: f64 },
-    Limit { limit_seconds: f64 },
+    Iteration {
+        iterations: usize,
+        increment: f64,
+        contraction: f64,
+    },
+    NonFinite {
+        iterations: usize,
+        increment: f64,
+    },
+    Indefinite {
+        node: usize,
+        pivot: f64,
+        n_value: f64,
+    },
+    Limit {
+        limit_seconds: f64,
+    },
     None {},
 }
 
@@ -56,18 +69,30 @@ pub fn phase_name(phase: Phase) -> &'static str {
 impl<'a> Object<'a> {
     /// Includes the time on the clock.
     pub fn new(scene: &'a Scene, run: &'a Run) -> Self {
-        Self { scene, run, is_timed: true }
+        Self {
+            scene,
+            run,
+            is_timed: true,
+        }
     }
 
     /// Excludes the time on the clock: the same run gives the same bytes.
     pub fn reproducible(scene: &'a Scene, run: &'a Run) -> Self {
-        Self { scene, run, is_timed: false }
+        Self {
+            scene,
+            run,
+            is_timed: false,
+        }
     }
 }
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { scene, run, is_timed } = *self;
+        let Self {
+            scene,
+            run,
+            is_timed,
+        } = *self;
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("scene", &scene.name)?;
         map.serialize_entry("elements", &scene.mesh.elements())?;
@@ -94,8 +119,15 @@ impl Serialize for Object<'_> {
         }
         map.serialize_entry("work", &run.work)?;
         if let Some(contact) = &run.contact {
-            let event = |by: &ContactEvent| Event { t: by.t, from: phase_name(by.from), to: phase_name(by.to) };
-            map.serialize_entry("events", &contact.events.iter().map(event).collect::<Vec<_>>())?;
+            let event = |by: &ContactEvent| Event {
+                t: by.t,
+                from: phase_name(by.from),
+                to: phase_name(by.to),
+            };
+            map.serialize_entry(
+                "events",
+                &contact.events.iter().map(event).collect::<Vec<_>>(),
+            )?;
         }
         if let Some(note) = run.note(scene.method.stopping()) {
             map.serialize_entry("note", &note)?;
@@ -108,37 +140,88 @@ impl Serialize for Object<'_> {
 }
 
 fn failure(ended: &RunError) -> Failure {
-    let of = |kind, step, t, message: String, numbers| Failure { kind, step, t, message, numbers };
+    let of = |kind, step, t, message: String, numbers| Failure {
+        kind,
+        step,
+        t,
+        message,
+        numbers,
+    };
     match ended {
         RunError::Setup(_) => of("setup", 0, 0.0, ended.to_string(), FailureNumbers::None {}),
-        RunError::Step(StepError { step, t, failure, .. }) => {
+        RunError::Step(StepError {
+            step, t, failure, ..
+        }) => {
             let (kind, numbers) = kind(failure);
             of(kind, *step, *t, failure.to_string(), numbers)
         }
         RunError::TimeUp(up) => {
-            let numbers = FailureNumbers::Limit { limit_seconds: up.limit.as_secs_f64() };
+            let numbers = FailureNumbers::Limit {
+                limit_seconds: up.limit.as_secs_f64(),
+            };
             of("time-limit", up.step, up.t, up.to_string(), numbers)
         }
-        RunError::Unsound { step, t, unsound, .. } => {
-            of("unsound", *step, *t, unsound.to_string(), FailureNumbers::None {})
-        }
+        RunError::Unsound {
+            step, t, unsound, ..
+        } => of(
+            "unsound",
+            *step,
+            *t,
+            unsound.to_string(),
+            FailureNumbers::None {},
+        ),
     }
 }
 
 fn kind(failure: &StepFailure) -> (&'static str, FailureNumbers) {
     match *failure {
-        StepFailure::Diverged { iterations, increment, contraction, .. } => {
-            ("diverged", FailureNumbers::Iteration { iterations, increment, contraction })
-        }
-        StepFailure::IterationLimit { iterations, increment, contraction } => {
-            ("iteration-limit", FailureNumbers::Iteration { iterations, increment, contraction })
-        }
-        StepFailure::NonFinite { iterations, increment } => {
-            ("non-finite", FailureNumbers::NonFinite { iterations, increment })
-        }
-        StepFailure::Indefinite { node, pivot, n_value } => {
-            ("indefinite", FailureNumbers::Indefinite { node, pivot, n_value })
-        }
+        StepFailure::Diverged {
+            iterations,
+            increment,
+            contraction,
+            ..
+        } => (
+            "diverged",
+            FailureNumbers::Iteration {
+                iterations,
+                increment,
+                contraction,
+            },
+        ),
+        StepFailure::IterationLimit {
+            iterations,
+            increment,
+            contraction,
+        } => (
+            "iteration-limit",
+            FailureNumbers::Iteration {
+                iterations,
+                increment,
+                contraction,
+            },
+        ),
+        StepFailure::NonFinite {
+            iterations,
+            increment,
+        } => (
+            "non-finite",
+            FailureNumbers::NonFinite {
+                iterations,
+                increment,
+            },
+        ),
+        StepFailure::Indefinite {
+            node,
+            pivot,
+            n_value,
+        } => (
+            "indefinite",
+            FailureNumbers::Indefinite {
+                node,
+                pivot,
+                n_value,
+            },
+        ),
         StepFailure::EventsTooClose { .. } => ("events-too-close", FailureNumbers::None {}),
         StepFailure::WrongContact { .. } => ("wrong-contact", FailureNumbers::None {}),
         StepFailure::EventNotFound { .. } => ("event-not-found", FailureNumbers::None {}),

@@ -111,7 +111,10 @@ impl Simulator {
     /// # Errors
     /// [`RunError`] if the solver refuses the scene's numbers.
     pub fn new(scene: &Scene) -> Result<Self, RunError> {
-        Ok(Self { motion: motion(scene)?, t_end: scene.t_end })
+        Ok(Self {
+            motion: motion(scene)?,
+            t_end: scene.t_end,
+        })
     }
 
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
@@ -136,7 +139,10 @@ impl Simulator {
         let mut passed = 0;
         let mut watch = |motion: &mut dyn Motion, _: &Report| {
             // A level of a one-step scheme is there up to rounding.
-            if times.get(passed).is_some_and(|time| (motion.t() - time).abs() <= 1e-9 * time) {
+            if times
+                .get(passed)
+                .is_some_and(|time| (motion.t() - time).abs() <= 1e-9 * time)
+            {
                 read(motion);
                 passed += 1;
             }
@@ -166,10 +172,18 @@ impl Simulator {
         if let Some(history) = &mut history {
             history.finish(&*motion, last);
         }
-        let events = motion.contact().map_or(vec![], |(_, events)| events.to_vec());
+        let events = motion
+            .contact()
+            .map_or(vec![], |(_, events)| events.to_vec());
         let contact = started_in.map(|started_in| Contact { started_in, events });
         sums.end(last, motion.solves(), motion.is_heated());
-        Run { wall: motion.wall(), contact, failure, history, ..sums }
+        Run {
+            wall: motion.wall(),
+            contact,
+            failure,
+            history,
+            ..sums
+        }
     }
 }
 
@@ -183,10 +197,16 @@ mod tests {
         let scene = Scene::parse(text, "s.toml").expect("a scene");
         let (times, mut read) = ([0.5, 1.0, 1.5, 2.0], vec![]);
         let see = |motion: &mut dyn Motion| read.push(motion.at(motion.t()));
-        let run = Simulator::new(&scene).expect("a motion").read_at(Recording::Summary, &times, see).expect("a run");
+        let run = Simulator::new(&scene)
+            .expect("a motion")
+            .read_at(Recording::Summary, &times, see)
+            .expect("a run");
         assert!(read.iter().map(|sample| sample.t).eq(times));
         let [low, high] = [run.extremes.u_tip_min, run.extremes.u_tip_max];
         assert_eq!(low.min(0.0), low);
-        assert!(read.iter().all(|sample| (low..=high).contains(&sample.u_tip)));
+        assert!(
+            read.iter()
+                .all(|sample| (low..=high).contains(&sample.u_tip))
+        );
     }
 }

@@ -47,8 +47,16 @@ struct StepTime {
 
 impl Timed {
     fn new(scene: &Scene, mesh: Mesh) -> Result<Self, SetupError> {
-        let problem = simulate::problem(&Scene { mesh, ..scene.clone() });
-        Ok(Self { problem, stepping: scene.one_step()?, in_lanes: false, balanced: false })
+        let problem = simulate::problem(&Scene {
+            mesh,
+            ..scene.clone()
+        });
+        Ok(Self {
+            problem,
+            stepping: scene.one_step()?,
+            in_lanes: false,
+            balanced: false,
+        })
     }
 
     /// The best of several runs.
@@ -77,12 +85,17 @@ impl Timed {
         };
         if self.in_lanes {
             let (problems, dt) = (vec![self.problem.clone(); LANES], [self.stepping.dt; LANES]);
-            let mut driver = EnsembleDriver::new(problems, &dt, self.stepping.scheme, self.stepping.settings)?;
+            let mut driver =
+                EnsembleDriver::new(problems, &dt, self.stepping.scheme, self.stepping.settings)?;
             let seconds = timed(&mut || match self.balanced {
                 true => driver.stepped().map(|shown| _ = black_box(shown)).is_ok(),
                 false => driver.advance().is_ok(),
             });
-            return Ok((seconds, driver.ensemble().step().max(1), driver.ensemble().work()));
+            return Ok((
+                seconds,
+                driver.ensemble().step().max(1),
+                driver.ensemble().work(),
+            ));
         }
         let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
         let balance = |step: Step<'_>| _ = black_box(step.simulation.balance(step.old, step.new));
@@ -90,7 +103,11 @@ impl Timed {
             true => driver.stepped().map(balance).is_ok(),
             false => driver.advance(|_, _| ()).is_ok(),
         });
-        Ok((seconds, driver.simulation().step().max(1), driver.simulation().work()))
+        Ok((
+            seconds,
+            driver.simulation().step().max(1),
+            driver.simulation().work(),
+        ))
     }
 }
 
@@ -101,14 +118,24 @@ type Alteration = fn(&mut Timed);
 const WAYS: [(&str, Alteration); 10] = [
     ("Newton, extrapolated start", |_| ()),
     ("Newton from the level before", |s| {
-        s.stepping.settings = Settings { start: Start::Previous, ..s.stepping.settings }
+        s.stepping.settings = Settings {
+            start: Start::Previous,
+            ..s.stepping.settings
+        }
     }),
     ("the paper's fixed point", |s| {
-        s.stepping.settings = Settings { solver: Solver::FixedPoint, ..s.stepping.settings }
+        s.stepping.settings = Settings {
+            solver: Solver::FixedPoint,
+            ..s.stepping.settings
+        }
     }),
     ("four cases in lanes, per case", |s| s.in_lanes = true),
-    ("Newton, and the balance of each step", |s| s.balanced = true),
-    ("four cases in lanes with it, per case", |s| (s.in_lanes, s.balanced) = (true, true)),
+    ("Newton, and the balance of each step", |s| {
+        s.balanced = true
+    }),
+    ("four cases in lanes with it, per case", |s| {
+        (s.in_lanes, s.balanced) = (true, true)
+    }),
     ("no obstacles: no contact", |s| s.problem.obstacles = None),
     ("rho = 0: no iteration", |s| s.problem.beam.rho = 0.0),
     ("a = 0 and no heat: no temperature", cold),
@@ -137,7 +164,11 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
         if against.is_nan() {
             against = time.nanoseconds;
         }
-        let StepTime { nanoseconds, passes, factorizations } = time;
+        let StepTime {
+            nanoseconds,
+            passes,
+            factorizations,
+        } = time;
         let ratio = format!("{:.2}", nanoseconds / against);
         Ok(vec![
             name.to_owned(),
@@ -147,10 +178,25 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
             factorizations.to_string(),
         ])
     };
-    let rows = WAYS.into_iter().map(&mut line).collect::<Result<_, SetupError>>()?;
-    let head = ["way", "ns per element and step", "ratio", "passes a step", "factorizations"];
-    let title = format!("Ways to solve a step, and what a scene saves by what it does not have, {elements} elements");
-    Ok(Table { title, head: head.map(str::to_owned).to_vec(), rows })
+    let rows = WAYS
+        .into_iter()
+        .map(&mut line)
+        .collect::<Result<_, SetupError>>()?;
+    let head = [
+        "way",
+        "ns per element and step",
+        "ratio",
+        "passes a step",
+        "factorizations",
+    ];
+    let title = format!(
+        "Ways to solve a step, and what a scene saves by what it does not have, {elements} elements"
+    );
+    Ok(Table {
+        title,
+        head: head.map(str::to_owned).to_vec(),
+        rows,
+    })
 }
 
 /// Cost and memory over the number of elements, for a single case and for each of four in lanes.
@@ -160,7 +206,11 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
 pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
     let line = |&n: &usize| {
         let alone = Timed::new(scene, Mesh::uniform(n)?)?;
-        let lanes = Timed { in_lanes: true, ..alone.clone() }.time()?;
+        let lanes = Timed {
+            in_lanes: true,
+            ..alone.clone()
+        }
+        .time()?;
         let time = alone.time()?;
         Ok(vec![
             n.to_string(),
@@ -170,7 +220,13 @@ pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
             format!("{:.2}", (n * BYTES_PER_ELEMENT) as f64 / f64::from(1 << 20)),
         ])
     };
-    let head = ["elements", "ns per element and step", "in lanes, per case", "passes a step", "MiB a case"];
+    let head = [
+        "elements",
+        "ns per element and step",
+        "in lanes, per case",
+        "passes a step",
+        "MiB a case",
+    ];
     Ok(Table {
         title: "Time over the number of elements: past the caches a step takes as long as its numbers take from memory and back"
             .to_owned(),

@@ -140,9 +140,18 @@ impl Run {
             wall: Duration::ZERO,
             first,
             last: first,
-            extremes: Extremes { u_tip_min: u_tip, u_tip_max: u_tip },
+            extremes: Extremes {
+                u_tip_min: u_tip,
+                u_tip_max: u_tip,
+            },
             contact_steps: 0,
-            energy: EnergySummary { initial, last: initial, largest_increase, largest_balance_residual, size },
+            energy: EnergySummary {
+                initial,
+                last: initial,
+                largest_increase,
+                largest_balance_residual,
+                size,
+            },
             work: Solves::default(),
             is_heated: true,
             contact: None,
@@ -171,11 +180,20 @@ impl Run {
         self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
         // Not the difference of two totals, which would lose the digits that separate a small fall from a small rise.
         let (change, residual, energy) = (balance.change, balance.residual.abs(), &mut self.energy);
-        energy.largest_increase = if self.steps == 0 { change } else { max_or_nan(energy.largest_increase, change) };
+        energy.largest_increase = if self.steps == 0 {
+            change
+        } else {
+            max_or_nan(energy.largest_increase, change)
+        };
         energy.largest_balance_residual = max_or_nan(energy.largest_balance_residual, residual);
         energy.last += change;
         self.steps += 1;
-        EnergySummary { largest_increase: change, largest_balance_residual: residual, ..*energy }.sound(now)
+        EnergySummary {
+            largest_increase: change,
+            largest_balance_residual: residual,
+            ..*energy
+        }
+        .sound(now)
     }
 
     /// Ends the run at its last level.
@@ -191,7 +209,12 @@ impl Run {
     /// * `stopping`: of the iterations; a fixed number of them has no tolerance.
     pub fn note(&self, stopping: Stopping) -> Option<String> {
         let tolerance = stopping.tolerance()?;
-        let EnergySummary { initial, last, size, .. } = self.energy;
+        let EnergySummary {
+            initial,
+            last,
+            size,
+            ..
+        } = self.energy;
         let motion = (2.0 * max_or_nan(size, (last - initial).abs())).sqrt();
         (motion > 0.0 && motion < RESOLVED * tolerance).then(|| {
             let [motion, advice] = [motion, tolerance * motion].map(|value| format!("{value:.1e}"));
@@ -236,7 +259,11 @@ impl Run {
 impl Contact {
     /// Time intervals in contact, between the start and the end of a run.
     fn phases(&self, start: f64, end: f64) -> Vec<(f64, f64)> {
-        let mut phases = if self.started_in == Phase::Free { vec![] } else { vec![(start, end)] };
+        let mut phases = if self.started_in == Phase::Free {
+            vec![]
+        } else {
+            vec![(start, end)]
+        };
         for event in &self.events {
             if let Some(phase) = phases.last_mut().filter(|_| event.from != Phase::Free) {
                 phase.1 = event.t;
@@ -250,10 +277,15 @@ impl Contact {
 }
 
 impl Watch for Run {
-    fn see(&mut self, motion: &mut dyn Motion, report: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(
+        &mut self,
+        motion: &mut dyn Motion,
+        report: &Report,
+    ) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());
         let unsound = |unsound| RunError::unsound(motion.steps(), motion.t(), report.dt, unsound);
-        self.add(report, &balance, extremes, || motion.energy_size()).map_err(unsound)?;
+        self.add(report, &balance, extremes, || motion.energy_size())
+            .map_err(unsound)?;
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -272,7 +304,9 @@ mod tests {
                  t_end = 1.0\n{solver}"
             );
             let scene = Scene::parse(&text, "small.toml").expect("a scene");
-            let run = Simulator::new(&scene).expect("a simulator").run(Recording::Summary, &mut |_, _| ());
+            let run = Simulator::new(&scene)
+                .expect("a simulator")
+                .run(Recording::Summary, &mut |_, _| ());
             assert_eq!(run.failure, None);
             (run.note(scene.method.stopping()), run.last.theta_mid)
         };
@@ -281,13 +315,21 @@ mod tests {
         let words = words.expect("a note");
         // ‖1e-9 x‖ = 5.8e-10.
         assert!(
-            words.contains("a size of 5.8e-10 ") && words.contains("1e-10,") && words.contains("5.8e-20"),
+            words.contains("a size of 5.8e-10 ")
+                && words.contains("1e-10,")
+                && words.contains("5.8e-20"),
             "{words}"
         );
         let (_, exact) = note(1.0, "tolerance = 1e-14\n");
-        assert!((theta / (1e-9 * exact) - 1.0).abs() > 0.02, "{theta} {exact}");
+        assert!(
+            (theta / (1e-9 * exact) - 1.0).abs() > 0.02,
+            "{theta} {exact}"
+        );
         let (none, theta) = note(1e-9, &format!("{fixed_point}tolerance = 5.8e-20\n"));
-        assert!(none.is_none() && (theta / (1e-9 * exact) - 1.0).abs() < 1e-6, "{none:?} {theta} {exact}");
+        assert!(
+            none.is_none() && (theta / (1e-9 * exact) - 1.0).abs() < 1e-6,
+            "{none:?} {theta} {exact}"
+        );
         assert_eq!(note(1e-6, fixed_point).0, None);
     }
 
@@ -302,36 +344,66 @@ mod tests {
         };
         let with = |terms, rounding| move || EnergySize { terms, rounding };
         assert_eq!(summary(0.0).sound(with(0.0, 0.0)), Ok(()));
-        assert_eq!(summary(1e-9).sound(with(0.0, 0.0)), Err(Unsound::Imbalance(1e-9)));
+        assert_eq!(
+            summary(1e-9).sound(with(0.0, 0.0)),
+            Err(Unsound::Imbalance(1e-9))
+        );
         assert_eq!(summary(1e-9).sound(with(2e-6, 0.0)), Ok(()));
         assert_eq!(summary(1e-9).sound(with(0.0, 2e-9)), Ok(()));
-        assert_eq!(summary(1e-9).sound(with(0.5e-6, 0.4e-9)), Err(Unsound::Imbalance(1e-9)));
+        assert_eq!(
+            summary(1e-9).sound(with(0.5e-6, 0.4e-9)),
+            Err(Unsound::Imbalance(1e-9))
+        );
     }
 
     #[test]
-    fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_what_is_not_finite() {
+    fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_what_is_not_finite()
+     {
         let sound = |initial: f64, last, largest_increase, largest_balance_residual| {
-            let now = || EnergySize { terms: 0.0, rounding: 0.0 };
-            EnergySummary { initial, last, largest_increase, largest_balance_residual, size: initial.abs() }.sound(now)
+            let now = || EnergySize {
+                terms: 0.0,
+                rounding: 0.0,
+            };
+            EnergySummary {
+                initial,
+                last,
+                largest_increase,
+                largest_balance_residual,
+                size: initial.abs(),
+            }
+            .sound(now)
         };
         // The energy's own size counts, however small it is.
         for size in [1e-30, 1e-9, 1.0, 1e9] {
             for rise in [-1.0, 0.0, 1e-12, 9e-4] {
                 assert_eq!(sound(size, 0.0, rise * size, 9e-4 * size), Ok(()), "{rise}");
             }
-            assert_eq!(sound(size, 0.0, 2e-3 * size, 0.0), Err(Unsound::Rise(2e-3 * size)));
-            assert_eq!(sound(size, 0.0, -size, 2e-3 * size), Err(Unsound::Imbalance(2e-3 * size)));
+            assert_eq!(
+                sound(size, 0.0, 2e-3 * size, 0.0),
+                Err(Unsound::Rise(2e-3 * size))
+            );
+            assert_eq!(
+                sound(size, 0.0, -size, 2e-3 * size),
+                Err(Unsound::Imbalance(2e-3 * size))
+            );
         }
         assert_eq!(sound(100.0, 0.0, 2e-3, 2e-3), Ok(()));
         assert_eq!(sound(0.5, 0.0, 1e264, 0.0), Err(Unsound::Rise(1e264)));
-        assert!(matches!(sound(0.5, 0.0, f64::NAN, 0.0), Err(Unsound::Rise(rise)) if rise.is_nan()));
-        assert!(matches!(sound(0.5, 0.0, 0.0, f64::NAN), Err(Unsound::Imbalance(residual)) if residual.is_nan()));
+        assert!(
+            matches!(sound(0.5, 0.0, f64::NAN, 0.0), Err(Unsound::Rise(rise)) if rise.is_nan())
+        );
+        assert!(
+            matches!(sound(0.5, 0.0, 0.0, f64::NAN), Err(Unsound::Imbalance(residual)) if residual.is_nan())
+        );
         assert_eq!(sound(1.0, -1e21, -1.0, 1e6), Ok(()));
         assert_eq!(sound(1.0, 1.0, -1.0, 1e6), Err(Unsound::Imbalance(1e6)));
         for last in [f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(sound(1.0, last, -1.0, 0.0), Err(Unsound::NotFinite(last)));
             assert_eq!(sound(last, 1.0, -1.0, 0.0), Err(Unsound::NotFinite(last)));
         }
-        assert!(matches!(sound(1.0, f64::NAN, -1.0, 0.0), Err(Unsound::NotFinite(_))));
+        assert!(matches!(
+            sound(1.0, f64::NAN, -1.0, 0.0),
+            Err(Unsound::NotFinite(_))
+        ));
     }
 }

@@ -27,8 +27,15 @@ pub struct Together {
 impl Together {
     /// For a scene; `None` if it can only run alone.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let Stepping { scheme, settings, .. } = scene.one_step().ok()?;
-        let common = Self { elements: scene.mesh.elements(), steps: scene.steps(), scheme, settings };
+        let Stepping {
+            scheme, settings, ..
+        } = scene.one_step().ok()?;
+        let common = Self {
+            elements: scene.mesh.elements(),
+            steps: scene.steps(),
+            scheme,
+            settings,
+        };
         (settings.solver == Solver::Newton).then_some(common)
     }
 }
@@ -41,14 +48,23 @@ impl Together {
 /// # Errors
 /// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree; [`RunError::TimeUp`].
 pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
-    let Some(common) = scenes.first().and_then(Together::of) else { return Ok(vec![]) };
+    let Some(common) = scenes.first().and_then(Together::of) else {
+        return Ok(vec![]);
+    };
     let dt: Vec<f64> = scenes.iter().map(Scene::dt).collect();
-    let mut driver = EnsembleDriver::new(scenes.iter().map(problem).collect(), &dt, common.scheme, common.settings)?;
+    let mut driver = EnsembleDriver::new(
+        scenes.iter().map(problem).collect(),
+        &dt,
+        common.scheme,
+        common.settings,
+    )?;
     let mut level = Level::new(common.elements + 1);
     let lane = |(k, scene)| LaneRun::new(k, scene, driver.ensemble(), &mut level);
     let mut lanes: Vec<LaneRun<'_>> = scenes.iter().enumerate().map(lane).collect();
     for _ in 0..common.steps {
-        let Some((ensemble, balances)) = driver.stepped()? else { break };
+        let Some((ensemble, balances)) = driver.stepped()? else {
+            break;
+        };
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
         }
@@ -61,7 +77,10 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
         if lane.run.failure.is_none() {
             lane.end(driver.ensemble(), &mut level);
         }
-        Run { wall: share, ..lane.run }
+        Run {
+            wall: share,
+            ..lane.run
+        }
     };
     Ok(lanes.into_iter().map(ended).collect())
 }
@@ -76,7 +95,11 @@ struct LaneRun<'s> {
 impl<'s> LaneRun<'s> {
     fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut Level) -> Self {
         let first = sample(k, scene, ensemble, level, 0).at_the_start(scene.obstacles);
-        Self { k, scene, run: Run::start(first, ensemble.cases()[k].energy_scale(level)) }
+        Self {
+            k,
+            scene,
+            run: Run::start(first, ensemble.cases()[k].energy_scale(level)),
+        }
     }
 
     /// Adds a step; the run ends if it fails or violates the law of the energy.
@@ -87,14 +110,23 @@ impl<'s> LaneRun<'s> {
         let (k, dt, step) = (self.k, self.scene.dt(), ensemble.step());
         let outcome = ensemble.report(k).map_err(RunError::from).and_then(|done| {
             let in_contact = ensemble.contact_force(k) != 0.0;
-            let report = Report { dt, iterations: done.iterations, in_contact };
+            let report = Report {
+                dt,
+                iterations: done.iterations,
+                in_contact,
+            };
             let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
             let now = || {
                 ensemble.observe(k, level);
                 let case = &ensemble.cases()[k];
-                EnergySize { terms: case.energy_scale(level), rounding: case.rounding(level, level).total() }
+                EnergySize {
+                    terms: case.energy_scale(level),
+                    rounding: case.rounding(level, level).total(),
+                }
             };
-            self.run.add(&report, balance, [ensemble.tip(k); 2], now).map_err(unsound)
+            self.run
+                .add(&report, balance, [ensemble.tip(k); 2], now)
+                .map_err(unsound)
         });
         if let Err(failure) = outcome {
             self.end(ensemble, level);
@@ -105,14 +137,21 @@ impl<'s> LaneRun<'s> {
     /// Ends the run at the present level.
     fn end(&mut self, ensemble: &Ensemble, level: &mut Level) {
         let (k, run) = (self.k, &mut self.run);
-        let last = if run.steps == 0 { run.first } else { sample(k, self.scene, ensemble, level, run.steps) };
+        let last = if run.steps == 0 {
+            run.first
+        } else {
+            sample(k, self.scene, ensemble, level, run.steps)
+        };
         run.end(last, ensemble.work_of(k).into(), ensemble.is_heated(k));
     }
 }
 
 fn sample(k: usize, scene: &Scene, ensemble: &Ensemble, level: &mut Level, step: usize) -> Sample {
     ensemble.observe(k, level);
-    let (t, energy) = (step as f64 * scene.dt(), ensemble.cases()[k].energy(level).total());
+    let (t, energy) = (
+        step as f64 * scene.dt(),
+        ensemble.cases()[k].energy(level).total(),
+    );
     Sample::of(level, t, &scene.mesh, scene.beam.theta_a, energy)
 }
 
@@ -140,7 +179,13 @@ impl EnsembleDriver {
         let elements = problems.iter().map(|problem| problem.mesh.elements()).sum();
         let ensemble = Ensemble::new(problems, dt, scheme, settings)?;
         let (balances, patience) = (Vec::with_capacity(dt.len()), Patience::new(elements));
-        Ok(Self { ensemble, balances, dt: dt[0], patience, wall: Duration::ZERO })
+        Ok(Self {
+            ensemble,
+            balances,
+            dt: dt[0],
+            patience,
+            wall: Duration::ZERO,
+        })
     }
 
     /// The simulations.
@@ -171,7 +216,9 @@ impl EnsembleDriver {
     /// # Errors
     /// As [`EnsembleDriver::advance`].
     pub(crate) fn stepped(&mut self) -> Result<Option<(&Ensemble, &[Balance])>, TimeUp> {
-        if self.ensemble.step() > 0 && (0..self.ensemble.cases().len()).all(|k| self.ensemble.report(k).is_err()) {
+        if self.ensemble.step() > 0
+            && (0..self.ensemble.cases().len()).all(|k| self.ensemble.report(k).is_err())
+        {
             return Ok(None);
         }
         self.advance()?;

@@ -61,8 +61,17 @@ pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
     if elements <= ELEMENTS {
         return Ok(elements);
     }
-    let found = format!("{elements}, which would take {}", memory_of_elements(elements as f64));
-    Err(field.refuse(found, format!("a whole number >= 1 and <= {ELEMENTS} ({} GiB)", RUN_BYTES >> 30)))
+    let found = format!(
+        "{elements}, which would take {}",
+        memory_of_elements(elements as f64)
+    );
+    Err(field.refuse(
+        found,
+        format!(
+            "a whole number >= 1 and <= {ELEMENTS} ({} GiB)",
+            RUN_BYTES >> 30
+        ),
+    ))
 }
 
 /// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message names `field`.
@@ -85,9 +94,18 @@ pub(crate) fn any_order_memory(
     if 8.0 * numbers <= RUN_BYTES as f64 {
         return Ok(());
     }
-    let found = format!("{}, which would take {}", field.as_written(), memory(8.0 * numbers));
-    Err(field
-        .refuse(found, format!("a mesh that takes at most {} GiB with degree p = {p} and q = {q}", RUN_BYTES >> 30)))
+    let found = format!(
+        "{}, which would take {}",
+        field.as_written(),
+        memory(8.0 * numbers)
+    );
+    Err(field.refuse(
+        found,
+        format!(
+            "a mesh that takes at most {} GiB with degree p = {p} and q = {q}",
+            RUN_BYTES >> 30
+        ),
+    ))
 }
 
 /// The memory of a run with `elements` elements, in words.
@@ -96,12 +114,20 @@ pub(crate) fn memory_of_elements(elements: f64) -> String {
 }
 
 /// Refuses more than `most` steps from 0 to `t_end`; the message names `field`.
-pub(crate) fn steps_until(field: &Field<'_>, t_end: f64, dt: f64, most: usize) -> Result<(), InputError> {
+pub(crate) fn steps_until(
+    field: &Field<'_>,
+    t_end: f64,
+    dt: f64,
+    most: usize,
+) -> Result<(), InputError> {
     let steps = (t_end / dt).round();
     if steps <= most as f64 {
         return Ok(());
     }
-    let found = format!("{}, which is {steps:.3e} steps of {dt:?} to t = {t_end:?}", field.as_written());
+    let found = format!(
+        "{}, which is {steps:.3e} steps of {dt:?} to t = {t_end:?}",
+        field.as_written()
+    );
     Err(field.refuse(found, format!("at most {:e} steps", most as f64)))
 }
 
@@ -112,7 +138,10 @@ pub(crate) fn dense(field: &Field<'_>, elements: usize) -> Result<(), InputError
     }
     let bytes = memory(6.0 * (2.0 * elements as f64).powi(2) * 8.0);
     let found = format!("{elements}, whose modes would take {bytes}");
-    Err(field.refuse(found, format!("at most {DENSE_ELEMENTS}, where time is isolated by the modes of the mesh")))
+    Err(field.refuse(
+        found,
+        format!("at most {DENSE_ELEMENTS}, where time is isolated by the modes of the mesh"),
+    ))
 }
 
 /// Refuses a study with too many cases; the message names `field`.
@@ -132,5 +161,8 @@ pub(crate) fn cases(field: &Field<'_>, factors: &[usize]) -> Result<(), InputErr
 /// The message for a sweep with too many cases: found and allowed number.
 pub(crate) fn sweep_refusal(cases: f64) -> (String, String) {
     let bytes = memory(cases * BYTES_PER_SWEEP_CASE as f64);
-    (format!("{cases:.3e} cases, which would take {bytes}"), format!("at most {SWEEP_CASES} cases"))
+    (
+        format!("{cases:.3e} cases, which would take {bytes}"),
+        format!("at most {SWEEP_CASES} cases"),
+    )
 }

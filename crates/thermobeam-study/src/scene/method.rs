@@ -25,7 +25,16 @@ const GROWTH: f64 = 1.5;
 /// Default first step, in units of the time scale of an impact's peak.
 const RESTART: f64 = 0.2;
 
-const DG_KEYS: [&str; 8] = ["scheme", "degree", "dt", "restart_dt", "growth", "t_end", "tolerance", "max_iterations"];
+const DG_KEYS: [&str; 8] = [
+    "scheme",
+    "degree",
+    "dt",
+    "restart_dt",
+    "growth",
+    "t_end",
+    "tolerance",
+    "max_iterations",
+];
 
 /// How a scene is stepped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,8 +81,12 @@ impl Method {
     /// The keys of a scene that lower the error in time.
     pub(crate) fn finer_time(&self) -> &'static str {
         match self {
-            Self::OneStep(stepping) if stepping.scheme.order > 1.0 => "Time first: take half of dt.",
-            Self::OneStep(_) => "Time first: take half of dt, or the scheme \"midpoint\", which may leave far less.",
+            Self::OneStep(stepping) if stepping.scheme.order > 1.0 => {
+                "Time first: take half of dt."
+            }
+            Self::OneStep(_) => {
+                "Time first: take half of dt, or the scheme \"midpoint\", which may leave far less."
+            }
             Self::Dg(_) => {
                 "Time first: halve dt, restart_dt and growth - 1; where nothing touches, a higher time.degree is cheaper."
             }
@@ -84,9 +97,14 @@ impl Method {
     pub fn stopping(&self) -> Stopping {
         match self {
             Self::OneStep(stepping) => stepping.settings.stopping,
-            Self::Dg(dg::Stepping { tolerance, max_iterations, .. }) => {
-                Stopping::Converged { tolerance: *tolerance, max_iterations: *max_iterations }
-            }
+            Self::Dg(dg::Stepping {
+                tolerance,
+                max_iterations,
+                ..
+            }) => Stopping::Converged {
+                tolerance: *tolerance,
+                max_iterations: *max_iterations,
+            },
         }
     }
 
@@ -102,7 +120,11 @@ impl Method {
     pub(crate) fn with_dt(self, dt: f64) -> Self {
         match self {
             Self::OneStep(stepping) => Self::OneStep(Stepping { dt, ..stepping }),
-            Self::Dg(stepping) => Self::Dg(dg::Stepping { dt, restart_dt: stepping.restart_dt.min(dt), ..stepping }),
+            Self::Dg(stepping) => Self::Dg(dg::Stepping {
+                dt,
+                restart_dt: stepping.restart_dt.min(dt),
+                ..stepping
+            }),
         }
     }
 
@@ -121,12 +143,23 @@ impl Method {
         let Some(stepping) = self.dg() else {
             let refused = get("degree").filter(|field| field.count(1..=1).is_err());
             let allowed = "1, or time.scheme = \"dg\" for elements of higher degree";
-            return refused.map_or(Ok(1), |field| Err(field.refuse(field.as_written(), allowed)));
+            return refused.map_or(
+                Ok(1),
+                |field| Err(field.refuse(field.as_written(), allowed)),
+            );
         };
         let degree = get("degree").map_or(Ok(DEGREE), |field| field.count(1..=MAX_DEGREE))?;
         if let Some(field) = get("nodes").or_else(|| get("elements")) {
-            let shortest = mesh.nodes().windows(2).map(|x| x[1] - x[0]).fold(f64::INFINITY, f64::min);
-            let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest { 1 } else { mesh.elements() };
+            let shortest = mesh
+                .nodes()
+                .windows(2)
+                .map(|x| x[1] - x[0])
+                .fold(f64::INFINITY, f64::min);
+            let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest {
+                1
+            } else {
+                mesh.elements()
+            };
             limits::any_order_memory(&field, mesh.elements(), lengths, degree, stepping.degree)?;
         }
         Ok(degree)
@@ -142,12 +175,24 @@ pub(super) fn read(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
 ) -> Result<(Method, f64), InputError> {
-    let names: Vec<_> = SCHEMES.iter().map(|scheme| (scheme.name, false)).chain([(DG, true)]).collect();
+    let names: Vec<_> = SCHEMES
+        .iter()
+        .map(|scheme| (scheme.name, false))
+        .chain([(DG, true)])
+        .collect();
     let scheme = root.section("time")?.and_then(|time| time.get("scheme"));
     let is_dg = scheme.map_or(Ok(false), |field| field.choice(&names))?;
-    let expected = if is_dg { "a table with scheme and t_end" } else { "a table with dt and t_end" };
+    let expected = if is_dg {
+        "a table with scheme and t_end"
+    } else {
+        "a table with dt and t_end"
+    };
     let time = root.require("time", expected)?.section()?;
-    if is_dg { dg(&time, beam, obstacles) } else { one_step(&time) }
+    if is_dg {
+        dg(&time, beam, obstacles)
+    } else {
+        one_step(&time)
+    }
 }
 
 /// A one-step scheme, and t_end.
@@ -155,7 +200,15 @@ fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
     time.allow(&[&["dt", "t_end"], &tables::STEPPING_KEYS[..]].concat())?;
     let (dt, t_end) = time_steps(time)?;
     let (scheme, settings) = (tables::scheme(time)?, tables::settings(time)?);
-    Ok((Method::OneStep(Stepping { scheme, settings, dt, loaded: false }), t_end))
+    Ok((
+        Method::OneStep(Stepping {
+            scheme,
+            settings,
+            dt,
+            loaded: false,
+        }),
+        t_end,
+    ))
 }
 
 /// dt and t_end; dt must divide t_end.
@@ -174,27 +227,45 @@ fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
     if steps >= 1.0 && (steps * dt - t_end).abs() <= SLACK * t_end {
         return Ok((dt, t_end));
     }
-    let candidates = [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
+    let candidates =
+        [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
     let distance = |candidate: f64| (candidate - dt).abs();
     let [low, high] = candidates;
-    let (steps, nearest) = if distance(low.1) <= distance(high.1) { low } else { high };
+    let (steps, nearest) = if distance(low.1) <= distance(high.1) {
+        low
+    } else {
+        high
+    };
     let found = format!("{dt:?}, which is {quotient} steps for t_end = {t_end:?}");
-    Err(field.refuse(found, format!("a dt that divides t_end, the nearest being {nearest:?} ({steps} steps)")))
+    Err(field.refuse(
+        found,
+        format!("a dt that divides t_end, the nearest being {nearest:?} ({steps} steps)"),
+    ))
 }
 
 /// dG(q), and t_end.
-fn dg(time: &Section<'_>, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<(Method, f64), InputError> {
+fn dg(
+    time: &Section<'_>,
+    beam: &Beam,
+    obstacles: Option<&Obstacles>,
+) -> Result<(Method, f64), InputError> {
     time.allow(&DG_KEYS)?;
     let t_end = time.positive("t_end")?;
     let defaults = default_stepping(beam, obstacles, t_end);
     let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| field.positive());
-    let count = |key: &str, default: usize, allowed| time.get(key).map_or(Ok(default), |field| field.count(allowed));
+    let count = |key: &str, default: usize, allowed| {
+        time.get(key)
+            .map_or(Ok(default), |field| field.count(allowed))
+    };
     let dt = or("dt", defaults.dt)?;
     if let Some(field) = time.get("dt") {
         limits::steps_until(&field, t_end, dt, limits::STEPS)?;
     }
     let restart_dt = match time.get("restart_dt") {
-        Some(field) => field.number_where(&format!("a number > 0 and at most dt = {dt:?}"), |h| h > 0.0 && h <= dt)?,
+        Some(field) => field
+            .number_where(&format!("a number > 0 and at most dt = {dt:?}"), |h| {
+                h > 0.0 && h <= dt
+            })?,
         None => first_step(beam, obstacles, dt),
     };
     let growth = match time.get("growth") {
@@ -213,9 +284,18 @@ fn dg(time: &Section<'_>, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<
 }
 
 /// The steps of a scene that specifies none.
-pub(super) fn default_stepping(beam: &Beam, obstacles: Option<&Obstacles>, t_end: f64) -> dg::Stepping {
+pub(super) fn default_stepping(
+    beam: &Beam,
+    obstacles: Option<&Obstacles>,
+    t_end: f64,
+) -> dg::Stepping {
     let dt = DT.min(t_end);
-    dg::Stepping { dt, restart_dt: first_step(beam, obstacles, dt), growth: GROWTH, ..dg::Stepping::default() }
+    dg::Stepping {
+        dt,
+        restart_dt: first_step(beam, obstacles, dt),
+        growth: GROWTH,
+        ..dg::Stepping::default()
+    }
 }
 
 /// A fifth of the time scale of an impact's peak, and at most dt.
@@ -231,7 +311,10 @@ mod tests {
 
     fn read(text: &str) -> Result<(Scene, dg::Stepping), String> {
         let scene = Scene::parse(text, "s.toml").map_err(|error| error.to_string())?;
-        let stepping = scene.method.dg().ok_or_else(|| format!("a scene by {}", scene.method.name()))?;
+        let stepping = scene
+            .method
+            .dg()
+            .ok_or_else(|| format!("a scene by {}", scene.method.name()))?;
         Ok((scene, stepping))
     }
 
@@ -239,17 +322,30 @@ mod tests {
     fn keys_are_read_and_defaults_follow_the_scene() {
         let text = "[obstacles]\n[mesh]\ndegree = 4\n[time]\nscheme = \"dg\"\ndegree = 3\ndt = 0.3\nt_end = 1.0\n";
         let (scene, stepping) = read(text).unwrap();
-        assert_eq!((scene.degree, scene.mesh.elements(), stepping.degree), (4, 1, 3));
+        assert_eq!(
+            (scene.degree, scene.mesh.elements(), stepping.degree),
+            (4, 1, 3)
+        );
         assert_eq!((stepping.dt, scene.t_end, stepping.growth), (0.3, 1.0, 1.5));
         // (1e-3 √0.1)^(2/3) / 5.
-        assert!((stepping.restart_dt - 9.283e-4).abs() < 1e-7, "{}", stepping.restart_dt);
-        assert_eq!(read("[time]\nscheme = \"midpoint\"\ndt = 0.5\nt_end = 1.0").unwrap_err(), "a scene by midpoint");
+        assert!(
+            (stepping.restart_dt - 9.283e-4).abs() < 1e-7,
+            "{}",
+            stepping.restart_dt
+        );
+        assert_eq!(
+            read("[time]\nscheme = \"midpoint\"\ndt = 0.5\nt_end = 1.0").unwrap_err(),
+            "a scene by midpoint"
+        );
     }
 
     #[test]
     fn values_out_of_range_are_refused_with_their_field() {
         let with = |mesh: &str, time: &str| {
-            read(&format!("[mesh]\n{mesh}\n[time]\nscheme = \"dg\"\nt_end = 1.0\n{time}\n")).unwrap_err()
+            read(&format!(
+                "[mesh]\n{mesh}\n[time]\nscheme = \"dg\"\nt_end = 1.0\n{time}\n"
+            ))
+            .unwrap_err()
         };
         for (mesh, time, words) in [
             ("degree = 0", "", "mesh.degree"),
@@ -263,8 +359,16 @@ mod tests {
             ("", "growth = 0.5", "time.growth"),
             ("", "solver = \"newton\"", "unknown key `solver`"),
             ("", "dt = -1", "time.dt"),
-            ("", "dt = 1e-20", "time.dt: found 1e-20, which is 1.000e20 steps"),
-            ("elements = 100000\ndegree = 40", "degree = 5", "mesh.elements: found 100000, which would take about 7."),
+            (
+                "",
+                "dt = 1e-20",
+                "time.dt: found 1e-20, which is 1.000e20 steps",
+            ),
+            (
+                "elements = 100000\ndegree = 40",
+                "degree = 5",
+                "mesh.elements: found 100000, which would take about 7.",
+            ),
         ] {
             let message = with(mesh, time);
             assert!(message.contains(words), "{message}");
@@ -273,7 +377,8 @@ mod tests {
 
     #[test]
     fn a_beam_without_viscosity_has_an_impact_time_too() {
-        let text = "[beam]\nzeta = 0.0\n[obstacles]\nepsilon = 1e-3\n[time]\nscheme = \"dg\"\nt_end = 1.0";
+        let text =
+            "[beam]\nzeta = 0.0\n[obstacles]\nepsilon = 1e-3\n[time]\nscheme = \"dg\"\nt_end = 1.0";
         assert_eq!(read(text).unwrap().1.restart_dt, 0.2 * 1e-3);
     }
 
@@ -293,6 +398,9 @@ mod tests {
             Scene::parse(&text, "s.toml").unwrap()
         });
         assert_eq!(one_step.dg_stepping(), dg.dg_stepping());
-        assert!(one_step.one_step().is_ok() && dg.one_step().unwrap_err().to_string().contains("found dg"));
+        assert!(
+            one_step.one_step().is_ok()
+                && dg.one_step().unwrap_err().to_string().contains("found dg")
+        );
     }
 }

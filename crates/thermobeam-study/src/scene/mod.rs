@@ -112,12 +112,20 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read`].
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        input::parse(text, file_name, |root| Self::from_document(root, stem(file_name)))
+        input::parse(text, file_name, |root| {
+            Self::from_document(root, stem(file_name))
+        })
     }
 
     /// Reads a scene from `text`; values of `overlay`, also TOML, replace its own.
-    pub(crate) fn parse_overlaid(text: &str, overlay: &str, file_name: &str) -> Result<Self, InputError> {
-        input::parse_overlaid(text, overlay, file_name, |root| Self::from_document(root, stem(file_name)))
+    pub(crate) fn parse_overlaid(
+        text: &str,
+        overlay: &str,
+        file_name: &str,
+    ) -> Result<Self, InputError> {
+        input::parse_overlaid(text, overlay, file_name, |root| {
+            Self::from_document(root, stem(file_name))
+        })
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
@@ -132,9 +140,25 @@ impl Scene {
         let mesh = mesh(root, method.default_elements())?;
         let degree = method.degree(root, &mesh)?;
         let initial = initial(root, &beam, &mesh)?;
-        let is_listed = root.section("mesh")?.is_some_and(|section| section.get("nodes").is_some());
-        let listed = if is_listed { mesh.nodes().to_vec() } else { vec![] };
-        Ok(Self { name, beam, obstacles, initial, mesh, listed, degree, method, t_end })
+        let is_listed = root
+            .section("mesh")?
+            .is_some_and(|section| section.get("nodes").is_some());
+        let listed = if is_listed {
+            mesh.nodes().to_vec()
+        } else {
+            vec![]
+        };
+        Ok(Self {
+            name,
+            beam,
+            obstacles,
+            initial,
+            mesh,
+            listed,
+            degree,
+            method,
+            t_end,
+        })
     }
 
     /// The scene of a file named in a field, by a one-step scheme.
@@ -142,7 +166,10 @@ impl Scene {
         let scene = Self::read(field.file(folder)?)?;
         match scene.one_step() {
             Ok(_) => Ok(scene),
-            Err(error) => Err(field.refuse(format!("{}: {error}", field.as_written()), "a scene by a one-step scheme")),
+            Err(error) => Err(field.refuse(
+                format!("{}: {error}", field.as_written()),
+                "a scene by a one-step scheme",
+            )),
         }
     }
 
@@ -163,12 +190,19 @@ impl Scene {
 
     /// The scene with the same method on another mesh and with another step.
     pub(crate) fn at(&self, mesh: Mesh, dt: f64) -> Self {
-        Self { mesh, method: self.method.with_dt(dt), ..self.clone() }
+        Self {
+            mesh,
+            method: self.method.with_dt(dt),
+            ..self.clone()
+        }
     }
 
     /// The scene on another mesh, with `steps` steps to a final time.
     pub(crate) fn with_steps(&self, mesh: Mesh, steps: usize, t_end: f64) -> Self {
-        Self { t_end, ..self.at(mesh, t_end / steps as f64) }
+        Self {
+            t_end,
+            ..self.at(mesh, t_end / steps as f64)
+        }
     }
 
     /// The one-step scheme, its solver and its step.
@@ -178,7 +212,10 @@ impl Scene {
     pub fn one_step(&self) -> Result<Stepping, SetupError> {
         match self.method {
             Method::OneStep(stepping) => Ok(stepping),
-            Method::Dg(_) => Err(SetupError::Method { found: DG, allowed: "a one-step scheme" }),
+            Method::Dg(_) => Err(SetupError::Method {
+                found: DG,
+                allowed: "a one-step scheme",
+            }),
         }
     }
 
@@ -194,12 +231,21 @@ impl Scene {
         match &self.method {
             Method::OneStep(by) => {
                 let (steps, solver) = (counted(self.steps(), "step"), by.settings.solver.name());
-                format!("{elements}, {steps} of dt = {:?} to t = {t_end:?}\n{}, {solver}", by.dt, by.scheme.name)
+                format!(
+                    "{elements}, {steps} of dt = {:?} to t = {t_end:?}\n{}, {solver}",
+                    by.dt, by.scheme.name
+                )
             }
             Method::Dg(by) => {
                 let (p, q) = (self.degree, by.degree);
-                let steps = format!("steps from {:.3e} to {:?}, to t = {t_end:?}", by.restart_dt, by.dt);
-                format!("{elements} of degree {p}, dG({q}) in time, {steps}\n{}", self.method.solver())
+                let steps = format!(
+                    "steps from {:.3e} to {:?}, to t = {t_end:?}",
+                    by.restart_dt, by.dt
+                );
+                format!(
+                    "{elements} of degree {p}, dG({q}) in time, {steps}\n{}",
+                    self.method.solver()
+                )
             }
         }
     }
@@ -212,7 +258,13 @@ impl Scene {
                 None => Box::new(|_| 0.0),
             }
         };
-        let Initial { u, u_t, phi, phi_t, theta } = &self.initial;
+        let Initial {
+            u,
+            u_t,
+            phi,
+            phi_t,
+            theta,
+        } = &self.initial;
         let initial = dg::Initial {
             u: function(u),
             u_t: function(u_t),
@@ -220,14 +272,28 @@ impl Scene {
             phi_t: function(phi_t),
             theta: function(theta),
         };
-        let Self { beam, obstacles, degree, .. } = *self;
-        dg::Problem { beam, obstacles, mesh: self.mesh.clone(), degree, initial }
+        let Self {
+            beam,
+            obstacles,
+            degree,
+            ..
+        } = *self;
+        dg::Problem {
+            beam,
+            obstacles,
+            mesh: self.mesh.clone(),
+            degree,
+            initial,
+        }
     }
 }
 
 /// A file's name without folder and extension.
 pub(crate) fn stem(file_name: &str) -> String {
-    Path::new(file_name).file_stem().map_or(file_name.into(), |stem| stem.to_string_lossy()).into_owned()
+    Path::new(file_name)
+        .file_stem()
+        .map_or(file_name.into(), |stem| stem.to_string_lossy())
+        .into_owned()
 }
 
 /// `elements` elements graded like `mesh`: its nodes x_i as a function of i/n, linear in between, at j/m.
@@ -259,15 +325,18 @@ fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError>
     }
     if let Some(nodes) = get("nodes") {
         if let Some(other) = get("elements").or_else(|| get("map")) {
-            return Err(
-                other.refuse(format!("{} beside nodes", other.as_written()), "either nodes, or elements and map")
-            );
+            return Err(other.refuse(
+                format!("{} beside nodes", other.as_written()),
+                "either nodes, or elements and map",
+            ));
         }
         return listed_nodes(&nodes);
     }
-    let elements = get("elements").map_or(Ok(default_elements), |field| tables::elements(&field))?;
+    let elements =
+        get("elements").map_or(Ok(default_elements), |field| tables::elements(&field))?;
     let Some(field) = get("map") else {
-        return Mesh::uniform(elements).map_err(|error| root.refuse("mesh", error.to_string(), "a valid mesh"));
+        return Mesh::uniform(elements)
+            .map_err(|error| root.refuse("mesh", error.to_string(), "a valid mesh"));
     };
     let map = tables::function(&field, Variable::S, 1.0, 0)?;
     tables::checked_mesh(Mesh::mapped(elements, |s| map.eval(s)), &field)
@@ -276,16 +345,23 @@ fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError>
 fn listed_nodes(field: &Field<'_>) -> Result<Mesh, InputError> {
     let allowed = "a list of at least two numbers that increase strictly from 0 to 1";
     let items = field.items(allowed)?;
-    let nodes = items.iter().map(Field::number).collect::<Result<Vec<f64>, _>>()?;
+    let nodes = items
+        .iter()
+        .map(Field::number)
+        .collect::<Result<Vec<f64>, _>>()?;
     Mesh::from_nodes(nodes).map_err(|error| match error {
         MeshError::TooFew { .. } => field.refuse_as_written(allowed),
-        MeshError::Ends { index, expected, .. } => items[index].refuse_as_written(format!("{expected} at this end")),
-        MeshError::NotIncreasing { index, previous, .. } => {
-            items[index].refuse_as_written(format!("a number > {previous:?}, the node before"))
-        }
-        MeshError::TooClose { index, previous, .. } => {
-            items[index].refuse_as_written(format!("a node further from {previous:?}, the one before: 1/h overflows"))
-        }
+        MeshError::Ends {
+            index, expected, ..
+        } => items[index].refuse_as_written(format!("{expected} at this end")),
+        MeshError::NotIncreasing {
+            index, previous, ..
+        } => items[index].refuse_as_written(format!("a number > {previous:?}, the node before")),
+        MeshError::TooClose {
+            index, previous, ..
+        } => items[index].refuse_as_written(format!(
+            "a node further from {previous:?}, the one before: 1/h overflows"
+        )),
     })
 }
 
@@ -295,15 +371,18 @@ fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, Inpu
     if let Some(section) = &section {
         section.allow(&["u", "u_t", "phi", "phi_t", "theta"])?;
     }
-    let function = |key: &str, conditions: &[(f64, f64)]| -> Result<Option<Expression>, InputError> {
-        let Some(field) = section.as_ref().and_then(|section| section.get(key)) else { return Ok(None) };
-        let function = tables::function(&field, Variable::X, 1.0, 0)?;
-        finite_at_nodes(&field, &function, mesh)?;
-        for &(at, expected) in conditions {
-            meets(&field, &function, key, at, expected)?;
-        }
-        Ok(Some(function))
-    };
+    let function =
+        |key: &str, conditions: &[(f64, f64)]| -> Result<Option<Expression>, InputError> {
+            let Some(field) = section.as_ref().and_then(|section| section.get(key)) else {
+                return Ok(None);
+            };
+            let function = tables::function(&field, Variable::X, 1.0, 0)?;
+            finite_at_nodes(&field, &function, mesh)?;
+            for &(at, expected) in conditions {
+                meets(&field, &function, key, at, expected)?;
+            }
+            Ok(Some(function))
+        };
     let clamped = [(0.0, 0.0)];
     let initial = Initial {
         u: function("u", &clamped)?,
@@ -314,7 +393,10 @@ fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, Inpu
     };
     if initial.theta.is_none() && beam.theta_a != 0.0 {
         let found = "nothing, which means 0 everywhere";
-        let allowed = format!("a function with theta(0) = {:?}, which is beam.theta_a, and theta(1) = 0", beam.theta_a);
+        let allowed = format!(
+            "a function with theta(0) = {:?}, which is beam.theta_a, and theta(1) = 0",
+            beam.theta_a
+        );
         return Err(match &section {
             Some(section) => section.refuse("theta", found, allowed),
             None => root.refuse("initial.theta", found, allowed),
@@ -324,25 +406,44 @@ fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, Inpu
 }
 
 /// Initial data are interpolated, so every node is checked, not only the samples.
-fn finite_at_nodes(field: &Field<'_>, function: &Expression, mesh: &Mesh) -> Result<(), InputError> {
+fn finite_at_nodes(
+    field: &Field<'_>,
+    function: &Expression,
+    mesh: &Mesh,
+) -> Result<(), InputError> {
     let values = mesh.nodes().iter().map(|&at| (at, function.eval(at)));
     match values.into_iter().find(|(_, value)| !value.is_finite()) {
         None => Ok(()),
         Some((at, found)) => {
-            let found = NotFinite { variable: Variable::X, at, end: 1.0, order: 0, found };
+            let found = NotFinite {
+                variable: Variable::X,
+                at,
+                end: 1.0,
+                order: 0,
+                found,
+            };
             Err(field.invalid(found.to_string()))
         }
     }
 }
 
 /// Checks a boundary condition, up to the rounding error of the function.
-fn meets(field: &Field<'_>, function: &Expression, key: &str, at: f64, expected: f64) -> Result<(), InputError> {
+fn meets(
+    field: &Field<'_>,
+    function: &Expression,
+    key: &str,
+    at: f64,
+    expected: f64,
+) -> Result<(), InputError> {
     let found = function.eval(at);
     // The rounding error takes thousands of evaluations, too expensive for every case of a sweep.
     if found == expected || (found - expected).abs() <= function.roundoff(1.0) {
         return Ok(());
     }
-    Err(field.refuse(format!("{key}({at}) = {found:?}"), format!("{key}({at}) = {expected:?}, the boundary condition")))
+    Err(field.refuse(
+        format!("{key}({at}) = {found:?}"),
+        format!("{key}({at}) = {expected:?}, the boundary condition"),
+    ))
 }
 
 #[cfg(test)]

@@ -48,7 +48,9 @@ impl Coefficients {
 
     /// The same with a relative error in one of them; `None` if there is none of that name, or it is zero.
     pub(crate) fn off(mut self, name: &str, relative: f64) -> Option<Self> {
-        let coefficient = self.get_mut(name).filter(|coefficient| **coefficient != 0.0)?;
+        let coefficient = self
+            .get_mut(name)
+            .filter(|coefficient| **coefficient != 0.0)?;
         *coefficient *= 1.0 + relative;
         Some(self)
     }
@@ -61,9 +63,14 @@ impl Coefficients {
     /// The tables `[beam]` and `[obstacles]`, each key with its default; obstacles need a table.
     pub(crate) fn read(root: &Section<'_>) -> Result<Self, InputError> {
         let obstacles = root.get("obstacles").map(|_| Obstacles::default());
-        let mut read = Self { beam: Beam::default(), obstacles };
+        let mut read = Self {
+            beam: Beam::default(),
+            obstacles,
+        };
         for (table, keys) in [("beam", &BEAM_KEYS[..]), ("obstacles", &OBSTACLE_KEYS)] {
-            let Some(section) = root.section(table)? else { continue };
+            let Some(section) = root.section(table)? else {
+                continue;
+            };
             section.allow(keys)?;
             for key in keys {
                 if let (Some(field), Some(value)) = (section.get(key), read.get_mut(key)) {
@@ -77,21 +84,36 @@ impl Coefficients {
 
     /// Refuses what the solver would refuse, with the key of `section`.
     pub(crate) fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
-        let obstacles = self.obstacles.map_or(Ok(()), |obstacles| obstacles.validate());
-        self.beam.validate().and(obstacles).map_err(|error| match section.get(error.name) {
-            Some(field) => field.refuse_as_written(error.allowed),
-            None => section.refuse(error.name, format!("{:?}", error.found), error.allowed),
-        })
+        let obstacles = self
+            .obstacles
+            .map_or(Ok(()), |obstacles| obstacles.validate());
+        self.beam
+            .validate()
+            .and(obstacles)
+            .map_err(|error| match section.get(error.name) {
+                Some(field) => field.refuse_as_written(error.allowed),
+                None => section.refuse(error.name, format!("{:?}", error.found), error.allowed),
+            })
     }
 }
 
 /// The keys of [`scheme()`] and [`settings`].
-pub(crate) const STEPPING_KEYS: [&str; 5] = ["scheme", "solver", "tolerance", "max_iterations", "iterations"];
+pub(crate) const STEPPING_KEYS: [&str; 5] = [
+    "scheme",
+    "solver",
+    "tolerance",
+    "max_iterations",
+    "iterations",
+];
 
 /// The key `scheme`.
 pub(crate) fn scheme(section: &Section<'_>) -> Result<Scheme, InputError> {
     let schemes = scheme::SCHEMES.map(|scheme| (scheme.name, scheme));
-    section.get("scheme").map_or(Ok(scheme::EULER_CRANK_NICOLSON), |field| field.choice(&schemes))
+    section
+        .get("scheme")
+        .map_or(Ok(scheme::EULER_CRANK_NICOLSON), |field| {
+            field.choice(&schemes)
+        })
 }
 
 /// The keys `solver`, `tolerance` and `max_iterations`, or `iterations`, which excludes both.
@@ -101,19 +123,30 @@ pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
         settings.solver = field.choice(&Solver::ALL.map(|solver| (solver.name(), solver)))?;
     }
     if let Some(field) = section.get("iterations") {
-        let tested = ["tolerance", "max_iterations"].into_iter().find(|key| section.get(key).is_some());
+        let tested = ["tolerance", "max_iterations"]
+            .into_iter()
+            .find(|key| section.get(key).is_some());
         if let Some(key) = tested {
-            return Err(section.refuse(key, "a second rule for the end of the iteration", "`iterations` alone"));
+            return Err(section.refuse(
+                key,
+                "a second rule for the end of the iteration",
+                "`iterations` alone",
+            ));
         }
         if settings.solver != Solver::FixedPoint {
-            return Err(
-                field.refuse(format!("solver \"{}\"", settings.solver.name()), "the solver \"fixed-point\" beside it")
-            );
+            return Err(field.refuse(
+                format!("solver \"{}\"", settings.solver.name()),
+                "the solver \"fixed-point\" beside it",
+            ));
         }
         settings.stopping = Stopping::Iterations(field.count(1..=usize::MAX)?);
         return Ok(settings);
     }
-    if let Stopping::Converged { tolerance, max_iterations } = &mut settings.stopping {
+    if let Stopping::Converged {
+        tolerance,
+        max_iterations,
+    } = &mut settings.stopping
+    {
         if let Some(field) = section.get("tolerance") {
             *tolerance = field.positive()?;
         }
@@ -125,20 +158,45 @@ pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
 }
 
 /// A mesh whose nodes are given by the map in `field`.
-pub(crate) fn checked_mesh(mesh: Result<Mesh, MeshError>, field: &Field<'_>) -> Result<Mesh, InputError> {
+pub(crate) fn checked_mesh(
+    mesh: Result<Mesh, MeshError>,
+    field: &Field<'_>,
+) -> Result<Mesh, InputError> {
     mesh.map_err(|error| match error {
-        MeshError::Ends { found, expected, .. } => {
-            field.refuse(format!("{found:?} at s = {expected}"), "a map that takes 0 to 0 and 1 to 1")
-        }
-        MeshError::NotIncreasing { index, previous, found } => {
-            let nodes = format!("nodes {} and {index} at {previous:?} and {found:?}", index - 1);
+        MeshError::Ends {
+            found, expected, ..
+        } => field.refuse(
+            format!("{found:?} at s = {expected}"),
+            "a map that takes 0 to 0 and 1 to 1",
+        ),
+        MeshError::NotIncreasing {
+            index,
+            previous,
+            found,
+        } => {
+            let nodes = format!(
+                "nodes {} and {index} at {previous:?} and {found:?}",
+                index - 1
+            );
             field.refuse(nodes, "a map that increases strictly")
         }
-        MeshError::TooClose { index, previous, found } => {
-            let nodes = format!("nodes {} and {index} at {previous:?} and {found:?}", index - 1);
-            field.refuse(nodes, "a map whose nodes are far enough apart: 1/h overflows")
+        MeshError::TooClose {
+            index,
+            previous,
+            found,
+        } => {
+            let nodes = format!(
+                "nodes {} and {index} at {previous:?} and {found:?}",
+                index - 1
+            );
+            field.refuse(
+                nodes,
+                "a map whose nodes are far enough apart: 1/h overflows",
+            )
         }
-        MeshError::TooFew { elements } => field.refuse(format!("{elements} elements"), "at least 1"),
+        MeshError::TooFew { elements } => {
+            field.refuse(format!("{elements} elements"), "at least 1")
+        }
     })
 }
 
@@ -149,13 +207,19 @@ pub(crate) fn function(
     end: f64,
     order: usize,
 ) -> Result<Expression, InputError> {
-    let expected = format!("a function of {} in quotes, such as \"1 - {}\"", variable.name(), variable.name());
+    let expected = format!(
+        "a function of {} in quotes, such as \"1 - {}\"",
+        variable.name(),
+        variable.name()
+    );
     let function = field.parsed(&expected, |text| {
         Expression::parse(text, variable).map_err(|error| Misread {
             offset: error.offset,
             reason: format!("{}\n{}", error.problem, error.excerpt()),
         })
     })?;
-    function.check_finite(end, order).map_err(|found| field.invalid(found.to_string()))?;
+    function
+        .check_finite(end, order)
+        .map_err(|found| field.invalid(found.to_string()))?;
     Ok(function)
 }

@@ -19,7 +19,11 @@ pub struct Key {
 }
 
 const fn key(table: &'static str, name: &'static str, is_whole: bool) -> Key {
-    Key { table, name, is_whole }
+    Key {
+        table,
+        name,
+        is_whole,
+    }
 }
 
 /// All keys, in the order in which a case lists them.
@@ -59,7 +63,11 @@ impl Key {
 
     /// A value as TOML, JSON and expressions write it; reading it back gives the same bits.
     pub(super) fn written(self, value: f64) -> String {
-        if self.is_whole { format!("{value:.0}") } else { format!("{value:?}") }
+        if self.is_whole {
+            format!("{value:.0}")
+        } else {
+            format!("{value:?}")
+        }
     }
 }
 
@@ -74,7 +82,11 @@ pub struct SweepCase<'s> {
 
 impl<'s> SweepCase<'s> {
     pub(super) fn new(index: usize, keys: &'s [Key], values: Vec<f64>) -> Self {
-        Self { index, keys, values }
+        Self {
+            index,
+            keys,
+            values,
+        }
     }
 
     /// The varied keys, each with this case's value.
@@ -84,7 +96,9 @@ impl<'s> SweepCase<'s> {
 
     /// One line of JSON which is the same for the same parameters, on every machine.
     pub fn canonical(&self) -> String {
-        let pairs = self.parameters().map(|(key, value)| format!("\"{}\":{}", key.path(), key.written(value)));
+        let pairs = self
+            .parameters()
+            .map(|(key, value)| format!("\"{}\":{}", key.path(), key.written(value)));
         format!("{{{}}}", pairs.collect::<Vec<_>>().join(","))
     }
 
@@ -131,7 +145,10 @@ impl FromStr for Share {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let share = text.split_once('/').and_then(|(number, of)| {
-            let share = Self { number: number.parse().ok()?, of: of.parse().ok()? };
+            let share = Self {
+                number: number.parse().ok()?,
+                of: of.parse().ok()?,
+            };
             (1..=share.of).contains(&share.number).then_some(share)
         });
         share.ok_or_else(|| format!("expected k/n with 1 <= k <= n, such as 3/8; found {text:?}"))
@@ -151,7 +168,12 @@ mod tests {
 
     #[test]
     fn every_coefficient_can_be_varied() {
-        let names = |table| KEYS.iter().filter(|key| key.table == table).map(|key| key.name).collect::<Vec<_>>();
+        let names = |table| {
+            KEYS.iter()
+                .filter(|key| key.table == table)
+                .map(|key| key.name)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(names("beam"), tables::BEAM_KEYS);
         assert_eq!(names("obstacles"), tables::OBSTACLE_KEYS);
         assert!(KEYS.iter().all(|key| TABLES.contains(&key.table)));

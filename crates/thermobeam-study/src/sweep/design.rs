@@ -12,7 +12,11 @@ pub(super) enum Design {
     /// Every combination; the last key varies fastest.
     Grid(Vec<Vec<f64>>),
     /// Samples drawn beforehand, and the dt and t_end of all cases if dt must divide t_end.
-    Latin { samples: usize, values: Vec<Vec<f64>>, steps: Option<(f64, f64)> },
+    Latin {
+        samples: usize,
+        values: Vec<Vec<f64>>,
+        steps: Option<(f64, f64)>,
+    },
 }
 
 impl Design {
@@ -20,7 +24,9 @@ impl Design {
     pub(super) fn cases(&self) -> usize {
         match self {
             Self::Grid(values) => {
-                let cases = values.iter().try_fold(1_usize, |product, values| product.checked_mul(values.len()));
+                let cases = values
+                    .iter()
+                    .try_fold(1_usize, |product, values| product.checked_mul(values.len()));
                 cases.unwrap_or(MOST_CASES + 1)
             }
             Self::Latin { samples, .. } => *samples,
@@ -54,7 +60,9 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) 
     let place = |name| keys.iter().position(|key| key.is("time", name));
     let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
     match (place("dt"), place("t_end")) {
-        (Some(place), _) => drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0),
+        (Some(place), _) => {
+            drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0)
+        }
         (None, Some(place)) => drawn[place] = dt * (drawn[place] / dt).round().max(1.0),
         (None, None) => {}
     }
@@ -65,13 +73,17 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) 
 ///
 /// The order depends only on the seed and the key: a new key does not change the numbers of the others.
 pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
-    let mut random = SplitMix::new(SplitMix::new(seed).next_u64() ^ content_hash(key.path().as_bytes()));
+    let mut random =
+        SplitMix::new(SplitMix::new(seed).next_u64() ^ content_hash(key.path().as_bytes()));
     let mut slices: Vec<usize> = (0..samples).collect();
     // Fisher-Yates shuffle.
     for last in (1..samples).rev() {
         slices.swap(last, random.below(last + 1));
     }
-    slices.into_iter().map(|slice| (slice as f64 + random.uniform()) / samples as f64).collect()
+    slices
+        .into_iter()
+        .map(|slice| (slice as f64 + random.uniform()) / samples as f64)
+        .collect()
 }
 
 /// `{ from, to, scale }`.
@@ -85,8 +97,9 @@ impl Range {
     fn read(field: &Field<'_>, key: Key, others: &[&str]) -> Result<Self, InputError> {
         let section = field.section()?;
         section.allow(&[&["from", "to", "scale"], others].concat())?;
-        let is_log =
-            section.get("scale").map_or(Ok(false), |field| field.choice(&[("linear", false), ("log", true)]))?;
+        let is_log = section.get("scale").map_or(Ok(false), |field| {
+            field.choice(&[("linear", false), ("log", true)])
+        })?;
         let end = |name: &str| {
             let field = section.require(name, "a number")?;
             let value = number(&field, key)?;
@@ -106,9 +119,17 @@ impl Range {
     /// The value at the fraction `share` of the range, from 0 to 1.
     fn at(&self, share: f64, key: Key) -> f64 {
         let Self { from, to, is_log } = *self;
-        let value = if is_log { from * (to / from).powf(share) } else { from + (to - from) * share };
+        let value = if is_log {
+            from * (to / from).powf(share)
+        } else {
+            from + (to - from) * share
+        };
         // Rounded to 9 digits, on which the mathematical libraries of all machines agree.
-        if key.is_whole { value.round() } else { format!("{value:.8e}").parse().unwrap_or(value) }
+        if key.is_whole {
+            value.round()
+        } else {
+            format!("{value:.8e}").parse().unwrap_or(value)
+        }
     }
 }
 
@@ -134,15 +155,28 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, Inpu
     let allowed = "a list of at least one number, or { from, to, count }";
     if field.is_list() {
         let items = field.items(allowed)?;
-        let values = items.iter().map(|item| number(item, key)).collect::<Result<Vec<_>, _>>()?;
+        let values = items
+            .iter()
+            .map(|item| number(item, key))
+            .collect::<Result<Vec<_>, _>>()?;
         if values.is_empty() {
             return Err(field.refuse_as_written(allowed));
         }
         let mut seen = std::collections::HashSet::new();
-        if let Some(twice) = values.iter().position(|value| !seen.insert(value.to_bits())) {
-            return Err(items[twice].refuse(format!("{} a second time", items[twice].as_written()), "each number once"));
+        if let Some(twice) = values
+            .iter()
+            .position(|value| !seen.insert(value.to_bits()))
+        {
+            return Err(items[twice].refuse(
+                format!("{} a second time", items[twice].as_written()),
+                "each number once",
+            ));
         }
-        return Ok(VariedKey { key, probes: values.iter().copied().zip(items).collect(), values });
+        return Ok(VariedKey {
+            key,
+            probes: values.iter().copied().zip(items).collect(),
+            values,
+        });
     }
     if !field.is_table() {
         return Err(field.refuse_as_written(allowed));
@@ -150,22 +184,43 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, Inpu
     let range = Range::read(&field, key, &["count"])?;
     let count = field.section()?.require("count", "a whole number >= 2")?;
     let number = count.count(2..=SWEEP_VALUES)?;
-    let mut values: Vec<f64> = (0..number).map(|i| range.at(i as f64 / (number - 1) as f64, key)).collect();
+    let mut values: Vec<f64> = (0..number)
+        .map(|i| range.at(i as f64 / (number - 1) as f64, key))
+        .collect();
     values.dedup();
     if values.len() < number {
-        return Err(count.refuse(format!("{number}, which repeats numbers"), format!("at most {}", values.len())));
+        return Err(count.refuse(
+            format!("{number}, which repeats numbers"),
+            format!("at most {}", values.len()),
+        ));
     }
-    Ok(VariedKey { key, probes: vec![(values[0], field.clone()), (values[number - 1], field)], values })
+    Ok(VariedKey {
+        key,
+        probes: vec![(values[0], field.clone()), (values[number - 1], field)],
+        values,
+    })
 }
 
 /// `{ from, to, scale }`, and the values of a Latin hypercube in it.
-pub(super) fn latin<'a>(field: Field<'a>, key: Key, samples: usize, seed: u64) -> Result<VariedKey<'a>, InputError> {
+pub(super) fn latin<'a>(
+    field: Field<'a>,
+    key: Key,
+    samples: usize,
+    seed: u64,
+) -> Result<VariedKey<'a>, InputError> {
     if !field.is_table() {
         return Err(field.refuse_as_written("a range { from, to }"));
     }
     let range = Range::read(&field, key, &[])?;
-    let values = stratified(samples, seed, key).into_iter().map(|share| range.at(share, key)).collect();
-    Ok(VariedKey { key, values, probes: vec![(range.from, field.clone()), (range.to, field)] })
+    let values = stratified(samples, seed, key)
+        .into_iter()
+        .map(|share| range.at(share, key))
+        .collect();
+    Ok(VariedKey {
+        key,
+        values,
+        probes: vec![(range.from, field.clone()), (range.to, field)],
+    })
 }
 
 #[cfg(test)]
@@ -176,8 +231,10 @@ mod tests {
     #[test]
     fn every_slice_holds_one_number() {
         for samples in [1, 2, 7, 1000] {
-            let mut slices: Vec<usize> =
-                stratified(samples, 3, KEYS[0]).iter().map(|x| (x * samples as f64) as usize).collect();
+            let mut slices: Vec<usize> = stratified(samples, 3, KEYS[0])
+                .iter()
+                .map(|x| (x * samples as f64) as usize)
+                .collect();
             slices.sort_unstable();
             assert_eq!(slices, (0..samples).collect::<Vec<_>>());
         }
@@ -188,8 +245,20 @@ mod tests {
     #[test]
     fn every_combination_comes_once_and_the_last_key_runs_fastest() {
         let design = Design::Grid(vec![vec![1.0, 2.0], vec![3.0, 4.0, 5.0]]);
-        let cases: Vec<_> = (0..design.cases()).map(|index| design.values(index, &KEYS[..2])).collect();
-        assert_eq!(cases, [[1.0, 3.0], [1.0, 4.0], [1.0, 5.0], [2.0, 3.0], [2.0, 4.0], [2.0, 5.0]]);
+        let cases: Vec<_> = (0..design.cases())
+            .map(|index| design.values(index, &KEYS[..2]))
+            .collect();
+        assert_eq!(
+            cases,
+            [
+                [1.0, 3.0],
+                [1.0, 4.0],
+                [1.0, 5.0],
+                [2.0, 3.0],
+                [2.0, 4.0],
+                [2.0, 5.0]
+            ]
+        );
         let huge = Design::Grid(vec![vec![0.0; 1 << 13]; 6]);
         assert!(huge.cases() > MOST_CASES);
     }

@@ -61,11 +61,13 @@ impl Manifest {
     /// Reads the manifest of a folder; `None` if there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
-        let damaged =
-            |reason: String| SweepError::damaged(&path, format!("expected the manifest of a sweep: {reason}"));
+        let damaged = |reason: String| {
+            SweepError::damaged(&path, format!("expected the manifest of a sweep: {reason}"))
+        };
         match std::fs::read(&path) {
             Ok(bytes) => {
-                let read: Self = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
+                let read: Self =
+                    serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
                 // Messages quote it, and control characters would affect the terminal.
                 let texts = [&read.sweep, &read.fingerprint, &read.version, &read.share];
                 match texts.iter().find(|text| text.contains(char::is_control)) {
@@ -73,7 +75,11 @@ impl Manifest {
                     None => Ok(Some(read)),
                 }
             }
-            Err(error) if [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind()) => Ok(None),
+            Err(error)
+                if [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind()) =>
+            {
+                Ok(None)
+            }
             Err(error) => Err(atomic::naming(&path)(error).into()),
         }
     }
@@ -88,11 +94,18 @@ impl Manifest {
     fn agrees(&self, expected: &Self, share: &str, folder: &Path) -> Result<(), SweepError> {
         let pairs = [
             ("the sweep", &*self.sweep, &*expected.sweep),
-            ("the hash of sweep file and scene", &self.fingerprint, &expected.fingerprint),
+            (
+                "the hash of sweep file and scene",
+                &self.fingerprint,
+                &expected.fingerprint,
+            ),
             ("the program's version", &self.version, &expected.version),
             ("the share", &self.share, share),
         ];
-        match pairs.into_iter().find(|(_, found, expected)| found != expected) {
+        match pairs
+            .into_iter()
+            .find(|(_, found, expected)| found != expected)
+        {
             None => Ok(()),
             Some((what, found, expected)) => Err(SweepError::Other {
                 folder: folder.to_owned(),
@@ -122,7 +135,12 @@ impl Journal {
     ///
     /// # Errors
     /// [`SweepError`]; nothing has been written then, unless the disk fails.
-    pub fn open(folder: &Path, sweep: &Sweep, share: Share, resume: bool) -> Result<Self, SweepError> {
+    pub fn open(
+        folder: &Path,
+        sweep: &Sweep,
+        share: Share,
+        resume: bool,
+    ) -> Result<Self, SweepError> {
         let manifest = &Manifest::new(sweep, share);
         let found = Manifest::read(folder)?;
         if let Some(found) = &found {
@@ -146,7 +164,8 @@ impl Journal {
         if found.is_none() {
             let bytes = file.metadata().map_err(atomic::naming(&path))?.len();
             if bytes > 0 {
-                let reason = format!("expected {MANIFEST} beside it, which names the sweep; found none");
+                let reason =
+                    format!("expected {MANIFEST} beside it, which names the sweep; found none");
                 return Err(SweepError::damaged(&path, reason));
             }
             atomic::write(
@@ -154,7 +173,13 @@ impl Journal {
                 serde_json::to_string(manifest).map_err(std::io::Error::from)? + "\n",
             )?;
         }
-        let mut journal = Self { path, results, file, done: vec![false; manifest.cases], failed: 0 };
+        let mut journal = Self {
+            path,
+            results,
+            file,
+            done: vec![false; manifest.cases],
+            failed: 0,
+        };
         journal.read_done(sweep, share)?;
         Ok(journal)
     }
@@ -162,17 +187,34 @@ impl Journal {
     /// Reads which cases are completed, and removes an incomplete last line.
     fn read_done(&mut self, sweep: &Sweep, share: Share) -> Result<(), SweepError> {
         let is_complete = self.results.exists();
-        let source = if is_complete { &self.results } else { &self.path };
+        let source = if is_complete {
+            &self.results
+        } else {
+            &self.path
+        };
         let is_of_the_share = |place: &Place, line: &[u8]| {
             let case = sweep.case(place.case);
             place.is_of(line, &case)?;
-            let of_another = || format!("expected a case of the share {share}, found {}", place.case);
-            if share.holds(case.hash()) { Ok(()) } else { Err(of_another()) }
+            let of_another =
+                || format!("expected a case of the share {share}, found {}", place.case);
+            if share.holds(case.hash()) {
+                Ok(())
+            } else {
+                Err(of_another())
+            }
         };
-        let (places, end) = lines::places(std::slice::from_ref(source), self.done.len(), is_of_the_share)?;
+        let (places, end) = lines::places(
+            std::slice::from_ref(source),
+            self.done.len(),
+            is_of_the_share,
+        )?;
         // A process killed after writing the results leaves a journal; the results contain all of it.
-        self.file.set_len(if is_complete { 0 } else { end }).map_err(atomic::naming(&self.path))?;
-        places.iter().for_each(|place| self.count(place.case, place.passed));
+        self.file
+            .set_len(if is_complete { 0 } else { end })
+            .map_err(atomic::naming(&self.path))?;
+        places
+            .iter()
+            .for_each(|place| self.count(place.case, place.passed));
         Ok(())
     }
 
@@ -198,7 +240,9 @@ impl Journal {
     pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
         let _writing = atomic::begin_write();
-        self.file.write_all(whole.as_bytes()).map_err(atomic::naming(&self.path))?;
+        self.file
+            .write_all(whole.as_bytes())
+            .map_err(atomic::naming(&self.path))?;
         self.count(line.case, line.passed);
         Ok(())
     }
@@ -234,9 +278,18 @@ pub struct Merged {
 /// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing
 /// is written then.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
-    let manifests = folders.iter().map(|folder| Manifest::require(folder)).collect::<Result<Vec<_>, _>>()?;
+    let manifests = folders
+        .iter()
+        .map(|folder| Manifest::require(folder))
+        .collect::<Result<Vec<_>, _>>()?;
     let results = out.join(RESULTS);
-    let Some(first) = manifests.first() else { return Ok(Merged { cases: 0, failed: 0, results }) };
+    let Some(first) = manifests.first() else {
+        return Ok(Merged {
+            cases: 0,
+            failed: 0,
+            results,
+        });
+    };
     for (folder, manifest) in folders.iter().zip(&manifests) {
         manifest.agrees(first, &manifest.share, folder)?;
     }
@@ -246,11 +299,18 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     };
     let files: Vec<PathBuf> = folders.iter().map(file).collect();
     let (found, _) = lines::places(&files, first.cases, |_, _| Ok(()))?;
-    let shares: Vec<&str> = manifests.iter().map(|manifest| manifest.share.as_str()).collect();
+    let shares: Vec<&str> = manifests
+        .iter()
+        .map(|manifest| manifest.share.as_str())
+        .collect();
     none_missing(&found, first.cases, &shares.join(", "))?;
     atomic::prepare_folder(out)?;
     lines::copy(&found, &files, &results)?;
-    Ok(Merged { cases: found.len(), failed: found.iter().filter(|place| !place.passed).count(), results })
+    Ok(Merged {
+        cases: found.len(),
+        failed: found.iter().filter(|place| !place.passed).count(),
+        results,
+    })
 }
 
 /// Refuses sorted places unless every case has one.
@@ -265,6 +325,15 @@ fn none_missing(found: &[Place], cases: usize, shares: &str) -> Result<(), Sweep
         .map(|case| case.to_string())
         .collect();
     let count = cases - found.len();
-    let more = if count > missing.len() { format!(" and {} more", count - missing.len()) } else { String::new() };
-    Err(SweepError::Missing { count, cases, named: missing.join(", ") + &more, shares: shares.to_owned() })
+    let more = if count > missing.len() {
+        format!(" and {} more", count - missing.len())
+    } else {
+        String::new()
+    };
+    Err(SweepError::Missing {
+        count,
+        cases,
+        named: missing.join(", ") + &more,
+        shares: shares.to_owned(),
+    })
 }

@@ -59,7 +59,9 @@ pub enum SweepError {
         second: PathBuf,
     },
     /// Cases are missing.
-    #[error("expected {cases} cases, of which {count} are missing: {named}; found the shares {shares}")]
+    #[error(
+        "expected {cases} cases, of which {count} are missing: {named}; found the shares {shares}"
+    )]
     Missing {
         /// Number of missing cases.
         count: usize,
@@ -75,7 +77,11 @@ pub enum SweepError {
 impl SweepError {
     /// About a whole file, or a folder.
     pub(super) fn damaged(file: &Path, reason: String) -> Self {
-        Self::Damaged { file: file.to_owned(), line: None, reason }
+        Self::Damaged {
+            file: file.to_owned(),
+            line: None,
+            reason,
+        }
     }
 }
 
@@ -99,7 +105,10 @@ struct LineHead<'a> {
 /// A JSON object with the hash of its text as the last key.
 pub(super) fn sealed(object: &str) -> String {
     let content = object.strip_suffix('}').unwrap_or(object);
-    format!("{content},\"hash\":\"{:016x}\"}}", content_hash(content.as_bytes()))
+    format!(
+        "{content},\"hash\":\"{:016x}\"}}",
+        content_hash(content.as_bytes())
+    )
 }
 
 /// Refuses a line whose hash does not match its content.
@@ -121,12 +130,16 @@ impl Place {
     pub(super) fn is_of(&self, line: &[u8], case: &SweepCase<'_>) -> Result<(), String> {
         let parameters = serde_json::to_string(case).map_err(|error| error.to_string())?;
         let status = if self.passed { "done" } else { "failed" };
-        let expected = format!("{{\"case\":{},\"status\":\"{status}\",\"parameters\":{parameters}", case.index);
+        let expected = format!(
+            "{{\"case\":{},\"status\":\"{status}\",\"parameters\":{parameters}",
+            case.index
+        );
         match line.strip_prefix(expected.as_bytes()) {
             Some([b',', ..]) => Ok(()),
-            _ => {
-                Err(format!("expected a line that begins with {expected}, which is case {} of this sweep", case.index))
-            }
+            _ => Err(format!(
+                "expected a line that begins with {expected}, which is case {} of this sweep",
+                case.index
+            )),
         }
     }
 }
@@ -150,7 +163,11 @@ pub(super) fn places(
     places.sort_by_key(|place| place.case);
     if let Some(pair) = places.windows(2).find(|pair| pair[0].case == pair[1].case) {
         let [first, second] = [pair[0], pair[1]].map(|place| files[place.file].clone());
-        return Err(SweepError::Duplicate { case: pair[0].case, first, second });
+        return Err(SweepError::Duplicate {
+            case: pair[0].case,
+            first,
+            second,
+        });
     }
     Ok((places, end))
 }
@@ -167,18 +184,35 @@ fn read(
     let (mut offset, mut line) = (0, vec![]);
     for number in 1.. {
         line.clear();
-        let bytes = reader.read_until(b'\n', &mut line).map_err(atomic::naming(path))? as u64;
+        let bytes = reader
+            .read_until(b'\n', &mut line)
+            .map_err(atomic::naming(path))? as u64;
         if line.last() != Some(&b'\n') {
             break;
         }
-        let damaged = |reason: String| SweepError::Damaged { file: path.to_owned(), line: Some(number), reason };
-        let head: LineHead<'_> =
-            serde_json::from_slice(&line).map_err(|error| damaged(format!("not a line of results: {error}")))?;
+        let damaged = |reason: String| SweepError::Damaged {
+            file: path.to_owned(),
+            line: Some(number),
+            reason,
+        };
+        let head: LineHead<'_> = serde_json::from_slice(&line)
+            .map_err(|error| damaged(format!("not a line of results: {error}")))?;
         if head.case >= cases {
-            return Err(damaged(format!("expected a case below {cases}, the number of cases, found {}", head.case)));
+            return Err(damaged(format!(
+                "expected a case below {cases}, the number of cases, found {}",
+                head.case
+            )));
         }
-        let place = Place { case: head.case, passed: head.status == "done", file, offset, bytes };
-        is_as_written(&line).and_then(|()| check(&place, &line)).map_err(damaged)?;
+        let place = Place {
+            case: head.case,
+            passed: head.status == "done",
+            file,
+            offset,
+            bytes,
+        };
+        is_as_written(&line)
+            .and_then(|()| check(&place, &line))
+            .map_err(damaged)?;
         places.push(place);
         offset += bytes;
     }
@@ -187,7 +221,11 @@ fn read(
 
 /// Writes the lines at `places` in that order.
 pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Result<()> {
-    let open = |path: &PathBuf| File::open(path).map(BufReader::new).map_err(atomic::naming(path));
+    let open = |path: &PathBuf| {
+        File::open(path)
+            .map(BufReader::new)
+            .map_err(atomic::naming(path))
+    };
     let mut readers = files.iter().map(open).collect::<io::Result<Vec<_>>>()?;
     atomic::write_with(out, |output: &mut BufWriter<File>| {
         for place in places {
@@ -197,7 +235,10 @@ pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Resul
             reader.seek_relative(place.offset.wrapping_sub(here) as i64)?;
             let copied = io::copy(&mut reader.take(place.bytes), output)?;
             if copied < place.bytes {
-                return Err(io::Error::new(io::ErrorKind::UnexpectedEof, "a file of results became shorter"));
+                return Err(io::Error::new(
+                    io::ErrorKind::UnexpectedEof,
+                    "a file of results became shorter",
+                ));
             }
         }
         output.flush()

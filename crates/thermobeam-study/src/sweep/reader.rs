@@ -25,49 +25,99 @@ const TEXTS: [(&str, &str); 6] = [
 /// A value from `[set]` for all cases: dotted name, value as TOML, place.
 type Common<'a> = (String, String, Field<'a>);
 
-pub(super) fn read(root: &Section<'_>, text: &str, path: &Path, folder: &Path) -> Result<Sweep, InputError> {
+pub(super) fn read(
+    root: &Section<'_>,
+    text: &str,
+    path: &Path,
+    folder: &Path,
+) -> Result<Sweep, InputError> {
     root.allow(&["sweep", "set", "grid", "latin"])?;
-    let section = root.require("sweep", "a table that names the scene")?.section()?;
+    let section = root
+        .require("sweep", "a table that names the scene")?
+        .section()?;
     section.allow(&["scene"])?;
-    let scene = section.require("scene", "a scene file beside this one")?.file(folder)?;
-    let mut base = Base { file: scene.display().to_string(), text: input::read_text(&scene)?, set: String::new() };
+    let scene = section
+        .require("scene", "a scene file beside this one")?
+        .file(folder)?;
+    let mut base = Base {
+        file: scene.display().to_string(),
+        text: input::read_text(&scene)?,
+        set: String::new(),
+    };
     Scene::parse(&base.text, &base.file)?;
     let fingerprint = content_hash(format!("{text}\0{}", base.text).as_bytes());
     let set = set(root)?;
     let (varied, samples) = varied(root)?;
     check_placeholders(&set, &varied)?;
-    base.set = set.iter().map(|(name, text, _)| format!("{name} = {text}\n")).collect();
+    base.set = set
+        .iter()
+        .map(|(name, text, _)| format!("{name} = {text}\n"))
+        .collect();
     let common = probe(&base, &set, &varied, samples.is_some())?;
     let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
     let values = varied.iter().map(|varied| varied.values.clone()).collect();
     let design = match samples {
         Some(samples) => {
-            let steps = common.one_step().ok().map(|stepping| (stepping.dt, common.t_end));
-            Design::Latin { samples, values, steps }
+            let steps = common
+                .one_step()
+                .ok()
+                .map(|stepping| (stepping.dt, common.t_end));
+            Design::Latin {
+                samples,
+                values,
+                steps,
+            }
         }
         None => Design::Grid(values),
     };
     if design.cases() > MOST_CASES {
-        let (found, allowed) = limits::sweep_refusal(varied.iter().map(|varied| varied.values.len() as f64).product());
+        let (found, allowed) = limits::sweep_refusal(
+            varied
+                .iter()
+                .map(|varied| varied.values.len() as f64)
+                .product(),
+        );
         return Err(root.refuse("grid", found, allowed));
     }
-    Ok(Sweep { name: stem(&path.display().to_string()), base, keys, design, fingerprint })
+    Ok(Sweep {
+        name: stem(&path.display().to_string()),
+        base,
+        keys,
+        design,
+        fingerprint,
+    })
 }
 
 /// The table `[set]`.
 fn set<'a>(root: &Section<'a>) -> Result<Vec<Common<'a>>, InputError> {
-    let Some(section) = root.section("set")? else { return Ok(vec![]) };
+    let Some(section) = root.section("set")? else {
+        return Ok(vec![]);
+    };
     section.allow(&[&TABLES[..], &["initial"]].concat())?;
     let mut set = vec![];
     for table in TABLES.into_iter().chain(["initial"]) {
-        let Some(inner) = section.section(table)? else { continue };
-        let numbers = KEYS.iter().filter(|key| key.table == table).map(|key| (key.name, true));
-        let texts = TEXTS.iter().filter(|(of, _)| *of == table).map(|(_, name)| (*name, false));
+        let Some(inner) = section.section(table)? else {
+            continue;
+        };
+        let numbers = KEYS
+            .iter()
+            .filter(|key| key.table == table)
+            .map(|key| (key.name, true));
+        let texts = TEXTS
+            .iter()
+            .filter(|(of, _)| *of == table)
+            .map(|(_, name)| (*name, false));
         let known: Vec<(&str, bool)> = numbers.chain(texts).collect();
         inner.allow(&known.iter().map(|(name, _)| *name).collect::<Vec<_>>())?;
         for (name, is_number) in known {
-            let Some(field) = inner.get(name) else { continue };
-            let value = if is_number { written_number(&field)? } else { quoted(&field)? };
+            let Some(field) = inner.get(name) else {
+                continue;
+            };
+            let value = if is_number {
+                written_number(&field)?
+            } else {
+                quoted(&field)?
+            };
             set.push((format!("{table}.{name}"), value, field));
         }
     }
@@ -77,7 +127,9 @@ fn set<'a>(root: &Section<'a>) -> Result<Vec<Common<'a>>, InputError> {
 /// A number as TOML; an integer stays an integer.
 fn written_number(field: &Field<'_>) -> Result<String, InputError> {
     let value = field.number()?;
-    Ok(field.count(0..=1 << 53).map_or_else(|_| format!("{value:?}"), |count| count.to_string()))
+    Ok(field
+        .count(0..=1 << 53)
+        .map_or_else(|_| format!("{value:?}"), |count| count.to_string()))
 }
 
 fn quoted(field: &Field<'_>) -> Result<String, InputError> {
@@ -95,22 +147,32 @@ fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>),
         (Some(grid), None) => ("grid", grid, &[][..]),
         (None, Some(latin)) => ("latin", latin, &["samples", "seed"][..]),
         (None, None) => return Err(root.missing("grid", either)),
-        (Some(_), Some(_)) => return Err(root.refuse("latin", "a second design beside [grid]", either)),
+        (Some(_), Some(_)) => {
+            return Err(root.refuse("latin", "a second design beside [grid]", either));
+        }
     };
     section.allow(&[&TABLES[..], others].concat())?;
     let mut drawn = None;
     if name == "latin" {
-        let samples = section.require("samples", "a number of cases")?.count(1..=limits::SWEEP_SAMPLES)?;
-        let seed = section.require("seed", "a whole number >= 0")?.count(0..=usize::MAX)?;
+        let samples = section
+            .require("samples", "a number of cases")?
+            .count(1..=limits::SWEEP_SAMPLES)?;
+        let seed = section
+            .require("seed", "a whole number >= 0")?
+            .count(0..=usize::MAX)?;
         drawn = Some((samples, seed as u64));
     }
     let mut varied = vec![];
     for table in TABLES {
-        let Some(inner) = section.section(table)? else { continue };
+        let Some(inner) = section.section(table)? else {
+            continue;
+        };
         let keys: Vec<Key> = KEYS.into_iter().filter(|key| key.table == table).collect();
         inner.allow(&keys.iter().map(|key| key.name).collect::<Vec<_>>())?;
         for key in keys {
-            let Some(field) = inner.get(key.name) else { continue };
+            let Some(field) = inner.get(key.name) else {
+                continue;
+            };
             varied.push(match drawn {
                 None => design::grid(field, key)?,
                 Some((samples, seed)) => design::latin(field, key, samples, seed)?,
@@ -119,18 +181,30 @@ fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>),
     }
     if varied.is_empty() {
         let names: Vec<String> = KEYS.iter().map(|key| key.path()).collect();
-        return Err(root.refuse(name, "no key that varies", format!("at least one of {}", names.join(", "))));
+        return Err(root.refuse(
+            name,
+            "no key that varies",
+            format!("at least one of {}", names.join(", ")),
+        ));
     }
     Ok((varied, drawn.map(|(samples, _)| samples)))
 }
 
 /// Refuses `{key}` for a key that does not vary.
 fn check_placeholders(set: &[Common<'_>], varied: &[VariedKey<'_>]) -> Result<(), InputError> {
-    let names: Vec<String> = varied.iter().map(|varied| format!("{{{}}}", varied.key.path())).collect();
+    let names: Vec<String> = varied
+        .iter()
+        .map(|varied| format!("{{{}}}", varied.key.path()))
+        .collect();
     for (_, text, field) in set {
-        let filled = names.iter().fold(text.clone(), |text, name| text.replace(name, ""));
+        let filled = names
+            .iter()
+            .fold(text.clone(), |text, name| text.replace(name, ""));
         if filled.contains(['{', '}']) {
-            return Err(field.refuse_as_written(format!("a function in which only {} are filled in", names.join(", "))));
+            return Err(field.refuse_as_written(format!(
+                "a function in which only {} are filled in",
+                names.join(", ")
+            )));
         }
     }
     Ok(())
@@ -139,21 +213,34 @@ fn check_placeholders(set: &[Common<'_>], varied: &[VariedKey<'_>]) -> Result<()
 /// Builds a scene for every number in the file, with the other keys at their first value; returns the scene with only first values.
 ///
 /// If dt and t_end both vary, each case checks that dt divides t_end; drawn values are rounded so that it does.
-fn probe(base: &Base, set: &[Common<'_>], varied: &[VariedKey<'_>], is_drawn: bool) -> Result<Scene, InputError> {
+fn probe(
+    base: &Base,
+    set: &[Common<'_>],
+    varied: &[VariedKey<'_>],
+    is_drawn: bool,
+) -> Result<Scene, InputError> {
     let is_step = |varied: &&VariedKey<'_>| STEPS.iter().any(|name| varied.key.is("time", name));
     let together = is_drawn || varied.iter().filter(is_step).count() == STEPS.len();
-    let (steps, others): (Vec<_>, Vec<_>) = varied.iter().partition(|varied| together && is_step(varied));
+    let (steps, others): (Vec<_>, Vec<_>) = varied
+        .iter()
+        .partition(|varied| together && is_step(varied));
     for (value, field) in steps.iter().flat_map(|key| &key.probes) {
         if *value <= 0.0 {
             return Err(field.refuse_as_written("numbers > 0"));
         }
     }
-    let mut values: Vec<(Key, f64)> = others.iter().map(|varied| (varied.key, varied.probes[0].0)).collect();
-    let common = base.scene(values.iter().copied()).map_err(|error| traced(&error, set, &others))?;
+    let mut values: Vec<(Key, f64)> = others
+        .iter()
+        .map(|varied| (varied.key, varied.probes[0].0))
+        .collect();
+    let common = base
+        .scene(values.iter().copied())
+        .map_err(|error| traced(&error, set, &others))?;
     for (index, key) in others.iter().enumerate() {
         for (value, field) in &key.probes {
             values[index].1 = *value;
-            base.scene(values.iter().copied()).map_err(|error| at_field(&error, field))?;
+            base.scene(values.iter().copied())
+                .map_err(|error| at_field(&error, field))?;
         }
         values[index].1 = key.probes[0].0;
     }
@@ -163,16 +250,29 @@ fn probe(base: &Base, set: &[Common<'_>], varied: &[VariedKey<'_>], is_drawn: bo
 /// Converts an error of a scene into an error of the sweep file's field that caused it.
 fn traced(error: &InputError, set: &[Common<'_>], varied: &[&VariedKey<'_>]) -> InputError {
     let named = |name: &str| error.field.as_deref() == Some(name);
-    let of_set = set.iter().find(|(name, ..)| named(name)).map(|(.., field)| field);
-    let of_key = varied.iter().find(|varied| named(&varied.key.path())).map(|varied| &varied.probes[0].1);
-    let field = of_set.or(of_key).or(varied.first().map(|varied| &varied.probes[0].1));
+    let of_set = set
+        .iter()
+        .find(|(name, ..)| named(name))
+        .map(|(.., field)| field);
+    let of_key = varied
+        .iter()
+        .find(|varied| named(&varied.key.path()))
+        .map(|varied| &varied.probes[0].1);
+    let field = of_set
+        .or(of_key)
+        .or(varied.first().map(|varied| &varied.probes[0].1));
     field.map_or_else(|| error.clone(), |field| at_field(error, field))
 }
 
 fn at_field(error: &InputError, field: &Field<'_>) -> InputError {
     let name = error.field.as_deref().unwrap_or("the scene");
     match &*error.complaint {
-        Complaint::NotAllowed { found, allowed } => field.refuse(format!("{name} = {found}"), allowed.clone()),
-        other => field.refuse(format!("{}, which makes {name} invalid", field.as_written()), other.to_string()),
+        Complaint::NotAllowed { found, allowed } => {
+            field.refuse(format!("{name} = {found}"), allowed.clone())
+        }
+        other => field.refuse(
+            format!("{}, which makes {name} invalid", field.as_written()),
+            other.to_string(),
+        ),
     }
 }

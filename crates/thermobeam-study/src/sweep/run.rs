@@ -52,7 +52,13 @@ impl Line {
     }
 
     fn failed(case: &SweepCase<'_>, reason: String) -> Self {
-        Self::of(&Content { case: case.index, status: "failed", parameters: case, reason: Some(reason), result: None })
+        Self::of(&Content {
+            case: case.index,
+            status: "failed",
+            parameters: case,
+            reason: Some(reason),
+            result: None,
+        })
     }
 
     /// From a run, or from the completed part of one.
@@ -60,13 +66,23 @@ impl Line {
         let (case, reason) = (sweep.case(index), run.complaint());
         let status = if reason.is_none() { "done" } else { "failed" };
         let result = Some(Object::reproducible(scene, run));
-        Self::of(&Content { case: index, status, parameters: &case, reason, result })
+        Self::of(&Content {
+            case: index,
+            status,
+            parameters: &case,
+            reason,
+            result,
+        })
     }
 
     fn of(content: &Content<'_>) -> Self {
         // Structs of numbers and texts always serialise.
         let json = serde_json::to_string(content).unwrap_or_else(|error| unreachable!("{error}"));
-        Self { case: content.case, passed: content.reason.is_none(), json: lines::sealed(&json) }
+        Self {
+            case: content.case,
+            passed: content.reason.is_none(),
+            json: lines::sealed(&json),
+        }
     }
 }
 
@@ -81,7 +97,10 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let read = caught(|| sweep.scene(&case)).ok_or_else(|| Line::panicked(sweep, index))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
-        let field = error.field.map(|field| format!("{field}: ")).unwrap_or_default();
+        let field = error
+            .field
+            .map(|field| format!("{field}: "))
+            .unwrap_or_default();
         Line::failed(&case, format!("{field}{}", error.complaint))
     })
 }
@@ -89,7 +108,12 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
 /// A case on its own.
 fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
     let simulated = || match Simulator::new(scene) {
-        Ok(simulator) => Line::of_run(sweep, index, scene, &simulator.run(Recording::Summary, &mut |_, _| ())),
+        Ok(simulator) => Line::of_run(
+            sweep,
+            index,
+            scene,
+            &simulator.run(Recording::Summary, &mut |_, _| ()),
+        ),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
     };
     caught(simulated).unwrap_or_else(|| Line::panicked(sweep, index))
@@ -110,13 +134,18 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
             Err(line) => failed.push(line),
             Ok(scene) => {
                 let together = Together::of(&scene);
-                let fits = |group: &&mut Group| group.cases.len() < LANES && group.together == together;
+                let fits =
+                    |group: &&mut Group| group.cases.len() < LANES && group.together == together;
                 match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
                     Some(group) => {
                         group.cases.push(index);
                         group.scenes.push(scene);
                     }
-                    None => groups.push(Group { together, cases: vec![index], scenes: vec![scene] }),
+                    None => groups.push(Group {
+                        together,
+                        cases: vec![index],
+                        scenes: vec![scene],
+                    }),
                 }
             }
         }
@@ -128,10 +157,21 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
 fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
     let each = || cases.iter().copied().zip(scenes);
     let together = || {
-        let runs = (scenes.len() > 1).then(|| run_together(scenes).ok()).flatten()?;
-        Some(each().zip(&runs).map(|((index, scene), run)| Line::of_run(sweep, index, scene, run)).collect())
+        let runs = (scenes.len() > 1)
+            .then(|| run_together(scenes).ok())
+            .flatten()?;
+        Some(
+            each()
+                .zip(&runs)
+                .map(|((index, scene), run)| Line::of_run(sweep, index, scene, run))
+                .collect(),
+        )
     };
-    let one_by_one = || each().map(|(index, scene)| simulate(sweep, index, scene)).collect();
+    let one_by_one = || {
+        each()
+            .map(|(index, scene)| simulate(sweep, index, scene))
+            .collect()
+    };
     caught(together).flatten().unwrap_or_else(one_by_one)
 }
 
@@ -151,14 +191,26 @@ pub fn run(
     limit: Option<Duration>,
     sink: impl Fn(Line) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
-    let pool = ThreadPoolBuilder::new().num_threads(jobs).build().map_err(io::Error::other)?;
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .build()
+        .map_err(io::Error::other)?;
     // Batches are small enough that every thread has work.
-    let batch = if limit.is_some() { 1 } else { cases.len().div_ceil(pool.current_num_threads()).clamp(1, BATCH) };
+    let batch = if limit.is_some() {
+        1
+    } else {
+        cases
+            .len()
+            .div_ceil(pool.current_num_threads())
+            .clamp(1, BATCH)
+    };
     let compute = |batch: &[usize]| {
         let compute = || {
             let (groups, failed) = groups(sweep, batch);
             failed.into_iter().try_for_each(&sink)?;
-            groups.iter().try_for_each(|group| lines(sweep, group).into_iter().try_for_each(&sink))
+            groups
+                .iter()
+                .try_for_each(|group| lines(sweep, group).into_iter().try_for_each(&sink))
         };
         time_limit::within(limit, compute).0
     };
@@ -176,7 +228,11 @@ pub struct InOrder<W> {
 impl<W: Write> InOrder<W> {
     /// * `expected`: the increasing case numbers of all lines to come.
     pub fn new(output: W, expected: Vec<usize>) -> Self {
-        Self { output, expected: expected.into_iter().peekable(), early: BTreeMap::new() }
+        Self {
+            output,
+            expected: expected.into_iter().peekable(),
+            early: BTreeMap::new(),
+        }
     }
 
     /// Accepts a line and writes all lines whose turn has come.
@@ -185,7 +241,11 @@ impl<W: Write> InOrder<W> {
     /// The error of the output.
     pub fn add(&mut self, line: Line) -> io::Result<()> {
         self.early.insert(line.case, line.json);
-        while let Some(json) = self.expected.peek().and_then(|next| self.early.remove(next)) {
+        while let Some(json) = self
+            .expected
+            .peek()
+            .and_then(|next| self.early.remove(next))
+        {
             writeln!(self.output, "{json}")?;
             self.expected.next();
         }
@@ -211,8 +271,21 @@ mod tests {
         // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others have different numbers of steps.
         let four = |case: usize| vec![case, case + 4, case + 8, case + 12];
         let expected = [four(0), four(1), four(2), vec![16], vec![17], vec![18]];
-        assert_eq!(groups.iter().map(|group| group.cases.clone()).collect::<Vec<_>>(), expected);
-        assert!(groups.iter().all(|group| group.scenes.len() == group.cases.len()));
-        assert_eq!(failed.iter().map(|line| line.case).collect::<Vec<_>>(), [3, 7, 11, 15, 19]);
+        assert_eq!(
+            groups
+                .iter()
+                .map(|group| group.cases.clone())
+                .collect::<Vec<_>>(),
+            expected
+        );
+        assert!(
+            groups
+                .iter()
+                .all(|group| group.scenes.len() == group.cases.len())
+        );
+        assert_eq!(
+            failed.iter().map(|line| line.case).collect::<Vec<_>>(),
+            [3, 7, 11, 15, 19]
+        );
     }
 }

@@ -70,8 +70,8 @@ const NUMBERS: [&str; 38] = [
 
 /// Replacements for a piece of text.
 const PIECES: [&str; 24] = [
-    "\u{0}", "\u{feff}", "é", "π", "😀", "\u{202e}", "\r", "\r\n", "\t", "\"", "'''", "\"\"\"", "\\", "\\u0000", "=",
-    "[", "]", "[[", "#", "{", "}", ",", ".", "x",
+    "\u{0}", "\u{feff}", "é", "π", "😀", "\u{202e}", "\r", "\r\n", "\t", "\"", "'''", "\"\"\"",
+    "\\", "\\u0000", "=", "[", "]", "[[", "#", "{", "}", ",", ".", "x",
 ];
 
 /// The file after one to four kinds of damage.
@@ -127,7 +127,11 @@ fn lines(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
 
 fn inserted(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
     let at = dice.below(bytes.len() + 1);
-    let piece = if dice.below(3) == 0 { vec![dice.below(256) as u8] } else { dice.one(&PIECES).as_bytes().to_vec() };
+    let piece = if dice.below(3) == 0 {
+        vec![dice.below(256) as u8]
+    } else {
+        dice.one(&PIECES).as_bytes().to_vec()
+    };
     bytes.splice(at..at, piece);
     bytes
 }
@@ -136,11 +140,21 @@ fn inserted(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
 fn nested(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     let at = dice.below(bytes.len() + 1);
     let piece = match dice.below(4) {
-        0 => dice.one(&["(", "[", "{a=", "-", "sin(", "a.", "2^"]).repeat(10_000).into_bytes(),
-        1 => dice.one(&["x", "1", " ", "\n", "é", "9"]).repeat(2_000).into_bytes(),
+        0 => dice
+            .one(&["(", "[", "{a=", "-", "sin(", "a.", "2^"])
+            .repeat(10_000)
+            .into_bytes(),
+        1 => dice
+            .one(&["x", "1", " ", "\n", "é", "9"])
+            .repeat(2_000)
+            .into_bytes(),
         _ => {
             let start = dice.below(bytes.len());
-            bytes[start..].iter().copied().take(dice.below(400)).collect()
+            bytes[start..]
+                .iter()
+                .copied()
+                .take(dice.below(400))
+                .collect()
         }
     };
     [&bytes[..at], &piece, &bytes[at..]].concat()
@@ -162,7 +176,9 @@ fn words(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
 fn numbers(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     let mut damaged = bytes.to_vec();
     for _ in 0..=dice.below(3) {
-        let found = spans(&damaged, |byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-'));
+        let found = spans(&damaged, |byte| {
+            byte.is_ascii_digit() || matches!(byte, b'.' | b'-')
+        });
         if !found.is_empty() {
             let span = dice.one(&found).clone();
             damaged.splice(span, dice.one(&NUMBERS).bytes());

@@ -39,7 +39,9 @@ fn watched<T>(bytes: &[u8], read: impl FnOnce() -> T) -> T {
 }
 
 fn number(name: &str) -> Option<u64> {
-    std::env::var(name).ok().map(|text| text.parse().expect("a whole number"))
+    std::env::var(name)
+        .ok()
+        .map(|text| text.parse().expect("a whole number"))
 }
 
 /// Reads one input with every reader for its kind.
@@ -47,7 +49,9 @@ fn number(name: &str) -> Option<u64> {
 /// # Errors
 /// A description of the failure.
 fn tried(bench: &Bench, reading: Reading, bytes: &[u8]) -> Result<bool, String> {
-    match watched(bytes, || catch_unwind(AssertUnwindSafe(|| bench.read(reading, bytes)))) {
+    match watched(bytes, || {
+        catch_unwind(AssertUnwindSafe(|| bench.read(reading, bytes)))
+    }) {
         Err(_) => Err("panicked".to_owned()),
         Ok(Ok(())) => Ok(true),
         Ok(Err(message)) => bench.is_located(&message).map(|()| false),
@@ -65,8 +69,17 @@ struct Tally {
 
 impl Tally {
     fn print(&self, name: &str) {
-        let Self { inputs, read, failed, slowest } = self;
-        println!("fuzz {name} {inputs} {read} {} {failed} {:.3}", inputs - read - failed, 1e3 * slowest.as_secs_f64());
+        let Self {
+            inputs,
+            read,
+            failed,
+            slowest,
+        } = self;
+        println!(
+            "fuzz {name} {inputs} {read} {} {failed} {:.3}",
+            inputs - read - failed,
+            1e3 * slowest.as_secs_f64()
+        );
     }
 }
 
@@ -80,7 +93,10 @@ fn damaged_files_are_read_or_refused_with_their_place() {
         let mut dice = Dice::new(case);
         let (reading, text) = &seeds[dice.below(seeds.len())];
         let bytes = damaged(text.as_bytes(), &mut dice);
-        let tally = &mut tallies[Reading::ALL.iter().position(|one| one == reading).expect("a kind of file")];
+        let tally = &mut tallies[Reading::ALL
+            .iter()
+            .position(|one| one == reading)
+            .expect("a kind of file")];
         tally.inputs += 1;
         let start = Instant::now();
         match tried(&bench, *reading, &bytes) {
@@ -96,8 +112,16 @@ fn damaged_files_are_read_or_refused_with_their_place() {
     }
     // On a line of its own, after any output of the test harness.
     println!();
-    Reading::ALL.iter().zip(&tallies).for_each(|(reading, tally)| tally.print(reading.name()));
-    assert!(failures.is_empty(), "{} of {count} failed:\n{}", failures.len(), failures.join("\n"));
+    Reading::ALL
+        .iter()
+        .zip(&tallies)
+        .for_each(|(reading, tally)| tally.print(reading.name()));
+    assert!(
+        failures.is_empty(),
+        "{} of {count} failed:\n{}",
+        failures.len(),
+        failures.join("\n")
+    );
     // If all were refused, the readers would not be reached; if none were, the files would not be damaged.
     let read: u64 = tallies.iter().map(|tally| tally.read).sum();
     assert!(read > count / 50 && read < count, "{read} of {count} read");
@@ -109,7 +133,8 @@ fn the_corpus_is_read_or_refused_with_its_place() {
     let inputs = corpus::inputs();
     assert!(inputs.len() >= 20, "{}", inputs.len());
     for (path, reading, bytes) in inputs {
-        tried(&bench, reading, &bytes).unwrap_or_else(|reason| panic!("{}: {reason}", path.display()));
+        tried(&bench, reading, &bytes)
+            .unwrap_or_else(|reason| panic!("{}: {reason}", path.display()));
     }
 }
 
@@ -117,7 +142,12 @@ fn the_corpus_is_read_or_refused_with_its_place() {
 fn undamaged_files_are_read() {
     let bench = Bench::new();
     for (reading, text) in seeds() {
-        assert_eq!(bench.read(reading, text.as_bytes()), Ok(()), "{}", &text[..text.len().min(200)]);
+        assert_eq!(
+            bench.read(reading, text.as_bytes()),
+            Ok(()),
+            "{}",
+            &text[..text.len().min(200)]
+        );
     }
 }
 
@@ -127,6 +157,13 @@ fn a_panic_a_refusal_without_a_place_and_one_that_is_empty_are_seen() {
     for message in ["", "no such key", "elsewhere.toml:1:1: x: missing"] {
         assert!(bench.is_located(message).is_err(), "{message}");
     }
-    assert!(bench.is_located(&format!("{}:3:1: beam: missing", bench.path().display())).is_ok());
-    assert_eq!(tried(&bench, Reading::Panic, b"x"), Err("panicked".to_owned()));
+    assert!(
+        bench
+            .is_located(&format!("{}:3:1: beam: missing", bench.path().display()))
+            .is_ok()
+    );
+    assert_eq!(
+        tried(&bench, Reading::Panic, b"x"),
+        Err("panicked".to_owned())
+    );
 }

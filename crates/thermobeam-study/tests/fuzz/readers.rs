@@ -30,8 +30,15 @@ pub(crate) enum Reading {
 }
 
 impl Reading {
-    pub(crate) const ALL: [Self; 7] =
-        [Self::Scene, Self::Study, Self::Sweep, Self::Rates, Self::Baseline, Self::Manifest, Self::Journal];
+    pub(crate) const ALL: [Self; 7] = [
+        Self::Scene,
+        Self::Study,
+        Self::Sweep,
+        Self::Rates,
+        Self::Baseline,
+        Self::Manifest,
+        Self::Journal,
+    ];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -52,10 +59,17 @@ fn studies() -> PathBuf {
 }
 
 fn texts(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
-    let mut paths: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let entries = fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path());
+    let mut paths: Vec<PathBuf> = entries
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect();
     paths.sort();
-    paths.iter().map(|path| fs::read_to_string(path).expect("a file")).collect()
+    paths
+        .iter()
+        .map(|path| fs::read_to_string(path).expect("a file"))
+        .collect()
 }
 
 const SWEEPS: [&str; 2] = [
@@ -77,10 +91,20 @@ const SMALL: &str = "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[set]\ntim
 
 /// Every file with its kind; kinds with few files appear several times.
 pub(crate) fn seeds() -> Vec<(Reading, String)> {
-    let of = |reading: Reading, texts: Vec<String>| texts.into_iter().map(move |text| (reading, text));
-    let several = |texts: &[&str]| texts.iter().cycle().take(8).map(|text| (*text).to_owned()).collect::<Vec<_>>();
-    let sweeps =
-        texts(&studies().join("cluster")).into_iter().map(|text| text.replace("../scenes", "scenes")).collect();
+    let of =
+        |reading: Reading, texts: Vec<String>| texts.into_iter().map(move |text| (reading, text));
+    let several = |texts: &[&str]| {
+        texts
+            .iter()
+            .cycle()
+            .take(8)
+            .map(|text| (*text).to_owned())
+            .collect::<Vec<_>>()
+    };
+    let sweeps = texts(&studies().join("cluster"))
+        .into_iter()
+        .map(|text| text.replace("../scenes", "scenes"))
+        .collect();
     let baseline = fs::read_to_string(studies().join("baseline.json")).expect("the baseline");
     // A part of it, since a single damage in a hundred thousand lines would rarely hit a number.
     let mut small: serde_json::Value = serde_json::from_str(&baseline).expect("JSON");
@@ -95,7 +119,10 @@ pub(crate) fn seeds() -> Vec<(Reading, String)> {
         .chain(of(Reading::Sweep, sweeps))
         .chain(of(Reading::Sweep, several(&SWEEPS)))
         .chain(of(Reading::Rates, several(&TABLES)))
-        .chain(of(Reading::Baseline, vec![baseline, small.clone(), small.clone(), small]))
+        .chain(of(
+            Reading::Baseline,
+            vec![baseline, small.clone(), small.clone(), small],
+        ))
         .chain(of(Reading::Manifest, vec![Bench::new().manifest(); 4]))
         .chain(of(Reading::Journal, several(&[&Bench::new().journal()])))
         .collect()
@@ -117,9 +144,19 @@ impl Bench {
             fs::copy(&path, scenes.join(path.file_name().expect("a name"))).expect("a copy");
         }
         // Studies also refer to each other's solutions.
-        for entry in fs::read_dir(studies()).expect("the studies").map(|entry| entry.expect("a study").path()) {
-            if entry.extension().is_some_and(|extension| extension == "toml") {
-                fs::copy(&entry, folder.path().join(entry.file_name().expect("a name"))).expect("a copy");
+        for entry in fs::read_dir(studies())
+            .expect("the studies")
+            .map(|entry| entry.expect("a study").path())
+        {
+            if entry
+                .extension()
+                .is_some_and(|extension| extension == "toml")
+            {
+                fs::copy(
+                    &entry,
+                    folder.path().join(entry.file_name().expect("a name")),
+                )
+                .expect("a copy");
             }
         }
         fs::write(folder.path().join("small.toml"), SMALL).expect("a sweep");
@@ -151,7 +188,14 @@ impl Bench {
             Ok(())
         };
         // With a limit, cases run one after the other.
-        sweep::run(&self.small(), &[0, 1], 1, Some(std::time::Duration::from_secs(60)), kept).expect("two lines");
+        sweep::run(
+            &self.small(),
+            &[0, 1],
+            1,
+            Some(std::time::Duration::from_secs(60)),
+            kept,
+        )
+        .expect("two lines");
         lines.into_inner().expect("a text")
     }
 
@@ -162,25 +206,39 @@ impl Bench {
         let said = |error: &dyn std::error::Error| error.to_string();
         match reading {
             Reading::Scene => {
-                let refused = |error: &dyn std::error::Error| format!("{}: {error}", path.display());
+                let refused =
+                    |error: &dyn std::error::Error| format!("{}: {error}", path.display());
                 let scene = Scene::read(&path).map_err(|error| said(&error))?;
                 match scene.method {
-                    Method::OneStep(_) => drop(Simulator::new(&scene).map_err(|error| refused(&error))?),
+                    Method::OneStep(_) => {
+                        drop(Simulator::new(&scene).map_err(|error| refused(&error))?)
+                    }
                     Method::Dg(stepping) => {
-                        drop(dg::Simulation::new(scene.dg_problem(), stepping).map_err(|error| refused(&error))?);
+                        drop(
+                            dg::Simulation::new(scene.dg_problem(), stepping)
+                                .map_err(|error| refused(&error))?,
+                        );
                     }
                 }
             }
             Reading::Study => {
-                drop(kinds::read(&path).map_err(|error| said(&error))?.plan().cases());
+                drop(
+                    kinds::read(&path)
+                        .map_err(|error| said(&error))?
+                        .plan()
+                        .cases(),
+                );
             }
             Reading::Sweep => {
                 let sweep = Sweep::read(&path).map_err(|error| said(&error))?;
                 let _ = sweep.case(sweep.cases() - 1).hash();
             }
             Reading::Rates => {
-                let table = RateTable::read_with(&path, &Choice::default()).map_err(|error| said(&error))?;
-                table.columns.iter().for_each(|column| drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05))));
+                let table = RateTable::read_with(&path, &Choice::default())
+                    .map_err(|error| said(&error))?;
+                table.columns.iter().for_each(|column| {
+                    drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05)))
+                });
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),
             Reading::Manifest => self.resumed(bytes, b"")?,
@@ -196,17 +254,24 @@ impl Bench {
         fs::create_dir(self.share()).expect("a folder");
         fs::write(self.share().join("sweep.json"), manifest).expect("a manifest");
         fs::write(self.share().join("journal.jsonl"), journal).expect("a journal");
-        let journal =
-            Journal::open(&self.share(), &self.small(), Share::ALL, true).map_err(|error| error.to_string())?;
-        journal.finish().map(drop).map_err(|error| error.to_string())
+        let journal = Journal::open(&self.share(), &self.small(), Share::ALL, true)
+            .map_err(|error| error.to_string())?;
+        journal
+            .finish()
+            .map(drop)
+            .map_err(|error| error.to_string())
     }
 
     /// Does a refusal begin with the name of a file that was read, and describe a problem in it?
     pub(crate) fn is_located(&self, message: &str) -> Result<(), String> {
         let folder = self.folder.path().display().to_string();
         // A file of the folder, or one that the input names by its full path.
-        let is_file = |place: &str| place.starts_with(&folder) || (place.starts_with('/') && Path::new(place).exists());
-        let said = message.split_once(": ").is_some_and(|(place, said)| is_file(place) && !said.is_empty());
+        let is_file = |place: &str| {
+            place.starts_with(&folder) || (place.starts_with('/') && Path::new(place).exists())
+        };
+        let said = message
+            .split_once(": ")
+            .is_some_and(|(place, said)| is_file(place) && !said.is_empty());
         // Control characters could have any effect on a terminal.
         let plain = message.chars().all(|c| c == '\n' || !c.is_control());
         match (said, plain) {

@@ -23,14 +23,22 @@ fn refusal(name: &str, changes: &[(&str, &str)]) -> String {
     let mut text = std::fs::read_to_string(studies.join(name)).expect("a study");
     for (key, line) in changes {
         let before = text.clone();
-        let with =
-            |old: &str| if old.split(['=', ' ']).next() == Some(key) { line.to_string() } else { old.to_owned() };
+        let with = |old: &str| {
+            if old.split(['=', ' ']).next() == Some(key) {
+                line.to_string()
+            } else {
+                old.to_owned()
+            }
+        };
         text = text.lines().map(|old| with(old) + "\n").collect();
         assert_ne!(before, text, "{name} has no {key}");
     }
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    StudyFile::read(&KINDS, &file).err().unwrap_or_else(|| panic!("{name} with {changes:?} is not refused")).to_string()
+    StudyFile::read(&KINDS, &file)
+        .err()
+        .unwrap_or_else(|| panic!("{name} with {changes:?} is not refused"))
+        .to_string()
 }
 
 #[test]
@@ -38,13 +46,25 @@ fn what_a_study_cannot_have_is_refused_with_what_it_would_take() {
     let many = format!("elements = {:?}", (1..=2000).collect::<Vec<_>>());
     let as_many = format!("steps = {:?}", (1..=2000).collect::<Vec<_>>());
     for (name, changes, pieces) in [
-        ("stability-coarse.toml", &[("points", "points = 1000")][..], &["map.points: found 1000", "<= 400"][..]),
+        (
+            "stability-coarse.toml",
+            &[("points", "points = 1000")][..],
+            &["map.points: found 1000", "<= 400"][..],
+        ),
         (
             "stability-h.toml",
             &[("range", "range = [1e-12, 0.5]")],
-            &["map.range: found the list [1e-12, 0.5]: the finest mesh would take", "GiB", "h >= 1.2e-7"],
+            &[
+                "map.range: found the list [1e-12, 0.5]: the finest mesh would take",
+                "GiB",
+                "h >= 1.2e-7",
+            ],
         ),
-        ("stability-h.toml", &[("lines", "lines = [1e-9]")], &["map.lines[0]: found 1e-9", "465.7 GiB"]),
+        (
+            "stability-h.toml",
+            &[("lines", "lines = [1e-9]")],
+            &["map.lines[0]: found 1e-9", "465.7 GiB"],
+        ),
         (
             "energy-decay.toml",
             &[("random", "random = 1000000000000")],
@@ -54,47 +74,113 @@ fn what_a_study_cannot_have_is_refused_with_what_it_would_take() {
                 "at most 1000000 cases",
             ],
         ),
-        ("energy-decay.toml", &[("steps", "steps = 1000000000000")], &["energy.steps", "<= 10000000000"]),
-        ("theorem-3.4-grid.toml", &[("elements", &many), ("steps", &as_many)], &["refine.elements", "4.000e6 cases"]),
-        ("vibration-time.toml", &[("elements", "elements = 100000")], &["refine.elements: found 100000, whose modes"]),
+        (
+            "energy-decay.toml",
+            &[("steps", "steps = 1000000000000")],
+            &["energy.steps", "<= 10000000000"],
+        ),
+        (
+            "theorem-3.4-grid.toml",
+            &[("elements", &many), ("steps", &as_many)],
+            &["refine.elements", "4.000e6 cases"],
+        ),
+        (
+            "vibration-time.toml",
+            &[("elements", "elements = 100000")],
+            &["refine.elements: found 100000, whose modes"],
+        ),
         (
             "vibration-space.toml",
             &[("steps", "steps = 1000000000")],
-            &["refine.steps: found 1000000000, which is 1.000e9 steps", "at most 1e7 steps"],
+            &[
+                "refine.steps: found 1000000000, which is 1.000e9 steps",
+                "at most 1e7 steps",
+            ],
         ),
-        ("vibration-space.toml", &[("index", "index = 1000000000000")], &["index", "<= 10000"]),
-        ("rigid-obstacles.toml", &[("dt", "dt = 1e-12")], &["moving.dt: found 1e-12, which is", "steps"]),
-        ("section-5.toml", &[("t_max", "t_max = 1e300")], &["t_max: found 1e300, which is", "at most 1e10 steps"]),
-        ("equilibria.toml", &[("t_max", "t_max = 1e18")], &["run.t_max: found 1e18", "at most 1e10 steps"]),
-        ("bifurcation.toml", &[("t_max", "t_max = 1e18")], &["rest.t_max: found 1e18", "at most 1e10 steps"]),
-        ("fixed-point.toml", &[("steps", "steps = 100000000")], &["steps: found 100000000", "<= 10000000"]),
-        ("rule-calibration.toml", &[("tables", "tables = 1000000000000")], &["tables: found 1000000000000"]),
-        ("random-scenes.toml", &[("batches", "batches = 1000000000")], &["batches: found 1000000000"]),
+        (
+            "vibration-space.toml",
+            &[("index", "index = 1000000000000")],
+            &["index", "<= 10000"],
+        ),
+        (
+            "rigid-obstacles.toml",
+            &[("dt", "dt = 1e-12")],
+            &["moving.dt: found 1e-12, which is", "steps"],
+        ),
+        (
+            "section-5.toml",
+            &[("t_max", "t_max = 1e300")],
+            &["t_max: found 1e300, which is", "at most 1e10 steps"],
+        ),
+        (
+            "equilibria.toml",
+            &[("t_max", "t_max = 1e18")],
+            &["run.t_max: found 1e18", "at most 1e10 steps"],
+        ),
+        (
+            "bifurcation.toml",
+            &[("t_max", "t_max = 1e18")],
+            &["rest.t_max: found 1e18", "at most 1e10 steps"],
+        ),
+        (
+            "fixed-point.toml",
+            &[("steps", "steps = 100000000")],
+            &["steps: found 100000000", "<= 10000000"],
+        ),
+        (
+            "rule-calibration.toml",
+            &[("tables", "tables = 1000000000000")],
+            &["tables: found 1000000000000"],
+        ),
+        (
+            "random-scenes.toml",
+            &[("batches", "batches = 1000000000")],
+            &["batches: found 1000000000"],
+        ),
     ] {
-        says(&refusal(name, changes), &[&[name, ":"][..], pieces].concat());
+        says(
+            &refusal(name, changes),
+            &[&[name, ":"][..], pieces].concat(),
+        );
     }
 }
 
 #[test]
 fn what_a_sweep_cannot_have_is_refused_with_what_it_would_take() {
     let folder = tempfile::tempdir().expect("a folder");
-    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    let write =
+        |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
     write("base.toml", "[time]\ndt = 0.1\nt_end = 1\n");
     let range = "{ from = 1.0, to = 2.0, count = 10000 }";
     for (design, pieces) in [
         (
             format!("[grid]\nbeam.beta = {range}\nbeam.zeta = {range}\nbeam.rho = {range}\n"),
-            &["grid: found 1.000e12 cases, which would take about 37252.9 GiB of memory", "at most 100000000 cases"][..],
+            &[
+                "grid: found 1.000e12 cases, which would take about 37252.9 GiB of memory",
+                "at most 100000000 cases",
+            ][..],
         ),
-        ("[grid]\nbeam.beta = { from = 1, to = 2, count = 1000000000 }\n".to_owned(), &["count: found 1000000000"]),
         (
-            "[latin]\nsamples = 1000000000000\nseed = 1\nbeam.beta = { from = 0, to = 1 }\n".to_owned(),
+            "[grid]\nbeam.beta = { from = 1, to = 2, count = 1000000000 }\n".to_owned(),
+            &["count: found 1000000000"],
+        ),
+        (
+            "[latin]\nsamples = 1000000000000\nseed = 1\nbeam.beta = { from = 0, to = 1 }\n"
+                .to_owned(),
             &["latin.samples"],
         ),
-        ("[grid]\nmesh.elements = [10, 1000000000]\n".to_owned(), &["grid.mesh.elements[1]", "465.7 GiB"]),
+        (
+            "[grid]\nmesh.elements = [10, 1000000000]\n".to_owned(),
+            &["grid.mesh.elements[1]", "465.7 GiB"],
+        ),
     ] {
-        write("sweep.toml", &format!("[sweep]\nscene = \"base.toml\"\n{design}"));
-        let error = Sweep::read(folder.path().join("sweep.toml")).expect_err("refused").to_string();
+        write(
+            "sweep.toml",
+            &format!("[sweep]\nscene = \"base.toml\"\n{design}"),
+        );
+        let error = Sweep::read(folder.path().join("sweep.toml"))
+            .expect_err("refused")
+            .to_string();
         says(&error, &[&["sweep.toml:"][..], pieces].concat());
     }
 }
@@ -103,7 +189,12 @@ fn what_a_sweep_cannot_have_is_refused_with_what_it_would_take() {
 fn a_function_ten_thousand_brackets_deep_is_refused_at_its_place() {
     for deep in ["(", "-", "sin(", "2^"].map(|piece| format!("{}x", piece.repeat(10_000))) {
         let text = format!("[initial]\nu = \"{deep}\"\n[time]\ndt = 0.1\nt_end = 1\n");
-        says(&Scene::parse(&text, "s.toml").expect_err("too deep").to_string(), &["s.toml:2:", "initial.u: ", "256"]);
+        says(
+            &Scene::parse(&text, "s.toml")
+                .expect_err("too deep")
+                .to_string(),
+            &["s.toml:2:", "initial.u: ", "256"],
+        );
     }
 }
 
@@ -111,5 +202,8 @@ fn a_function_ten_thousand_brackets_deep_is_refused_at_its_place() {
 fn what_machines_do_have_goes_on_working() {
     let text = "[mesh]\nelements = 1000000\n[time]\ndt = 1e-9\nt_end = 10\n";
     let scene = Scene::parse(text, "s.toml").expect("a scene");
-    assert_eq!((scene.mesh.elements(), scene.steps()), (1_000_000, 10_000_000_000));
+    assert_eq!(
+        (scene.mesh.elements(), scene.steps()),
+        (1_000_000, 10_000_000_000)
+    );
 }

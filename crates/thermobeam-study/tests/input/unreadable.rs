@@ -20,12 +20,28 @@ fn file(name: &str, bytes: &[u8]) -> PathBuf {
 #[test]
 fn a_file_that_cannot_be_read_is_named_with_the_reason() {
     let missing = Scene::read("no/such/scene.toml").expect_err("no such file");
-    assert_eq!((missing.file.as_str(), missing.place), ("no/such/scene.toml", None));
-    says(&missing.to_string(), &["no/such/scene.toml: cannot be read: "]);
+    assert_eq!(
+        (missing.file.as_str(), missing.place),
+        ("no/such/scene.toml", None)
+    );
+    says(
+        &missing.to_string(),
+        &["no/such/scene.toml: cannot be read: "],
+    );
     let folder = env!("CARGO_TARGET_TMPDIR");
-    says(&Scene::read(folder).expect_err("a folder").to_string(), &[folder, ": cannot be read: "]);
-    says(&Convergence::read("no.toml").expect_err("no such file").to_string(), &["no.toml: cannot be read"]);
-    let study = StudyFile::read(&KINDS, Path::new("no.toml")).err().expect("no such file");
+    says(
+        &Scene::read(folder).expect_err("a folder").to_string(),
+        &[folder, ": cannot be read: "],
+    );
+    says(
+        &Convergence::read("no.toml")
+            .expect_err("no such file")
+            .to_string(),
+        &["no.toml: cannot be read"],
+    );
+    let study = StudyFile::read(&KINDS, Path::new("no.toml"))
+        .err()
+        .expect("no such file");
     says(&study.to_string(), &["no.toml: cannot be read"]);
 }
 
@@ -42,11 +58,20 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
         let folder = tempfile::tempdir().expect("a folder");
         let alone = folder.path().join("alone.toml");
         fs::copy(&path, &alone).expect("a copy");
-        let Err(error) = StudyFile::read(&KINDS, &alone) else { continue };
+        let Err(error) = StudyFile::read(&KINDS, &alone) else {
+            continue;
+        };
         missed += 1;
         assert!(error.place.is_some() && error.field.is_some(), "{error}");
         let begin = format!("{}:", alone.display());
-        says(&error.to_string(), &[&begin, "found the text \"", "expected the name of a file, relative to this"]);
+        says(
+            &error.to_string(),
+            &[
+                &begin,
+                "found the text \"",
+                "expected the name of a file, relative to this",
+            ],
+        );
     }
     assert!(missed > 10, "{missed} studies name files");
 }
@@ -55,13 +80,19 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
 fn bytes_that_are_not_text_are_shown_where_they_are() {
     let path = file("latin-1.toml", b"[beam]\n# \xe4\n");
     let message = Scene::read(&path).expect_err("not UTF-8").to_string();
-    says(&message, &["latin-1.toml:2:3: found the byte 0xe4; expected UTF-8 text"]);
+    says(
+        &message,
+        &["latin-1.toml:2:3: found the byte 0xe4; expected UTF-8 text"],
+    );
 }
 
 #[test]
 fn a_file_larger_than_any_scene_is_refused() {
     let path = file("large.toml", &vec![b'#'; 10_000_001]);
-    says(&Scene::read(path).expect_err("too large").to_string(), &["large.toml: found more than 10000000 bytes"]);
+    says(
+        &Scene::read(path).expect_err("too large").to_string(),
+        &["large.toml: found more than 10000000 bytes"],
+    );
 }
 
 #[test]
@@ -69,22 +100,41 @@ fn text_that_is_not_toml_is_shown_where_it_goes_wrong() {
     for (text, pieces) in [
         ("[beam\nzeta = 1", &["f.toml:1:6: not valid TOML: "][..]),
         ("[beam]\nzeta 1", &["f.toml:2:", "not valid TOML: "]),
-        ("[beam]\nzeta = 1\nzeta = 2", &["f.toml:3:1: not valid TOML: duplicate key"]),
+        (
+            "[beam]\nzeta = 1\nzeta = 2",
+            &["f.toml:3:1: not valid TOML: duplicate key"],
+        ),
         ("[beam]\r\nzeta = \"ä", &["f.toml:2:", "not valid TOML: "]),
-        ("[beam]\n[beam]\n", &["f.toml:2:", "not valid TOML: duplicate key"]),
+        (
+            "[beam]\n[beam]\n",
+            &["f.toml:2:", "not valid TOML: duplicate key"],
+        ),
     ] {
-        says(&Scene::parse(text, "f.toml").expect_err(text).to_string(), pieces);
+        says(
+            &Scene::parse(text, "f.toml").expect_err(text).to_string(),
+            pieces,
+        );
     }
-    for deep in [format!("a = {}", "[".repeat(1_000_000)), format!("{}a = 1", "a.".repeat(1_000_000))] {
-        says(&Scene::parse(&deep, "f.toml").expect_err("deep").to_string(), &["not valid TOML: "]);
+    for deep in [
+        format!("a = {}", "[".repeat(1_000_000)),
+        format!("{}a = 1", "a.".repeat(1_000_000)),
+    ] {
+        says(
+            &Scene::parse(&deep, "f.toml").expect_err("deep").to_string(),
+            &["not valid TOML: "],
+        );
     }
 }
 
 #[test]
 fn columns_count_characters_and_not_bytes() {
-    let message = Scene::parse("beam = { \"ä\" = 1 }", "f.toml").expect_err("an unknown key").to_string();
+    let message = Scene::parse("beam = { \"ä\" = 1 }", "f.toml")
+        .expect_err("an unknown key")
+        .to_string();
     says(&message, &["f.toml:1:10: beam.ä: unknown key `ä`"]);
-    let message = Scene::parse("beam.\"ää\".x = 1\r\nfoo = 1", "f.toml").expect_err("an unknown key").to_string();
+    let message = Scene::parse("beam.\"ää\".x = 1\r\nfoo = 1", "f.toml")
+        .expect_err("an unknown key")
+        .to_string();
     says(&message, &["f.toml:2:1: foo: unknown key `foo`"]);
 }
 

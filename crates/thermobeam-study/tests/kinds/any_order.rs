@@ -26,7 +26,11 @@ fn time() -> AnyOrder {
         let series = rest.split("[[series]]").find(|series| series.contains(q));
         series.unwrap_or_else(|| panic!("no {q}")).to_owned()
     };
-    parse(&format!("{head}[[series]]{}[[series]]{}", of("time_degree = 2"), of("time_degree = 3")))
+    parse(&format!(
+        "{head}[[series]]{}[[series]]{}",
+        of("time_degree = 2"),
+        of("time_degree = 3")
+    ))
 }
 
 #[test]
@@ -36,15 +40,26 @@ fn orders_in_time_pass_and_planted_errors_fail() {
     // A floor, a wrong order, a lucky run and numbers that are not finite, in each error separately.
     for k in 0..3 {
         let floor = changed::<AnyOrder>(&sound, |_, found| found.named[k].1 += 1e-4);
-        assert_eq!(study.judge(&floor).verdict, Verdict::Fail, "a floor under error {k}");
+        assert_eq!(
+            study.judge(&floor).verdict,
+            Verdict::Fail,
+            "a floor under error {k}"
+        );
         let slow = changed::<AnyOrder>(&sound, |index, found| {
             let coarser = sound[index].case.data.steps as f64 / 10.0;
             found.named[k].1 *= coarser;
         });
-        assert_eq!(study.judge(&slow).verdict, Verdict::Fail, "one order less in error {k}");
+        assert_eq!(
+            study.judge(&slow).verdict,
+            Verdict::Fail,
+            "one order less in error {k}"
+        );
         for index in 0..sound.len() {
             for wrong in [f64::NAN, f64::INFINITY] {
-                assert_eq!(verdict_with(&study, &sound, index, |found| found.named[k].1 = wrong), Verdict::Fail);
+                assert_eq!(
+                    verdict_with(&study, &sound, index, |found| found.named[k].1 = wrong),
+                    Verdict::Fail
+                );
             }
         }
     }
@@ -54,7 +69,10 @@ fn orders_in_time_pass_and_planted_errors_fail() {
 fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
     let text = text("any-order-space.toml");
     let (head, rest) = text.split_once("[[series]]").expect("series");
-    let series = rest.split("[[series]]").find(|series| series.contains("degree = 3")).expect("p = 3");
+    let series = rest
+        .split("[[series]]")
+        .find(|series| series.contains("degree = 3"))
+        .expect("p = 3");
     let study = parse(&format!("{head}[[series]]{series}"));
     let sound = passes_but_not_without_each_case(&study);
     for k in 0..2 {
@@ -62,19 +80,22 @@ fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
             let wrong = changed::<AnyOrder>(&sound, |index, found| {
                 found.named[k].1 *= (sound[index].case.data.elements as f64).powf(power);
             });
-            assert_eq!(study.judge(&wrong).verdict, Verdict::Fail, "error {k} by an order {power}");
+            assert_eq!(
+                study.judge(&wrong).verdict,
+                Verdict::Fail,
+                "error {k} by an order {power}"
+            );
         }
     }
     // Errors inside steps are time errors and are not measured here.
-    assert!(
-        sound.iter().all(|ran| ran
-            .found
+    assert!(sound.iter().all(|ran| {
+        ran.found
             .as_ref()
             .expect("errors")
             .named
             .iter()
-            .all(|(name, _)| !name.contains("inside")))
-    );
+            .all(|(name, _)| !name.contains("inside"))
+    }));
 }
 
 #[test]
@@ -86,9 +107,18 @@ fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off() {
         study.judge(&runs).verdict
     };
     assert_eq!(with(&|_, _| ()), Verdict::Pass);
-    assert_eq!(with(&|_, found| found.named[0].1 += 1e-11), Verdict::Fail, "a floor above round-off");
-    assert_eq!(with(&|index, found| found.named[0].1 *= if index == 3 { 1e4 } else { 1.0 }), Verdict::Fail, "a bump");
-    let algebraic = |index: usize, found: &mut Errors| found.named[0].1 = ((index + 1) as f64).powi(-6);
+    assert_eq!(
+        with(&|_, found| found.named[0].1 += 1e-11),
+        Verdict::Fail,
+        "a floor above round-off"
+    );
+    assert_eq!(
+        with(&|index, found| found.named[0].1 *= if index == 3 { 1e4 } else { 1.0 }),
+        Verdict::Fail,
+        "a bump"
+    );
+    let algebraic =
+        |index: usize, found: &mut Errors| found.named[0].1 = ((index + 1) as f64).powi(-6);
     assert_eq!(with(&algebraic), Verdict::Fail, "an algebraic fall");
     let last = sound.len() - 1;
     assert_eq!(
@@ -103,7 +133,9 @@ fn initial_fields_that_are_not_the_projections_fail() {
     let study = read("any-order-degree.toml");
     let sound = passes_but_not_without_each_case(&study);
     for start in [2e-11, f64::NAN] {
-        let wrong = changed::<AnyOrder>(&sound, |index, found| found.start = if index == 3 { start } else { 0.0 });
+        let wrong = changed::<AnyOrder>(&sound, |index, found| {
+            found.start = if index == 3 { start } else { 0.0 }
+        });
         assert_eq!(study.judge(&wrong).verdict, Verdict::Fail, "{start}");
     }
 }
@@ -112,9 +144,14 @@ fn initial_fields_that_are_not_the_projections_fail() {
 fn the_control_table_makes_a_study_fail() {
     let text = text("any-order-coefficients.toml");
     assert_eq!(run_one(&parse(&text)).verdict, Verdict::Pass);
-    for control in
-        ["zeta = 0.10001", "a = 0.50005", "rho = 2.0002", "beta = 0.50005", "theta_a = 20.002", "epsilon = 0.010001"]
-    {
+    for control in [
+        "zeta = 0.10001",
+        "a = 0.50005",
+        "rho = 2.0002",
+        "beta = 0.50005",
+        "theta_a = 20.002",
+        "epsilon = 0.010001",
+    ] {
         let off = text.replace("[run]", &format!("[control]\n{control}\n\n[run]"));
         assert_eq!(run_one(&parse(&off)).verdict, Verdict::Fail, "{control}");
     }
@@ -134,20 +171,90 @@ fn a_failed_run_is_told_with_its_reason_and_an_empty_study_does_not_pass() {
 #[test]
 fn files_with_errors_are_refused_with_the_field() {
     for (name, from, to, message) in [
-        ("any-order-space.toml", "over = \"space\"", "over = \"mesh\"", "run.over"),
-        ("any-order-space.toml", "t_end = 0.3", "t_end = -0.3", "run.t_end"),
-        ("any-order-space.toml", "time_degree = 4", "time_degree = 6", "run.time_degree"),
-        ("any-order-space.toml", "degree = 1\n", "degree = 41\n", "degree"),
-        ("any-order-space.toml", "[16, 32, 64, 128, 256]", "[16, 32]", "elements"),
-        ("any-order-space.toml", "[16, 32, 64, 128, 256]", "[16, 64, 32]", "elements"),
-        ("any-order-space.toml", "tolerance = 0.05", "tolerance = 0", "tolerance"),
-        ("any-order-space.toml", "0.8*s + 0.2*s^2", "0.8*s", "run.map"),
-        ("any-order-time.toml", "degree = 3", "degree = 3\ntime_degree = 1", "time_degree"),
-        ("any-order-degree.toml", "factor = 5.0", "factor = 1.0", "factor"),
-        ("any-order-degree.toml", "factor = 5.0", "tolerance = 0.1", "tolerance"),
-        ("any-order-degree.toml", "[run]", "[control]\n[run]", "control"),
-        ("any-order-degree.toml", "[run]", "[control]\na = 0.5\n[run]", "control.a"),
-        ("any-order-degree.toml", "[run]", "[control]\nepsilon = 0.5\n[run]", "control.epsilon"),
+        (
+            "any-order-space.toml",
+            "over = \"space\"",
+            "over = \"mesh\"",
+            "run.over",
+        ),
+        (
+            "any-order-space.toml",
+            "t_end = 0.3",
+            "t_end = -0.3",
+            "run.t_end",
+        ),
+        (
+            "any-order-space.toml",
+            "time_degree = 4",
+            "time_degree = 6",
+            "run.time_degree",
+        ),
+        (
+            "any-order-space.toml",
+            "degree = 1\n",
+            "degree = 41\n",
+            "degree",
+        ),
+        (
+            "any-order-space.toml",
+            "[16, 32, 64, 128, 256]",
+            "[16, 32]",
+            "elements",
+        ),
+        (
+            "any-order-space.toml",
+            "[16, 32, 64, 128, 256]",
+            "[16, 64, 32]",
+            "elements",
+        ),
+        (
+            "any-order-space.toml",
+            "tolerance = 0.05",
+            "tolerance = 0",
+            "tolerance",
+        ),
+        (
+            "any-order-space.toml",
+            "0.8*s + 0.2*s^2",
+            "0.8*s",
+            "run.map",
+        ),
+        (
+            "any-order-time.toml",
+            "degree = 3",
+            "degree = 3\ntime_degree = 1",
+            "time_degree",
+        ),
+        (
+            "any-order-degree.toml",
+            "factor = 5.0",
+            "factor = 1.0",
+            "factor",
+        ),
+        (
+            "any-order-degree.toml",
+            "factor = 5.0",
+            "tolerance = 0.1",
+            "tolerance",
+        ),
+        (
+            "any-order-degree.toml",
+            "[run]",
+            "[control]\n[run]",
+            "control",
+        ),
+        (
+            "any-order-degree.toml",
+            "[run]",
+            "[control]\na = 0.5\n[run]",
+            "control.a",
+        ),
+        (
+            "any-order-degree.toml",
+            "[run]",
+            "[control]\nepsilon = 0.5\n[run]",
+            "control.epsilon",
+        ),
     ] {
         let error = refusal(&ROW, name, from, to);
         assert!(error.contains(message), "{to}: {error}");
@@ -158,8 +265,15 @@ fn files_with_errors_are_refused_with_the_field() {
 fn free_vibrations_pass_and_a_wrong_viscosity_fails() {
     passes_but_not_without_each_case(&read("any-order-vibration.toml"));
     for coefficient in ["zeta = 0.10001", "a = 1e-3", "beta = 1e-6"] {
-        let planted = format!("{}\n[control]\n{coefficient}\n", text("any-order-vibration.toml"));
-        assert_eq!(run_one(&parse(&planted)).verdict, Verdict::Fail, "{coefficient}");
+        let planted = format!(
+            "{}\n[control]\n{coefficient}\n",
+            text("any-order-vibration.toml")
+        );
+        assert_eq!(
+            run_one(&parse(&planted)).verdict,
+            Verdict::Fail,
+            "{coefficient}"
+        );
     }
     for (from, to, message) in [
         ("modes = [1, 2, 5]", "modes = []", "vibration.modes"),

@@ -12,19 +12,40 @@ use super::typed::report;
 
 #[test]
 fn every_fault_is_detected_and_one_that_is_not_fails() {
-    let study = AnyOrderControls::read(file("any-order-controls.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let study = AnyOrderControls::read(file("any-order-controls.toml"))
+        .unwrap_or_else(|error| panic!("{error}"));
     let sound = run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
-    assert_eq!(sound.len(), 18, "the honest solver, eight coefficients and nine defects");
+    assert_eq!(
+        sound.len(),
+        18,
+        "the honest solver, eight coefficients and nine defects"
+    );
     assert_eq!(sound[0].case.data.1, Fault::None);
     for (index, ran) in sound.iter().enumerate() {
         let judged = ran.ok().expect("a verdict");
         // A fault gives an error far above round-off; without one the error is round-off.
-        assert!(if index == 0 { judged.error < 2e-12 } else { judged.error > 1e-8 }, "{}: {judged:?}", ran.case.label);
-        let other = if index == 0 { Verdict::Fail } else { Verdict::Pass };
+        assert!(
+            if index == 0 {
+                judged.error < 2e-12
+            } else {
+                judged.error > 1e-8
+            },
+            "{}: {judged:?}",
+            ran.case.label
+        );
+        let other = if index == 0 {
+            Verdict::Fail
+        } else {
+            Verdict::Pass
+        };
         for wrong in [other, Verdict::Inconclusive] {
-            assert_eq!(verdict_with(&study, &sound, index, |found| found.verdict = wrong), Verdict::Fail, "{index}");
+            assert_eq!(
+                verdict_with(&study, &sound, index, |found| found.verdict = wrong),
+                Verdict::Fail,
+                "{index}"
+            );
         }
         let mut failed = sound.clone();
         failed[index].found = Err(CaseFailure::new("planted"));
@@ -46,15 +67,39 @@ fn every_fault_is_detected_and_one_that_is_not_fails() {
 fn files_with_errors_are_refused_with_the_field() {
     for (from, to, message) in [
         ("relative = 1e-4", "relative = 0", "any-order.relative"),
-        ("\"any-order-coefficients.toml\"", "\"theorem-3.4-space.toml\"", "unknown key `refine`"),
-        ("[\"any-order-coefficients.toml\"]", "[]", "any-order.studies"),
+        (
+            "\"any-order-coefficients.toml\"",
+            "\"theorem-3.4-space.toml\"",
+            "unknown key `refine`",
+        ),
+        (
+            "[\"any-order-coefficients.toml\"]",
+            "[]",
+            "any-order.studies",
+        ),
         // There, theta_a is zero.
-        ("\"any-order-coefficients.toml\"", "\"any-order-space.toml\"", "theta_a, which any-order-space"),
+        (
+            "\"any-order-coefficients.toml\"",
+            "\"any-order-space.toml\"",
+            "theta_a, which any-order-space",
+        ),
         ("\"zeta\", ", "\"zetta\", ", "any-order.coefficients"),
-        ("\"half of rho in N\"", "\"half of rho\"", "any-order.defects"),
+        (
+            "\"half of rho in N\"",
+            "\"half of rho\"",
+            "any-order.defects",
+        ),
         // It is about the levels of one-step schemes.
-        ("half of rho in N", "N of the mean state instead of the mean of N", "any-order.defects"),
-        ("[any-order]", "[controls]\n[any-order]", "one of the tables"),
+        (
+            "half of rho in N",
+            "N of the mean state instead of the mean of N",
+            "any-order.defects",
+        ),
+        (
+            "[any-order]",
+            "[controls]\n[any-order]",
+            "one of the tables",
+        ),
     ] {
         let error = refusal(&ROW, "any-order-controls.toml", from, to);
         assert!(error.contains(message), "{to}: {error}");

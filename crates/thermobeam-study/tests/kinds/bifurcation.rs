@@ -27,35 +27,86 @@ fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut Found)> {
 
 #[test]
 fn each_claim_can_fail() {
-    let study = BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
-    let unstable = |rest: &mut AtRest| rest.nearest.as_mut().expect("a steady state").state.stable = false;
+    let unstable =
+        |rest: &mut AtRest| rest.nearest.as_mut().expect("a steady state").state.stable = false;
     for (number, (label, plant)) in [
-        ("branches, θ_A = 0", diagram(|diagram| diagram.ambiguous = 1)),
-        ("branches, θ_A = 0", diagram(|diagram| diagram.branches.clear())),
-        ("branches, θ_A = 0", diagram(|diagram| diagram.event[0] = -0.7)),
-        ("branches, θ_A = 0", diagram(|diagram| diagram.event[1] = -0.72)),
-        ("branches, θ_A = 0", diagram(|diagram| diagram.event[1] = f64::NAN)),
-        ("branches, θ_A = 20", diagram(|diagram| diagram.event[0] = 0.0)),
-        ("branches, θ_A = 20", diagram(|diagram| diagram.event = [f64::NAN; 2])),
-        ("branches, θ_A = 20", diagram(|diagram| diagram.counts[5].1 = 3)),
-        ("branches, θ_A = 20", diagram(|diagram| diagram.counts.clear())),
+        (
+            "branches, θ_A = 0",
+            diagram(|diagram| diagram.ambiguous = 1),
+        ),
+        (
+            "branches, θ_A = 0",
+            diagram(|diagram| diagram.branches.clear()),
+        ),
+        (
+            "branches, θ_A = 0",
+            diagram(|diagram| diagram.event[0] = -0.7),
+        ),
+        (
+            "branches, θ_A = 0",
+            diagram(|diagram| diagram.event[1] = -0.72),
+        ),
+        (
+            "branches, θ_A = 0",
+            diagram(|diagram| diagram.event[1] = f64::NAN),
+        ),
+        (
+            "branches, θ_A = 20",
+            diagram(|diagram| diagram.event[0] = 0.0),
+        ),
+        (
+            "branches, θ_A = 20",
+            diagram(|diagram| diagram.event = [f64::NAN; 2]),
+        ),
+        (
+            "branches, θ_A = 20",
+            diagram(|diagram| diagram.counts[5].1 = 3),
+        ),
+        (
+            "branches, θ_A = 20",
+            diagram(|diagram| diagram.counts.clear()),
+        ),
         ("buckling force, n = 64", force(0.7116)),
         ("buckling force, n = 128", force(0.711606)),
         ("buckling force, n = 8", force(f64::NAN)),
-        ("to rest, θ_A = 0, β = -0.71", rest(|rest| rest.tip[0] = 0.01)),
-        ("to rest, θ_A = 0, β = -0.715", rest(|rest| rest.tip[0] = 0.0)),
-        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.tip[0] = f64::NAN)),
+        (
+            "to rest, θ_A = 0, β = -0.71",
+            rest(|rest| rest.tip[0] = 0.01),
+        ),
+        (
+            "to rest, θ_A = 0, β = -0.715",
+            rest(|rest| rest.tip[0] = 0.0),
+        ),
+        (
+            "to rest, θ_A = 20, β = 1",
+            rest(|rest| rest.tip[0] = f64::NAN),
+        ),
         ("to rest, θ_A = 20, β = 1", rest(unstable)),
         ("to rest, θ_A = 20, β = 1", rest(|rest| rest.nearest = None)),
-        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.nearest.as_mut().expect("a steady state").distance = 0.01)),
-        ("to rest, θ_A = 20, β = 1", rest(|rest| rest.nearest.as_mut().expect("a steady state").distance = f64::NAN)),
+        (
+            "to rest, θ_A = 20, β = 1",
+            rest(|rest| rest.nearest.as_mut().expect("a steady state").distance = 0.01),
+        ),
+        (
+            "to rest, θ_A = 20, β = 1",
+            rest(|rest| rest.nearest.as_mut().expect("a steady state").distance = f64::NAN),
+        ),
     ]
     .into_iter()
     .enumerate()
     {
-        let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
-        assert_ne!(verdict_with(&study, &sound, case, plant), Verdict::Pass, "defect {number}, in {label}");
+        let case = sound
+            .iter()
+            .position(|ran| ran.case.label == label)
+            .unwrap_or_else(|| panic!("no case {label}"));
+        assert_ne!(
+            verdict_with(&study, &sound, case, plant),
+            Verdict::Pass,
+            "defect {number}, in {label}"
+        );
     }
 }
 

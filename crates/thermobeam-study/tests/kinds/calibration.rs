@@ -13,25 +13,49 @@ fn each_share_can_be_too_large_or_too_small() {
     for name in ["rule-calibration.toml", "error-bars.toml"] {
         let study = Calibration::read(file(name)).unwrap_or_else(|error| panic!("{error}"));
         let sound = run_cases_here(&study);
-        assert_eq!(study.judge(&sound).verdict, Verdict::Pass, "{}", report(&study.judge(&sound)));
+        assert_eq!(
+            study.judge(&sound).verdict,
+            Verdict::Pass,
+            "{}",
+            report(&study.judge(&sound))
+        );
         let failing = |plant: &dyn Fn(&mut Vec<Sheet>)| {
             let runs = changed::<Calibration>(&sound, |_, found| plant(found));
             let judged = study.judge(&runs);
-            judged.checks.iter().filter(|check| check.verdict == Verdict::Fail).count()
+            judged
+                .checks
+                .iter()
+                .filter(|check| check.verdict == Verdict::Fail)
+                .count()
         };
         let all = |value: f64| {
             move |found: &mut Vec<Sheet>| {
-                found.iter_mut().flat_map(|sheet| &mut sheet.rows).for_each(|row| row.values.fill(value));
+                found
+                    .iter_mut()
+                    .flat_map(|sheet| &mut sheet.rows)
+                    .for_each(|row| row.values.fill(value));
             }
         };
         let bounded = study.judge(&sound).checks.len() - 1;
-        assert_eq!(failing(&all(2.0)) + failing(&all(0.0)), bounded, "{name}: each is bounded on one side");
-        assert_eq!(failing(&all(f64::NAN)), bounded, "{name}: a share of nothing is none");
+        assert_eq!(
+            failing(&all(2.0)) + failing(&all(0.0)),
+            bounded,
+            "{name}: each is bounded on one side"
+        );
+        assert_eq!(
+            failing(&all(f64::NAN)),
+            bounded,
+            "{name}: a share of nothing is none"
+        );
         assert!(failing(&|found: &mut Vec<Sheet>| found.clear()) > 0);
         for case in 0..sound.len() {
             let mut failed = sound.clone();
             failed[case].found = Err(CaseFailure::new("planted"));
-            assert_eq!(study.judge(&failed).verdict, Verdict::Fail, "{name}: case {case}");
+            assert_eq!(
+                study.judge(&failed).verdict,
+                Verdict::Fail,
+                "{name}: case {case}"
+            );
         }
         assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
     }
@@ -44,10 +68,16 @@ fn a_sheet_column_or_row_that_is_not_there_fails() {
         ("column = \"refused\"", "column = \"refuse\""),
         ("row = \"all declared\"", "row = \"all\""),
     ] {
-        let text = super::text("error-bars.toml").replace(from, to).replace("tables = 150", "tables = 1");
-        let study = Calibration::parse(&text, &file("error-bars.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let text = super::text("error-bars.toml")
+            .replace(from, to)
+            .replace("tables = 150", "tables = 1");
+        let study = Calibration::parse(&text, &file("error-bars.toml"))
+            .unwrap_or_else(|error| panic!("{error}"));
         let judged = study.judge(&run_cases_here(&study));
-        let named = judged.checks.iter().any(|check| check.verdict == Verdict::Fail && check.claim.contains(" has "));
+        let named = judged
+            .checks
+            .iter()
+            .any(|check| check.verdict == Verdict::Fail && check.claim.contains(" has "));
         assert!(named, "{to}: {}", report(&judged));
     }
 }

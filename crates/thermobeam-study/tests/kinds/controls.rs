@@ -20,7 +20,10 @@ static SOUND: LazyLock<Runs<Controls>> = LazyLock::new(|| run_cases_here(&contro
 /// The errors under one fault, replaced by those under another.
 fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
     changed::<Controls>(&SOUND, |_, found| {
-        let errors = found.iter().find(|(fault, _)| *fault == from).map(|(_, errors)| *errors);
+        let errors = found
+            .iter()
+            .find(|(fault, _)| *fault == from)
+            .map(|(_, errors)| *errors);
         let target = found.iter_mut().find(|(fault, _)| *fault == to);
         if let (Some(errors), Some((_, planted))) = (errors, target) {
             *planted = errors;
@@ -31,19 +34,35 @@ fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
 #[test]
 fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_one() {
     let study = controls();
-    assert_eq!(study.judge(&SOUND).verdict, Verdict::Pass, "{}", report(&study.judge(&SOUND)));
+    assert_eq!(
+        study.judge(&SOUND).verdict,
+        Verdict::Pass,
+        "{}",
+        report(&study.judge(&SOUND))
+    );
     // The wrong rho gets the errors of the run without a fault.
     let rho = Fault::Coefficient("rho");
     let blind = study.judge(&replaced(Fault::None, rho));
     assert_eq!(blind.verdict, Verdict::Fail);
-    let undetected: Vec<_> = blind.checks.iter().filter(|check| check.verdict == Verdict::Fail).collect();
+    let undetected: Vec<_> = blind
+        .checks
+        .iter()
+        .filter(|check| check.verdict == Verdict::Fail)
+        .collect();
     assert_eq!(undetected.len(), 1);
     assert!(undetected[0].claim.contains("rho"));
     let broken = study.judge(&replaced(rho, Fault::None));
     assert_eq!(broken.verdict, Verdict::Fail);
     // The studies that do not pass are named, since the fault is in them.
-    let honest = broken.checks.iter().find(|check| check.claim.starts_with("without a fault")).unwrap();
-    assert!(honest.evidence.contains(" pass; not ") && honest.evidence.contains("theorem-3.4-space"), "{honest:?}");
+    let honest = broken
+        .checks
+        .iter()
+        .find(|check| check.claim.starts_with("without a fault"))
+        .unwrap();
+    assert!(
+        honest.evidence.contains(" pass; not ") && honest.evidence.contains("theorem-3.4-space"),
+        "{honest:?}"
+    );
 }
 
 #[test]
@@ -73,14 +92,20 @@ fn sensitivity() -> Sensitivity {
         .replace("[64, 128, 256, 512, 1024]", "[32, 64, 128, 256]")
         .replace(", \"midpoint-space.toml\"", "")
         .replace("at_most = 1e-5", "at_most = 1e-3");
-    Sensitivity::parse(&small, &file("sensitivity-small.toml")).unwrap_or_else(|error| panic!("{error}"))
+    Sensitivity::parse(&small, &file("sensitivity-small.toml"))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
 fn each_coefficient_must_be_detected() {
     let study = sensitivity();
     let sound = run_cases_here(&study);
-    assert_eq!(study.judge(&sound).verdict, Verdict::Pass, "{}", report(&study.judge(&sound)));
+    assert_eq!(
+        study.judge(&sound).verdict,
+        Verdict::Pass,
+        "{}",
+        report(&study.judge(&sound))
+    );
     for key in sound.iter().map(|ran| ran.case.data.1) {
         for planted in [Some(2e-3), Some(f64::NAN), None] {
             let runs = changed::<Sensitivity>(&sound, |index, found| {
@@ -88,7 +113,11 @@ fn each_coefficient_must_be_detected() {
                     *found = planted;
                 }
             });
-            assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{planted:?} for {key}");
+            assert_eq!(
+                study.judge(&runs).verdict,
+                Verdict::Fail,
+                "{planted:?} for {key}"
+            );
         }
     }
     for case in 0..sound.len() {
@@ -101,12 +130,42 @@ fn each_coefficient_must_be_detected() {
 #[test]
 fn files_with_errors_are_refused() {
     for (name, from, to, message) in [
-        ("negative-controls.toml", "relative = 1e-4", "relative = 1.0", "controls.relative"),
-        ("negative-controls.toml", "\"theorem-3.4-space.toml\"", "\"frequencies.toml\"", "kind"),
-        ("negative-controls.toml", "[controls]", "[control]", "control"),
-        ("negative-controls.toml", "[controls]", "[sensitivity]\n[controls]", "one of the tables"),
-        ("sensitivity.toml", "range = [1e-9, 1e-2]", "range = [1e-2, 1e-9]", "sensitivity.range"),
-        ("sensitivity.toml", "at_most = 1e-5", "at_most = 2.0", "sensitivity.at_most"),
+        (
+            "negative-controls.toml",
+            "relative = 1e-4",
+            "relative = 1.0",
+            "controls.relative",
+        ),
+        (
+            "negative-controls.toml",
+            "\"theorem-3.4-space.toml\"",
+            "\"frequencies.toml\"",
+            "kind",
+        ),
+        (
+            "negative-controls.toml",
+            "[controls]",
+            "[control]",
+            "control",
+        ),
+        (
+            "negative-controls.toml",
+            "[controls]",
+            "[sensitivity]\n[controls]",
+            "one of the tables",
+        ),
+        (
+            "sensitivity.toml",
+            "range = [1e-9, 1e-2]",
+            "range = [1e-2, 1e-9]",
+            "sensitivity.range",
+        ),
+        (
+            "sensitivity.toml",
+            "at_most = 1e-5",
+            "at_most = 2.0",
+            "sensitivity.at_most",
+        ),
     ] {
         let error = refusal(&ROW, name, from, to);
         assert!(error.contains(message), "{error}");

@@ -15,38 +15,72 @@ fn file() -> PathBuf {
 /// Its outcome with these elements and this tolerance.
 fn outcome(elements: &str, tolerance: &str) -> Outcome {
     let text = std::fs::read_to_string(file()).unwrap();
-    let listed = text.lines().find(|line| line.starts_with("elements = ")).unwrap();
+    let listed = text
+        .lines()
+        .find(|line| line.starts_with("elements = "))
+        .unwrap();
     assert!(text.contains("tolerance = 0.002"));
-    let text = text.replace(listed, elements).replace("tolerance = 0.002", tolerance);
+    let text = text
+        .replace(listed, elements)
+        .replace("tolerance = 0.002", tolerance);
     run_one(&Convergence::parse(&text, &file()).unwrap())
 }
 
 #[test]
 fn levels_are_added_until_every_rate_is_decided() {
-    let auto = |tolerance: &str| outcome("elements = \"auto\"", &format!("tolerance = {tolerance}"));
+    let auto =
+        |tolerance: &str| outcome("elements = \"auto\"", &format!("tolerance = {tolerance}"));
     let easy = auto("0.25");
-    assert_eq!((easy.verdict, easy.levels.len()), (Verdict::Pass, 4), "{}", easy.summary);
-    assert!(easy.summary.ends_with("; decided after 4 levels"), "{}", easy.summary);
+    assert_eq!(
+        (easy.verdict, easy.levels.len()),
+        (Verdict::Pass, 4),
+        "{}",
+        easy.summary
+    );
+    assert!(
+        easy.summary.ends_with("; decided after 4 levels"),
+        "{}",
+        easy.summary
+    );
     let hard = auto("0.005");
     let count = hard.levels.len();
-    assert!((5..=8).contains(&count) && hard.verdict == Verdict::Pass, "{}", hard.summary);
-    assert!(hard.summary.contains(&format!("; decided after {count} levels; ")), "{}", hard.summary);
+    assert!(
+        (5..=8).contains(&count) && hard.verdict == Verdict::Pass,
+        "{}",
+        hard.summary
+    );
+    assert!(
+        hard.summary
+            .contains(&format!("; decided after {count} levels; ")),
+        "{}",
+        hard.summary
+    );
     // The same levels, listed, have the same rates; with one level fewer the verdict is weaker.
     let listed = |count: u32| {
         let elements: Vec<String> = (0..count).map(|level| (8 << level).to_string()).collect();
-        outcome(&format!("elements = [{}]", elements.join(", ")), "tolerance = 0.005")
+        outcome(
+            &format!("elements = [{}]", elements.join(", ")),
+            "tolerance = 0.005",
+        )
     };
     assert_eq!(listed(count as u32).rates, hard.rates);
     assert_eq!(listed(count as u32 - 1).verdict, Verdict::Inconclusive);
     // The numbers of the first levels are guarded, but no rate.
-    assert!(hard.quantities.iter().all(|quantity| quantity.name.starts_with("error ")));
+    assert!(
+        hard.quantities
+            .iter()
+            .all(|quantity| quantity.name.starts_with("error "))
+    );
     assert_eq!(hard.quantities.len(), easy.quantities.len());
 }
 
 #[test]
 fn a_budget_ends_a_study_without_a_verdict() {
     let spent = outcome("elements = \"auto\"\nbudget = 3000", "tolerance = 0.005");
-    assert_eq!((spent.verdict, spent.levels.len()), (Verdict::Inconclusive, 4));
+    assert_eq!(
+        (spent.verdict, spent.levels.len()),
+        (Verdict::Inconclusive, 4)
+    );
     let told = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
     assert!(spent.summary.ends_with(told), "{}", spent.summary);
 }
@@ -56,20 +90,37 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
     let elements = "elements = [16, 32, 64, 128]";
     let claimed = |claim: &str| {
         let outcome = outcome(elements, &format!("tolerance = 0.25\n{claim}"));
-        let rate = outcome.rates.iter().find(|(norm, _)| norm == "theorem-3.4").unwrap();
+        let rate = outcome
+            .rates
+            .iter()
+            .find(|(norm, _)| norm == "theorem-3.4")
+            .unwrap();
         (rate.1.kind, rate.1.constant.unwrap())
     };
     let (kind, constant) = claimed("");
     assert_eq!(kind, Reason::Agrees);
-    let between = |least: f64, most: f64| claimed(&format!("constant = [{}, {}]", least * constant, most * constant)).0;
+    let between = |least: f64, most: f64| {
+        claimed(&format!(
+            "constant = [{}, {}]",
+            least * constant,
+            most * constant
+        ))
+        .0
+    };
     assert_eq!(between(0.5, 2.0), Reason::Agrees);
     assert_eq!(between(2.0, 4.0), Reason::ConstantOff);
     let least = |order: &str| {
         let text = std::fs::read_to_string(file()).unwrap();
-        let text = text.replace("order = 1.0\ntolerance = 0.002", &format!("order = {order}\ntolerance = 0.2"));
+        let text = text.replace(
+            "order = 1.0\ntolerance = 0.002",
+            &format!("order = {order}\ntolerance = 0.2"),
+        );
         run_one(&Convergence::parse(&text, &file()).unwrap()).verdict
     };
-    assert_eq!((least("\">= 0.5\""), least("\">= 1.5\"")), (Verdict::Pass, Verdict::Fail));
+    assert_eq!(
+        (least("\">= 0.5\""), least("\">= 1.5\"")),
+        (Verdict::Pass, Verdict::Fail)
+    );
 }
 
 #[test]
@@ -77,12 +128,25 @@ fn a_claim_that_is_no_order_is_refused() {
     let refused = |from: &str, to: &str| {
         let text = std::fs::read_to_string(file()).unwrap();
         assert!(text.contains(from));
-        Convergence::parse(&text.replacen(from, to, 1), &file()).expect_err("a refusal").to_string()
+        Convergence::parse(&text.replacen(from, to, 1), &file())
+            .expect_err("a refusal")
+            .to_string()
     };
-    for to in ["order = \"<= 1\"", "order = \">= 0\"", "order = \"1\"", "order = -1"] {
+    for to in [
+        "order = \"<= 1\"",
+        "order = \">= 0\"",
+        "order = \"1\"",
+        "order = -1",
+    ] {
         let message = refused("order = 1.0", to);
-        assert!(message.contains("order") && message.contains("number > 0"), "{message}");
+        assert!(
+            message.contains("order") && message.contains("number > 0"),
+            "{message}"
+        );
     }
     let message = refused("order = 1.0", "order = 1.0\nconstant = [2.0, 1.0]");
-    assert!(message.contains("constant") && message.contains("the smaller first"), "{message}");
+    assert!(
+        message.contains("constant") && message.contains("the smaller first"),
+        "{message}"
+    );
 }

@@ -22,11 +22,19 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     let planted: [Defect<Found>; 9] = [
         ("a rise", |found| found.worst.rise = 2e-14),
         ("a residual", |found| found.worst.residual = 2e-14),
-        ("a rise that is not finite", |found| found.worst.rise = f64::NAN),
-        ("a residual that is not finite", |found| found.worst.residual = f64::NAN),
-        ("a bound that is not finite", |found| found.worst.open = f64::NAN),
+        ("a rise that is not finite", |found| {
+            found.worst.rise = f64::NAN
+        }),
+        ("a residual that is not finite", |found| {
+            found.worst.residual = f64::NAN
+        }),
+        ("a bound that is not finite", |found| {
+            found.worst.open = f64::NAN
+        }),
         ("a sum that is not finite", |found| found.drift = f64::NAN),
-        ("an energy that is not finite", |found| found.initial_energy = f64::INFINITY),
+        ("an energy that is not finite", |found| {
+            found.initial_energy = f64::INFINITY
+        }),
         ("a missing step", |found| found.steps -= 1),
         ("another end", |found| found.end = End::NotFinite),
     ];
@@ -37,7 +45,12 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
                     plant(found);
                 }
             });
-            assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in {}", sound[case].case.label);
+            assert_eq!(
+                study.judge(&runs).verdict,
+                Verdict::Fail,
+                "{what} in {}",
+                sound[case].case.label
+            );
         }
     }
 }
@@ -62,21 +75,50 @@ fn each_claim_of_a_case_can_fail() {
         ("hat", ("a missing step", |found| found.steps = 199)),
         ("hat", ("an open balance", |found| found.worst.open = 1.1)),
         ("hat", ("a rise", |found| found.worst.risen = 1.1)),
-        ("hat", ("a rise that is not finite", |found| found.worst.risen = f64::NAN)),
-        ("hat", ("a residual that is not finite", |found| found.worst.residual = f64::NAN)),
-        ("buckled-too-long-a-step", ("an answer", |found| found.end = End::Answer)),
-        ("compliance-1e-8-fixed-point", ("an answer", |found| found.end = End::Answer)),
-        ("no-viscosity-midpoint", ("a drift", |found| found.drift = -1.1e-11)),
-        ("no-viscosity-midpoint", ("a drift that is not finite", |found| found.drift = f64::NAN)),
+        (
+            "hat",
+            ("a rise that is not finite", |found| {
+                found.worst.risen = f64::NAN
+            }),
+        ),
+        (
+            "hat",
+            ("a residual that is not finite", |found| {
+                found.worst.residual = f64::NAN
+            }),
+        ),
+        (
+            "buckled-too-long-a-step",
+            ("an answer", |found| found.end = End::Answer),
+        ),
+        (
+            "compliance-1e-8-fixed-point",
+            ("an answer", |found| found.end = End::Answer),
+        ),
+        (
+            "no-viscosity-midpoint",
+            ("a drift", |found| found.drift = -1.1e-11),
+        ),
+        (
+            "no-viscosity-midpoint",
+            ("a drift that is not finite", |found| found.drift = f64::NAN),
+        ),
     ];
     for (label, (what, plant)) in planted {
-        let case = sound.iter().position(|ran| ran.case.label == label).expect("a case");
+        let case = sound
+            .iter()
+            .position(|ran| ran.case.label == label)
+            .expect("a case");
         let runs = changed::<EnergyRuns>(&sound, |index, found| {
             if index == case {
                 plant(found);
             }
         });
-        assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in {label}");
+        assert_eq!(
+            study.judge(&runs).verdict,
+            Verdict::Fail,
+            "{what} in {label}"
+        );
     }
 }
 
@@ -94,20 +136,34 @@ fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
         assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{wrong}");
     }
     let beams = sound.len() / 4;
-    let share = |index: usize| sound[index].found.as_ref().expect("a run").of_bound.expect("a share");
+    let share = |index: usize| {
+        sound[index]
+            .found
+            .as_ref()
+            .expect("a run")
+            .of_bound
+            .expect("a share")
+    };
     for index in beams..sound.len() {
         let (coarse, here) = (share(index % beams), share(index));
-        assert!((here / coarse - 1.0).abs() < 0.05, "{}: {here}, {coarse}", sound[index].case.label);
+        assert!(
+            (here / coarse - 1.0).abs() < 0.05,
+            "{}: {here}, {coarse}",
+            sound[index].case.label
+        );
     }
 }
 
 #[test]
 fn each_claim_of_the_random_scenes_can_fail() {
-    let study = RandomScenes::read(file("random-scenes-quick.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let study = RandomScenes::read(file("random-scenes-quick.toml"))
+        .unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
     let planted: [Defect<Batch>; 12] = [
         ("a definite operator refused", |batch| batch.refused = 1),
-        ("a level that is not finite", |batch| batch.not_finite_levels = 1),
+        ("a level that is not finite", |batch| {
+            batch.not_finite_levels = 1
+        }),
         ("an iteration limit", |batch| {
             batch.ends[End::Answer as usize] -= 1;
             batch.ends[End::IterationLimit as usize] += 1;
@@ -116,14 +172,30 @@ fn each_claim_of_the_random_scenes_can_fail() {
             batch.ends[End::Answer as usize] -= 1;
             batch.ends[End::NotFinite as usize] += 1;
         }),
-        ("a scene without an end", |batch| batch.ends[End::Answer as usize] -= 1),
-        ("exceptions", |batch| batch.scenes.iter_mut().take(2).for_each(|[.., residual]| *residual = 1e-11)),
+        ("a scene without an end", |batch| {
+            batch.ends[End::Answer as usize] -= 1
+        }),
+        ("exceptions", |batch| {
+            batch
+                .scenes
+                .iter_mut()
+                .take(2)
+                .for_each(|[.., residual]| *residual = 1e-11)
+        }),
         ("an open balance", |batch| batch.worst.open = 1.1),
         ("a rise", |batch| batch.worst.risen = 1.1),
-        ("an open balance that is not finite", |batch| batch.worst.open = f64::NAN),
-        ("a risen energy that is not finite", |batch| batch.worst.risen = f64::NAN),
-        ("a rise that is not finite", |batch| batch.worst.rise = f64::NAN),
-        ("a residual that is not finite", |batch| batch.worst.residual = f64::NAN),
+        ("an open balance that is not finite", |batch| {
+            batch.worst.open = f64::NAN
+        }),
+        ("a risen energy that is not finite", |batch| {
+            batch.worst.risen = f64::NAN
+        }),
+        ("a rise that is not finite", |batch| {
+            batch.worst.rise = f64::NAN
+        }),
+        ("a residual that is not finite", |batch| {
+            batch.worst.residual = f64::NAN
+        }),
     ];
     for case in 0..sound.len() {
         for (what, plant) in planted {
@@ -132,7 +204,11 @@ fn each_claim_of_the_random_scenes_can_fail() {
                     plant(batch);
                 }
             });
-            assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{what} in batch {case}");
+            assert_eq!(
+                study.judge(&runs).verdict,
+                Verdict::Fail,
+                "{what} in batch {case}"
+            );
         }
     }
 }
@@ -140,16 +216,56 @@ fn each_claim_of_the_random_scenes_can_fail() {
 #[test]
 fn files_with_errors_are_refused() {
     for (name, from, to, message) in [
-        ("extremes.toml", "name = \"hat\"", "name = \"velocity-step\"", "a name that no other case has"),
-        ("extremes.toml", "ends = \"indefinite\"", "ends = \"well\"", "ends"),
+        (
+            "extremes.toml",
+            "name = \"hat\"",
+            "name = \"velocity-step\"",
+            "a name that no other case has",
+        ),
+        (
+            "extremes.toml",
+            "ends = \"indefinite\"",
+            "ends = \"well\"",
+            "ends",
+        ),
         ("extremes.toml", "drift = 1e-11", "drift = 0", "drift"),
         ("extremes.toml", "zeta = 0.0", "zeta = -1.0", "beam.zeta"),
-        ("corollary-3.2.toml", "beta = -0.5\nrho = 0.0", "beta = -0.72\nrho = 0.0", "beta > -0.7116"),
-        ("random-scenes-quick.toml", "batches = 2", "batches = 0", "random.batches"),
-        ("random-scenes-quick.toml", "[random]", "[[random-scenes]]", "random-scenes"),
-        ("random-scenes-quick.toml", "[random]", "[energy]\n[random]", "one of the tables"),
-        ("energy-decay.toml", "tolerance = 1e-14", "tolerance = 0.0", "energy.tolerance"),
-        ("energy-decay.toml", "schemes = [\"euler-crank-nicolson\", \"midpoint\"]", "schemes = []", "energy.schemes"),
+        (
+            "corollary-3.2.toml",
+            "beta = -0.5\nrho = 0.0",
+            "beta = -0.72\nrho = 0.0",
+            "beta > -0.7116",
+        ),
+        (
+            "random-scenes-quick.toml",
+            "batches = 2",
+            "batches = 0",
+            "random.batches",
+        ),
+        (
+            "random-scenes-quick.toml",
+            "[random]",
+            "[[random-scenes]]",
+            "random-scenes",
+        ),
+        (
+            "random-scenes-quick.toml",
+            "[random]",
+            "[energy]\n[random]",
+            "one of the tables",
+        ),
+        (
+            "energy-decay.toml",
+            "tolerance = 1e-14",
+            "tolerance = 0.0",
+            "energy.tolerance",
+        ),
+        (
+            "energy-decay.toml",
+            "schemes = [\"euler-crank-nicolson\", \"midpoint\"]",
+            "schemes = []",
+            "energy.schemes",
+        ),
     ] {
         let error = refusal(&ROW, name, from, to);
         assert!(error.contains(message), "{error}");
@@ -160,12 +276,24 @@ fn files_with_errors_are_refused() {
 fn figures_begin_with_the_initial_energy_and_show_what_is_allowed() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
-    assert!(sound.iter().filter_map(|ran| ran.ok()).all(|found| found.samples[0].t == 0.0));
+    assert!(
+        sound
+            .iter()
+            .filter_map(|ran| ran.ok())
+            .all(|found| found.samples[0].t == 0.0)
+    );
     let allowed = |outcome: &Outcome, what: &str| {
-        let figure = outcome.figures.iter().find(|figure| figure.file.ends_with(what)).expect(what);
+        let figure = outcome
+            .figures
+            .iter()
+            .find(|figure| figure.file.ends_with(what))
+            .expect(what);
         figure.svg.contains(">allowed<") || figure.svg.contains("allowed\n")
     };
     assert!(allowed(&study.judge(&sound), "balance.svg"));
     let study = runs("extremes.toml");
-    assert!(allowed(&study.judge(&passes_but_not_without_each_case(&study)), "drift.svg"));
+    assert!(allowed(
+        &study.judge(&passes_but_not_without_each_case(&study)),
+        "drift.svg"
+    ));
 }

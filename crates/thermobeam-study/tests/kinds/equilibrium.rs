@@ -15,8 +15,16 @@ fn near(end: &mut AtRest) -> &mut Nearest {
 }
 
 /// The verdict with the end of one case changed.
-fn verdict(study: &EndStates, sound: &Runs<EndStates>, label: &str, change: impl Fn(&mut AtRest)) -> Verdict {
-    let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
+fn verdict(
+    study: &EndStates,
+    sound: &Runs<EndStates>,
+    label: &str,
+    change: impl Fn(&mut AtRest),
+) -> Verdict {
+    let case = sound
+        .iter()
+        .position(|ran| ran.case.label == label)
+        .unwrap_or_else(|| panic!("no case {label}"));
     verdict_with(study, sound, case, change)
 }
 
@@ -36,15 +44,27 @@ fn every_claim_about_end_states_can_fail() {
         ("paper-2-beta-5, n = 160", |end| end.tip[0] = 0.0141797),
         ("paper-2-beta-5, n = 160", |end| {
             let contact = &mut near(end).state.contact;
-            *contact = if *contact == Phase::Upper { Phase::Lower } else { Phase::Upper };
+            *contact = if *contact == Phase::Upper {
+                Phase::Lower
+            } else {
+                Phase::Upper
+            };
         }),
         ("paper-2-beta-5, n = 40", |end| near(end).errors[0] = 1e-5),
         ("paper-1-beta-0, n = 160", |end| near(end).errors[0] = 2e-6),
-        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| near(end).errors[0] = 2e-13),
-        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| near(end).errors[1] = 2e-13),
+        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
+            near(end).errors[0] = 2e-13
+        }),
+        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
+            near(end).errors[1] = 2e-13
+        }),
     ];
     for (k, (label, defect)) in planted.into_iter().enumerate() {
-        assert_ne!(verdict(&study, &sound, label, defect), Verdict::Pass, "defect {k}: {label}");
+        assert_ne!(
+            verdict(&study, &sound, label, defect),
+            Verdict::Pass,
+            "defect {k}: {label}"
+        );
     }
 }
 
@@ -63,7 +83,9 @@ fn no_number_may_be_nan() {
     ];
     for ran in &sound {
         for (k, number) in numbers.into_iter().enumerate() {
-            let found = verdict(&study, &sound, &ran.case.label, |end| *number(end) = f64::NAN);
+            let found = verdict(&study, &sound, &ran.case.label, |end| {
+                *number(end) = f64::NAN
+            });
             assert_eq!(found, Verdict::Fail, "number {k} of {}", ran.case.label);
         }
     }
@@ -74,13 +96,19 @@ fn a_file_that_makes_no_sense_is_refused() {
     for (from, to, message) in [
         ("[20, 40, 80, 160]", "[20, 40]", "run.elements"),
         ("tolerance = 0.02", "tolerance = 0.6", "expect.tolerance"),
-        ("tolerance = 0.02", "tolerance = \"small\"", "expect.tolerance"),
+        (
+            "tolerance = 0.02",
+            "tolerance = \"small\"",
+            "expect.tolerance",
+        ),
         ("paper-1-beta-5", "impact-5", "impact-5"),
     ] {
         let text = text("equilibria.toml");
         assert!(text.contains(from), "no {from}");
         let changed = text.replacen(from, to, 1);
-        let error = EndStates::parse(&changed, &file("equilibria.toml")).expect_err(to).to_string();
+        let error = EndStates::parse(&changed, &file("equilibria.toml"))
+            .expect_err(to)
+            .to_string();
         assert!(error.contains(message), "{error}");
     }
 }

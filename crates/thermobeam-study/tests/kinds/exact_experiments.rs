@@ -26,7 +26,11 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
     assert_eq!(sound.len(), 2);
     let fails = |what: &str, change: &dyn Fn(&mut ShownStates)| {
         for index in 0..sound.len() {
-            assert_eq!(verdict_with(&study, &sound, index, change), Verdict::Fail, "{what} in run {index}");
+            assert_eq!(
+                verdict_with(&study, &sound, index, change),
+                Verdict::Fail,
+                "{what} in run {index}"
+            );
         }
     };
     for by in [2e-10, -2e-10, f64::NAN] {
@@ -37,16 +41,25 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
         fails("theta(1/2)", &|found| found.states[1].theta_mid += by);
         fails("E", &|found| found.states[1].energy += by);
         // The tolerance for times of events is ten times larger.
-        fails("the time of an event", &|found| found.events[1].t += 10.0 * by);
+        fails("the time of an event", &|found| {
+            found.events[1].t += 10.0 * by
+        });
     }
     fails("a missing event", &|found| _ = found.events.pop());
-    fails("an event the other way round", &|found| found.events[0].to = found.events[0].from);
+    fails("an event the other way round", &|found| {
+        found.events[0].to = found.events[0].from
+    });
     fails("a missing state", &|found| _ = found.states.pop());
-    fails("a balance that does not close", &|found| found.balance[0] = 1e-11);
+    fails("a balance that does not close", &|found| {
+        found.balance[0] = 1e-11
+    });
     fails("an energy that grows", &|found| found.balance[1] = 1e-15);
     fails("a curve with a hole", &|found| found.tip[7].1 = f64::NAN);
     // Changes well below the tolerance give no complaint.
-    assert_eq!(verdict_with(&study, &sound, 0, |found| found.states[0].u_tip += 1e-12), Verdict::Pass);
+    assert_eq!(
+        verdict_with(&study, &sound, 0, |found| found.states[0].u_tip += 1e-12),
+        Verdict::Pass
+    );
     // This study cannot notice the same error in both runs, but empty results are a failure.
     let empty = changed::<ExactExperiments>(&sound, |_, found| found.states.clear());
     assert_eq!(study.judge(&empty).verdict, Verdict::Fail);
@@ -57,7 +70,10 @@ fn the_published_digits_are_those_of_the_prototype() {
     let study = study(|text| text);
     let outcome = convergence_study::run::run_one(&study);
     let value = |name: &str| {
-        let found = outcome.quantities.iter().find(|quantity| quantity.name == name);
+        let found = outcome
+            .quantities
+            .iter()
+            .find(|quantity| quantity.name == name);
         found.unwrap_or_else(|| panic!("no {name}")).value
     };
     assert!((value("paper-1-beta-0: u(1) at t = 1") - -0.011_764_243_810).abs() < 2e-11);
@@ -65,13 +81,19 @@ fn the_published_digits_are_those_of_the_prototype() {
 
 #[test]
 fn the_scenes_own_scheme_is_compared_where_asked_for() {
-    let study = study(|text| text.replace("agreement = 1e-10", "agreement = 1e-10\ncompare = true"));
+    let study =
+        study(|text| text.replace("agreement = 1e-10", "agreement = 1e-10\ncompare = true"));
     let cases = study.cases();
     assert!(cases.len() == 3 && cases[2].data.1.is_none());
     let mut sound: Vec<_> = convergence_study::study::run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
-    assert!(outcome.figures.iter().any(|figure| figure.file == "error.svg"));
+    assert!(
+        outcome
+            .figures
+            .iter()
+            .any(|figure| figure.file == "error.svg")
+    );
     sound[2].found = Err(CaseFailure::new("planted"));
     assert_eq!(study.judge(&sound).verdict, Verdict::Fail);
 }
@@ -79,21 +101,53 @@ fn the_scenes_own_scheme_is_compared_where_asked_for() {
 #[test]
 fn files_with_errors_are_refused_with_the_field() {
     for (from, to, message) in [
-        ("times = [1.0, 10.0]", "times = [10.0, 1.0]", "experiments.times"),
+        (
+            "times = [1.0, 10.0]",
+            "times = [10.0, 1.0]",
+            "experiments.times",
+        ),
         ("times = [1.0, 10.0]", "times = [1.0, 10.5]", "at most 10.0"),
-        ("times = [1.0, 10.0]", "times = [0.0, 1.0]", "experiments.times"),
-        ("agreement = 1e-10", "agreement = 0", "experiments.agreement"),
-        ("scenes/paper-1-beta-0.toml", "scenes/paper-9.toml", "paper-9.toml"),
-        ("elements = 2\ndegree = 20", "elements = 1\ndegree = 20", "discretisations"),
+        (
+            "times = [1.0, 10.0]",
+            "times = [0.0, 1.0]",
+            "experiments.times",
+        ),
+        (
+            "agreement = 1e-10",
+            "agreement = 0",
+            "experiments.agreement",
+        ),
+        (
+            "scenes/paper-1-beta-0.toml",
+            "scenes/paper-9.toml",
+            "paper-9.toml",
+        ),
+        (
+            "elements = 2\ndegree = 20",
+            "elements = 1\ndegree = 20",
+            "discretisations",
+        ),
         ("degree = 20", "degree = 28", "discretisations"),
         ("time_degree = 5", "time_degree = 4", "discretisations"),
         ("time_degree = 5", "time_degree = 6", "time_degree"),
         ("dt = 0.0035", "dt = 0.003", "discretisations"),
         ("degree = 28", "degree = 0", "degree"),
-        ("restart_dt = 1e-4", "restart_dt = 0.01", "at most dt = 0.003"),
+        (
+            "restart_dt = 1e-4",
+            "restart_dt = 0.01",
+            "at most dt = 0.003",
+        ),
         ("growth = 1.3\n", "growth = 0.9\n", "growth"),
-        ("times = [1.0, 10.0]", "times = [1.0, 9.99995]\ncompare = true", "whose dt is 0.0001"),
-        ("times = [1.0, 10.0]", "times = [1.0, 9.9999]\ncompare = true", "a multiple of 1000 steps"),
+        (
+            "times = [1.0, 10.0]",
+            "times = [1.0, 9.99995]\ncompare = true",
+            "whose dt is 0.0001",
+        ),
+        (
+            "times = [1.0, 10.0]",
+            "times = [1.0, 9.9999]\ncompare = true",
+            "a multiple of 1000 steps",
+        ),
         ("[experiments]", "[experiment]", "experiment"),
     ] {
         let error = refusal(&ROW, "experiments-exact.toml", from, to);

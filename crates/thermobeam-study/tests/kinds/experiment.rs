@@ -38,7 +38,11 @@ fn far(nearest: &mut Option<Nearest>, distance: f64) {
 fn each_claim_of_section_5_can_fail() {
     let study = study("section-5.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let (straight, resting, bent) = ("paper-1-beta-0", "paper-2-beta-minus-0.5", "paper-3-beta-minus-0.8");
+    let (straight, resting, bent) = (
+        "paper-1-beta-0",
+        "paper-2-beta-minus-0.5",
+        "paper-3-beta-minus-0.8",
+    );
     for (number, (label, plant)) in [
         (straight, run(|run| run.energy = 1e-5)),
         (straight, run(|run| run.largest_field = 0.01)),
@@ -52,8 +56,14 @@ fn each_claim_of_section_5_can_fail() {
         (straight, run(|run| run.frequency = None)),
         (straight, run(|run| run.phi_amplitude = 0.5)),
         (resting, run(|run| run.contact_force = 0.0)),
-        (resting, run(|run| state(&mut run.end.nearest).contact = Phase::Free)),
-        (resting, run(|run| state(&mut run.end.nearest).stable = false)),
+        (
+            resting,
+            run(|run| state(&mut run.end.nearest).contact = Phase::Free),
+        ),
+        (
+            resting,
+            run(|run| state(&mut run.end.nearest).stable = false),
+        ),
         (resting, run(|run| far(&mut run.end.nearest, 0.01))),
         (resting, run(|run| run.end.nearest = None)),
         ("paper-2-beta-5", run(|run| run.contact_force = 1e-3)),
@@ -65,7 +75,10 @@ fn each_claim_of_section_5_can_fail() {
         ("to rest, beta = -0.72", rest(|rest| rest.states = 1)),
         ("to rest, beta = -0.72", rest(|rest| rest.stable = 1)),
         ("to rest, beta = -0.72", rest(|rest| rest.tip[0] = 0.0)),
-        ("to rest, beta = -0.72", rest(|rest| state(&mut rest.nearest).stable = false)),
+        (
+            "to rest, beta = -0.72",
+            rest(|rest| state(&mut rest.nearest).stable = false),
+        ),
         ("to rest, beta = -0.72", rest(|rest| rest.nearest = None)),
         // No number may be NaN, whether or not a claim depends on it.
         (resting, run(|run| run.end.t = f64::NAN)),
@@ -82,21 +95,38 @@ fn each_claim_of_section_5_can_fail() {
         (resting, run(|run| run.largest_increase = f64::NAN)),
         ("to rest, beta = 0", rest(|rest| rest.tip[0] = f64::NAN)),
         ("to rest, beta = 0", rest(|rest| rest.t = f64::NAN)),
-        ("to rest, beta = 0", rest(|rest| far(&mut rest.nearest, f64::NAN))),
+        (
+            "to rest, beta = 0",
+            rest(|rest| far(&mut rest.nearest, f64::NAN)),
+        ),
     ]
     .into_iter()
     .enumerate()
     {
-        let case = sound.iter().position(|ran| ran.case.label == label).unwrap_or_else(|| panic!("no case {label}"));
-        assert_eq!(verdict_with(&study, &sound, case, plant), Verdict::Fail, "defect {number}, in {label}");
+        let case = sound
+            .iter()
+            .position(|ran| ran.case.label == label)
+            .unwrap_or_else(|| panic!("no case {label}"));
+        assert_eq!(
+            verdict_with(&study, &sound, case, plant),
+            Verdict::Fail,
+            "defect {number}, in {label}"
+        );
     }
 }
 
 #[test]
 fn the_full_study_has_the_cases_of_the_quick_one() {
-    let (full, quick) = (study("section-5-full.toml").cases(), study("section-5.toml").cases());
+    let (full, quick) = (
+        study("section-5-full.toml").cases(),
+        study("section-5.toml").cases(),
+    );
     assert_eq!(full.len(), quick.len());
-    assert!(full.iter().zip(&quick).all(|(full, quick)| full.label == quick.label));
+    assert!(
+        full.iter()
+            .zip(&quick)
+            .all(|(full, quick)| full.label == quick.label)
+    );
     assert!(full[0].cost > 10.0 * quick[0].cost);
 }
 
@@ -105,7 +135,11 @@ fn files_with_errors_are_refused() {
     for (from, to, message) in [
         ("rate = 1e-8", "rate = -1", "run.rate"),
         ("\"upper\", \"free\"", "\"upper\"", "experiments.rests"),
-        ("paper-1-beta-5", "paper-1-beta-minus-0.5", "experiments.first"),
+        (
+            "paper-1-beta-5",
+            "paper-1-beta-minus-0.5",
+            "experiments.first",
+        ),
         ("window", "windows", "run.windows"),
         ("[-1.0, -0.9", "[-0.9, -1.0", "steady.beta"),
     ] {
@@ -125,15 +159,48 @@ fn the_headline_counts_statements_by_whose_they_are() {
         outcome.headline,
         format!("the paper's 12 statements: 11 hold as printed, {refuted}; 1 of 1 of ours hold")
     );
-    let origins = |origin: Origin| outcome.checks.iter().filter(|check| check.origin == origin).count();
-    assert_eq!([Origin::Completion, Origin::Source, Origin::Correction, Origin::Own].map(origins), [1, 11, 1, 1]);
-    let counts: Vec<&str> = outcome.tables[1].rows.iter().map(|row| row[1].as_str()).collect();
-    assert_eq!((counts[0], counts[counts.len() - 1]), ("at least 33", "1"), "{counts:?}");
-    let bent = sound.iter().position(|ran| ran.case.label.contains("paper-3")).expect("the third experiment");
+    let origins = |origin: Origin| {
+        outcome
+            .checks
+            .iter()
+            .filter(|check| check.origin == origin)
+            .count()
+    };
+    assert_eq!(
+        [
+            Origin::Completion,
+            Origin::Source,
+            Origin::Correction,
+            Origin::Own
+        ]
+        .map(origins),
+        [1, 11, 1, 1]
+    );
+    let counts: Vec<&str> = outcome.tables[1]
+        .rows
+        .iter()
+        .map(|row| row[1].as_str())
+        .collect();
+    assert_eq!(
+        (counts[0], counts[counts.len() - 1]),
+        ("at least 33", "1"),
+        "{counts:?}"
+    );
+    let bent = sound
+        .iter()
+        .position(|ran| ran.case.label.contains("paper-3"))
+        .expect("the third experiment");
     let broken = changed::<Experiments>(&sound, |index, found| {
         if index == bent {
             run(|run| run.end.tip[0] = 0.0)(found);
         }
     });
-    assert!(study.judge(&broken).headline.starts_with("the paper's 12 statements: 10 hold"), "{}", outcome.headline);
+    assert!(
+        study
+            .judge(&broken)
+            .headline
+            .starts_with("the paper's 12 statements: 10 hold"),
+        "{}",
+        outcome.headline
+    );
 }

@@ -28,7 +28,9 @@ use std::path::{Path, PathBuf};
 
 /// A file of the repository's `studies/`.
 fn file(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../studies")
+        .join(name)
 }
 
 fn text(name: &str) -> String {

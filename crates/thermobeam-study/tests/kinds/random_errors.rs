@@ -9,7 +9,9 @@ use super::typed::{changed, passes_but_not_without_each_case};
 
 /// Two scenes of the file and a rough one; for one of them linear elements are compared too.
 fn study() -> RandomErrors {
-    let small = text("random-errors.toml").replace("scenes = 10", "scenes = 2").replace("rough = 3", "rough = 1");
+    let small = text("random-errors.toml")
+        .replace("scenes = 10", "scenes = 2")
+        .replace("rough = 3", "rough = 1");
     RandomErrors::parse(&small, "small.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -28,32 +30,74 @@ fn a_part_of_the_file_passes_and_each_check_can_fail() {
     };
     assert_eq!(verdict(&|_| ()), Verdict::Pass);
     for wrong in [1.31, f64::NAN] {
-        assert_eq!(verdict(&|found| found.over_estimate = wrong), Verdict::Fail, "{wrong}");
-        assert_eq!(verdict(&|found| found.over_target = wrong), Verdict::Fail, "{wrong}");
-        assert_eq!(verdict(&|found| found.over_norm_target = wrong), Verdict::Fail, "{wrong}");
-        assert_eq!(verdict(&|found| found.linear = Some([1e-3 * wrong, 1e-3])), Verdict::Fail, "{wrong}");
+        assert_eq!(
+            verdict(&|found| found.over_estimate = wrong),
+            Verdict::Fail,
+            "{wrong}"
+        );
+        assert_eq!(
+            verdict(&|found| found.over_target = wrong),
+            Verdict::Fail,
+            "{wrong}"
+        );
+        assert_eq!(
+            verdict(&|found| found.over_norm_target = wrong),
+            Verdict::Fail,
+            "{wrong}"
+        );
+        assert_eq!(
+            verdict(&|found| found.linear = Some([1e-3 * wrong, 1e-3])),
+            Verdict::Fail,
+            "{wrong}"
+        );
     }
     for may_be_refused in [false, true] {
         let refuse = |reason: &str| {
             let refused = vec![reason.to_owned()];
-            verdict(&|found| (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused))
+            verdict(&|found| {
+                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused)
+            })
         };
         assert_eq!(refuse("given up"), Verdict::Fail);
-        let expected = if may_be_refused { Verdict::Pass } else { Verdict::Fail };
+        let expected = if may_be_refused {
+            Verdict::Pass
+        } else {
+            Verdict::Fail
+        };
         assert_eq!(refuse("meshes do not resolve u"), expected);
     }
-    assert_eq!(verdict(&|found| found.linear = None), Verdict::Fail, "no linear elements at all");
+    assert_eq!(
+        verdict(&|found| found.linear = None),
+        Verdict::Fail,
+        "no linear elements at all"
+    );
 }
 
 #[test]
 fn unusable_files_are_refused() {
     for (from, to, field) in [
         ("scenes = 10", "scenes = 0", "random-errors.scenes"),
-        ("\ntargets = [1e-4, 1e-6]", "\ntargets = [0.0]", "random-errors.targets"),
-        ("\ntargets = [1e-4, 1e-6]", "\ntargets = []", "random-errors.targets"),
-        ("norm_targets = [1e-2, 1e-3]\n", "", "random-errors.norm_targets"),
+        (
+            "\ntargets = [1e-4, 1e-6]",
+            "\ntargets = [0.0]",
+            "random-errors.targets",
+        ),
+        (
+            "\ntargets = [1e-4, 1e-6]",
+            "\ntargets = []",
+            "random-errors.targets",
+        ),
+        (
+            "norm_targets = [1e-2, 1e-3]\n",
+            "",
+            "random-errors.norm_targets",
+        ),
         ("rough = 3", "rough = -3", "random-errors.rough"),
-        ("seed = 1", "seed = 1\n[[case]]\nname = \"one\"\nends = 3\n", "ends"),
+        (
+            "seed = 1",
+            "seed = 1\n[[case]]\nname = \"one\"\nends = 3\n",
+            "ends",
+        ),
         ("seed = 1", "seed = -1", "random-errors.seed"),
         ("refined = 5\n", "", "random-errors.refined"),
         ("seed = 1", "seed = 1\nsize = 2", "size"),

@@ -9,20 +9,34 @@ use thermobeam_study::kinds::rigid::{RigidStudy, RunOf, ShownImpact};
 
 #[test]
 fn every_claim_about_rigid_obstacles_can_fail() {
-    let study = RigidStudy::read(file("rigid-obstacles.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        RigidStudy::read(file("rigid-obstacles.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
     let position = |run: RunOf, nth: usize| {
-        let of_run = sound.iter().enumerate().filter(|(_, ran)| ran.case.data.1 == run);
+        let of_run = sound
+            .iter()
+            .enumerate()
+            .filter(|(_, ran)| ran.case.data.1 == run);
         of_run.map(|(index, _)| index).nth(nth).expect("a case")
     };
-    let stiffest = sound.iter().filter(|ran| ran.case.data.1 == RunOf::Impact).count() - 1;
+    let stiffest = sound
+        .iter()
+        .filter(|ran| ran.case.data.1 == RunOf::Impact)
+        .count()
+        - 1;
     let with = |run: RunOf, nth: usize, change: &dyn Fn(&mut ShownImpact)| {
         verdict_with(&study, &sound, position(run, nth), |found| change(found))
     };
     assert_eq!(with(RunOf::Impact, 0, &|_| ()), Verdict::Pass);
     for wrong in [f64::NAN, 0.0, 2.0] {
-        for (run, nth) in [(RunOf::Bouncing, stiffest), (RunOf::Rest, stiffest), (RunOf::Impact, stiffest)] {
-            let verdict = with(run, nth, &|found| *found.penetration.as_mut().expect("a penetration") *= wrong);
+        for (run, nth) in [
+            (RunOf::Bouncing, stiffest),
+            (RunOf::Rest, stiffest),
+            (RunOf::Impact, stiffest),
+        ] {
+            let verdict = with(run, nth, &|found| {
+                *found.penetration.as_mut().expect("a penetration") *= wrong
+            });
             assert_ne!(verdict, Verdict::Pass, "{run:?} times {wrong}");
         }
     }
@@ -36,14 +50,24 @@ fn every_claim_about_rigid_obstacles_can_fail() {
     assert_eq!(force, Verdict::Fail);
     for nth in [0, stiffest] {
         let verdict = with(RunOf::Bouncing, nth, &|found| {
-            (found.mean_iterations, found.most_iterations) = (Some(if nth == 0 { 0.1 } else { 9.0 }), 99);
+            (found.mean_iterations, found.most_iterations) =
+                (Some(if nth == 0 { 0.1 } else { 9.0 }), 99);
         });
         assert_eq!(verdict, Verdict::Fail, "Newton's iterations of case {nth}");
     }
     let again = verdict_with(&study, &sound, position(RunOf::Impact, 6), |found| {
-        assert_eq!(*found, study.run(&sound[position(RunOf::Impact, 6)].case.data).expect("a result"));
+        assert_eq!(
+            *found,
+            study
+                .run(&sound[position(RunOf::Impact, 6)].case.data)
+                .expect("a result")
+        );
     });
-    assert_eq!(again, Verdict::Pass, "a case gives the same result every time");
+    assert_eq!(
+        again,
+        Verdict::Pass,
+        "a case gives the same result every time"
+    );
     let tip = with(RunOf::RigidLimit, 0, &|found| {
         found.tip.truncate(3);
     });
@@ -55,13 +79,22 @@ fn every_claim_about_rigid_obstacles_can_fail() {
         });
         assert_eq!(verdict, Verdict::Fail, "fixed point {nth}: {failed_at:?}");
     }
-    let judged = sound
-        .iter()
-        .position(|ran| ran.ok().is_some_and(|found| found.alpha.is_some_and(|alpha| (0.01..0.8).contains(&alpha))));
+    let judged = sound.iter().position(|ran| {
+        ran.ok().is_some_and(|found| {
+            found
+                .alpha
+                .is_some_and(|alpha| (0.01..0.8).contains(&alpha))
+        })
+    });
     for contraction in [None, Some(f64::NAN), Some(0.9)] {
-        let verdict = verdict_with(&study, &sound, judged.expect("a factor that is judged"), |found| {
-            found.contraction = contraction;
-        });
+        let verdict = verdict_with(
+            &study,
+            &sound,
+            judged.expect("a factor that is judged"),
+            |found| {
+                found.contraction = contraction;
+            },
+        );
         assert_eq!(verdict, Verdict::Fail, "{contraction:?}");
     }
 }

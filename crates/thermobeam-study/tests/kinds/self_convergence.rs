@@ -28,7 +28,11 @@ fn quick_files_pass_but_not_without_each_case() {
                     found.levels.pop();
                 }
             });
-            assert_eq!(study.judge(&short).verdict, Verdict::Fail, "{name}: a sample of case {case} is missing");
+            assert_eq!(
+                study.judge(&short).verdict,
+                Verdict::Fail,
+                "{name}: a sample of case {case} is missing"
+            );
         }
         for kept in [1, 2] {
             assert_eq!(
@@ -42,9 +46,20 @@ fn quick_files_pass_but_not_without_each_case() {
 
 #[test]
 fn every_file_can_be_read() {
-    for name in ["reference-midpoint", "reference-1-space", "reference-1-time", "reference-2-space", "reference-3-time"]
-    {
-        assert_eq!(Described::<SelfConvergence>::read(file(&format!("{name}.toml"))).expect(name).header.id, name);
+    for name in [
+        "reference-midpoint",
+        "reference-1-space",
+        "reference-1-time",
+        "reference-2-space",
+        "reference-3-time",
+    ] {
+        assert_eq!(
+            Described::<SelfConvergence>::read(file(&format!("{name}.toml")))
+                .expect(name)
+                .header
+                .id,
+            name
+        );
     }
 }
 
@@ -54,10 +69,18 @@ type Number = fn(&mut Traced) -> &mut f64;
 fn each_quantity_can_fail() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
-    let h = |case: usize| if case >= 5 { 0.0 } else { 0.1 * 0.5f64.powi(case as i32) };
+    let h = |case: usize| {
+        if case >= 5 {
+            0.0
+        } else {
+            0.1 * 0.5f64.powi(case as i32)
+        }
+    };
     let numbers: [(&str, Number); 3] = [
         ("tip", |found| found.levels[2].u.last_mut().expect("a node")),
-        ("rotation", |found| found.levels[9].phi.last_mut().expect("a node")),
+        ("rotation", |found| {
+            found.levels[9].phi.last_mut().expect("a node")
+        }),
         ("energy", |found| &mut found.energies[0]),
     ];
     for (name, number) in numbers {
@@ -69,9 +92,21 @@ fn each_quantity_can_fail() {
             study.judge(&planted).verdict
         };
         assert_eq!(verdict(&|_, value| value), Verdict::Pass);
-        assert_eq!(verdict(&|case, value| if case == 1 { f64::NAN } else { value }), Verdict::Fail, "{name}");
-        assert_eq!(verdict(&|case, value| value + 100.0 * h(case)), Verdict::Fail, "{name}: first order");
-        assert_ne!(verdict(&|case, value| value + if case == 4 { 0.1 } else { 0.0 }), Verdict::Pass, "{name}");
+        assert_eq!(
+            verdict(&|case, value| if case == 1 { f64::NAN } else { value }),
+            Verdict::Fail,
+            "{name}"
+        );
+        assert_eq!(
+            verdict(&|case, value| value + 100.0 * h(case)),
+            Verdict::Fail,
+            "{name}: first order"
+        );
+        assert_ne!(
+            verdict(&|case, value| value + if case == 4 { 0.1 } else { 0.0 }),
+            Verdict::Pass,
+            "{name}"
+        );
     }
 }
 
@@ -91,7 +126,11 @@ fn the_functions_themselves_can_fail() {
             let mut planted = sound.clone();
             let found = planted[4].found.as_mut().expect("a result");
             field(&mut found.levels[sample])[7] += defect;
-            assert_ne!(study.judge(&planted).verdict, Verdict::Pass, "{name} {defect}");
+            assert_ne!(
+                study.judge(&planted).verdict,
+                Verdict::Pass,
+                "{name} {defect}"
+            );
         }
     }
 }
@@ -127,31 +166,58 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
             // In the theorem's norm the interpolation error, of first order in h, hides such a small defect.
             let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
             let expected = hidden || quantity.ends_with("successive");
-            assert_eq!(rate.verdict == Verdict::Pass, expected, "{name}: {quantity}: {}", rate.reason);
+            assert_eq!(
+                rate.verdict == Verdict::Pass,
+                expected,
+                "{name}: {quantity}: {}",
+                rate.reason
+            );
         }
     }
 }
 
 #[test]
 fn a_reference_that_is_not_resolved_is_seen_by_the_other() {
-    let coarse = parse("reference-space.toml", |text| text.replace("degree = 24", "degree = 12"));
+    let coarse = parse("reference-space.toml", |text| {
+        text.replace("degree = 24", "degree = 12")
+    });
     let outcome = run_one(&coarse);
-    let check = outcome.checks.iter().find(|check| check.claim.contains("the same reference")).expect("the check");
-    assert_eq!((check.verdict, outcome.verdict), (Verdict::Fail, Verdict::Fail), "{}", report(&outcome));
+    let check = outcome
+        .checks
+        .iter()
+        .find(|check| check.claim.contains("the same reference"))
+        .expect("the check");
+    assert_eq!(
+        (check.verdict, outcome.verdict),
+        (Verdict::Fail, Verdict::Fail),
+        "{}",
+        report(&outcome)
+    );
 }
 
 #[test]
 fn an_order_that_the_scheme_has_not_fails() {
-    let outcome = run_one(&parse("reference-time.toml", |text| text.replace("order = 1.0", "order = 2.0")));
+    let outcome = run_one(&parse("reference-time.toml", |text| {
+        text.replace("order = 1.0", "order = 2.0")
+    }));
     assert_eq!(outcome.verdict, Verdict::Fail);
-    assert!(outcome.rates.iter().all(|(_, rate)| rate.verdict == Verdict::Fail), "{}", report(&outcome));
+    assert!(
+        outcome
+            .rates
+            .iter()
+            .all(|(_, rate)| rate.verdict == Verdict::Fail),
+        "{}",
+        report(&outcome)
+    );
 }
 
 #[test]
 fn what_is_shown_but_not_claimed_decides_nothing() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
-    let planted = changed::<SelfConvergence>(&sound, |case, found| found.tip_range[1] += 0.1 * case as f64);
+    let planted = changed::<SelfConvergence>(&sound, |case, found| {
+        found.tip_range[1] += 0.1 * case as f64
+    });
     assert_eq!(study.judge(&planted).verdict, Verdict::Pass);
 }
 
@@ -159,37 +225,83 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
 fn the_legend_says_of_which_differences_nothing_is_claimed() {
     let outcome = run_one(&parse("reference-space.toml", |text| text));
     let svg = &outcome.figures[0].svg;
-    assert!(svg.contains("tip-max, reference (not claimed), order 2, "), "{}", outcome.figures[0].file);
+    assert!(
+        svg.contains("tip-max, reference (not claimed), order 2, "),
+        "{}",
+        outcome.figures[0].file
+    );
     assert!(svg.contains("tip, reference, order 2, "));
-    assert_eq!(outcome.rates.iter().filter(|(name, _)| name.contains("not claimed")).count(), 0);
-    assert!(outcome.levels[0].errors.iter().any(|(name, _)| name == "tip-max, reference"));
+    assert_eq!(
+        outcome
+            .rates
+            .iter()
+            .filter(|(name, _)| name.contains("not claimed"))
+            .count(),
+        0
+    );
+    assert!(
+        outcome.levels[0]
+            .errors
+            .iter()
+            .any(|(name, _)| name == "tip-max, reference")
+    );
 }
 
 #[test]
 fn a_file_that_makes_no_sense_is_refused() {
     for (from, to, message) in [
         ("[8, 16,", "[8, 20,", "a multiple of 8, the level before"),
-        ("[8, 16, 32, 64, 128]", "[8, 16, 32, 64]", "as many as elements"),
+        (
+            "[8, 16, 32, 64, 128]",
+            "[8, 16, 32, 64]",
+            "as many as elements",
+        ),
         ("[200, 800,", "[400, 800,", "or by its square"),
-        ("degree = 18", "degree = 24", "two tables [[reference]] that differ in elements"),
+        (
+            "degree = 18",
+            "degree = 24",
+            "two tables [[reference]] that differ in elements",
+        ),
         ("growth = 1.5", "growth = 0.5", "growth"),
         ("degree = 18", "degree = 24", "two with the same degree"),
-        ("\ndt = 0.006", "\ndt = 1e-20", "reference[1].dt: found 1e-20, which is"),
-        ("\nelements = 2\n", "\nelements = 8000000\n", "reference[1].elements: found 8000000, which would take"),
+        (
+            "\ndt = 0.006",
+            "\ndt = 1e-20",
+            "reference[1].dt: found 1e-20, which is",
+        ),
+        (
+            "\nelements = 2\n",
+            "\nelements = 8000000\n",
+            "reference[1].elements: found 8000000, which would take",
+        ),
         ("samples = 10", "samples = 7", "a multiple of samples = 7"),
-        ("paper-1-beta-0", "paper-1-beta-00", "scene.file: found the text"),
-        ("quantity = \"tip\"", "quantity = \"tips\"", "did you mean \"tip\"?"),
+        (
+            "paper-1-beta-0",
+            "paper-1-beta-00",
+            "scene.file: found the text",
+        ),
+        (
+            "quantity = \"tip\"",
+            "quantity = \"tips\"",
+            "did you mean \"tip\"?",
+        ),
         ("axis = \"both\"", "axis = \"space\"", "refine.axis"),
         (
             "axis = \"both\"\nelements = [8, 16, 32, 64, 128]",
             "axis = \"time\"\nelements = 32",
             "of 32 elements of degree 1",
         ),
-        ("quantity = \"rotation\"", "quantity = \"tip\"", "found \"tip\" a second time"),
+        (
+            "quantity = \"rotation\"",
+            "quantity = \"tip\"",
+            "found \"tip\" a second time",
+        ),
     ] {
         let name = file("reference-space.toml");
         let changed = text("reference-space.toml").replace(from, to);
-        let error = SelfConvergence::parse(&changed, &name).expect_err(to).to_string();
+        let error = SelfConvergence::parse(&changed, &name)
+            .expect_err(to)
+            .to_string();
         assert!(error.contains(message), "{error}");
     }
 }

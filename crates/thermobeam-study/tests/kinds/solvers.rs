@@ -6,7 +6,9 @@ use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::solvers::{Agreement, Boundary, Contraction, FixedPointStep, Found, Point, Solvers};
+use thermobeam_study::kinds::solvers::{
+    Agreement, Boundary, Contraction, FixedPointStep, Found, Point, Solvers,
+};
 
 fn map() -> Solvers {
     Solvers::read(file("stability-coarse.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -17,19 +19,35 @@ fn fixed_point() -> Solvers {
 }
 
 fn row(found: &mut Found) -> &mut Vec<Point> {
-    if let Found::Row(row) = found { row } else { panic!("no row: {found:?}") }
+    if let Found::Row(row) = found {
+        row
+    } else {
+        panic!("no row: {found:?}")
+    }
 }
 
 fn boundary(found: &mut Found) -> &mut Boundary {
-    if let Found::Boundary(line) = found { line } else { panic!("no boundary: {found:?}") }
+    if let Found::Boundary(line) = found {
+        line
+    } else {
+        panic!("no boundary: {found:?}")
+    }
 }
 
 fn contraction(found: &mut Found) -> &mut Contraction {
-    if let Found::Contraction(contraction) = found { contraction } else { panic!("no contraction: {found:?}") }
+    if let Found::Contraction(contraction) = found {
+        contraction
+    } else {
+        panic!("no contraction: {found:?}")
+    }
 }
 
 fn agreement(found: &mut Found) -> &mut Agreement {
-    if let Found::Comparison(agreement) = found { agreement } else { panic!("no comparison: {found:?}") }
+    if let Found::Comparison(agreement) = found {
+        agreement
+    } else {
+        panic!("no comparison: {found:?}")
+    }
 }
 
 #[test]
@@ -37,32 +55,95 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     let study = map();
     let sound = passes_but_not_without_each_case(&study);
     // The first row is the stiffest; its shortest step converges, its longest does not.
-    let with_point =
-        |at: usize, change: &dyn Fn(&mut Point)| verdict_with(&study, &sound, 0, |found| change(&mut row(found)[at]));
-    let with_all =
-        |change: &dyn Fn(&mut Point)| verdict_with(&study, &sound, 0, |found| row(found).iter_mut().for_each(change));
+    let with_point = |at: usize, change: &dyn Fn(&mut Point)| {
+        verdict_with(&study, &sound, 0, |found| change(&mut row(found)[at]))
+    };
+    let with_all = |change: &dyn Fn(&mut Point)| {
+        verdict_with(&study, &sound, 0, |found| {
+            row(found).iter_mut().for_each(change)
+        })
+    };
     let last_point = 11;
     assert_eq!(with_all(&|_| ()), Verdict::Pass);
-    assert_eq!(with_point(0, &|point| point.step.converged = false), Verdict::Fail);
-    assert_eq!(with_point(last_point, &|point| point.step.converged = true), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.step.alpha = f64::NAN), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.step.gamma = f64::NAN), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.step.contraction = Some(f64::NAN)), Verdict::Fail);
-    assert_eq!(with_point(0, &|point| point.newton_completes = false), Verdict::Fail);
+    assert_eq!(
+        with_point(0, &|point| point.step.converged = false),
+        Verdict::Fail
+    );
+    assert_eq!(
+        with_point(last_point, &|point| point.step.converged = true),
+        Verdict::Fail
+    );
+    assert_eq!(
+        with_point(0, &|point| point.step.alpha = f64::NAN),
+        Verdict::Fail
+    );
+    assert_eq!(
+        with_point(0, &|point| point.step.gamma = f64::NAN),
+        Verdict::Fail
+    );
+    assert_eq!(
+        with_point(0, &|point| point.step.contraction = Some(f64::NAN)),
+        Verdict::Fail
+    );
+    assert_eq!(
+        with_point(0, &|point| point.newton_completes = false),
+        Verdict::Fail
+    );
     assert_eq!(with_all(&|point| point.newton = None), Verdict::Fail);
-    assert_eq!(verdict_with(&study, &sound, 0, |found| row(found).truncate(5)), Verdict::Fail);
+    assert_eq!(
+        verdict_with(&study, &sound, 0, |found| row(found).truncate(5)),
+        Verdict::Fail
+    );
     for wrong in [31, usize::MAX] {
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").iterations = wrong), Verdict::Fail);
+        assert_eq!(
+            with_point(3, &|point| point
+                .newton
+                .as_mut()
+                .expect("steps")
+                .iterations = wrong),
+            Verdict::Fail
+        );
     }
     for wrong in [0.0, -1.0, f64::NAN] {
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").contact_force = wrong), Verdict::Fail);
+        assert_eq!(
+            with_point(3, &|point| point
+                .newton
+                .as_mut()
+                .expect("steps")
+                .contact_force = wrong),
+            Verdict::Fail
+        );
     }
     for wrong in [1.1, f64::NAN] {
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").worst.open = wrong), Verdict::Fail);
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").worst.risen = wrong), Verdict::Fail);
+        assert_eq!(
+            with_point(3, &|point| point
+                .newton
+                .as_mut()
+                .expect("steps")
+                .worst
+                .open = wrong),
+            Verdict::Fail
+        );
+        assert_eq!(
+            with_point(3, &|point| point
+                .newton
+                .as_mut()
+                .expect("steps")
+                .worst
+                .risen = wrong),
+            Verdict::Fail
+        );
     }
     for wrong in [f64::INFINITY, f64::NAN] {
-        assert_eq!(with_point(3, &|point| point.newton.as_mut().expect("steps").worst.residual = wrong), Verdict::Fail);
+        assert_eq!(
+            with_point(3, &|point| point
+                .newton
+                .as_mut()
+                .expect("steps")
+                .worst
+                .residual = wrong),
+            Verdict::Fail
+        );
     }
     lines_fail(&study, &sound, 12);
 }
@@ -70,14 +151,21 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
 /// Each boundary must be at α = 1; the results from `first` onwards are lines.
 fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
     for index in first..sound.len() {
-        let with = |change: &dyn Fn(&mut Boundary)| verdict_with(study, sound, index, |found| change(boundary(found)));
-        let with_crossing =
-            |change: &dyn Fn(&mut FixedPointStep)| with(&|line| change(line.found.as_mut().expect("found")));
+        let with = |change: &dyn Fn(&mut Boundary)| {
+            verdict_with(study, sound, index, |found| change(boundary(found)))
+        };
+        let with_crossing = |change: &dyn Fn(&mut FixedPointStep)| {
+            with(&|line| change(line.found.as_mut().expect("found")))
+        };
         assert_eq!(with(&|line| line.found = None), Verdict::Fail);
         assert_eq!(with(&|line| line.predicted = None), Verdict::Fail);
         assert_eq!(with(&|line| line.predicted = Some(f64::NAN)), Verdict::Fail);
         for alpha in [1.03, 0.97, f64::NAN] {
-            assert_eq!(with_crossing(&|at| at.alpha = alpha), Verdict::Fail, "{alpha}");
+            assert_eq!(
+                with_crossing(&|at| at.alpha = alpha),
+                Verdict::Fail,
+                "{alpha}"
+            );
         }
         assert_eq!(with_crossing(&|at| at.gamma = f64::INFINITY), Verdict::Fail);
     }
@@ -94,25 +182,49 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
         if let Found::Comparison(_) = found {
             compared += 1;
             for wrong in [1e-4, f64::NAN] {
-                let verdict = verdict_with(&study, &sound, index, |found| agreement(found).distance = wrong);
+                let verdict = verdict_with(&study, &sound, index, |found| {
+                    agreement(found).distance = wrong
+                });
                 assert_eq!(verdict, Verdict::Fail, "case {index}, distance {wrong}");
             }
             continue;
         }
-        let Contraction { iterations, measured, radius, .. } = *contraction(found);
-        let with =
-            |change: &dyn Fn(&mut Contraction)| verdict_with(&study, &sound, index, |found| change(contraction(found)));
+        let Contraction {
+            iterations,
+            measured,
+            radius,
+            ..
+        } = *contraction(found);
+        let with = |change: &dyn Fn(&mut Contraction)| {
+            verdict_with(&study, &sound, index, |found| change(contraction(found)))
+        };
         assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
         assert_eq!(with(&|found| found.gamma = f64::NAN), Verdict::Fail);
         for wrong in [1.1e-3, f64::NAN] {
-            assert_eq!(with(&|found| found.deviation = wrong), Verdict::Fail, "case {index}, {wrong}");
+            assert_eq!(
+                with(&|found| found.deviation = wrong),
+                Verdict::Fail,
+                "case {index}, {wrong}"
+            );
         }
         // With fewer iterations other eigenvalues still take part.
-        let expected = if iterations >= 5 { Verdict::Fail } else { Verdict::Pass };
+        let expected = if iterations >= 5 {
+            Verdict::Fail
+        } else {
+            Verdict::Pass
+        };
         settled += usize::from(iterations >= 5);
         for wrong in [1.02, 0.98] {
-            assert_eq!(with(&|found| found.measured = wrong * measured), expected, "case {index}, {wrong}");
-            assert_eq!(with(&|found| found.radius = wrong * radius), expected, "case {index}, {wrong}");
+            assert_eq!(
+                with(&|found| found.measured = wrong * measured),
+                expected,
+                "case {index}, {wrong}"
+            );
+            assert_eq!(
+                with(&|found| found.radius = wrong * radius),
+                expected,
+                "case {index}, {wrong}"
+            );
         }
         assert_eq!(with(&|found| found.measured = f64::NAN), Verdict::Fail);
         assert_eq!(with(&|found| found.radius = f64::NAN), Verdict::Fail);
@@ -126,28 +238,50 @@ fn the_comparison_of_solvers_meets_an_obstacle_and_speaks_of_shade_only_then() {
         let mut figures = run_one(study).figures;
         figures.retain(|figure| figure.file.ends_with("-iterations.svg"));
         let figure = figures.pop().expect("a figure of iterations");
-        (figure.caption.contains("shaded"), figure.svg.contains("in contact"))
+        (
+            figure.caption.contains("shaded"),
+            figure.svg.contains("in contact"),
+        )
     };
     assert_eq!(caption(&fixed_point()), (true, true));
     let early = text("fixed-point.toml").replace("steps = 3000", "steps = 100");
-    assert_eq!(caption(&Solvers::parse(&early, &file("fixed-point.toml")).expect("a study")), (false, false));
+    assert_eq!(
+        caption(&Solvers::parse(&early, &file("fixed-point.toml")).expect("a study")),
+        (false, false)
+    );
 }
 
 #[test]
 fn a_study_may_have_several_parts() {
-    let parts = text("stability-coarse.toml").replace("points = 12", "points = 3").replace("[1e-6, 1e-3]", "[1e-3]")
+    let parts = text("stability-coarse.toml")
+        .replace("points = 12", "points = 3")
+        .replace("[1e-6, 1e-3]", "[1e-3]")
         + "\n[contraction]\nelements = 20\ndt = [1e-3]\nepsilon = [1e-3]\nzeta = [0.1]\n";
-    let study = Solvers::parse(&parts, "both.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        Solvers::parse(&parts, "both.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
     let outcome = run_one(&study);
-    assert_eq!((study.cases().len(), outcome.tables.len(), outcome.figures.len()), (5, 2, 5));
-    assert!(outcome.summary.contains("to 0.0 % at 1; 9 points"), "{}", outcome.summary);
+    assert_eq!(
+        (
+            study.cases().len(),
+            outcome.tables.len(),
+            outcome.figures.len()
+        ),
+        (5, 2, 5)
+    );
+    assert!(
+        outcome.summary.contains("to 0.0 % at 1; 9 points"),
+        "{}",
+        outcome.summary
+    );
 }
 
 #[test]
 fn a_file_that_makes_no_sense_is_refused() {
     let refused = |name: &str, from: &str, to: &str, message: &str| {
         let changed = text(name).replace(from, to);
-        let error = Solvers::parse(&changed, &file(name)).expect_err(to).to_string();
+        let error = Solvers::parse(&changed, &file(name))
+            .expect_err(to)
+            .to_string();
         assert!(error.contains(message), "{error}");
     };
     for (from, to, message) in [
@@ -162,14 +296,24 @@ fn a_file_that_makes_no_sense_is_refused() {
         refused("stability-coarse.toml", from, to, message);
     }
     for (from, to, message) in [
-        ("zeta = [0.01, 0.1, 1.0]", "zeta = [0.0]", "contraction.zeta[0]"),
+        (
+            "zeta = [0.01, 0.1, 1.0]",
+            "zeta = [0.0]",
+            "contraction.zeta[0]",
+        ),
         ("zeta = [0.01, 0.1, 1.0]", "zeta = []", "contraction.zeta"),
         ("steps = 3000", "steps = 0", "comparison.steps"),
-        ("paper-1-beta-0.toml", "paper-1-beta-00.toml", "comparison.scene"),
+        (
+            "paper-1-beta-0.toml",
+            "paper-1-beta-00.toml",
+            "comparison.scene",
+        ),
     ] {
         refused("fixed-point.toml", from, to, message);
     }
     let empty = "[study]\nid = \"a\"\nclaim = \"b\"\ntier = \"quick\"\nkind = \"solvers\"\n";
-    let error = Solvers::parse(empty, "a.toml".as_ref()).expect_err("no part").to_string();
+    let error = Solvers::parse(empty, "a.toml".as_ref())
+        .expect_err("no part")
+        .to_string();
     assert!(error.contains("contraction, comparison, map"), "{error}");
 }

@@ -15,7 +15,12 @@ where
 {
     let mut runs = sound.clone();
     for (index, ran) in runs.iter_mut().enumerate() {
-        change(index, ran.found.as_mut().unwrap_or_else(|failure| panic!("{}: {}", ran.case.label, failure.reason)));
+        change(
+            index,
+            ran.found
+                .as_mut()
+                .unwrap_or_else(|failure| panic!("{}: {}", ran.case.label, failure.reason)),
+        );
     }
     runs
 }
@@ -31,7 +36,13 @@ where
 {
     let sound = run_cases_here(study);
     let outcome = study.judge(&sound);
-    assert_eq!(outcome.verdict, Verdict::Pass, "{}: {}", outcome.summary, report(&outcome));
+    assert_eq!(
+        outcome.verdict,
+        Verdict::Pass,
+        "{}: {}",
+        outcome.summary,
+        report(&outcome)
+    );
     check_shape(&outcome);
     for index in 0..sound.len() {
         let mut failed = sound.clone();
@@ -50,14 +61,31 @@ pub(crate) fn check_shape(outcome: &Outcome) {
     assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
     assert!(!outcome.quantities.is_empty());
     for figure in &outcome.figures {
-        assert!(figure.file.len() > ".svg".len() && figure.file.ends_with(".svg"), "{}", figure.file);
+        assert!(
+            figure.file.len() > ".svg".len() && figure.file.ends_with(".svg"),
+            "{}",
+            figure.file
+        );
         assert!(figure.svg.starts_with("<svg") && !figure.caption.is_empty());
     }
     for table in &outcome.tables {
-        assert!(table.rows.iter().all(|row| row.len() == table.head.len()), "{}", table.title);
+        assert!(
+            table.rows.iter().all(|row| row.len() == table.head.len()),
+            "{}",
+            table.title
+        );
     }
-    assert!(outcome.quantities.iter().all(|quantity| quantity.value.is_finite() && quantity.tolerance > 0.0));
-    let mut names: Vec<&str> = outcome.quantities.iter().map(|quantity| quantity.name.as_str()).collect();
+    assert!(
+        outcome
+            .quantities
+            .iter()
+            .all(|quantity| quantity.value.is_finite() && quantity.tolerance > 0.0)
+    );
+    let mut names: Vec<&str> = outcome
+        .quantities
+        .iter()
+        .map(|quantity| quantity.name.as_str())
+        .collect();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), outcome.quantities.len());
@@ -65,7 +93,13 @@ pub(crate) fn check_shape(outcome: &Outcome) {
 
 /// All judged items, with their evidence.
 pub(crate) fn report(outcome: &Outcome) -> String {
-    let rates = outcome.rates.iter().map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
-    let checks = outcome.checks.iter().map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));
+    let rates = outcome
+        .rates
+        .iter()
+        .map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
+    let checks = outcome
+        .checks
+        .iter()
+        .map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));
     rates.chain(checks).collect::<Vec<_>>().join("\n")
 }

@@ -24,14 +24,24 @@ fn quick() -> WorkPrecision {
 }
 
 fn failed(outcome: &Outcome) -> Vec<&str> {
-    outcome.checks.iter().filter(|c| c.verdict == Verdict::Fail).map(|c| c.claim.as_str()).collect()
+    outcome
+        .checks
+        .iter()
+        .filter(|c| c.verdict == Verdict::Fail)
+        .map(|c| c.claim.as_str())
+        .collect()
 }
 
 #[test]
 fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
     let study = quick();
     let outcome = study.judge(&passes_but_not_without_each_case(&study));
-    assert!(outcome.checks.iter().any(|check| check.claim.contains("100 times cheaper")));
+    assert!(
+        outcome
+            .checks
+            .iter()
+            .any(|check| check.claim.contains("100 times cheaper"))
+    );
     let again = quick();
     assert_eq!(settle("study", outcome), run_one(&again));
 }
@@ -43,10 +53,16 @@ fn planted_defects_fail() {
     // The defect depends on the number of steps.
     let plant = |only: &str, defect: &dyn Fn(usize, &mut Measurement)| {
         let mut planted = honest.clone();
-        for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with(only)) {
+        for ran in planted
+            .iter_mut()
+            .filter(|ran| ran.case.label.starts_with(only))
+        {
             let runs = ran.found.as_mut().unwrap();
             assert_eq!(runs.len(), STEPS.len());
-            STEPS.into_iter().zip(runs).for_each(|(steps, run)| defect(steps, run));
+            STEPS
+                .into_iter()
+                .zip(runs)
+                .for_each(|(steps, run)| defect(steps, run));
         }
         study.judge(&planted).verdict
     };
@@ -59,9 +75,17 @@ fn planted_defects_fail() {
             }
         };
         assert_eq!(plant("midpoint, n = 16", &one), Verdict::Fail);
-        assert_eq!(plant("richardson, n = 16", &|_, run| run.spent.node_steps = wrong), Verdict::Fail);
+        assert_eq!(
+            plant("richardson, n = 16", &|_, run| run.spent.node_steps = wrong),
+            Verdict::Fail
+        );
     }
-    assert_eq!(plant("midpoint", &|_, run| run.errors[tip] = run.errors[tip].max(1e-3)), Verdict::Fail, "a floor");
+    assert_eq!(
+        plant("midpoint", &|_, run| run.errors[tip] =
+            run.errors[tip].max(1e-3)),
+        Verdict::Fail,
+        "a floor"
+    );
     // Loss of second order: 256 and 1024 steps give the error of 64.
     let first_order = |steps: usize, run: &mut Measurement| {
         run.errors[superclose] *= match steps {
@@ -75,12 +99,18 @@ fn planted_defects_fail() {
     missing[2].found = Err(CaseFailure::new("planted"));
     let outcome = study.judge(&missing);
     assert_eq!(outcome.verdict, Verdict::Fail);
-    assert!(outcome.checks[0].evidence.contains("planted"), "{}", outcome.checks[0].evidence);
+    assert!(
+        outcome.checks[0].evidence.contains("planted"),
+        "{}",
+        outcome.checks[0].evidence
+    );
 }
 
 /// dG compared with midpoint along a diagonal, with half of midpoint's runs: the finest take seconds here.
 fn along_a_diagonal() -> (WorkPrecision, Results) {
-    let text = super::text("any-order-cost.toml").replace(", 500, 1000]", "]").replace(", 4000, 8000]", "]");
+    let text = super::text("any-order-cost.toml")
+        .replace(", 500, 1000]", "]")
+        .replace(", 4000, 8000]", "]");
     let study = read(&text).unwrap();
     let honest = passes_but_not_without_each_case(&study);
     (study, honest)
@@ -91,19 +121,33 @@ fn a_thousandth_of_the_cost_by_dg_and_planted_defects_fail() {
     let (study, honest) = along_a_diagonal();
     let plant = |only: &str, defect: &dyn Fn(&mut Measurement)| {
         let mut planted = honest.clone();
-        for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with(only)) {
+        for ran in planted
+            .iter_mut()
+            .filter(|ran| ran.case.label.starts_with(only))
+        {
             ran.found.as_mut().unwrap().iter_mut().for_each(defect);
         }
         failed(&study.judge(&planted)).len()
     };
     let tip = 2;
     assert_eq!(plant("dg", &|_| ()), 0);
-    assert_eq!(plant("dg", &|run| run.errors[tip] *= 100.0), 1, "inaccurate");
+    assert_eq!(
+        plant("dg", &|run| run.errors[tip] *= 100.0),
+        1,
+        "inaccurate"
+    );
     assert_eq!(plant("dg", &|run| run.spent.node_solves *= 10.0), 1, "dear");
-    assert!(plant("dg", &|run| run.errors[tip] = f64::NAN) > 0, "not finite");
+    assert!(
+        plant("dg", &|run| run.errors[tip] = f64::NAN) > 0,
+        "not finite"
+    );
     // Twice the error in the coarser run gives a ratio of eight, in the finer one a ratio of two.
     for worse in ["midpoint, n = 125", "midpoint, n = 250"] {
-        assert_eq!(plant(worse, &|run| run.errors[tip] *= 2.0), 1, "no second order");
+        assert_eq!(
+            plant(worse, &|run| run.errors[tip] *= 2.0),
+            1,
+            "no second order"
+        );
     }
     // Other quantities are not measured.
     let outcome = study.judge(&honest);
@@ -118,22 +162,46 @@ fn dg_is_measured_as_the_others_are() {
     let fronts = |ran: &Results| {
         let outcome = study.judge(ran);
         let svg = &outcome.figures[1].svg;
-        let line = svg.lines().find(|line| line.contains("data-series=\"dg\"")).expect("a line");
-        (outcome.verdict, line.split("data-points=").nth(1).expect("points").split_whitespace().count())
+        let line = svg
+            .lines()
+            .find(|line| line.contains("data-series=\"dg\""))
+            .expect("a line");
+        (
+            outcome.verdict,
+            line.split("data-points=")
+                .nth(1)
+                .expect("points")
+                .split_whitespace()
+                .count(),
+        )
     };
     let (verdict, points) = fronts(&honest);
     assert_eq!(verdict, Verdict::Pass);
     // A run as expensive as all others together appears in no figure, and removes dG's advantage.
     let mut planted = honest.clone();
-    for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with("dg, p = 10")) {
+    for ran in planted
+        .iter_mut()
+        .filter(|ran| ran.case.label.starts_with("dg, p = 10"))
+    {
         ran.found.as_mut().unwrap()[0].spent.node_solves *= 1e3;
     }
     let (verdict, fewer) = fronts(&planted);
-    assert_eq!((verdict, fewer), (Verdict::Pass, points - 1), "the next run reaches the error, too");
-    for ran in planted.iter_mut().filter(|ran| ran.case.label.starts_with("dg")) {
+    assert_eq!(
+        (verdict, fewer),
+        (Verdict::Pass, points - 1),
+        "the next run reaches the error, too"
+    );
+    for ran in planted
+        .iter_mut()
+        .filter(|ran| ran.case.label.starts_with("dg"))
+    {
         ran.found.as_mut().unwrap()[0].errors[1] += 1e-5;
     }
-    assert_eq!(fronts(&planted).0, Verdict::Fail, "an error that all runs share");
+    assert_eq!(
+        fronts(&planted).0,
+        Verdict::Fail,
+        "an error that all runs share"
+    );
 }
 
 #[test]
@@ -152,13 +220,21 @@ fn references_that_do_not_agree_fail() {
         .replace("steps = [128, 256, 512, 1024, 2048]", "steps = [128, 256]");
     let reasons = |text: &str| -> Vec<String> {
         let ran = run_cases_here(&read(text).unwrap());
-        ran.into_iter().filter_map(|ran| ran.found.err()).map(|failure| failure.reason).collect()
+        ran.into_iter()
+            .filter_map(|ran| ran.found.err())
+            .map(|failure| failure.reason)
+            .collect()
     };
     assert_eq!(reasons(&text), Vec::<String>::new());
     // Two elements of degree 3 do not qualify as a reference.
     let coarse = reasons(&text.replace("degree = 26", "degree = 3"));
     assert_eq!(coarse.len(), 16, "eight of one-step methods, eight of dG");
-    assert!(coarse.iter().all(|reason| reason.contains("the two references are")), "{coarse:?}");
+    assert!(
+        coarse
+            .iter()
+            .all(|reason| reason.contains("the two references are")),
+        "{coarse:?}"
+    );
 }
 
 #[test]
@@ -180,28 +256,66 @@ fn mistakes_are_named() {
     let grid = "elements = [4, 8]\nsteps = [8, 16]\n";
     let diagonal = "elements = [4, 8]\nscene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\ndiagonal = \"midpoint\"";
     for (body, piece) in [
-        ("elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"", "work-precision.steps"),
-        ("elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"", "work-precision.elements"),
+        (
+            "elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"",
+            "work-precision.steps",
+        ),
+        (
+            "elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"",
+            "work-precision.elements",
+        ),
         (grid, "exactly one of"),
-        (&format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nagreement = 1e-6"), "agreement without scene"),
+        (
+            &format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nagreement = 1e-6"),
+            "agreement without scene",
+        ),
         (
             &format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\n[[reference]]\nelements = 1"),
             "reference without scene",
         ),
-        (&format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1"), "[[reference]]"),
-        (&format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""), "did you mean"),
-        (&format!("{diagonal}\nsteps = [250, 750]"), "each twice the one before"),
-        (&format!("{diagonal}\nsteps = [100, 200]"), "multiples of 250"),
-        (&format!("{diagonal}\nsteps = [250, 500]\nagreement = 1e-6"), "beside diagonal"),
-        (&format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 1]]"), "degree p, degree q, largest step"),
-        (&format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 6, 0.02]]"), "work-precision.dg[0][1]"),
-        (&format!("{diagonal}\nsteps = [250, 500]"), "at least one table [[advantage]]"),
+        (
+            &format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1"),
+            "[[reference]]",
+        ),
+        (
+            &format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""),
+            "did you mean",
+        ),
+        (
+            &format!("{diagonal}\nsteps = [250, 750]"),
+            "each twice the one before",
+        ),
+        (
+            &format!("{diagonal}\nsteps = [100, 200]"),
+            "multiples of 250",
+        ),
+        (
+            &format!("{diagonal}\nsteps = [250, 500]\nagreement = 1e-6"),
+            "beside diagonal",
+        ),
+        (
+            &format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 1]]"),
+            "degree p, degree q, largest step",
+        ),
+        (
+            &format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 6, 0.02]]"),
+            "work-precision.dg[0][1]",
+        ),
+        (
+            &format!("{diagonal}\nsteps = [250, 500]"),
+            "at least one table [[advantage]]",
+        ),
         (
             "elements = [4, 8]\nsteps = [250, 500]\nvibration = [0]\nzeta = 0.1\nt_end = 1\ndiagonal = \"midpoint\"",
             "diagonal without scene",
         ),
     ] {
-        let error = read(&format!("{head}{body}")).err().unwrap_or_else(|| panic!("{body} was accepted"));
-        assert!(error.contains("study.toml:") && error.contains(piece), "{piece}: {error}");
+        let error = read(&format!("{head}{body}"))
+            .err()
+            .unwrap_or_else(|| panic!("{body} was accepted"));
+        assert!(
+            error.contains("study.toml:") && error.contains(piece),
+            "{piece}: {error}"
+        );
     }
 }

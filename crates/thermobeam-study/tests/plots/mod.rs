@@ -50,15 +50,23 @@ fn the_same_data_give_the_same_bytes() {
 
 #[test]
 fn every_figure_is_in_the_gallery() {
-    let (module, gallery) = (include_str!("../../src/figures/mod.rs"), include_str!("figures/mod.rs"));
+    let (module, gallery) = (
+        include_str!("../../src/figures/mod.rs"),
+        include_str!("figures/mod.rs"),
+    );
     // The pictures of a run consist of figures that are in a gallery.
     let drawn = module.lines().filter(|line| line.ends_with("-> String {"));
     let drawn = drawn.filter_map(|line| line.strip_prefix("pub fn ")?.split("(").next());
-    let exported = module.lines().filter_map(|line| line.strip_prefix("pub use ")?.split("::").next());
+    let exported = module
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub use ")?.split("::").next());
     let figures: Vec<_> = exported.chain(drawn).collect();
     assert!(figures.len() >= 3);
     for figure in figures {
-        assert!(gallery.contains(&format!(" {figure}(")), "{figure} is not in the gallery");
+        assert!(
+            gallery.contains(&format!(" {figure}(")),
+            "{figure} is not in the gallery"
+        );
     }
 }
 
@@ -74,23 +82,32 @@ fn a_long_animation_stays_small() {
 #[test]
 fn contraction_factors_of_one_and_more_are_labelled() {
     let svg = contraction(&figures::contraction_factors());
-    assert!(
-        elements(&parse(&svg), "text").any(|n| n.text().is_some_and(|text| text.trim() == "divergence (radius ≥ 1)"))
-    );
+    assert!(elements(&parse(&svg), "text").any(|n| {
+        n.text()
+            .is_some_and(|text| text.trim() == "divergence (radius ≥ 1)")
+    }));
 }
 
 #[test]
 fn open_markers_of_a_contraction_have_a_legend() {
-    let series = |label: &str, points: &[(f64, f64)]| Series { label: label.into(), points: points.to_vec() };
+    let series = |label: &str, points: &[(f64, f64)]| Series {
+        label: label.into(),
+        points: points.to_vec(),
+    };
     let drawn = |series: Vec<Series>| contraction(&series);
     let open_samples = |svg: &str| {
         let doc = parse(svg);
         let entries = elements(&doc, "g").filter(|n| n.has_attribute("data-entry"));
-        let markers = entries.flat_map(|n| n.descendants()).filter(|n| n.attribute("fill") == Some("#FFFFFF"));
+        let markers = entries
+            .flat_map(|n| n.descendants())
+            .filter(|n| n.attribute("fill") == Some("#FFFFFF"));
         markers.count()
     };
     let note = "open markers: divergence";
-    let apart = drawn(vec![series("converges", &[(0.1, 0.1), (0.5, 0.5)]), series("fails", &[(2.0, 1.0)])]);
+    let apart = drawn(vec![
+        series("converges", &[(0.1, 0.1), (0.5, 0.5)]),
+        series("fails", &[(2.0, 1.0)]),
+    ]);
     assert_eq!((open_samples(&apart), apart.contains(note)), (1, false));
     let split = drawn(vec![series("both", &[(0.1, 0.1), (2.0, 1.0)])]);
     assert_eq!((open_samples(&split), split.contains(note)), (0, true));
@@ -98,22 +115,53 @@ fn open_markers_of_a_contraction_have_a_legend() {
 
 #[test]
 fn nothing_to_draw_is_no_reason_to_panic() {
-    let empty = [contraction(&[]), bifurcation(&[], vec![], &Series::default()), animation(&Animation::default())];
+    let empty = [
+        contraction(&[]),
+        bifurcation(&[], vec![], &Series::default()),
+        animation(&Animation::default()),
+    ];
     empty.iter().for_each(|svg| drop(parse(svg)));
 }
 
 #[test]
 fn extreme_data_are_no_reason_to_panic() {
-    let values = [0.0, -0.0, 1.0, -1.0, 1e-320, 1e308, -1e308, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    let values = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        1e-320,
+        1e308,
+        -1e308,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+    ];
     for x in values {
         for y in values {
             let points = vec![(x, y), (y, x), (x, x)];
-            let series = vec![Series { label: "s".into(), points: points.clone() }];
+            let series = vec![Series {
+                label: "s".into(),
+                points: points.clone(),
+            }];
             parse(&contraction(&series));
-            let branches = vec![Branch { label: "b".into(), points, stable: true }];
+            let branches = vec![Branch {
+                label: "b".into(),
+                points,
+                stable: true,
+            }];
             parse(&bifurcation(&branches, vec![], &Series::default()));
-            let frames = Frames { times: vec![x, y], points: vec![y, x], u: vec![vec![x, y], vec![y, 1.0]] };
-            parse(&animation(&Animation { frames, obstacles: Some((x, y)), seconds: x, title: None }));
+            let frames = Frames {
+                times: vec![x, y],
+                points: vec![y, x],
+                u: vec![vec![x, y], vec![y, 1.0]],
+            };
+            parse(&animation(&Animation {
+                frames,
+                obstacles: Some((x, y)),
+                seconds: x,
+                title: None,
+            }));
         }
     }
 }
@@ -121,10 +169,16 @@ fn extreme_data_are_no_reason_to_panic() {
 #[test]
 fn stable_branches_are_solid_and_unstable_ones_dashed() {
     let points = vec![(0.0, 0.0), (1.0, 1.0)];
-    let branch = |stable| Branch { label: "free".into(), points: points.clone(), stable };
+    let branch = |stable| Branch {
+        label: "free".into(),
+        points: points.clone(),
+        stable,
+    };
     let count = |stable| {
         let svg = bifurcation(&[branch(stable)], vec![], &Series::default());
-        elements(&parse(&svg), "g").filter(|n| n.attribute("stroke-dasharray").is_some()).count()
+        elements(&parse(&svg), "g")
+            .filter(|n| n.attribute("stroke-dasharray").is_some())
+            .count()
     };
     // Guides are dashed too, but there are none here.
     assert_eq!(count(false), count(true) + 2);
@@ -137,27 +191,57 @@ fn the_animation_starts_and_ends_with_its_data() {
     let animates: Vec<_> = elements(&doc, "animate").collect();
     assert_eq!(animates.len(), 3);
     for animate in animates {
-        let list = |name| animate.attribute(name).unwrap_or("").split(';').collect::<Vec<_>>();
+        let list = |name| {
+            animate
+                .attribute(name)
+                .unwrap_or("")
+                .split(';')
+                .collect::<Vec<_>>()
+        };
         let (keys, values) = (list("keyTimes"), list("values"));
         assert_eq!(keys.len(), values.len());
-        assert_eq!((keys[0].parse(), keys[keys.len() - 1].parse()), (Ok(0.0), Ok(1.0)));
+        assert_eq!(
+            (keys[0].parse(), keys[keys.len() - 1].parse()),
+            (Ok(0.0), Ok(1.0))
+        );
     }
 }
 
 #[test]
 fn markers_are_filled_where_the_fixed_point_converges_and_the_identity_spans_the_plot() {
-    let svg =
-        contraction(&[Series { label: "s".into(), points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 2.0), (100.0, 100.0)] }]);
+    let svg = contraction(&[Series {
+        label: "s".into(),
+        points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 2.0), (100.0, 100.0)],
+    }]);
     let doc = parse(&svg);
-    let open = elements(&doc, "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF")).count();
+    let open = elements(&doc, "circle")
+        .filter(|n| n.attribute("fill") == Some("#FFFFFF"))
+        .count();
     assert_eq!(open, 2);
     let page = doc.root_element();
-    let numbers = |name: &str| page.attribute(name).unwrap().split(' ').filter_map(|v| v.parse::<f64>().ok());
+    let numbers = |name: &str| {
+        page.attribute(name)
+            .unwrap()
+            .split(' ')
+            .filter_map(|v| v.parse::<f64>().ok())
+    };
     let plot: Vec<f64> = numbers("data-plot").collect();
-    let identity = elements(&doc, "g").find(|n| n.attribute("data-series") == Some("measured = predicted")).unwrap();
-    let line = identity.descendants().find(|n| n.has_tag_name("polyline")).unwrap();
-    let right = line.attribute("points").unwrap().split_whitespace().filter_map(|p| p.split_once(',')?.0.parse().ok());
-    assert!((right.fold(0.0, f64::max) - plot[2]).abs() < 2.0, "it ends at the right edge");
+    let identity = elements(&doc, "g")
+        .find(|n| n.attribute("data-series") == Some("measured = predicted"))
+        .unwrap();
+    let line = identity
+        .descendants()
+        .find(|n| n.has_tag_name("polyline"))
+        .unwrap();
+    let right = line
+        .attribute("points")
+        .unwrap()
+        .split_whitespace()
+        .filter_map(|p| p.split_once(',')?.0.parse().ok());
+    assert!(
+        (right.fold(0.0, f64::max) - plot[2]).abs() < 2.0,
+        "it ends at the right edge"
+    );
 }
 
 #[test]
@@ -167,22 +251,44 @@ fn the_beam_of_an_animation_is_bent_where_nothing_moves() {
     moving.frames.u[0] = vec![0.0; moving.frames.points.len()];
     let svg = animation(&moving);
     let doc = parse(&svg);
-    let beam = elements(&doc, "polyline").find(|n| n.children().any(|child| child.has_tag_name("animate"))).unwrap();
-    let heights =
-        beam.attribute("points").unwrap().split_whitespace().filter_map(|p| p.split_once(',')?.1.parse().ok());
+    let beam = elements(&doc, "polyline")
+        .find(|n| n.children().any(|child| child.has_tag_name("animate")))
+        .unwrap();
+    let heights = beam
+        .attribute("points")
+        .unwrap()
+        .split_whitespace()
+        .filter_map(|p| p.split_once(',')?.1.parse().ok());
     let heights: Vec<f64> = heights.collect();
-    assert!((heights[heights.len() - 1] - heights[0]).abs() > 500.0, "{heights:?}");
+    assert!(
+        (heights[heights.len() - 1] - heights[0]).abs() > 500.0,
+        "{heights:?}"
+    );
 }
 
 #[test]
 fn branches_end_inside_the_frame() {
     let svg = figures::equilibria();
     let doc = parse(&svg);
-    let plot: Vec<f64> =
-        doc.root_element().attribute("data-plot").unwrap().split(' ').map(|v| v.parse().unwrap()).collect();
+    let plot: Vec<f64> = doc
+        .root_element()
+        .attribute("data-plot")
+        .unwrap()
+        .split(' ')
+        .map(|v| v.parse().unwrap())
+        .collect();
     let lines = elements(&doc, "g").filter(|n| n.has_attribute("data-series"));
-    let corners = lines.flat_map(|n| n.descendants()).filter_map(|n| n.attribute("points"));
-    let across = corners.flat_map(str::split_whitespace).filter_map(|p| p.split_once(',')?.0.parse::<f64>().ok());
+    let corners = lines
+        .flat_map(|n| n.descendants())
+        .filter_map(|n| n.attribute("points"));
+    let across = corners
+        .flat_map(str::split_whitespace)
+        .filter_map(|p| p.split_once(',')?.0.parse::<f64>().ok());
     let across: Vec<f64> = across.collect();
-    assert!(across.iter().all(|x| *x > plot[0] + 50.0 && *x < plot[2] - 50.0), "{across:?}");
+    assert!(
+        across
+            .iter()
+            .all(|x| *x > plot[0] + 50.0 && *x < plot[2] - 50.0),
+        "{across:?}"
+    );
 }

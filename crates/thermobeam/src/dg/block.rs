@@ -48,12 +48,18 @@ pub(super) fn multiply<const S: usize>(matrix: &Matrix<S>, x: &mut Block<S>) {
 /// `A B`.
 pub(super) fn matrix_product<const S: usize>(a: &Matrix<S>, b: &Matrix<S>) -> Matrix<S> {
     let mut c = *b;
-    c.as_flattened_mut().iter_mut().for_each(|column| multiply(a, column));
+    c.as_flattened_mut()
+        .iter_mut()
+        .for_each(|column| multiply(a, column));
     c
 }
 
 /// `C -= A B`.
-pub(super) fn subtract_matrix_product<const S: usize>(c: &mut Matrix<S>, a: &Matrix<S>, b: &Matrix<S>) {
+pub(super) fn subtract_matrix_product<const S: usize>(
+    c: &mut Matrix<S>,
+    a: &Matrix<S>,
+    b: &Matrix<S>,
+) {
     for (c, b) in c.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
         subtract_product(c, a, b);
     }
@@ -93,7 +99,10 @@ pub(super) fn invert<const S: usize>(matrix: &mut Matrix<S>) -> Result<(), f64> 
         let inverse = 1.0 / pivot;
         for (j, column) in columns.iter_mut().enumerate() {
             if j == k {
-                column.as_flattened_mut().iter_mut().for_each(|entry| *entry *= -inverse);
+                column
+                    .as_flattened_mut()
+                    .iter_mut()
+                    .for_each(|entry| *entry *= -inverse);
                 column[field][stage] = inverse;
             } else {
                 let factor = column[field][stage] * inverse;

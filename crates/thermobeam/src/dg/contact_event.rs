@@ -41,7 +41,10 @@ impl Polynomial {
                 coefficients[k] += 2.0 * (2 * k + 1) as f64 * self.coefficients[j];
             }
         }
-        Self { coefficients, degree: self.degree.saturating_sub(1) }
+        Self {
+            coefficients,
+            degree: self.degree.saturating_sub(1),
+        }
     }
 
     /// The zeros in (0, 1) at which the sign changes, in increasing order, and their number.
@@ -65,7 +68,10 @@ impl Polynomial {
 
     /// Where a polynomial that should stay above zero first falls below `-slack`.
     pub(super) fn first_fall(&self, slack: f64) -> Option<Fall> {
-        let spread: f64 = self.coefficients[1..=self.degree].iter().map(|c| c.abs()).sum();
+        let spread: f64 = self.coefficients[1..=self.degree]
+            .iter()
+            .map(|c| c.abs())
+            .sum();
         // |L_j| <= 1 on [0, 1].
         if self.coefficients[0] - spread >= -slack {
             return None;
@@ -74,8 +80,15 @@ impl Polynomial {
         let mut left = 0.0;
         for right in extrema[..count].iter().copied().chain([1.0]) {
             if self.at(right) < -slack {
-                let crossing = if self.at(left) > slack { bisect(|s| self.at(s), left, right) } else { left };
-                return Some(Fall { crossing, below: right });
+                let crossing = if self.at(left) > slack {
+                    bisect(|s| self.at(s), left, right)
+                } else {
+                    left
+                };
+                return Some(Fall {
+                    crossing,
+                    below: right,
+                });
             }
             left = right;
         }
@@ -94,7 +107,11 @@ pub(super) struct Fall {
 
 /// For each bound of the phase, the distance of the free end from it as a polynomial in time, positive inside the
 /// phase; and the phase beyond that bound.
-pub(super) fn bounds(phase: Phase, tip: &Polynomial, obstacles: &Obstacles) -> [Option<(Polynomial, Phase)>; 2] {
+pub(super) fn bounds(
+    phase: Phase,
+    tip: &Polynomial,
+    obstacles: &Obstacles,
+) -> [Option<(Polynomial, Phase)>; 2] {
     let Obstacles { g1, g2, .. } = *obstacles;
     let above = |g: f64| {
         let mut distance = *tip;
@@ -108,9 +125,18 @@ pub(super) fn bounds(phase: Phase, tip: &Polynomial, obstacles: &Obstacles) -> [
     };
     let narrow = g1 == g2;
     match phase {
-        Phase::Free => [Some((below(g2), Phase::Upper)), Some((above(g1), Phase::Lower))],
-        Phase::Upper => [Some((above(g2), if narrow { Phase::Lower } else { Phase::Free })), None],
-        Phase::Lower => [Some((below(g1), if narrow { Phase::Upper } else { Phase::Free })), None],
+        Phase::Free => [
+            Some((below(g2), Phase::Upper)),
+            Some((above(g1), Phase::Lower)),
+        ],
+        Phase::Upper => [
+            Some((above(g2), if narrow { Phase::Lower } else { Phase::Free })),
+            None,
+        ],
+        Phase::Lower => [
+            Some((below(g1), if narrow { Phase::Upper } else { Phase::Free })),
+            None,
+        ],
     }
 }
 
@@ -126,10 +152,14 @@ mod tests {
             let mut legendre = [0.0; MAX_STAGES + 1];
             legendre::values_into(xi, &mut legendre);
             for (j, coefficient) in coefficients.iter_mut().enumerate().take(roots.len() + 1) {
-                *coefficient += 0.5 * (2 * j + 1) as f64 * weight * value(0.5 * (1.0 + xi)) * legendre[j];
+                *coefficient +=
+                    0.5 * (2 * j + 1) as f64 * weight * value(0.5 * (1.0 + xi)) * legendre[j];
             }
         }
-        Polynomial { coefficients, degree: roots.len() }
+        Polynomial {
+            coefficients,
+            degree: roots.len(),
+        }
     }
 
     #[track_caller]
@@ -172,13 +202,19 @@ mod tests {
 
     #[test]
     fn between_obstacles_at_one_place_there_is_no_free_phase() {
-        let obstacles = Obstacles { epsilon: 1e-3, g1: 0.0, g2: 0.0 };
+        let obstacles = Obstacles {
+            epsilon: 1e-3,
+            g1: 0.0,
+            g2: 0.0,
+        };
         assert_eq!(
             [-1.0, 0.0, 1.0].map(|u| Phase::of(u, Some(&obstacles))),
             [Phase::Lower, Phase::Upper, Phase::Upper]
         );
         let tip = with_roots(-1.0, &[0.5]);
-        let [Some((_, next)), None] = bounds(Phase::Upper, &tip, &obstacles) else { panic!("one bound") };
+        let [Some((_, next)), None] = bounds(Phase::Upper, &tip, &obstacles) else {
+            panic!("one bound")
+        };
         assert_eq!(next, Phase::Lower);
     }
 }

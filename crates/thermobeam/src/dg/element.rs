@@ -15,7 +15,11 @@ pub const MAX_DEGREE: usize = 40;
 
 /// `∫ P_i P_j = 2/(2i + 1)` for i = j.
 fn product(i: usize, j: usize) -> f64 {
-    if i == j { 2.0 / (2 * i + 1) as f64 } else { 0.0 }
+    if i == j {
+        2.0 / (2 * i + 1) as f64
+    } else {
+        0.0
+    }
 }
 
 /// N_m as a sum of at most two Legendre polynomials: degrees and factors.
@@ -41,7 +45,10 @@ fn slope(m: usize) -> (usize, f64) {
 
 /// `∫ N_i N_j dξ`.
 pub(crate) fn mass(i: usize, j: usize) -> f64 {
-    expansion(i).iter().flat_map(|(k, a)| expansion(j).map(|(l, b)| a * b * product(*k, l))).sum()
+    expansion(i)
+        .iter()
+        .flat_map(|(k, a)| expansion(j).map(|(l, b)| a * b * product(*k, l)))
+        .sum()
 }
 
 /// `∫ N_i' N_j' dξ`: 1 for i = j >= 2.
@@ -55,7 +62,10 @@ pub(crate) fn stiffness(i: usize, j: usize) -> f64 {
 /// `∫ N_j N_i' dξ`, the same on every element.
 pub(crate) fn coupling(i: usize, j: usize) -> f64 {
     let (k, a) = slope(i);
-    expansion(j).iter().map(|(l, b)| a * b * product(k, *l)).sum()
+    expansion(j)
+        .iter()
+        .map(|(l, b)| a * b * product(k, *l))
+        .sum()
 }
 
 /// `∫ N_i dξ`.
@@ -93,16 +103,29 @@ mod tests {
     #[test]
     fn each_entry_is_its_integral() {
         let degree = 12;
-        let points: Vec<_> =
-            legendre::gauss(degree + 1).into_iter().map(|(xi, weight)| (Basis::at(xi, degree), weight)).collect();
-        let integrate = |f: &dyn Fn(&Basis) -> f64| points.iter().map(|(basis, weight)| weight * f(basis)).sum::<f64>();
+        let points: Vec<_> = legendre::gauss(degree + 1)
+            .into_iter()
+            .map(|(xi, weight)| (Basis::at(xi, degree), weight))
+            .collect();
+        let integrate = |f: &dyn Fn(&Basis) -> f64| {
+            points
+                .iter()
+                .map(|(basis, weight)| weight * f(basis))
+                .sum::<f64>()
+        };
         for i in 0..=degree {
-            assert!((integral(i) - integrate(&|b| b.values[i])).abs() < 1e-15, "{i}");
+            assert!(
+                (integral(i) - integrate(&|b| b.values[i])).abs() < 1e-15,
+                "{i}"
+            );
             for j in 0..=degree {
                 let exact = integrate(&|b| b.values[i] * b.values[j]);
                 assert!((mass(i, j) - exact).abs() < 2e-15, "mass {i} {j}");
                 let exact = integrate(&|b| b.slopes[i] * b.slopes[j]);
-                assert!((stiffness(i, j) - exact).abs() < 1e-14, "stiffness {i} {j}: {exact}");
+                assert!(
+                    (stiffness(i, j) - exact).abs() < 1e-14,
+                    "stiffness {i} {j}: {exact}"
+                );
                 let exact = integrate(&|b| b.slopes[i] * b.values[j]);
                 assert!((coupling(i, j) - exact).abs() < 2e-15, "coupling {i} {j}");
             }
@@ -118,7 +141,12 @@ mod tests {
             assert!((middle.slopes[m] - quotient).abs() < 1e-8, "{m}");
             let ends = [-1.0, 1.0].map(|xi| Basis::at(xi, 9).values[m]);
             let expected = [f64::from(m == 0), f64::from(m == 1)];
-            assert!(ends.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{m}: {ends:?}");
+            assert!(
+                ends.iter()
+                    .zip(expected)
+                    .all(|(a, b)| (a - b).abs() < 1e-15),
+                "{m}: {ends:?}"
+            );
         }
     }
 }

@@ -4,8 +4,8 @@
 //! cost is proportional to the number of elements times the degree.
 
 use super::block::{
-    Block, Matrix, add, clear_column, clear_row, invert, isolate, matrix_product, multiply, subtract_matrix_product,
-    subtract_product, zero,
+    Block, Matrix, add, clear_column, clear_row, invert, isolate, matrix_product, multiply,
+    subtract_matrix_product, subtract_product, zero,
 };
 use super::operator::Operator;
 use super::space::{Coupling, Space, degrees};
@@ -75,8 +75,17 @@ impl<const S: usize> Factor<S> {
             });
             kinds.push(kind);
         }
-        let node = Node { inverse: zero(), left: zero(), right: zero() };
-        Self { insides, kinds, nodes: vec![node; space.tip() + 1], tip: [zero(), zero()] }
+        let node = Node {
+            inverse: zero(),
+            left: zero(),
+            right: zero(),
+        };
+        Self {
+            insides,
+            kinds,
+            nodes: vec![node; space.tip() + 1],
+            tip: [zero(), zero()],
+        }
     }
 
     /// Memory of a factorisation in bytes.
@@ -84,7 +93,13 @@ impl<const S: usize> Factor<S> {
         let matrices: usize = self
             .insides
             .iter()
-            .map(|inside| 4 + inside.chains.iter().map(|chain| 5 + 3 * chain.links.len()).sum::<usize>())
+            .map(|inside| {
+                4 + inside
+                    .chains
+                    .iter()
+                    .map(|chain| 5 + 3 * chain.links.len())
+                    .sum::<usize>()
+            })
             .sum();
         (matrices + 3 * self.nodes.len() + 2) * size_of::<Matrix<S>>()
     }
@@ -95,10 +110,23 @@ impl<const S: usize> Factor<S> {
     ///
     /// # Errors
     /// [`StepFailure::Indefinite`] at the first pivot that is not positive: at the node, or in the element on its left.
-    pub(super) fn factorize(&mut self, space: &Space, operator: &Operator<S>, n_value: f64) -> Result<(), StepFailure> {
+    pub(super) fn factorize(
+        &mut self,
+        space: &Space,
+        operator: &Operator<S>,
+        n_value: f64,
+    ) -> Result<(), StepFailure> {
         for (index, inside) in self.insides.iter_mut().enumerate() {
-            let node = 1 + self.kinds.iter().position(|kind| *kind == index).unwrap_or(0);
-            let lost = |pivot| StepFailure::Indefinite { node, pivot, n_value };
+            let node = 1 + self
+                .kinds
+                .iter()
+                .position(|kind| *kind == index)
+                .unwrap_or(0);
+            let lost = |pivot| StepFailure::Indefinite {
+                node,
+                pivot,
+                n_value,
+            };
             inside.factorize(space, operator).map_err(lost)?;
         }
         let tip = space.tip();
@@ -122,7 +150,11 @@ impl<const S: usize> Factor<S> {
             if node > 1 {
                 subtract_matrix_product(&mut pivot, &left, &self.nodes[node - 1].right);
             }
-            let lost = |pivot| StepFailure::Indefinite { node, pivot, n_value };
+            let lost = |pivot| StepFailure::Indefinite {
+                node,
+                pivot,
+                n_value,
+            };
             if node == tip {
                 self.tip = [pivot, pivot];
                 operator.add_contact(&mut self.tip[1]);
@@ -131,7 +163,11 @@ impl<const S: usize> Factor<S> {
             } else {
                 invert(&mut pivot).map_err(lost)?;
             }
-            self.nodes[node] = Node { inverse: pivot, left, right: matrix_product(&pivot, &right) };
+            self.nodes[node] = Node {
+                inverse: pivot,
+                left,
+                right: matrix_product(&pivot, &right),
+            };
         }
         Ok(())
     }
@@ -151,7 +187,11 @@ impl<const S: usize> Factor<S> {
             if node > 1 {
                 subtract_product(&mut from[0], &self.nodes[node].left, &before[node - 1]);
             }
-            let inverse = if node == tip { &self.tip[usize::from(in_contact)] } else { &self.nodes[node].inverse };
+            let inverse = if node == tip {
+                &self.tip[usize::from(in_contact)]
+            } else {
+                &self.nodes[node].inverse
+            };
             multiply(inverse, &mut from[0]);
         }
         for node in (1..tip).rev() {
@@ -169,20 +209,33 @@ impl<const S: usize> Factor<S> {
 
 impl<const S: usize> Inside<S> {
     fn new(degree: usize, length: f64) -> Self {
-        let link = Link { inverse: zero(), towards: zero(), back: zero() };
+        let link = Link {
+            inverse: zero(),
+            towards: zero(),
+            back: zero(),
+        };
         let chain = || Chain {
             links: vec![link.clone(); (degree / 2).saturating_sub(1)],
             inverse: zero(),
             towards: [zero(); 2],
             back: [zero(); 2],
         };
-        let chains = if degree >= 2 { vec![chain(), chain()] } else { vec![] };
-        Self { length, chains, hats: [[zero(); 2]; 2] }
+        let chains = if degree >= 2 {
+            vec![chain(), chain()]
+        } else {
+            vec![]
+        };
+        Self {
+            length,
+            chains,
+            hats: [[zero(); 2]; 2],
+        }
     }
 
     fn factorize(&mut self, space: &Space, operator: &Operator<S>) -> Result<(), f64> {
         let length = self.length;
-        let between = |row: usize, column: usize| matrix_between(space, operator, length, row, column);
+        let between =
+            |row: usize, column: usize| matrix_between(space, operator, length, row, column);
         for row in 0..2 {
             for column in 0..2 {
                 self.hats[row][column] = between(row, column);
@@ -209,7 +262,11 @@ impl<const S: usize> Inside<S> {
             }
             for row in 0..2 {
                 for column in 0..2 {
-                    subtract_matrix_product(&mut self.hats[row][column], &chain.towards[row], &chain.back[column]);
+                    subtract_matrix_product(
+                        &mut self.hats[row][column],
+                        &chain.towards[row],
+                        &chain.back[column],
+                    );
                 }
             }
         }
@@ -255,11 +312,19 @@ fn matrix_between<const S: usize>(
     column: usize,
 ) -> Matrix<S> {
     let here = |coupling: &&Coupling| coupling.row == row && coupling.column == column;
-    space.couplings.iter().find(here).map_or(zero(), |coupling| operator.between(coupling, length))
+    space
+        .couplings
+        .iter()
+        .find(here)
+        .map_or(zero(), |coupling| operator.between(coupling, length))
 }
 
 /// The diagonal matrix of an inner block, with unit rows for coefficients beyond the degree.
-fn pivot_of<const S: usize>(space: &Space, between: &impl Fn(usize, usize) -> Matrix<S>, block: usize) -> Matrix<S> {
+fn pivot_of<const S: usize>(
+    space: &Space,
+    between: &impl Fn(usize, usize) -> Matrix<S>,
+    block: usize,
+) -> Matrix<S> {
     let mut pivot = between(block, block);
     let [u, phi] = degrees(block, space.degree());
     for (field, exists) in [(0, u), (1, phi), (2, u)] {

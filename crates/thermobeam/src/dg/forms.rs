@@ -12,11 +12,19 @@ impl Space {
     }
 
     /// The same for several forms at once.
-    fn sums<const N: usize>(&self, entries: impl Fn(&Coupling, f64, usize, usize) -> [f64; N]) -> [f64; N] {
+    fn sums<const N: usize>(
+        &self,
+        entries: impl Fn(&Coupling, f64, usize, usize) -> [f64; N],
+    ) -> [f64; N] {
         let mut sums = [0.0; N];
         for (element, &length) in self.lengths.iter().enumerate() {
             for c in &self.couplings {
-                let entries = entries(c, length, self.block(element, c.row), self.block(element, c.column));
+                let entries = entries(
+                    c,
+                    length,
+                    self.block(element, c.row),
+                    self.block(element, c.column),
+                );
                 for (sum, entry) in sums.iter_mut().zip(entries) {
                     *sum += entry;
                 }
@@ -34,7 +42,11 @@ impl Space {
     }
 
     /// `(u_x - φ, y_x - χ) + (φ_x, χ_x)` for the pairs (u, φ) and (y, χ).
-    pub(super) fn strain(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
+    pub(super) fn strain(
+        &self,
+        y: impl Fn(usize) -> [f64; 2],
+        z: impl Fn(usize) -> [f64; 2],
+    ) -> f64 {
         self.sum(|c, length, row, column| strain_entry(c, length, y(row), z(column)))
     }
 
@@ -52,7 +64,11 @@ impl Space {
     }
 
     /// `(u_x - φ, y_x - χ)`.
-    pub(super) fn shear(&self, y: impl Fn(usize) -> [f64; 2], z: impl Fn(usize) -> [f64; 2]) -> f64 {
+    pub(super) fn shear(
+        &self,
+        y: impl Fn(usize) -> [f64; 2],
+        z: impl Fn(usize) -> [f64; 2],
+    ) -> f64 {
         self.sum(|c, length, row, column| shear_entry(c, length, y(row), z(column)))
     }
 
@@ -86,7 +102,8 @@ impl Space {
         for (element, &length) in self.lengths.iter().enumerate() {
             for local in 0..2 + self.inner() {
                 if let [_, Some(m)] = degrees(local, self.degree()) {
-                    integrals[self.place(Field::Phi, element, m).0] += 0.5 * length * element::integral(m);
+                    integrals[self.place(Field::Phi, element, m).0] +=
+                        0.5 * length * element::integral(m);
                 }
             }
         }
@@ -117,7 +134,10 @@ mod tests {
         for i in 0..=last {
             for j in 0..=last {
                 let (found, expected) = (form(i, j), matrix.entry(i, j));
-                assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(), "{i} {j}: {found} {expected}");
+                assert!(
+                    (found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(),
+                    "{i} {j}: {found} {expected}"
+                );
             }
         }
     }
@@ -143,19 +163,42 @@ mod tests {
             }
         };
         for field in 0..3 {
-            are_the_same(|i, j| space.mass(only(field, i), only(field, j)), &assembly::mass(&mesh));
+            are_the_same(
+                |i, j| space.mass(only(field, i), only(field, j)),
+                &assembly::mass(&mesh),
+            );
         }
-        are_the_same(|i, j| space.stiffness(unit(i), unit(j)), &assembly::stiffness(&mesh));
-        are_the_same(|i, j| space.bending(unit(i), unit(j)), &assembly::stiffness(&mesh));
-        are_the_same(|i, j| -space.shear(pair(0, i), pair(1, j)), &assembly::coupling(&mesh));
-        are_the_same(|i, j| -space.shear(pair(1, i), pair(0, j)), &assembly::coupling(&mesh).transpose());
+        are_the_same(
+            |i, j| space.stiffness(unit(i), unit(j)),
+            &assembly::stiffness(&mesh),
+        );
+        are_the_same(
+            |i, j| space.bending(unit(i), unit(j)),
+            &assembly::stiffness(&mesh),
+        );
+        are_the_same(
+            |i, j| -space.shear(pair(0, i), pair(1, j)),
+            &assembly::coupling(&mesh),
+        );
+        are_the_same(
+            |i, j| -space.shear(pair(1, i), pair(0, j)),
+            &assembly::coupling(&mesh).transpose(),
+        );
         let diagonal = assembly::mass(&mesh).diagonal;
         for (found, expected) in space.diagonal_mass().iter().zip(&diagonal) {
-            assert!(found.iter().all(|found| (found - expected).abs() <= f64::EPSILON * expected), "{found:?}");
+            assert!(
+                found
+                    .iter()
+                    .all(|found| (found - expected).abs() <= f64::EPSILON * expected),
+                "{found:?}"
+            );
         }
         let sums: Vec<f64> = assembly::mass(&mesh).multiply(&[1.0; 8]);
         for (found, expected) in space.rotation_integrals.iter().zip(sums) {
-            assert!((found - expected).abs() <= f64::EPSILON, "{found} {expected}");
+            assert!(
+                (found - expected).abs() <= f64::EPSILON,
+                "{found} {expected}"
+            );
         }
     }
 }

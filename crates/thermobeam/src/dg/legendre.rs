@@ -6,7 +6,10 @@ pub(super) fn values_into(x: f64, values: &mut [f64]) {
     for (n, place) in values.iter_mut().enumerate() {
         *place = value;
         let n = n as f64;
-        (previous, value) = (value, ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0));
+        (previous, value) = (
+            value,
+            ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0),
+        );
     }
 }
 
@@ -58,7 +61,10 @@ pub(super) fn sum(coefficients: &[f64], s: f64) -> f64 {
     for (n, coefficient) in coefficients.iter().enumerate() {
         sum += coefficient * value;
         let n = n as f64;
-        (previous, value) = (value, ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0));
+        (previous, value) = (
+            value,
+            ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0),
+        );
     }
     sum
 }
@@ -72,9 +78,19 @@ mod tests {
         for count in 1..=60 {
             let points = gauss(count);
             for power in 0..(2 * count).min(90) {
-                let integral: f64 = points.iter().map(|(x, weight)| weight * x.powi(power as i32)).sum();
-                let exact = if power % 2 == 0 { 2.0 / (power + 1) as f64 } else { 0.0 };
-                assert!((integral - exact).abs() < 4e-15, "{count} points, x^{power}: {integral}");
+                let integral: f64 = points
+                    .iter()
+                    .map(|(x, weight)| weight * x.powi(power as i32))
+                    .sum();
+                let exact = if power % 2 == 0 {
+                    2.0 / (power + 1) as f64
+                } else {
+                    0.0
+                };
+                assert!(
+                    (integral - exact).abs() < 4e-15,
+                    "{count} points, x^{power}: {integral}"
+                );
             }
         }
     }
@@ -92,6 +108,11 @@ mod tests {
             let quotient = (values[2][n] - values[0][n]) / (2.0 * step);
             assert!((derivatives[n] - quotient).abs() < 1e-6, "{n}");
         }
-        assert!((sum(&[1.0, 2.0, 3.0], 0.65) - (values[1][0] + 2.0 * values[1][1] + 3.0 * values[1][2])).abs() < 1e-15);
+        assert!(
+            (sum(&[1.0, 2.0, 3.0], 0.65)
+                - (values[1][0] + 2.0 * values[1][1] + 3.0 * values[1][2]))
+                .abs()
+                < 1e-15
+        );
     }
 }

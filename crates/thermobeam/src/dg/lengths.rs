@@ -22,14 +22,28 @@ pub(super) const MAX_RUNGS: usize = 1000;
 impl Lengths {
     /// The ladder from `restart_dt` to `dt`.
     pub(super) fn new(restart_dt: f64, growth: f64, dt: f64) -> Self {
-        let mut rungs: Vec<f64> = (0..=HALVINGS).rev().map(|k| restart_dt * 0.5_f64.powi(k)).collect();
+        let mut rungs: Vec<f64> = (0..=HALVINGS)
+            .rev()
+            .map(|k| restart_dt * 0.5_f64.powi(k))
+            .collect();
         let first = rungs.len() - 1;
-        while let Some(&last) = rungs.last().filter(|last| **last < dt && rungs.len() <= first + MAX_RUNGS) {
+        while let Some(&last) = rungs
+            .last()
+            .filter(|last| **last < dt && rungs.len() <= first + MAX_RUNGS)
+        {
             // The last rung is dt itself; another one just below it would only cost a factorisation.
             let next = last * growth;
-            rungs.push(if next * growth.sqrt() < dt && growth > 1.0 { next } else { dt });
+            rungs.push(if next * growth.sqrt() < dt && growth > 1.0 {
+                next
+            } else {
+                dt
+            });
         }
-        Self { rungs, first, next: first }
+        Self {
+            rungs,
+            first,
+            next: first,
+        }
     }
 
     /// The length of the next step.
@@ -52,7 +66,9 @@ impl Lengths {
     /// Descends to at most half of the length, if that is at least a thousandth of `restart_dt`.
     pub(super) fn shorten(&mut self) -> bool {
         let now = self.get();
-        let shorter = self.rungs[..self.next].iter().rposition(|rung| *rung <= 0.5 * now);
+        let shorter = self.rungs[..self.next]
+            .iter()
+            .rposition(|rung| *rung <= 0.5 * now);
         let possible = shorter.is_some() && now >= 1e-3 * self.rungs[self.first];
         self.next = shorter.filter(|_| possible).unwrap_or(self.next);
         possible
@@ -81,8 +97,16 @@ mod tests {
             found.push(lengths.get());
             lengths.climb();
         }
-        assert_eq!((found[0], found[found.len() - 1], found[found.len() - 3]), (1e-3, 0.02, 0.02));
-        assert!(found.windows(2).all(|pair| pair[1] >= pair[0] && pair[1] <= 1.84 * pair[0]), "{found:?}");
+        assert_eq!(
+            (found[0], found[found.len() - 1], found[found.len() - 3]),
+            (1e-3, 0.02, 0.02)
+        );
+        assert!(
+            found
+                .windows(2)
+                .all(|pair| pair[1] >= pair[0] && pair[1] <= 1.84 * pair[0]),
+            "{found:?}"
+        );
         lengths.restart();
         assert_eq!(lengths.get(), 1e-3);
         assert!(lengths.descend());

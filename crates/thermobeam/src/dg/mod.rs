@@ -86,12 +86,18 @@ pub struct Level {
 impl Level {
     /// A level of zeros for a space.
     pub fn new(space: &Space) -> Self {
-        Self { t: 0.0, places: vec![[0.0; 2]; space.blocks()], rates: vec![[0.0; 3]; space.blocks()] }
+        Self {
+            t: 0.0,
+            places: vec![[0.0; 2]; space.blocks()],
+            rates: vec![[0.0; 3]; space.blocks()],
+        }
     }
 
     /// Value and slope of a field at x.
     pub fn value_and_slope(&self, space: &Space, field: Field, x: f64) -> (f64, f64) {
-        space.evaluate(field, &space.locate(x), |block, place| self.coefficient(field, block, place))
+        space.evaluate(field, &space.locate(x), |block, place| {
+            self.coefficient(field, block, place)
+        })
     }
 
     /// Values and slopes of all fields at x, in the order of [`Field::ALL`].
@@ -100,10 +106,20 @@ impl Level {
     }
 
     /// The same at a point that [`Space::locate`] has found.
-    pub fn values_and_slopes_at(&self, space: &Space, point: &Point) -> [(f64, f64); Field::ALL.len()] {
+    pub fn values_and_slopes_at(
+        &self,
+        space: &Space,
+        point: &Point,
+    ) -> [(f64, f64); Field::ALL.len()] {
         space.evaluate_all(point, |u, phi| {
             let (places, rates) = (&self.places, &self.rates);
-            [places[u][0], places[phi][1], rates[u][0], rates[phi][1], rates[u][2]]
+            [
+                places[u][0],
+                places[phi][1],
+                rates[u][0],
+                rates[phi][1],
+                rates[u][2],
+            ]
         })
     }
 

@@ -24,7 +24,11 @@ impl Simulation {
         if !(t >= self.old.t && t <= self.level.t) {
             return None;
         }
-        Some(if self.last_dt > 0.0 { ((t - self.old.t) / self.last_dt).min(1.0) } else { 1.0 })
+        Some(if self.last_dt > 0.0 {
+            ((t - self.old.t) / self.last_dt).min(1.0)
+        } else {
+            1.0
+        })
     }
 
     /// A field at x and at a time in the last step, both ends included; `None` for other times. θ is the lifted one.
@@ -45,13 +49,19 @@ impl Simulation {
         }
         let tip = self.stages.coefficient(Field::U, self.space.tip(), 0);
         let (extrema, count) = tip.derivative().sign_changes();
-        let values = extrema[..count].iter().map(|&s| tip.at(s)).chain([tip.at(0.0)]);
-        values.fold([u, u], |[low, high], value| [-max_or_nan(-low, -value), max_or_nan(high, value)])
+        let values = extrema[..count]
+            .iter()
+            .map(|&s| tip.at(s))
+            .chain([tip.at(0.0)]);
+        values.fold([u, u], |[low, high], value| {
+            [-max_or_nan(-low, -value), max_or_nan(high, value)]
+        })
     }
 
     /// The physical temperature, including the lifting, at x and at a time in the last step; `None` for other times.
     pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
-        self.value(Field::Theta, x, t).map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
+        self.value(Field::Theta, x, t)
+            .map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
     }
 
     /// Copies the state at a time in the last step into `level`; returns false for other times.
@@ -84,17 +94,28 @@ impl Simulation {
             bending: 0.5 * space.bending(|b| places[b][1], |b| places[b][1]),
             thermal: 0.5 * space.mass(warm, warm),
             kirchhoff: beam.kirchhoff_energy(stretch),
-            contact: self.obstacles.map_or(0.0, |obstacles| obstacles.potential(tip)),
+            contact: self
+                .obstacles
+                .map_or(0.0, |obstacles| obstacles.potential(tip)),
             lifting: -beam.a * beam.theta_a * self.turned(|b| places[b][1]),
         }
     }
 
     /// The size of the current level's energy: the sum of the absolute values of its terms, Kirchhoff's without its constant.
     pub fn energy_scale(&self) -> f64 {
-        let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = self.energy(&self.level);
+        let Energy {
+            kinetic,
+            shear,
+            bending,
+            thermal,
+            contact,
+            lifting,
+            ..
+        } = self.energy(&self.level);
         let places = |b: usize| self.level.places[b][0];
         let stretch = self.space.stiffness(places, places);
-        let kirchhoff = 0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
+        let kirchhoff =
+            0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
         kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
     }
 
@@ -110,32 +131,60 @@ impl Simulation {
 
     /// The balance of the last step; at the start, of an empty step.
     pub fn balance(&self) -> Balance {
-        let Self { space, beam, old, level: new, .. } = self;
+        let Self {
+            space,
+            beam,
+            old,
+            level: new,
+            ..
+        } = self;
         let losses = self.stages.losses(space, beam, self.last_dt);
         let rates = |sign: f64| {
-            move |b: usize| -> [f64; 3] { std::array::from_fn(|f| new.rates[b][f] + sign * old.rates[b][f]) }
+            move |b: usize| -> [f64; 3] {
+                std::array::from_fn(|f| new.rates[b][f] + sign * old.rates[b][f])
+            }
         };
         let places = |sign: f64| {
-            move |b: usize| -> [f64; 2] { std::array::from_fn(|f| new.places[b][f] + sign * old.places[b][f]) }
+            move |b: usize| -> [f64; 2] {
+                std::array::from_fn(|f| new.places[b][f] + sign * old.places[b][f])
+            }
         };
         let difference = space.stiffness(|b| places(-1.0)(b)[0], |b| places(1.0)(b)[0]);
         let before = space.stiffness(|b| old.places[b][0], |b| old.places[b][0]);
         let [u, u0] = [new, old].map(|level| level.places[space.tip()][0]);
-        let stored = self.obstacles.map_or(0.0, |obstacles| obstacles.discrete_gradient(u, u0) * (u - u0));
-        let touched = self.last_phase.obstacle(self.obstacles.as_ref()).zip(self.obstacles);
-        let done = touched.map_or(0.0, |(g, obstacles)| 0.5 * (u - u0) * ((u - g) + (u0 - g)) / obstacles.epsilon);
+        let stored = self.obstacles.map_or(0.0, |obstacles| {
+            obstacles.discrete_gradient(u, u0) * (u - u0)
+        });
+        let touched = self
+            .last_phase
+            .obstacle(self.obstacles.as_ref())
+            .zip(self.obstacles);
+        let done = touched.map_or(0.0, |(g, obstacles)| {
+            0.5 * (u - u0) * ((u - g) + (u0 - g)) / obstacles.epsilon
+        });
         let change = 0.5 * space.mass(rates(-1.0), rates(1.0))
             + 0.5 * space.strain(places(-1.0), places(1.0))
             + beam.kirchhoff_energy_change(before + difference, before)
             - beam.a * beam.theta_a * self.turned(|b| places(-1.0)(b)[1])
             + stored;
         let contact = done - stored;
-        let residual = change + losses.viscous + losses.thermal + losses.inertial + losses.load + contact;
-        Balance { change, contact, residual, ..losses }
+        let residual =
+            change + losses.viscous + losses.thermal + losses.inertial + losses.load + contact;
+        Balance {
+            change,
+            contact,
+            residual,
+            ..losses
+        }
     }
 
     /// `∫ φ`.
     fn turned(&self, phi: impl Fn(usize) -> f64) -> f64 {
-        self.space.rotation_integrals.iter().enumerate().map(|(block, integral)| integral * phi(block)).sum()
+        self.space
+            .rotation_integrals
+            .iter()
+            .enumerate()
+            .map(|(block, integral)| integral * phi(block))
+            .sum()
     }
 }

@@ -28,7 +28,13 @@ pub(super) struct Operator<const S: usize> {
 impl<const S: usize> Operator<S> {
     /// * `n_value`: the fixed axial force.
     /// * `compliance`: ε of the obstacle; infinite without contact.
-    pub(super) fn new(forms: &TimeForms<S>, beam: &Beam, h: f64, n_value: f64, compliance: f64) -> Self {
+    pub(super) fn new(
+        forms: &TimeForms<S>,
+        beam: &Beam,
+        h: f64,
+        n_value: f64,
+        compliance: f64,
+    ) -> Self {
         let (integral, product) = (&forms.integral, &forms.product);
         let times = |factor: f64| integral.map(|row| row.map(|entry| factor * entry));
         let mut elastic = times(h * h);
@@ -36,11 +42,25 @@ impl<const S: usize> Operator<S> {
             row[i] += h * beam.zeta * product[i];
         }
         let mut axial = elastic;
-        for (axial, integral) in axial.as_flattened_mut().iter_mut().zip(integral.as_flattened()) {
+        for (axial, integral) in axial
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(integral.as_flattened())
+        {
             *axial += h * h * n_value * integral;
         }
-        let (contact, heat) = (times(h * h / compliance), product.map(|product| h * product));
-        Self { inertia: forms.derivative, elastic, axial, contact, heat, a: beam.a }
+        let (contact, heat) = (
+            times(h * h / compliance),
+            product.map(|product| h * product),
+        );
+        Self {
+            inertia: forms.derivative,
+            elastic,
+            axial,
+            contact,
+            heat,
+            a: beam.a,
+        }
     }
 
     /// The matrix between two blocks of an element of the given length.
@@ -50,10 +70,12 @@ impl<const S: usize> Operator<S> {
         for j in 0..S {
             for i in 0..S {
                 let (inertia, elastic) = (m * self.inertia[i][j], self.elastic[i][j]);
-                matrix[0][j][0][i] = coupling.mass_u * inertia + coupling.stiff_u * k * self.axial[i][j];
+                matrix[0][j][0][i] =
+                    coupling.mass_u * inertia + coupling.stiff_u * k * self.axial[i][j];
                 matrix[1][j][0][i] = -coupling.u_phi * elastic;
                 matrix[0][j][1][i] = -coupling.phi_u * elastic;
-                matrix[1][j][1][i] = coupling.mass_phi * (inertia + m * elastic) + coupling.stiff_phi * k * elastic;
+                matrix[1][j][1][i] =
+                    coupling.mass_phi * (inertia + m * elastic) + coupling.stiff_phi * k * elastic;
                 matrix[2][j][2][i] = coupling.mass_u * inertia;
             }
             matrix[2][j][1][j] = -self.a * coupling.phi_theta * self.heat[j];

@@ -29,7 +29,13 @@ impl Initial {
     /// A straight beam at rest, with the steady temperature θ_A (1 - x).
     pub fn at_rest(theta_a: f64) -> Self {
         let zero = || Box::new(|_: f64| 0.0);
-        Self { u: zero(), u_t: zero(), phi: zero(), phi_t: zero(), theta: Box::new(move |x| theta_a * (1.0 - x)) }
+        Self {
+            u: zero(),
+            u_t: zero(),
+            phi: zero(),
+            phi_t: zero(),
+            theta: Box::new(move |x| theta_a * (1.0 - x)),
+        }
     }
 }
 
@@ -68,7 +74,14 @@ pub struct Stepping {
 impl Default for Stepping {
     /// For the paper's beam: the peak of an impact has the time scale (ε √ζ)^(2/3) = 5e-3.
     fn default() -> Self {
-        Self { degree: 2, dt: 0.02, restart_dt: 1e-3, growth: 1.5, tolerance: 1e-14, max_iterations: 100 }
+        Self {
+            degree: 2,
+            dt: 0.02,
+            restart_dt: 1e-3,
+            growth: 1.5,
+            tolerance: 1e-14,
+            max_iterations: 100,
+        }
     }
 }
 
@@ -80,24 +93,60 @@ pub(super) fn check_problem(
 ) -> Result<(), SetupError> {
     beam.validate()?;
     obstacles.map_or(Ok(()), Obstacles::validate)?;
-    let Stepping { degree: q, dt, restart_dt, growth, tolerance, max_iterations } = *stepping;
+    let Stepping {
+        degree: q,
+        dt,
+        restart_dt,
+        growth,
+        tolerance,
+        max_iterations,
+    } = *stepping;
     let degrees = format!("an integer from 1 to {MAX_DEGREE}");
-    check("degree of the elements", degree as f64, (1..=MAX_DEGREE).contains(&degree), degrees)?;
+    check(
+        "degree of the elements",
+        degree as f64,
+        (1..=MAX_DEGREE).contains(&degree),
+        degrees,
+    )?;
     let degrees = format!("an integer from 0 to {MAX_TIME_DEGREE}");
     check("degree in time", q as f64, q <= MAX_TIME_DEGREE, degrees)?;
     check_positive("dt", dt)?;
     let at_most_dt = format!("a number > 0 and at most dt = {dt}");
-    check("restart_dt", restart_dt, restart_dt > 0.0 && restart_dt <= dt, at_most_dt)?;
-    check("growth", growth, growth >= 1.0 && growth.is_finite(), "a finite number >= 1")?;
+    check(
+        "restart_dt",
+        restart_dt,
+        restart_dt > 0.0 && restart_dt <= dt,
+        at_most_dt,
+    )?;
+    check(
+        "growth",
+        growth,
+        growth >= 1.0 && growth.is_finite(),
+        "a finite number >= 1",
+    )?;
     let few_rungs = growth == 1.0 || (dt / restart_dt).ln() / growth.ln() <= MAX_RUNGS as f64;
-    check("growth", growth, few_rungs, format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"))?;
+    check(
+        "growth",
+        growth,
+        few_rungs,
+        format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"),
+    )?;
     check_positive("tolerance", tolerance)?;
-    check("max_iterations", max_iterations as f64, max_iterations > 0, "an integer >= 1")?;
+    check(
+        "max_iterations",
+        max_iterations as f64,
+        max_iterations > 0,
+        "an integer >= 1",
+    )?;
     Ok(())
 }
 
 /// (3.6): the projections of the initial data, with the temperature lifted.
-pub(super) fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Result<Level, SetupError> {
+pub(super) fn initial_level(
+    space: &Space,
+    beam: &Beam,
+    initial: &Initial,
+) -> Result<Level, SetupError> {
     let mut level = Level::new(space);
     let theta_a = beam.theta_a;
     let lifted = |x: f64| (initial.theta)(x) - theta_a * (1.0 - x);
@@ -133,13 +182,23 @@ pub(super) fn initial_level(space: &Space, beam: &Beam, initial: &Initial) -> Re
             scale = scale.max(theta_a.abs());
         }
         // A bubble function has no coefficients on a single linear element.
-        let slack = BOUNDARY_SLACK * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
-        let ends: &[(f64, f64)] = if field == Field::Theta { &[(0.0, theta_a), (1.0, 0.0)] } else { &[(0.0, 0.0)] };
+        let slack = BOUNDARY_SLACK
+            * (0..=16).fold(scale, |scale, i| scale.max(f(f64::from(i) / 16.0).abs()));
+        let ends: &[(f64, f64)] = if field == Field::Theta {
+            &[(0.0, theta_a), (1.0, 0.0)]
+        } else {
+            &[(0.0, 0.0)]
+        };
         for &(x, allowed) in ends {
             // NaN is not a valid boundary value either.
             if !(f(x).abs() <= slack) {
                 let found = f(x) + allowed;
-                return Err(SetupError::Boundary { field: name, x, found, allowed });
+                return Err(SetupError::Boundary {
+                    field: name,
+                    x,
+                    found,
+                    allowed,
+                });
             }
         }
     }

@@ -26,7 +26,10 @@ pub(super) struct Terms<const S: usize> {
 
 impl<const S: usize> Terms<S> {
     pub(super) const ZERO: Self = Self {
-        places: [Path { low: [0.0; S], top: 0.0 }; 2],
+        places: [Path {
+            low: [0.0; S],
+            top: 0.0,
+        }; 2],
         inertia: [[0.0; S]; 3],
         strain: [[0.0; S]; 2],
         tension: [0.0; S],
@@ -68,8 +71,15 @@ impl Equations<'_> {
     }
 
     /// `∫ N(u) L_i L_j` with `N(u) = β + ρ‖u_x‖²`, by 2q + 2 Gauss points.
-    pub(super) fn axial_force<const S: usize>(&self, forms: &TimeForms<S>, terms: &[Terms<S>]) -> AxialForce<S> {
-        let mut force = AxialForce { low: [[0.0; S]; S], top: [0.0; S] };
+    pub(super) fn axial_force<const S: usize>(
+        &self,
+        forms: &TimeForms<S>,
+        terms: &[Terms<S>],
+    ) -> AxialForce<S> {
+        let mut force = AxialForce {
+            low: [[0.0; S]; S],
+            top: [0.0; S],
+        };
         if self.beam.rho == 0.0 {
             for i in 0..S {
                 force.low[i][i] = self.beam.beta * forms.product[i];
@@ -123,8 +133,10 @@ impl Equations<'_> {
                 let [inertia_v, inertia_w, inertia_theta] = &terms.inertia;
                 let [u, phi] = &terms.strain;
                 for i in 0..S {
-                    row[0][i] += m * c.mass_u * inertia_v[i] + k * c.stiff_u * terms.tension[i] - c.u_phi * phi[i];
-                    row[1][i] += m * c.mass_phi * (inertia_w[i] + phi[i]) + k * c.stiff_phi * phi[i]
+                    row[0][i] += m * c.mass_u * inertia_v[i] + k * c.stiff_u * terms.tension[i]
+                        - c.u_phi * phi[i];
+                    row[1][i] += m * c.mass_phi * (inertia_w[i] + phi[i])
+                        + k * c.stiff_phi * phi[i]
                         - c.phi_u * u[i]
                         - c.phi_theta * self.beam.a * terms.heat[i];
                     row[2][i] += m * c.mass_u * inertia_theta[i]
@@ -135,7 +147,8 @@ impl Equations<'_> {
         }
         let tip = self.space.tip();
         let load = |i: usize| forcing.map_or(0.0, |forcing| forcing.moments[i][tip][0]);
-        let force = std::array::from_fn(|i| (load(i) - residual[tip][0][i]) / (self.h * forms.product[i]));
+        let force =
+            std::array::from_fn(|i| (load(i) - residual[tip][0][i]) / (self.h * forms.product[i]));
         self.add_forces(forms, forcing, terms, residual);
         residual[0] = [[0.0; S]; 3];
         residual[tip][2] = [0.0; S];
@@ -151,7 +164,8 @@ impl Equations<'_> {
         residual: &mut [Block<S>],
     ) {
         let tip = self.space.tip();
-        if let Some((obstacle, obstacles)) = self.phase.obstacle(self.obstacles).zip(self.obstacles) {
+        if let Some((obstacle, obstacles)) = self.phase.obstacle(self.obstacles).zip(self.obstacles)
+        {
             let u = &terms[tip].places[0].low;
             for i in 0..S {
                 let depth = if i == 0 { u[0] - obstacle } else { u[i] };
@@ -192,7 +206,8 @@ impl Equations<'_> {
         for i in 0..S {
             let duration = self.h * forms.product[i];
             for field in 0..2 {
-                terms.strain[field][i] = duration * (terms.places[field].low[i] + self.beam.zeta * x[field][i]);
+                terms.strain[field][i] =
+                    duration * (terms.places[field].low[i] + self.beam.zeta * x[field][i]);
             }
             terms.turning[i] = self.beam.a * duration * x[1][i];
             terms.heat[i] = duration * x[2][i];
@@ -214,13 +229,21 @@ pub(super) struct Gram<const S: usize> {
 impl<const S: usize> Gram<S> {
     /// For the displacement in `terms`.
     pub(super) fn of(space: &Space, terms: &[Terms<S>]) -> Self {
-        let mut gram = Self { entries: [[0.0; MAX_STAGES + 1]; MAX_STAGES + 1] };
+        let mut gram = Self {
+            entries: [[0.0; MAX_STAGES + 1]; MAX_STAGES + 1],
+        };
         let tip = space.tip();
         let (nodes, inside) = terms.split_at(tip + 1);
         for (element, &length) in space.lengths.iter().enumerate() {
             let [left, right] = [&nodes[element].places[0], &nodes[element + 1].places[0]];
             let low = std::array::from_fn(|i| right.low[i] - left.low[i]);
-            gram.add(1.0 / length, &Path { low, top: right.top - left.top });
+            gram.add(
+                1.0 / length,
+                &Path {
+                    low,
+                    top: right.top - left.top,
+                },
+            );
             for terms in &inside[element * space.inner()..(element + 1) * space.inner()] {
                 gram.add(2.0 / length, &terms.places[0]);
             }

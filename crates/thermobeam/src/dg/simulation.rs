@@ -113,7 +113,13 @@ impl Simulation {
         stepping: Stepping,
         load: impl FnOnce(&Space) -> Option<Box<Load>>,
     ) -> Result<Self, SetupError> {
-        let Problem { beam, obstacles, mesh, degree, initial } = problem;
+        let Problem {
+            beam,
+            obstacles,
+            mesh,
+            degree,
+            initial,
+        } = problem;
         check_problem(&beam, obstacles.as_ref(), degree, &stepping)?;
         let space = Space::new(mesh, degree);
         let level = initial_level(&space, &beam, &initial)?;
@@ -205,7 +211,8 @@ impl Simulation {
             event = None;
             self.stages.guess_constant(&self.level);
             if let Some(iterations) = self.stays(next, h)? {
-                self.change_phase(next, self.level.t).map_err(|failure| self.failed(h, failure))?;
+                self.change_phase(next, self.level.t)
+                    .map_err(|failure| self.failed(h, failure))?;
                 return self.finish(h, limit, iterations, None).map(Some);
             } else if self.lengths.descend() {
                 // It leaves the other phase as well: polynomials of this length are too coarse to decide.
@@ -218,7 +225,9 @@ impl Simulation {
             self.stages.guess_constant(&self.level);
             iterations = self.attempt(h)?;
         }
-        let miss = self.first_fall(h).map_or(0.0, |(_, next)| self.distance(next, h).distance.at(1.0));
+        let miss = self
+            .first_fall(h)
+            .map_or(0.0, |(_, next)| self.distance(next, h).distance.at(1.0));
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
@@ -232,13 +241,21 @@ impl Simulation {
     }
 
     /// Accepts the step just found: its end is the new level.
-    fn finish(&mut self, h: f64, limit: f64, iterations: usize, next: Option<Phase>) -> Result<StepReport, StepError> {
-        self.check_contact(h).map_err(|failure| self.failed(h, failure))?;
+    fn finish(
+        &mut self,
+        h: f64,
+        limit: f64,
+        iterations: usize,
+        next: Option<Phase>,
+    ) -> Result<StepReport, StepError> {
+        self.check_contact(h)
+            .map_err(|failure| self.failed(h, failure))?;
         let start = self.level.t;
         let t = if h == limit - start { limit } else { start + h };
         let (phase, rung) = (self.phase, self.lengths.get());
         if let Some(next) = next {
-            self.change_phase(next, t).map_err(|failure| self.failed(h, failure))?;
+            self.change_phase(next, t)
+                .map_err(|failure| self.failed(h, failure))?;
         }
         self.stages.accept(&self.level);
         std::mem::swap(&mut self.level, &mut self.old);
@@ -256,7 +273,11 @@ impl Simulation {
         }
         (self.last_dt, self.last_phase, self.smooth) = (h, phase, next.is_none());
         let event = next.and(self.events.last().copied());
-        Ok(StepReport { dt: h, iterations, event })
+        Ok(StepReport {
+            dt: h,
+            iterations,
+            event,
+        })
     }
 
     /// Whether the phase of the free end agrees with the step just found.
@@ -264,7 +285,9 @@ impl Simulation {
     /// A free end must not penetrate, and closed contact must not pull. If ε is so small that the position does not
     /// determine the force, the balance of momentum does.
     fn check_contact(&self, h: f64) -> Result<(), StepFailure> {
-        let Some(obstacles) = &self.obstacles else { return Ok(()) };
+        let Some(obstacles) = &self.obstacles else {
+            return Ok(());
+        };
         let tip = self.stages.tip(&self.space);
         let slack = self.slack(&tip);
         let noise = slack / obstacles.epsilon;
@@ -272,22 +295,36 @@ impl Simulation {
             Phase::Free => {
                 let end = tip.at(1.0);
                 let depth = (end - obstacles.g2).max(obstacles.g1 - end);
-                if depth > slack { depth / obstacles.epsilon } else { 0.0 }
+                if depth > slack {
+                    depth / obstacles.epsilon
+                } else {
+                    0.0
+                }
             }
             _ if self.is_blurred(slack) => -self.pressure().coefficients[0],
             _ => 0.0,
         };
         let least = match self.phase {
-            Phase::Free => WRONG_FORCE * self.stages.axial_force().abs().max(1.0) + self.rounding_of_velocity(h),
+            Phase::Free => {
+                WRONG_FORCE * self.stages.axial_force().abs().max(1.0)
+                    + self.rounding_of_velocity(h)
+            }
             _ => self.rounding_of_force(h),
         };
-        if force > least { Err(StepFailure::WrongContact { force, noise }) } else { Ok(()) }
+        if force > least {
+            Err(StepFailure::WrongContact { force, noise })
+        } else {
+            Ok(())
+        }
     }
 
     /// Whether rounding errors of the free end's position are so large a force that its position does not show when contact ends.
     fn is_blurred(&self, slack: f64) -> bool {
         let least = WRONG_FORCE * self.stages.axial_force().abs().max(1.0);
-        self.phase != Phase::Free && self.obstacles.is_some_and(|obstacles| slack / obstacles.epsilon > least)
+        self.phase != Phase::Free
+            && self
+                .obstacles
+                .is_some_and(|obstacles| slack / obstacles.epsilon > least)
     }
 
     /// The force of the obstacle over the step just found, by the balance of momentum, positive where it pushes.
@@ -316,7 +353,11 @@ impl Simulation {
     /// The length of the next step, cut or stretched by a rounding error to end at the limit.
     fn propose(&self, remaining: f64) -> f64 {
         let h = self.lengths.get();
-        if h * (1.0 + 1e-9) >= remaining { remaining } else { h }
+        if h * (1.0 + 1e-9) >= remaining {
+            remaining
+        } else {
+            h
+        }
     }
 
     /// The shortest possible step: a few units of round-off of the time.
@@ -325,20 +366,42 @@ impl Simulation {
     }
 
     fn failed(&self, dt: f64, failure: StepFailure) -> StepError {
-        StepError { step: self.stages.work().steps + 1, t: self.level.t, dt, failure }
+        StepError {
+            step: self.stages.work().steps + 1,
+            t: self.level.t,
+            dt,
+            failure,
+        }
     }
 
     /// Finds the polynomials of a step of length τ (`h`) in the current phase.
     fn attempt(&mut self, h: f64) -> Result<usize, StepError> {
-        let Self { space, beam, level, phase, .. } = self;
-        let equations = Equations { space, beam, obstacles: self.obstacles.as_ref(), level, h, phase: *phase };
-        let outcome = self.stages.solve(&equations, &self.stepping, self.load.as_deref_mut());
+        let Self {
+            space,
+            beam,
+            level,
+            phase,
+            ..
+        } = self;
+        let equations = Equations {
+            space,
+            beam,
+            obstacles: self.obstacles.as_ref(),
+            level,
+            h,
+            phase: *phase,
+        };
+        let outcome = self
+            .stages
+            .solve(&equations, &self.stepping, self.load.as_deref_mut());
         outcome.map_err(|failure| self.failed(h, failure))
     }
 
     /// Rounding errors of the free end's position in the step just found.
     fn slack(&self, tip: &Polynomial) -> f64 {
-        let obstacles = self.obstacles.map_or(0.0, |obstacles| obstacles.g1.abs().max(obstacles.g2));
+        let obstacles = self
+            .obstacles
+            .map_or(0.0, |obstacles| obstacles.g1.abs().max(obstacles.g2));
         let size: f64 = tip.coefficients.iter().map(|c| c.abs()).sum();
         TIP_SLACK * (obstacles + size)
     }
@@ -346,26 +409,43 @@ impl Simulation {
     /// The bounds of the phase in the step just found, of length h: of the free end's position, or of its contact force where
     /// rounding errors blur the position.
     fn phase_bounds(&self, h: f64) -> [Option<PhaseBound>; 2] {
-        let Some(obstacles) = &self.obstacles else { return [None; 2] };
+        let Some(obstacles) = &self.obstacles else {
+            return [None; 2];
+        };
         let tip = self.stages.tip(&self.space);
         let slack = self.slack(&tip);
         let of_position = bounds(self.phase, &tip, obstacles);
         if !self.is_blurred(slack) {
-            return of_position.map(|bound| bound.map(|(distance, next)| PhaseBound { distance, slack, next }));
+            return of_position.map(|bound| {
+                bound.map(|(distance, next)| PhaseBound {
+                    distance,
+                    slack,
+                    next,
+                })
+            });
         }
         // The first step of a contact holds the impulse of the impact, whose projection oscillates; `check_contact` sees its mean.
         if self.last_phase != self.phase || self.last_dt == 0.0 {
             return [None; 2];
         }
-        let of_force = |(_, next)| PhaseBound { distance: self.pressure(), slack: self.rounding_of_force(h), next };
+        let of_force = |(_, next)| PhaseBound {
+            distance: self.pressure(),
+            slack: self.rounding_of_force(h),
+            next,
+        };
         of_position.map(|bound| bound.map(of_force))
     }
 
     /// Where the step just found, of length h, first leaves its phase, and the phase that it enters.
     fn first_fall(&self, h: f64) -> Option<(Fall, Phase)> {
         let falls = self.phase_bounds(h).into_iter().flatten();
-        let falls = falls
-            .filter_map(|PhaseBound { distance, slack, next }| distance.first_fall(slack).map(|fall| (fall, next)));
+        let falls = falls.filter_map(
+            |PhaseBound {
+                 distance,
+                 slack,
+                 next,
+             }| distance.first_fall(slack).map(|fall| (fall, next)),
+        );
         falls.min_by(|(one, _), (other, _)| one.crossing.total_cmp(&other.crossing))
     }
 
@@ -373,7 +453,12 @@ impl Simulation {
     /// step was clearly beyond it.
     ///
     /// Returns length, iterations, and the phase beyond; that phase is `None` if a shorter step does not reach the obstacle.
-    fn meet(&mut self, whole: f64, fall: Fall, next: Phase) -> Result<(f64, usize, Option<Phase>), StepError> {
+    fn meet(
+        &mut self,
+        whole: f64,
+        fall: Fall,
+        next: Phase,
+    ) -> Result<(f64, usize, Option<Phase>), StepError> {
         let (mut low, mut high, mut beyond) = (0.0, fall.below * whole, false);
         let (mut h, mut solved) = (fall.crossing * whole, whole);
         // The previous attempt: length and miss.
@@ -383,7 +468,9 @@ impl Simulation {
             self.stages.restrict(h / solved);
             solved = h;
             let iterations = self.attempt(h)?;
-            let PhaseBound { distance, slack, .. } = self.distance(next, h);
+            let PhaseBound {
+                distance, slack, ..
+            } = self.distance(next, h);
             miss = distance.at(1.0);
             if miss.abs() <= slack {
                 return Ok((h, iterations, Some(next)));
@@ -422,8 +509,16 @@ impl Simulation {
     /// The bound beyond which `next` begins, in the step just found, of length h.
     fn distance(&self, next: Phase, h: f64) -> PhaseBound {
         let tip = self.stages.tip(&self.space);
-        let bound = self.phase_bounds(h).into_iter().flatten().find(|bound| bound.next == next);
-        bound.unwrap_or_else(|| PhaseBound { distance: tip, slack: self.slack(&tip), next })
+        let bound = self
+            .phase_bounds(h)
+            .into_iter()
+            .flatten()
+            .find(|bound| bound.next == next);
+        bound.unwrap_or_else(|| PhaseBound {
+            distance: tip,
+            slack: self.slack(&tip),
+            next,
+        })
     }
 
     /// Enters another phase at time t.
@@ -433,9 +528,16 @@ impl Simulation {
         }
         self.crowd.1 += 1;
         if self.crowd.1 > CROWD {
-            return Err(StepFailure::EventsTooClose { events: self.crowd.1, within: t - self.crowd.0 });
+            return Err(StepFailure::EventsTooClose {
+                events: self.crowd.1,
+                within: t - self.crowd.0,
+            });
         }
-        self.events.push(ContactEvent { t, from: self.phase, to });
+        self.events.push(ContactEvent {
+            t,
+            from: self.phase,
+            to,
+        });
         self.phase = to;
         Ok(())
     }
@@ -472,6 +574,10 @@ impl Simulation {
 
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
-        Work { events: self.events.len(), shortened: self.shortened, ..self.stages.work() }
+        Work {
+            events: self.events.len(),
+            shortened: self.shortened,
+            ..self.stages.work()
+        }
     }
 }

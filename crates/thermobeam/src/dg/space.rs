@@ -96,7 +96,13 @@ impl Space {
                 couplings.extend(coupling(row, column, degree));
             }
         }
-        let mut space = Self { mesh, degree, lengths, couplings, rotation_integrals: vec![] };
+        let mut space = Self {
+            mesh,
+            degree,
+            lengths,
+            couplings,
+            rotation_integrals: vec![],
+        };
         space.rotation_integrals = space.integrals_of_rotations();
         space
     }
@@ -128,7 +134,11 @@ impl Space {
 
     /// Storage index of block `local` of an element.
     pub(super) fn block(&self, element: usize, local: usize) -> usize {
-        if local < 2 { element + local } else { self.tip() + 1 + element * self.inner() + local - 2 }
+        if local < 2 {
+            element + local
+        } else {
+            self.tip() + 1 + element * self.inner() + local - 2
+        }
     }
 
     /// Block and index in it for the coefficient of a field in degree m of an element (0 and 1: the hats).
@@ -154,7 +164,13 @@ impl Space {
     ///
     /// * `field`: the equation whose test functions are used; V and W stand for those of u and φ.
     /// * `load`: [`Self::blocks`] blocks of `(F_u, F_φ, F_θ)`. A point load at x = 1 belongs in block n, the number of elements.
-    pub fn add_load(&self, field: Field, points: &[(f64, f64)], f: impl Fn(f64) -> f64, load: &mut [[f64; 3]]) {
+    pub fn add_load(
+        &self,
+        field: Field,
+        points: &[(f64, f64)],
+        f: impl Fn(f64) -> f64,
+        load: &mut [[f64; 3]],
+    ) {
         for (element, x) in self.mesh.nodes().windows(2).enumerate() {
             let half = 0.5 * (x[1] - x[0]);
             for &(xi, weight) in points {
@@ -178,7 +194,12 @@ impl Space {
     /// It equals f at the nodes. Inside an element its coefficients are `(f - I f, N_m')` in the product of derivatives,
     /// where I interpolates at the nodes. Integration by parts removes the derivative of f: `c_m = -√((2m - 1)/2) ∫ (f - I f)
     /// P_{m-1}' dξ`.
-    pub(super) fn project(&self, field: Field, f: impl Fn(f64) -> f64, mut put: impl FnMut(usize, usize, usize, f64)) {
+    pub(super) fn project(
+        &self,
+        field: Field,
+        f: impl Fn(f64) -> f64,
+        mut put: impl FnMut(usize, usize, usize, f64),
+    ) {
         let points = legendre::gauss(2 * self.degree + 16);
         for (element, x) in self.mesh.nodes().windows(2).enumerate() {
             let ends = [f(x[0]), f(x[1])];
@@ -186,17 +207,30 @@ impl Space {
             for &(xi, weight) in &points {
                 let value = f(0.5 * ((1.0 - xi) * x[0] + (1.0 + xi) * x[1]));
                 let rest = value - 0.5 * ((1.0 - xi) * ends[0] + (1.0 + xi) * ends[1]);
-                let (mut values, mut slopes) = ([0.0; element::MAX_DEGREE + 1], [0.0; element::MAX_DEGREE + 1]);
+                let (mut values, mut slopes) = (
+                    [0.0; element::MAX_DEGREE + 1],
+                    [0.0; element::MAX_DEGREE + 1],
+                );
                 legendre::values_into(xi, &mut values[..=self.degree]);
                 legendre::derivatives_into(&values[..=self.degree], &mut slopes[..=self.degree]);
                 for m in 2..=self.degree {
-                    coefficients[m] -= weight * (0.5 * (2 * m - 1) as f64).sqrt() * rest * slopes[m - 1];
+                    coefficients[m] -=
+                        weight * (0.5 * (2 * m - 1) as f64).sqrt() * rest * slopes[m - 1];
                 }
             }
             coefficients[..2].copy_from_slice(&ends);
             for m in 0..=self.degree {
                 let (block, place) = self.place(field, element, m);
-                put(element, block, place, if self.is_free(field, element, m) { coefficients[m] } else { 0.0 });
+                put(
+                    element,
+                    block,
+                    place,
+                    if self.is_free(field, element, m) {
+                        coefficients[m]
+                    } else {
+                        0.0
+                    },
+                );
             }
         }
     }
@@ -204,9 +238,15 @@ impl Space {
     /// The element that holds x, and its basis there. Points beyond the ends belong to the outermost elements.
     pub fn locate(&self, x: f64) -> Point {
         let nodes = self.mesh.nodes();
-        let element = nodes.partition_point(|node| *node <= x).clamp(1, self.lengths.len()) - 1;
+        let element = nodes
+            .partition_point(|node| *node <= x)
+            .clamp(1, self.lengths.len())
+            - 1;
         let xi = (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element];
-        Point { element, basis: Basis::at(xi, self.degree) }
+        Point {
+            element,
+            basis: Basis::at(xi, self.degree),
+        }
     }
 
     /// Value and slope of the field with the coefficients `coefficient(block, place)` at a point found by [`Self::locate`].
@@ -248,7 +288,8 @@ impl Space {
 
 /// The coupling of two blocks of the reference element, if any.
 fn coupling(row: usize, column: usize, degree: usize) -> Option<Coupling> {
-    let ([u_row, phi_row], [u_column, phi_column]) = (degrees(row, degree), degrees(column, degree));
+    let ([u_row, phi_row], [u_column, phi_column]) =
+        (degrees(row, degree), degrees(column, degree));
     let of = |matrix: fn(usize, usize) -> f64, i: Option<usize>, j: Option<usize>| match (i, j) {
         (Some(i), Some(j)) => matrix(i, j),
         _ => 0.0,
@@ -266,9 +307,24 @@ fn coupling(row: usize, column: usize, degree: usize) -> Option<Coupling> {
         phi_theta: of(element::coupling, phi_row, u_column),
         theta_phi: of(transposed, u_row, phi_column),
     };
-    let Coupling { mass_u, mass_phi, stiff_u, stiff_phi, u_phi, phi_u, phi_theta, theta_phi, .. } = coupling;
-    let entries = [mass_u, mass_phi, stiff_u, stiff_phi, u_phi, phi_u, phi_theta, theta_phi];
-    entries.iter().any(|entry| *entry != 0.0).then_some(coupling)
+    let Coupling {
+        mass_u,
+        mass_phi,
+        stiff_u,
+        stiff_phi,
+        u_phi,
+        phi_u,
+        phi_theta,
+        theta_phi,
+        ..
+    } = coupling;
+    let entries = [
+        mass_u, mass_phi, stiff_u, stiff_phi, u_phi, phi_u, phi_theta, theta_phi,
+    ];
+    entries
+        .iter()
+        .any(|entry| *entry != 0.0)
+        .then_some(coupling)
 }
 
 #[cfg(test)]
@@ -297,7 +353,10 @@ mod tests {
     fn blocks_meet_their_neighbours_in_the_chain_and_the_first_ones_the_hats() {
         for degree in 1..=12 {
             for coupling in Space::new(Mesh::uniform(1).unwrap(), degree).couplings {
-                let (row, column) = (coupling.row.min(coupling.column), coupling.row.max(coupling.column));
+                let (row, column) = (
+                    coupling.row.min(coupling.column),
+                    coupling.row.max(coupling.column),
+                );
                 let hats = row < 2 && column < 4;
                 assert!(hats || column - row == 2 || column == row, "{coupling:?}");
             }
@@ -312,11 +371,15 @@ mod tests {
         let space = Space::new(mesh, 4);
         for field in [Field::U, Field::W] {
             let mut coefficients = vec![[0.0; 3]; space.blocks()];
-            space.project(field, polynomial, |_, block, place, value| coefficients[block][place] = value);
+            space.project(field, polynomial, |_, block, place, value| {
+                coefficients[block][place] = value
+            });
             for i in 0..=50 {
                 let x = f64::from(i) / 50.0;
                 let (value, derivative) =
-                    space.evaluate(field, &space.locate(x), |block, place| coefficients[block][place]);
+                    space.evaluate(field, &space.locate(x), |block, place| {
+                        coefficients[block][place]
+                    });
                 assert!((value - polynomial(x)).abs() < 4e-15, "{x}: {value}");
                 assert!((derivative - slope(x)).abs() < 4e-13, "{x}: {derivative}");
             }

@@ -37,7 +37,12 @@ pub(super) trait Stages: Send {
     /// Restricts the last solution to the first part, from 0 to `ratio`, of its step.
     fn restrict(&mut self, ratio: f64);
     /// Finds the polynomials of a step, from the guess; returns the number of iterations.
-    fn solve(&mut self, task: &Equations<'_>, by: &Stepping, load: Option<&mut Load>) -> Result<usize, StepFailure>;
+    fn solve(
+        &mut self,
+        task: &Equations<'_>,
+        by: &Stepping,
+        load: Option<&mut Load>,
+    ) -> Result<usize, StepFailure>;
     /// u(1, t).
     fn tip(&self, space: &Space) -> Polynomial;
     /// The contact force over the step from the balance of momentum, positive at the upper obstacle.
@@ -95,10 +100,18 @@ impl<const S: usize> DgStepper<S> {
     /// With room for one factorisation per length, and [`SPARE`] more; `loaded` if there will be loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
-        let motion = || Polynomials { x: vec![[[0.0; S]; 3]; blocks], terms: vec![Terms::ZERO; blocks] };
+        let motion = || Polynomials {
+            x: vec![[[0.0; S]; 3]; blocks],
+            terms: vec![Terms::ZERO; blocks],
+        };
         let factor = Factor::new(space);
         let affordable = (FACTOR_BYTES / factor.bytes()).max(2);
-        let slot = || Slot { h: 0.0, n_value: 0.0, used: 0, factor: factor.clone() };
+        let slot = || Slot {
+            h: 0.0,
+            n_value: 0.0,
+            used: 0,
+            factor: factor.clone(),
+        };
         Self {
             forms: TimeForms::new(),
             trial: motion(),
@@ -106,7 +119,9 @@ impl<const S: usize> DgStepper<S> {
             jumps: vec![[0.0; 3]; blocks],
             residual: vec![[[0.0; S]; 3]; blocks],
             weights: space.diagonal_mass(),
-            slots: (0..affordable.min(lengths + SPARE)).map(|_| slot()).collect(),
+            slots: (0..affordable.min(lengths + SPARE))
+                .map(|_| slot())
+                .collect(),
             forcing: loaded.then(|| Forcing::new(blocks)),
             contact_force: [0.0; S],
             axial_force: 0.0,
@@ -119,11 +134,14 @@ impl<const S: usize> DgStepper<S> {
     fn slot(&mut self, task: &Equations<'_>, n_value: f64) -> Result<usize, StepFailure> {
         self.clock += 1;
         let near = |slot: &Slot<S>| (slot.h / task.h - 1.0).abs();
-        let best = (0..self.slots.len()).min_by(|&i, &j| near(&self.slots[i]).total_cmp(&near(&self.slots[j])));
+        let best = (0..self.slots.len())
+            .min_by(|&i, &j| near(&self.slots[i]).total_cmp(&near(&self.slots[j])));
         let index = match best.filter(|&index| near(&self.slots[index]) <= SAME_LENGTH) {
             Some(index) => index,
             None => {
-                let index = (0..self.slots.len()).min_by_key(|&index| self.slots[index].used).unwrap_or(0);
+                let index = (0..self.slots.len())
+                    .min_by_key(|&index| self.slots[index].used)
+                    .unwrap_or(0);
                 self.factorize(index, task, n_value)?;
                 index
             }
@@ -137,14 +155,28 @@ impl<const S: usize> DgStepper<S> {
         let Polynomials { x, terms } = &mut self.trial;
         task.displace(x, terms);
         let axial = task.axial_force(&self.forms, terms);
-        self.contact_force = task.residual(&self.forms, self.forcing.as_ref(), x, terms, &axial, &mut self.residual);
+        self.contact_force = task.residual(
+            &self.forms,
+            self.forcing.as_ref(),
+            x,
+            terms,
+            &axial,
+            &mut self.residual,
+        );
         self.axial_force = axial.low[0][0];
         self.axial_force
     }
 
-    fn factorize(&mut self, index: usize, task: &Equations<'_>, n_value: f64) -> Result<(), StepFailure> {
+    fn factorize(
+        &mut self,
+        index: usize,
+        task: &Equations<'_>,
+        n_value: f64,
+    ) -> Result<(), StepFailure> {
         let slot = &mut self.slots[index];
-        let compliance = task.obstacles.map_or(f64::INFINITY, |obstacles| obstacles.epsilon);
+        let compliance = task
+            .obstacles
+            .map_or(f64::INFINITY, |obstacles| obstacles.epsilon);
         let operator = Operator::new(&self.forms, task.beam, task.h, n_value, compliance);
         self.work.factorizations += 1;
         (slot.h, slot.n_value) = (f64::NAN, n_value);
@@ -156,7 +188,13 @@ impl<const S: usize> DgStepper<S> {
     /// Subtracts the correction in `residual` from the polynomials; returns their norms, as for velocities.
     fn correct(&mut self) -> (f64, f64) {
         let (mut change, mut size) = (0.0, 0.0);
-        for ((x, correction), weights) in self.trial.x.iter_mut().zip(&self.residual).zip(&self.weights) {
+        for ((x, correction), weights) in self
+            .trial
+            .x
+            .iter_mut()
+            .zip(&self.residual)
+            .zip(&self.weights)
+        {
             for field in 0..3 {
                 let (mut changes, mut sizes) = (0.0, 0.0);
                 for i in 0..S {
@@ -223,7 +261,12 @@ impl<const S: usize> Stages for DgStepper<S> {
         }
     }
 
-    fn solve(&mut self, task: &Equations<'_>, by: &Stepping, load: Option<&mut Load>) -> Result<usize, StepFailure> {
+    fn solve(
+        &mut self,
+        task: &Equations<'_>,
+        by: &Stepping,
+        load: Option<&mut Load>,
+    ) -> Result<usize, StepFailure> {
         if let Some((forcing, load)) = self.forcing.as_mut().zip(load) {
             forcing.integrate(load, task.level.t, task.h);
         }
@@ -233,7 +276,10 @@ impl<const S: usize> Stages for DgStepper<S> {
         for iteration in 1..=by.max_iterations {
             let n_value = self.defect(task);
             if !n_value.is_finite() {
-                return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
+                return Err(StepFailure::NonFinite {
+                    iterations: iteration,
+                    increment: previous,
+                });
             }
             let chosen = match index {
                 Some(index) => index,
@@ -242,21 +288,31 @@ impl<const S: usize> Stages for DgStepper<S> {
             index = Some(chosen);
             self.work.solves += 1;
             let in_contact = task.phase != Phase::Free;
-            self.slots[chosen].factor.solve_in_place(task.space, in_contact, &mut self.residual);
+            self.slots[chosen]
+                .factor
+                .solve_in_place(task.space, in_contact, &mut self.residual);
             let (increment, mut size) = self.correct();
             if in_contact {
                 // The contact force amplifies rounding errors of the position; over the step they equal this velocity.
                 size += task.level.places[task.space.tip()][0].abs() / task.h;
             }
             if !increment.is_finite() {
-                return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
+                return Err(StepFailure::NonFinite {
+                    iterations: iteration,
+                    increment: previous,
+                });
             }
             contraction = increment / previous;
             // Once their ratio is known, the sum of the remaining increments is at most this.
-            let rest = if contraction < 0.5 { increment * contraction / (1.0 - contraction) } else { increment };
+            let rest = if contraction < 0.5 {
+                increment * contraction / (1.0 - contraction)
+            } else {
+                increment
+            };
             let known = iteration > 1 && rest <= by.tolerance;
             // Round-off: further iterations change only the last digits.
-            let stagnant = increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
+            let stagnant = increment <= FLOOR * size
+                || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
             if increment <= by.tolerance || known || stagnant {
                 task.displace(&self.trial.x, &mut self.trial.terms);
                 return Ok(iteration);
@@ -269,11 +325,20 @@ impl<const S: usize> Stages for DgStepper<S> {
                 }
                 replaced = true;
             } else if contraction >= 1.0 && iteration > 4 {
-                return Err(StepFailure::Diverged { iterations: iteration, increment, contraction, of: None });
+                return Err(StepFailure::Diverged {
+                    iterations: iteration,
+                    increment,
+                    contraction,
+                    of: None,
+                });
             }
             previous = increment;
         }
-        Err(StepFailure::IterationLimit { iterations: by.max_iterations, increment: previous, contraction })
+        Err(StepFailure::IterationLimit {
+            iterations: by.max_iterations,
+            increment: previous,
+            contraction,
+        })
     }
 
     fn tip(&self, space: &Space) -> Polynomial {
@@ -290,8 +355,18 @@ impl<const S: usize> Stages for DgStepper<S> {
 
     fn accept(&mut self, start: &Level) {
         std::mem::swap(&mut self.trial, &mut self.accepted);
-        let at_start = |y: &[f64; S]| y.iter().zip(&self.forms.start).map(|(y, sign)| y * sign).sum::<f64>();
-        for ((jump, x), start) in self.jumps.iter_mut().zip(&self.accepted.x).zip(&start.rates) {
+        let at_start = |y: &[f64; S]| {
+            y.iter()
+                .zip(&self.forms.start)
+                .map(|(y, sign)| y * sign)
+                .sum::<f64>()
+        };
+        for ((jump, x), start) in self
+            .jumps
+            .iter_mut()
+            .zip(&self.accepted.x)
+            .zip(&start.rates)
+        {
             *jump = std::array::from_fn(|field| at_start(&x[field]) - start[field]);
         }
         self.work.steps += 1;
@@ -300,7 +375,9 @@ impl<const S: usize> Stages for DgStepper<S> {
     fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level) {
         level.t = start.t + h * s;
         let motion = self.accepted.x.iter().zip(&self.accepted.terms);
-        for ((x, terms), (places, rates)) in motion.zip(level.places.iter_mut().zip(&mut level.rates)) {
+        for ((x, terms), (places, rates)) in
+            motion.zip(level.places.iter_mut().zip(&mut level.rates))
+        {
             for field in 0..2 {
                 places[field] = polynomial(&terms.places[field]).at(s);
             }
@@ -331,7 +408,9 @@ impl<const S: usize> Stages for DgStepper<S> {
         if let Some(forcing) = &self.forcing {
             for (stage, moments) in forcing.moments.iter().enumerate() {
                 for (moment, x) in moments.iter().zip(x) {
-                    losses.load -= (0..3).map(|field| moment[field] * x[field][stage]).sum::<f64>();
+                    losses.load -= (0..3)
+                        .map(|field| moment[field] * x[field][stage])
+                        .sum::<f64>();
                 }
             }
         }
@@ -346,14 +425,20 @@ impl<const S: usize> Stages for DgStepper<S> {
 fn of_degree_q<const S: usize>(low: &[f64; S]) -> Polynomial {
     let mut coefficients = [0.0; MAX_STAGES + 1];
     coefficients[..S].copy_from_slice(low);
-    Polynomial { coefficients, degree: S - 1 }
+    Polynomial {
+        coefficients,
+        degree: S - 1,
+    }
 }
 
 fn polynomial<const S: usize>(path: &Path<S>) -> Polynomial {
     let mut coefficients = [0.0; MAX_STAGES + 1];
     coefficients[..S].copy_from_slice(&path.low);
     coefficients[S] = path.top;
-    Polynomial { coefficients, degree: S }
+    Polynomial {
+        coefficients,
+        degree: S,
+    }
 }
 
 /// The stepper of degree q in time.

@@ -42,7 +42,11 @@ pub(super) fn gauss_points(count: usize) -> Vec<GaussPoint> {
     let point = |(xi, weight): (f64, f64)| {
         let mut values = [0.0; MAX_STAGES + 1];
         legendre::values_into(xi, &mut values);
-        GaussPoint { s: 0.5 * (1.0 + xi), weight: 0.5 * weight, legendre: values }
+        GaussPoint {
+            s: 0.5 * (1.0 + xi),
+            weight: 0.5 * weight,
+            legendre: values,
+        }
     };
     legendre::gauss(count).into_iter().map(point).collect()
 }
@@ -63,7 +67,14 @@ impl<const S: usize> TimeForms<S> {
         }
         let derivative_columns = std::array::from_fn(|j| derivative.map(|row| row[j]));
         let (start, gauss) = (std::array::from_fn(sign), gauss_points(2 * S));
-        Self { derivative, derivative_columns, product, integral, start, gauss }
+        Self {
+            derivative,
+            derivative_columns,
+            product,
+            integral,
+            start,
+            gauss,
+        }
     }
 
     /// `y_0 + τ ∫_0^ξ Σ_j v_j L_j`, with τ = `h`.
@@ -76,7 +87,10 @@ impl<const S: usize> TimeForms<S> {
         for i in 0..S - 1 {
             y[i] -= h * v[i + 1] / (4 * i + 6) as f64;
         }
-        Path { low: y, top: h * v[S - 1] * top::<S>() }
+        Path {
+            low: y,
+            top: h * v[S - 1] * top::<S>(),
+        }
     }
 }
 
@@ -97,12 +111,18 @@ impl<const S: usize> Forcing<S> {
     /// For this number of blocks; by q + 9 Gauss points.
     pub(super) fn new(blocks: usize) -> Self {
         let zeros = vec![[0.0; 3]; blocks];
-        Self { moments: vec![zeros.clone(); S], load: zeros, points: gauss_points(S + 8) }
+        Self {
+            moments: vec![zeros.clone(); S],
+            load: zeros,
+            points: gauss_points(S + 8),
+        }
     }
 
     /// Integrates a load over the step of length τ (`h`) from t.
     pub(super) fn integrate(&mut self, load: &mut Load, t: f64, h: f64) {
-        self.moments.iter_mut().for_each(|moments| moments.fill([0.0; 3]));
+        self.moments
+            .iter_mut()
+            .for_each(|moments| moments.fill([0.0; 3]));
         for point in &self.points {
             self.load.fill([0.0; 3]);
             load(t + h * point.s, &mut self.load);
@@ -146,21 +166,34 @@ mod tests {
         };
         for i in 0..S {
             for j in 0..S {
-                let of =
-                    |f: &dyn Fn(f64) -> f64| forms.gauss.iter().map(|p| p.weight * f(p.s) * basis(i, p.s)).sum::<f64>();
+                let of = |f: &dyn Fn(f64) -> f64| {
+                    forms
+                        .gauss
+                        .iter()
+                        .map(|p| p.weight * f(p.s) * basis(i, p.s))
+                        .sum::<f64>()
+                };
                 let mut unit = [0.0; S];
                 unit[j] = 1.0;
                 let Path { low, top } = TimeForms::<S>::integrate(0.25, 3.0, &unit);
                 let y = |s: f64| legendre::sum(&[&low[..], &[top]].concat(), s);
                 let exact = of(&|s| y(s) - 0.25) / 3.0;
-                assert!((forms.integral[i][j] - exact).abs() < 1e-15, "S {i} {j}: {exact}");
+                assert!(
+                    (forms.integral[i][j] - exact).abs() < 1e-15,
+                    "S {i} {j}: {exact}"
+                );
                 let step = 1e-6;
                 // d/ds of the integral is L_j.
-                assert!(((y(0.4 + step) - y(0.4 - step)) / (6.0 * step) - basis(j, 0.4)).abs() < 1e-9);
+                assert!(
+                    ((y(0.4 + step) - y(0.4 - step)) / (6.0 * step) - basis(j, 0.4)).abs() < 1e-9
+                );
                 assert!((y(0.0) - 0.25).abs() < 1e-15);
                 let slope = |s: f64| (basis(j, s + step) - basis(j, s - step)) / (2.0 * step);
                 let exact = of(&slope) + basis(i, 0.0) * basis(j, 0.0);
-                assert!((forms.derivative[i][j] - exact).abs() < 1e-8, "D {i} {j}: {exact}");
+                assert!(
+                    (forms.derivative[i][j] - exact).abs() < 1e-8,
+                    "D {i} {j}: {exact}"
+                );
                 let exact = of(&|s| basis(j, s));
                 assert!((exact - if i == j { forms.product[i] } else { 0.0 }).abs() < 1e-15);
             }

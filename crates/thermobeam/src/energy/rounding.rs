@@ -56,25 +56,36 @@ impl Case {
     /// Bounds on the rounding errors in the balance of the step from `old` to `new`, without loads and solved to a tolerance at
     /// round-off.
     pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
-        let Self { beam, obstacles, dt, ref lengths, .. } = *self;
+        let Self {
+            beam,
+            obstacles,
+            dt,
+            ref lengths,
+            ..
+        } = *self;
         let stretch = slope_squared(lengths, &old.u).max(slope_squared(lengths, &new.u));
         let stiffness = 1.0 + beam.beta.abs() + beam.rho * stretch;
         let mut sum = 0.0;
         for (i, h) in lengths.iter().enumerate() {
             let largest = |y: &[f64]| y[i].abs().max(y[i + 1].abs());
             let either = |y: &[f64], y0: &[f64]| largest(y).max(largest(y0));
-            let jump = |y: &[f64], y0: &[f64]| (y[i] - y0[i]).abs().max((y[i + 1] - y0[i + 1]).abs());
+            let jump =
+                |y: &[f64], y0: &[f64]| (y[i] - y0[i]).abs().max((y[i + 1] - y0[i + 1]).abs());
             let size = stiffness * (either(&new.u, &old.u) + either(&new.phi, &old.phi))
                 + beam.zeta * (either(&new.v, &old.v) + either(&new.w, &old.w));
             let (moved, turned) = (jump(&new.u, &old.u), jump(&new.phi, &old.phi));
             let theta = either(&new.theta, &old.theta);
             let speed = either(&new.v, &old.v) + either(&new.w, &old.w);
-            sum += (size * (moved + turned) + dt * theta * theta) / h + beam.a.abs() * theta * turned;
+            sum +=
+                (size * (moved + turned) + dt * theta * theta) / h + beam.a.abs() * theta * turned;
             sum += h * (speed * speed + theta * theta);
         }
         let unit = 0.5 * f64::EPSILON;
         let contact = obstacles.map_or(0.0, |obstacles| contact(&obstacles, dt, unit, old, new));
-        Rounding { residual: TERMS * unit * sum, contact }
+        Rounding {
+            residual: TERMS * unit * sum,
+            contact,
+        }
     }
 
     /// The scale of a level's energy, to which a residual of the balance is compared: the sum of the absolute values of its terms,
@@ -82,9 +93,18 @@ impl Case {
     ///
     /// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
     pub fn energy_scale(&self, level: &Level) -> f64 {
-        let Energy { kinetic, shear, bending, thermal, contact, lifting, .. } = self.energy(level);
+        let Energy {
+            kinetic,
+            shear,
+            bending,
+            thermal,
+            contact,
+            lifting,
+            ..
+        } = self.energy(level);
         let stretch = slope_squared(&self.lengths, &level.u);
-        let kirchhoff = 0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
+        let kirchhoff =
+            0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
         kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
     }
 }
@@ -93,7 +113,11 @@ impl Case {
 fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) -> f64 {
     let tip = new.u.len() - 1;
     let (u, u0) = (new.u[tip], old.u[tip]);
-    let force = obstacles.force(u).abs().max(obstacles.force(u0).abs()).max(new.contact_force.abs());
+    let force = obstacles
+        .force(u)
+        .abs()
+        .max(obstacles.force(u0).abs())
+        .max(new.contact_force.abs());
     let way = dt * new.v[tip].abs().max(old.v[tip].abs());
     let delta = TIP_TERMS * unit * (u.abs().max(u0.abs()) + way);
     2.0 * (force * delta + delta * delta / obstacles.epsilon)
@@ -106,58 +130,141 @@ mod tests {
     use crate::scheme::EULER_CRANK_NICOLSON;
 
     fn case(beam: Beam, obstacles: Option<Obstacles>, dt: f64, lengths: &[f64]) -> Case {
-        Case { beam, obstacles, scheme: EULER_CRANK_NICOLSON, dt, lengths: lengths.to_vec() }
+        Case {
+            beam,
+            obstacles,
+            scheme: EULER_CRANK_NICOLSON,
+            dt,
+            lengths: lengths.to_vec(),
+        }
     }
 
     #[test]
     fn the_energy_scale_is_the_sum_of_absolute_terms() {
         let line = vec![0.0, 0.25, 1.0];
-        let beam = Beam { beta: -3.0, rho: 2.0, a: 0.5, theta_a: 4.0, ..Beam::default() };
-        let obstacles = Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 };
+        let beam = Beam {
+            beta: -3.0,
+            rho: 2.0,
+            a: 0.5,
+            theta_a: 4.0,
+            ..Beam::default()
+        };
+        let obstacles = Obstacles {
+            epsilon: 0.5,
+            g1: -1.0,
+            g2: 0.5,
+        };
         let case = case(beam, Some(obstacles), 1.0, &[0.25, 0.75]);
         let of = |level: &Level| case.energy_scale(level);
         // u = x: ½ ‖u_x‖² and, of the Kirchhoff term, |β|/2 + ρ/4; the obstacle is entered by 1/2.
-        let moved = Level { u: line.clone(), ..Level::new(3) };
+        let moved = Level {
+            u: line.clone(),
+            ..Level::new(3)
+        };
         assert!((of(&moved) - (0.5 + 1.5 + 0.5 + 0.25)).abs() < 1e-15);
         // φ = x: ½ ‖φ‖², ½ ‖φ_x‖² and |a θ_A ∫φ|.
-        let turned = Level { phi: line.clone(), ..Level::new(3) };
+        let turned = Level {
+            phi: line.clone(),
+            ..Level::new(3)
+        };
         assert!((of(&turned) - (1.0 / 6.0 + 0.5 + 1.0)).abs() < 1e-15);
-        let fast = Level { v: line.clone(), theta: line, ..Level::new(3) };
+        let fast = Level {
+            v: line.clone(),
+            theta: line,
+            ..Level::new(3)
+        };
         assert!((of(&fast) - 2.0 / 6.0).abs() < 1e-15);
     }
 
     #[test]
     fn the_bound_of_a_step_is_the_sum_of_its_terms() {
         let (h, dt) = (0.5, 0.1);
-        let beam = Beam { beta: -3.0, rho: 2.0, zeta: 0.25, a: 0.5, ..Beam::default() };
+        let beam = Beam {
+            beta: -3.0,
+            rho: 2.0,
+            zeta: 0.25,
+            a: 0.5,
+            ..Beam::default()
+        };
         let still = Level::new(2);
         let terms = |level: &Level| {
             let [there, back] = [(&still, level), (level, &still)];
-            let of = |(old, new)| case(beam, None, dt, &[h]).rounding(old, new).residual / (32.0 * f64::EPSILON);
+            let of = |(old, new)| {
+                case(beam, None, dt, &[h]).rounding(old, new).residual / (32.0 * f64::EPSILON)
+            };
             assert_eq!(of(there), of(back));
             of(there)
         };
-        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+        let near = |found: f64, expected: f64| {
+            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}")
+        };
         let end = |value: f64| vec![0.0, value];
         // 1 + |β| + ρ ‖u_x‖² = 20.
-        let moved = Level { u: end(2.0), ..still.clone() };
+        let moved = Level {
+            u: end(2.0),
+            ..still.clone()
+        };
         near(terms(&moved), 20.0 * 2.0 * 2.0 / h);
-        near(terms(&Level { v: end(-5.0), ..moved.clone() }), (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0);
-        near(terms(&Level { w: end(-5.0), ..moved.clone() }), (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0);
-        let swinging = Level { v: end(-5.0), w: end(3.0), ..moved.clone() };
-        near(terms(&swinging), (20.0 * 2.0 + 0.25 * 8.0) * 2.0 / h + h * 64.0);
-        let turned = Level { phi: end(-3.0), ..still.clone() };
+        near(
+            terms(&Level {
+                v: end(-5.0),
+                ..moved.clone()
+            }),
+            (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0,
+        );
+        near(
+            terms(&Level {
+                w: end(-5.0),
+                ..moved.clone()
+            }),
+            (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0,
+        );
+        let swinging = Level {
+            v: end(-5.0),
+            w: end(3.0),
+            ..moved.clone()
+        };
+        near(
+            terms(&swinging),
+            (20.0 * 2.0 + 0.25 * 8.0) * 2.0 / h + h * 64.0,
+        );
+        let turned = Level {
+            phi: end(-3.0),
+            ..still.clone()
+        };
         near(terms(&turned), 4.0 * 3.0 * 3.0 / h);
-        let warm = Level { theta: vec![4.0, 0.0], ..turned };
-        near(terms(&warm), (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0);
+        let warm = Level {
+            theta: vec![4.0, 0.0],
+            ..turned
+        };
+        near(
+            terms(&warm),
+            (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0,
+        );
 
         // The displacement of a node matters at either end of an element: 1 here, for values of 3.
-        let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level { phi: vec![0.0, a, b], ..Level::new(3) });
-        let both = case(beam, None, dt, &[h, h]).rounding(&old, &new).residual / (32.0 * f64::EPSILON);
+        let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level {
+            phi: vec![0.0, a, b],
+            ..Level::new(3)
+        });
+        let both =
+            case(beam, None, dt, &[h, h]).rounding(&old, &new).residual / (32.0 * f64::EPSILON);
         near(both, 2.0 * 4.0 * 3.0 / h);
 
-        let between = case(beam, Some(Obstacles { epsilon: 0.5, g1: -1.0, g2: 0.5 }), dt, &[h]);
-        let touching = Level { v: end(5.0), ..moved };
+        let between = case(
+            beam,
+            Some(Obstacles {
+                epsilon: 0.5,
+                g1: -1.0,
+                g2: 0.5,
+            }),
+            dt,
+            &[h],
+        );
+        let touching = Level {
+            v: end(5.0),
+            ..moved
+        };
         let delta = 8.0 * f64::EPSILON * (2.0 + dt * 5.0);
         let expected = 2.0 * (3.0 * delta + delta * delta / 0.5);
         for (old, new) in [(&still, &touching), (&touching, &still)] {
@@ -166,13 +273,24 @@ mod tests {
             assert_eq!(rounding.total(), rounding.residual + rounding.contact);
         }
         // A tip exactly at the obstacle has no force, but its rounding error has an energy that the obstacle stores.
-        let level = Level { u: end(0.5), ..still.clone() };
+        let level = Level {
+            u: end(0.5),
+            ..still.clone()
+        };
         let delta_at = 8.0 * f64::EPSILON * 0.5;
         let rounding = between.rounding(&level, &level);
-        assert!((rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14, "{rounding:?}");
+        assert!(
+            (rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14,
+            "{rounding:?}"
+        );
         // The force of the step matters if it is larger than those of the law: 7 against 3.
-        let pressed = Level { contact_force: -7.0, ..touching };
+        let pressed = Level {
+            contact_force: -7.0,
+            ..touching
+        };
         let rounding = between.rounding(&still, &pressed);
-        assert!((rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14);
+        assert!(
+            (rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14
+        );
     }
 }

@@ -56,7 +56,12 @@ impl Sums<f64> {
     ///
     /// * `weight`: the c of `V = c v + (1 - c) v0`, 1/inertia of the scheme.
     /// * `LOSSES`: whether `viscous`, `heat_flow` and `jump` are computed; otherwise they are zero.
-    pub(super) fn over<const LOSSES: bool>(lengths: &[f64], weight: f64, old: &Level, new: &Level) -> Self {
+    pub(super) fn over<const LOSSES: bool>(
+        lengths: &[f64],
+        weight: f64,
+        old: &Level,
+        new: &Level,
+    ) -> Self {
         let whole = lengths.len() / WIDTH * WIDTH;
         let mut lanes = Sums::<Lanes<WIDTH>>::zero();
         for first in (0..whole).step_by(WIDTH) {
@@ -73,7 +78,11 @@ impl Sums<f64> {
 impl<T: Lane> Sums<T> {
     /// The sums over all elements of several cases, given by number; `weight` as in [`Sums::over`].
     #[inline(always)]
-    pub(crate) fn over_cases(elements: usize, weight: f64, element: impl Fn(usize) -> Element<T>) -> Self {
+    pub(crate) fn over_cases(
+        elements: usize,
+        weight: f64,
+        element: impl Fn(usize) -> Element<T>,
+    ) -> Self {
         let mut parts = [Self::zero(); WIDTH];
         for i in 0..elements {
             parts[i % WIDTH].add::<true>(weight, &element(i));
@@ -98,7 +107,10 @@ impl<T: Lane> Sums<T> {
     fn map<U>(each: impl Fn(fn(&Self) -> T) -> U) -> Sums<U> {
         Sums {
             quadratic: each(|sums| sums.quadratic),
-            slope_squared: [each(|sums| sums.slope_squared[0]), each(|sums| sums.slope_squared[1])],
+            slope_squared: [
+                each(|sums| sums.slope_squared[0]),
+                each(|sums| sums.slope_squared[1]),
+            ],
             rotation_change: each(|sums| sums.rotation_change),
             viscous: each(|sums| sums.viscous),
             heat_flow: each(|sums| sums.heat_flow),
@@ -108,7 +120,12 @@ impl<T: Lane> Sums<T> {
 
     #[inline(always)]
     fn add<const LOSSES: bool>(&mut self, weight: f64, element: &Element<T>) {
-        let Element { length: h, inverse, old, new } = *element;
+        let Element {
+            length: h,
+            inverse,
+            old,
+            new,
+        } = *element;
         let (half, sixth) = (T::splat(0.5), h * T::splat(1.0 / 6.0));
         let square = |p: T| p * p;
         // ∫ p q, p_x and (u_x - φ at both ends) of P1 functions given by their values at the ends.
@@ -118,7 +135,10 @@ impl<T: Lane> Sums<T> {
         // Mean and difference of a field's two levels: `½ (‖y‖² - ‖y0‖²)` is their product, without cancellation.
         let mean_and_jump = |of: fn(&Fields<T>) -> T| {
             let (y, y0) = ([of(&new[0]), of(&new[1])], [of(&old[0]), of(&old[1])]);
-            ([half * (y[0] + y0[0]), half * (y[1] + y0[1])], [y[0] - y0[0], y[1] - y0[1]])
+            (
+                [half * (y[0] + y0[0]), half * (y[1] + y0[1])],
+                [y[0] - y0[0], y[1] - y0[1]],
+            )
         };
         let (u, du) = mean_and_jump(|fields| fields.u);
         let (phi, dphi) = mean_and_jump(|fields| fields.phi);
@@ -138,10 +158,12 @@ impl<T: Lane> Sums<T> {
         }
         // weight y + (1 - weight) y0, from mean and difference.
         let beyond = T::splat(weight - 0.5);
-        let carrying = |mean: [T; 2], jump: [T; 2]| [mean[0] + beyond * jump[0], mean[1] + beyond * jump[1]];
+        let carrying =
+            |mean: [T; 2], jump: [T; 2]| [mean[0] + beyond * jump[0], mean[1] + beyond * jump[1]];
         let carrying_w = carrying(w, dw);
         let shear_rate = shear(carrying(v, dv), carrying_w);
-        self.viscous = self.viscous + product(shear_rate, shear_rate) + h * square(slope(carrying_w));
+        self.viscous =
+            self.viscous + product(shear_rate, shear_rate) + h * square(slope(carrying_w));
         self.heat_flow = self.heat_flow + h * square(slope(theta));
         self.jump = self.jump + product(dv, dv) + product(dw, dw);
     }
@@ -154,7 +176,12 @@ impl<T: Lane> Element<T> {
         let length = T::load(&lengths[first..]);
         let inverse = T::from_fn(|k| 1.0 / length.lane(k));
         let ends = |level| [Fields::load(level, first), Fields::load(level, first + 1)];
-        Self { length, inverse, old: ends(old), new: ends(new) }
+        Self {
+            length,
+            inverse,
+            old: ends(old),
+            new: ends(new),
+        }
     }
 }
 
@@ -163,6 +190,12 @@ impl<T: Lane> Fields<T> {
     #[inline(always)]
     fn load(level: &Level, first: usize) -> Self {
         let at = |y: &[f64]| T::load(&y[first..]);
-        Self { u: at(&level.u), phi: at(&level.phi), v: at(&level.v), w: at(&level.w), theta: at(&level.theta) }
+        Self {
+            u: at(&level.u),
+            phi: at(&level.phi),
+            v: at(&level.v),
+            w: at(&level.w),
+            theta: at(&level.theta),
+        }
     }
 }

@@ -42,14 +42,18 @@ pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness 
     let moment = beam.a * beam.theta_a;
     let (rest, rho) = (1.0 + beam.beta, beam.rho);
     let has_none = |(contact, law): &(Phase, Law)| {
-        let is_excluded = *contact == Phase::Free && obstacles.is_some_and(|obstacles| law.misses(obstacles, last));
+        let is_excluded = *contact == Phase::Free
+            && obstacles.is_some_and(|obstacles| law.misses(obstacles, last));
         rest + rho * law.least_slope_squared(last) >= last || is_excluded
     };
-    let is_admitted = obstacles.is_none_or(|Obstacles { g1, g2, .. }| *g1 < -moment && -moment < *g2);
+    let is_admitted =
+        obstacles.is_none_or(|Obstacles { g1, g2, .. }| *g1 < -moment && -moment < *g2);
     // For ρ = 0 there is one N.
     if rho == 0.0 || laws(beam, obstacles).iter().all(has_none) {
         Completeness::Complete
-    } else if moment == 0.0 && rest <= 0.0 || rest + 1.5 * rho * moment * moment < 0.0 && is_admitted {
+    } else if moment == 0.0 && rest <= 0.0
+        || rest + 1.5 * rho * moment * moment < 0.0 && is_admitted
+    {
         Completeness::Infinite
     } else {
         Completeness::Unknown
@@ -59,10 +63,16 @@ pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness 
 impl Law {
     /// A lower bound of S for all 0 < 1 + N < `last`.
     fn least_slope_squared(&self, last: f64) -> f64 {
-        let Some(Support { epsilon, position }) = self.support else { return 1.5 * self.moment * self.moment };
+        let Some(Support { epsilon, position }) = self.support else {
+            return 1.5 * self.moment * self.moment;
+        };
         // G is linear in s.
         let [start, end] = [0.0, last].map(|s| position + self.moment * (1.0 + epsilon * s));
-        let load = if start * end <= 0.0 { 0.0 } else { start.abs().min(end.abs()) };
+        let load = if start * end <= 0.0 {
+            0.0
+        } else {
+            start.abs().min(end.abs())
+        };
         // |b| <= s max(1, ε), and k² < 1/s.
         let widest = epsilon.max(1.0);
         let variance = 0.5 + 0.5 * last * widest + 0.5 * last * widest * widest;
@@ -78,7 +88,8 @@ impl Law {
         // A² V = S - u(1)² <= S < (last - (1 + β))/ρ bounds V, and thus τ.
         let curvature = 0.5 * (1.0 / last - 1.0) - 1.0;
         let variance = (last - (1.0 + self.beta)) / (self.rho * moment * moment);
-        let tangent = (0.5 + (0.25 + 4.0 * curvature * (variance - 0.5).max(0.0)).sqrt()) / (2.0 * curvature);
+        let tangent =
+            (0.5 + (0.25 + 4.0 * curvature * (variance - 0.5).max(0.0)).sqrt()) / (2.0 * curvature);
         // u(1) + D = D (τ - s)/(1 - s).
         let spread = moment * (tangent + last) / (1.0 - last);
         -self.moment - spread > obstacles.g2 || -self.moment + spread < obstacles.g1

@@ -52,13 +52,22 @@ impl Law {
 
     /// The shape at `s = 1 + N`; s must be neither 0 nor a buckling value of this law.
     pub(super) fn solve(&self, s: f64) -> Shape {
-        if s > 0.0 { self.solve_above(1.0 / s) } else { self.solve_below(1.0 / s) }
+        if s > 0.0 {
+            self.solve_above(1.0 / s)
+        } else {
+            self.solve_below(1.0 / s)
+        }
     }
 
     fn solve_above(&self, q: f64) -> Shape {
         let (rotation, stress) = self.numerators(q);
         let determinant = self.determinant(q);
-        Shape { q, alpha: rotation / determinant, stress: stress / determinant, moment: self.moment }
+        Shape {
+            q,
+            alpha: rotation / determinant,
+            stress: stress / determinant,
+            moment: self.moment,
+        }
     }
 
     /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first for α without a
@@ -68,7 +77,9 @@ impl Law {
         let x = q - 1.0;
         match self.support {
             None => c0(x),
-            Some(Support { epsilon, .. }) => c0(x) * (epsilon + q - q * q * c3(x)) + q * q * c1(x) * c2(x),
+            Some(Support { epsilon, .. }) => {
+                c0(x) * (epsilon + q - q * q * c3(x)) + q * q * c1(x) * c2(x)
+            }
         }
     }
 
@@ -91,7 +102,12 @@ impl Law {
             let loaded = q * self.moment * (1.0 - tanh_ratio(q)) / (1.0 - q);
             (position - loaded) / (epsilon + flexibility(q))
         });
-        Shape { q, alpha: 0.0, stress, moment: self.moment }
+        Shape {
+            q,
+            alpha: 0.0,
+            stress,
+            moment: self.moment,
+        }
     }
 
     /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is singular; k counts from
@@ -122,7 +138,11 @@ impl Law {
     /// Number of buckling values of this law strictly above s > 0.
     pub(super) fn buckling_above(&self, s: f64) -> usize {
         let free = free_buckling_above(s);
-        if self.support.is_none() || free == 0 || self.buckling(free) > s { free } else { free - 1 }
+        if self.support.is_none() || free == 0 || self.buckling(free) > s {
+            free
+        } else {
+            free - 1
+        }
     }
 
     /// The buckling mode at the buckling value s, not normalised.
@@ -135,7 +155,12 @@ impl Law {
             // Null vector of the row φ(0) = 0; for the free beam c0 is zero here up to round-off.
             Some(_) => [q * c2(q - 1.0), c0(q - 1.0)],
         };
-        Shape { q, alpha, stress, moment: 0.0 }
+        Shape {
+            q,
+            alpha,
+            stress,
+            moment: 0.0,
+        }
     }
 
     /// Sign of the mode in the solution just above the buckling value s; just below it is the opposite.
@@ -165,17 +190,41 @@ mod tests {
 
     #[test]
     fn the_amplitude_changes_sign_at_each_buckling_value() {
-        let support = |position| Some(Support { epsilon: 0.3, position });
-        for law in [(0.4, None), (-0.4, None), (0.4, support(0.2)), (-0.7, support(0.2)), (0.7, support(-0.2))]
-            .map(|(moment, support)| Law { moment, support, ..Law::default() })
-        {
-            for s in (1..=12).map(|k| law.buckling(k)).chain(law.buckling_below_minus_one()) {
+        let support = |position| {
+            Some(Support {
+                epsilon: 0.3,
+                position,
+            })
+        };
+        for law in [
+            (0.4, None),
+            (-0.4, None),
+            (0.4, support(0.2)),
+            (-0.7, support(0.2)),
+            (0.7, support(-0.2)),
+        ]
+        .map(|(moment, support)| Law {
+            moment,
+            support,
+            ..Law::default()
+        }) {
+            for s in (1..=12)
+                .map(|k| law.buckling(k))
+                .chain(law.buckling_below_minus_one())
+            {
                 let amplitude = |s: f64| {
                     let (found, mode) = (law.solve(s), law.mode(s));
-                    if s > 0.0 { found.alpha / mode.alpha } else { found.stress / mode.stress }
+                    if s > 0.0 {
+                        found.alpha / mode.alpha
+                    } else {
+                        found.stress / mode.stress
+                    }
                 };
                 let (above, below) = (amplitude(s + 1e-6 * s.abs()), amplitude(s - 1e-6 * s.abs()));
-                assert!(above.abs() > 10.0 && above * below < 0.0, "expected a pole at {s} of {law:?}");
+                assert!(
+                    above.abs() > 10.0 && above * below < 0.0,
+                    "expected a pole at {s} of {law:?}"
+                );
                 assert_eq!(law.sign_above(s), above.signum(), "{s} of {law:?}");
             }
         }
@@ -186,7 +235,10 @@ mod tests {
         let law = Law::default();
         for k in 1..=40 {
             let s = free_buckling(k);
-            assert_eq!([s * (1.0 + 1e-9), s * (1.0 - 1e-9)].map(|s| law.buckling_above(s)), [k - 1, k]);
+            assert_eq!(
+                [s * (1.0 + 1e-9), s * (1.0 - 1e-9)].map(|s| law.buckling_above(s)),
+                [k - 1, k]
+            );
         }
         assert_eq!([0.5, 1.0, 7.0].map(|s| law.buckling_above(s)), [0; 3]);
     }
@@ -194,11 +246,26 @@ mod tests {
     #[test]
     fn supported_buckling_values_interlace_with_the_free_ones() {
         for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
-            let law = Law { support: Some(Support { epsilon, position: 0.0 }), ..Law::default() };
+            let law = Law {
+                support: Some(Support {
+                    epsilon,
+                    position: 0.0,
+                }),
+                ..Law::default()
+            };
             for k in 1..=20 {
                 let s = law.buckling(k);
-                assert!(free_buckling(k + 1) < s && s < free_buckling(k), "{k}-th at epsilon = {epsilon}");
-                assert_eq!((law.buckling_above(s * 1.000001), law.buckling_above(s * 0.999999)), (k - 1, k));
+                assert!(
+                    free_buckling(k + 1) < s && s < free_buckling(k),
+                    "{k}-th at epsilon = {epsilon}"
+                );
+                assert_eq!(
+                    (
+                        law.buckling_above(s * 1.000001),
+                        law.buckling_above(s * 0.999999)
+                    ),
+                    (k - 1, k)
+                );
                 assert_eq!(law.buckling_above(s), k - 1, "strictly above");
             }
         }
@@ -207,13 +274,24 @@ mod tests {
     #[test]
     fn below_minus_one_the_tip_flexibility_equals_the_compliance_once() {
         for epsilon in [1e-8, 1e-4, 0.01, 0.3, 1.0, 3.0, 100.0, 1e4, 1e8] {
-            let law = Law { support: Some(Support { epsilon, position: 0.0 }), ..Law::default() };
+            let law = Law {
+                support: Some(Support {
+                    epsilon,
+                    position: 0.0,
+                }),
+                ..Law::default()
+            };
             let s = law.buckling_below_minus_one().unwrap();
             assert!(s * 0.999 < 0.0);
             let flexibility = |s: f64| law.mode(s).u(1.0);
             // A unit of stress moves the tip by -ε there, by less above and by more below.
-            assert!((flexibility(s) / -epsilon - 1.0).abs() < 1e-12, "{epsilon}: {s}");
-            assert!(flexibility(s * 1.001) > flexibility(s) && flexibility(s) > flexibility(s * 0.999));
+            assert!(
+                (flexibility(s) / -epsilon - 1.0).abs() < 1e-12,
+                "{epsilon}: {s}"
+            );
+            assert!(
+                flexibility(s * 1.001) > flexibility(s) && flexibility(s) > flexibility(s * 0.999)
+            );
         }
         assert_eq!(Law::default().buckling_below_minus_one(), None);
     }

@@ -101,7 +101,9 @@ pub enum EquilibriumError {
         n_value: f64,
     },
     /// β is within round-off of a buckling value and the load is small: the number of states is undetermined.
-    #[error("beta is within round-off of the buckling value N = {n_value} ({contact:?}): change beta")]
+    #[error(
+        "beta is within round-off of the buckling value N = {n_value} ({contact:?}): change beta"
+    )]
     Bifurcation {
         /// The state of contact.
         contact: Phase,
@@ -171,24 +173,47 @@ pub struct Equilibrium {
 /// assert_eq!(found, [(Phase::Lower, true), (Phase::Free, false), (Phase::Upper, true)]);
 /// # Ok::<(), thermobeam::equilibrium::EquilibriumError>(())
 /// ```
-pub fn equilibria(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Vec<Equilibrium>, EquilibriumError> {
+pub fn equilibria(
+    beam: &Beam,
+    obstacles: Option<&Obstacles>,
+) -> Result<Vec<Equilibrium>, EquilibriumError> {
     beam.validate()?;
     obstacles.map_or(Ok(()), Obstacles::validate)?;
     let mut found = Vec::new();
     for (contact, law) in laws(beam, obstacles) {
-        let branch = Branch { contact, law, held_tip: held_tip(obstacles) };
+        let branch = Branch {
+            contact,
+            law,
+            held_tip: held_tip(obstacles),
+        };
         let states = branch.states()?;
-        found.extend(states.into_iter().filter(|state| is_consistent(state, obstacles)));
+        found.extend(
+            states
+                .into_iter()
+                .filter(|state| is_consistent(state, obstacles)),
+        );
     }
-    found.sort_by(|a, b| a.u_tip.total_cmp(&b.u_tip).then(a.n_value.total_cmp(&b.n_value)));
+    found.sort_by(|a, b| {
+        a.u_tip
+            .total_cmp(&b.u_tip)
+            .then(a.n_value.total_cmp(&b.n_value))
+    });
     Ok(found)
 }
 
 fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
-    let free = Law { moment: beam.a * beam.theta_a, beta: beam.beta, rho: beam.rho, support: None };
+    let free = Law {
+        moment: beam.a * beam.theta_a,
+        beta: beam.beta,
+        rho: beam.rho,
+        support: None,
+    };
     let mut laws = vec![(Phase::Free, free)];
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
-        let on = |position| Law { support: Some(Support { epsilon, position }), ..free };
+        let on = |position| Law {
+            support: Some(Support { epsilon, position }),
+            ..free
+        };
         laws.extend([(Phase::Upper, on(g2)), (Phase::Lower, on(g1))]);
     }
     laws
@@ -197,7 +222,13 @@ fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
 /// The spring that holds the tip at 0 in both directions if both obstacles stand there.
 fn held_tip(obstacles: Option<&Obstacles>) -> Option<Law> {
     let touching = obstacles.filter(|o| o.g1 == 0.0 && o.g2 == 0.0)?;
-    Some(Law { support: Some(Support { epsilon: touching.epsilon, position: 0.0 }), ..Law::default() })
+    Some(Law {
+        support: Some(Support {
+            epsilon: touching.epsilon,
+            position: 0.0,
+        }),
+        ..Law::default()
+    })
 }
 
 /// Whether a root satisfies the inequalities of the state of contact whose law it solves.
@@ -215,7 +246,11 @@ mod tests {
 
     #[test]
     fn a_consistent_state_presses_its_obstacle_or_lies_between_both() {
-        let obstacles = Obstacles { epsilon: 1.0, g1: -0.25, g2: 0.5 };
+        let obstacles = Obstacles {
+            epsilon: 1.0,
+            g1: -0.25,
+            g2: 0.5,
+        };
         let state = |contact, contact_force, u_tip| Equilibrium {
             contact,
             n_value: 0.0,
@@ -226,12 +261,19 @@ mod tests {
             unstable_directions: Some(0),
             shape: Shape::line(-u_tip),
         };
-        for (contact, presses) in [(Phase::Upper, [false, false, true]), (Phase::Lower, [true, false, false])] {
-            let found = [-1.0, 0.0, 1.0].map(|force| is_consistent(&state(contact, force, 0.0), Some(&obstacles)));
+        for (contact, presses) in [
+            (Phase::Upper, [false, false, true]),
+            (Phase::Lower, [true, false, false]),
+        ] {
+            let found = [-1.0, 0.0, 1.0]
+                .map(|force| is_consistent(&state(contact, force, 0.0), Some(&obstacles)));
             assert_eq!(found, presses, "{contact:?}");
         }
         let free = |u_tip| is_consistent(&state(Phase::Free, 0.0, u_tip), Some(&obstacles));
-        assert_eq!([-0.26, -0.25, 0.0, 0.5, 0.51].map(free), [false, true, true, true, false]);
+        assert_eq!(
+            [-0.26, -0.25, 0.0, 0.5, 0.51].map(free),
+            [false, true, true, true, false]
+        );
         assert!(is_consistent(&state(Phase::Free, 0.0, 7.0), None));
     }
 }

@@ -29,7 +29,9 @@ pub(super) fn polish(law: &Law, start: Shape) -> Shape {
     let mut state = [1.0 / start.q, start.alpha, start.stress];
     let mut bound = LARGEST_FIRST_STEP;
     for _ in 0..STEPS {
-        let Some(step) = newton_step(&residual, state) else { break };
+        let Some(step) = newton_step(&residual, state) else {
+            break;
+        };
         let size = relative_size(step, state);
         // No decrease: round-off has been reached, or the start was too far away.
         if size.is_nan() || size >= bound {
@@ -49,7 +51,12 @@ fn relative_size(step: [f64; 3], state: [f64; 3]) -> f64 {
 }
 
 fn unpack(law: &Law, [s, alpha, stress]: [f64; 3]) -> Shape {
-    Shape { q: 1.0 / s, alpha, stress, moment: law.moment }
+    Shape {
+        q: 1.0 / s,
+        alpha,
+        stress,
+        moment: law.moment,
+    }
 }
 
 /// The three conditions.
@@ -61,7 +68,11 @@ fn residual(law: &Law, v: [f64; 3]) -> [f64; 3] {
         None => stress,
         Some(Support { epsilon, position }) => epsilon * stress + shape.u(1.0) - position,
     };
-    [clamped, contact, s - (1.0 + law.beta) - law.rho * shape.slope_squared()]
+    [
+        clamped,
+        contact,
+        s - (1.0 + law.beta) - law.rho * shape.slope_squared(),
+    ]
 }
 
 fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Option<[f64; 3]> {
@@ -74,7 +85,8 @@ fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Opt
         down[column] -= h;
         let (up_residual, down_residual) = (residual(up), residual(down));
         for row in 0..3 {
-            jacobian[row][column] = (up_residual[row] - down_residual[row]) / (up[column] - down[column]);
+            jacobian[row][column] =
+                (up_residual[row] - down_residual[row]) / (up[column] - down[column]);
         }
     }
     solve(jacobian, residual(state))
@@ -83,7 +95,11 @@ fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Opt
 /// Solves a 3 x 3 system by Cramer's rule; `None` if it is singular.
 fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> Option<[f64; 3]> {
     let cross = |x: [f64; 3], y: [f64; 3]| -> [f64; 3] {
-        [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
+        [
+            x[1] * y[2] - x[2] * y[1],
+            x[2] * y[0] - x[0] * y[2],
+            x[0] * y[1] - x[1] * y[0],
+        ]
     };
     let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
     let inverse_rows = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
@@ -110,8 +126,16 @@ mod tests {
 
     #[test]
     fn the_residual_equals_the_documented_conditions() {
-        let coefficients = Law { moment: 0.5, beta: -3.0, rho: 2.0, support: None };
-        let law = |epsilon, position| Law { support: Some(Support { epsilon, position }), ..coefficients };
+        let coefficients = Law {
+            moment: 0.5,
+            beta: -3.0,
+            rho: 2.0,
+            support: None,
+        };
+        let law = |epsilon, position| Law {
+            support: Some(Support { epsilon, position }),
+            ..coefficients
+        };
         for s in [0.25, 2.0, -0.5] {
             let Shape { alpha, stress, .. } = law(0.5, 0.125).solve(s);
             if s < 0.0 {
@@ -122,7 +146,9 @@ mod tests {
             let found = at(&law(0.5, 0.125));
             let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).slope_squared();
             assert!(
-                found[0].abs() < 1e-14 && found[1].abs() < 1e-14 && (found[2] - balance).abs() < 1e-14,
+                found[0].abs() < 1e-14
+                    && found[1].abs() < 1e-14
+                    && (found[2] - balance).abs() < 1e-14,
                 "{found:?}"
             );
             // A compliance and a position of the obstacle that the shape does not satisfy.
@@ -134,14 +160,26 @@ mod tests {
 
     #[test]
     fn polishing_improves_a_nearby_state_and_leaves_a_distant_one_unchanged() {
-        let support = Some(Support { epsilon: 0.5, position: 0.125 });
-        let law = Law { moment: 0.5, rho: 2.0, support, ..Law::default() };
+        let support = Some(Support {
+            epsilon: 0.5,
+            position: 0.125,
+        });
+        let law = Law {
+            moment: 0.5,
+            rho: 2.0,
+            support,
+            ..Law::default()
+        };
         // The β for which s is the state.
         for s in [0.7, 2.0, -0.5] {
             let beta = s - 1.0 - 2.0 * law.solve(s).slope_squared();
             let at = Law { beta, ..law };
             let n = |start: f64| polish(&at, law.solve(start)).n_value();
-            assert!((n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14, "{s}: {:e}", n(s * (1.0 + 1e-5)) - (s - 1.0));
+            assert!(
+                (n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14,
+                "{s}: {:e}",
+                n(s * (1.0 + 1e-5)) - (s - 1.0)
+            );
             let far = law.solve(1.1 * s);
             assert_eq!(polish(&at, far), far, "{s}");
         }
@@ -155,7 +193,13 @@ mod tests {
         let x = [1.0, -2.0, 4.0];
         let b = a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum());
         let found = solve(a, b).unwrap();
-        assert!(found.iter().zip(x).all(|(found, x)| (found - x).abs() < 1e-14), "{found:?}");
+        assert!(
+            found
+                .iter()
+                .zip(x)
+                .all(|(found, x)| (found - x).abs() < 1e-14),
+            "{found:?}"
+        );
         assert_eq!(solve([a[0], a[0], a[2]], b), None);
         assert_eq!(solve([[f64::NAN; 3], a[1], a[2]], b), None);
     }

@@ -87,7 +87,8 @@ impl Law {
         let upper = Endpoint::Regular(-MINUS_ONE_GAP);
         match self.buckling_below_minus_one() {
             Some(pole) if rest < pole => {
-                let mut roots = self.interval(Endpoint::Regular(rest), Endpoint::Buckling(pole), None);
+                let mut roots =
+                    self.interval(Endpoint::Regular(rest), Endpoint::Buckling(pole), None);
                 roots.extend(self.interval(Endpoint::Buckling(pole), upper, None));
                 roots
             }
@@ -115,17 +116,41 @@ impl Law {
         };
         let (a, b) = (inside(lo, 1.0), inside(hi, -1.0));
         let (left, right) = (self.f(a) > 0.0, self.f(b) > 0.0);
-        let rising = |position| Root { position, unstable_directions: above, fold: false };
-        let falling =
-            |position| Root { position, unstable_directions: above.map(|n| n.saturating_sub(1)), fold: false };
+        let rising = |position| Root {
+            position,
+            unstable_directions: above,
+            fold: false,
+        };
+        let falling = |position| Root {
+            position,
+            unstable_directions: above.map(|n| n.saturating_sub(1)),
+            fold: false,
+        };
         let between = |a, b| Position::Between(bisect(|s| self.f(s), a, b));
         match (left, right) {
-            (true, true) => [self.at_pole(lo, 1.0).map(rising), self.at_pole(hi, -1.0).map(falling)],
-            (false, true) => [Some(rising(between(a, b))), self.at_pole(hi, -1.0).map(falling)],
-            (true, false) => [self.at_pole(lo, 1.0).map(rising), Some(falling(between(a, b)))],
+            (true, true) => [
+                self.at_pole(lo, 1.0).map(rising),
+                self.at_pole(hi, -1.0).map(falling),
+            ],
+            (false, true) => [
+                Some(rising(between(a, b))),
+                self.at_pole(hi, -1.0).map(falling),
+            ],
+            (true, false) => [
+                self.at_pole(lo, 1.0).map(rising),
+                Some(falling(between(a, b))),
+            ],
             (false, false) => match self.maximum(a, b) {
-                (Ordering::Greater, s) => [Some(rising(between(a, s))), Some(falling(between(s, b)))],
-                (Ordering::Equal, s) => [Some(Root { fold: true, ..falling(Position::Between(s)) }), None],
+                (Ordering::Greater, s) => {
+                    [Some(rising(between(a, s))), Some(falling(between(s, b)))]
+                }
+                (Ordering::Equal, s) => [
+                    Some(Root {
+                        fold: true,
+                        ..falling(Position::Between(s))
+                    }),
+                    None,
+                ],
                 (Ordering::Less, _) => [None, None],
             },
         }
@@ -168,15 +193,26 @@ mod tests {
 
     fn laws() -> [Law; 4] {
         let support = |epsilon, position| Some(Support { epsilon, position });
-        [(0.5, None), (0.5, support(0.5, 0.125)), (-0.25, support(0.01, -0.5)), (0.0, support(2.0, 0.25))]
-            .map(|(moment, support)| Law { moment, support, ..Law::default() })
+        [
+            (0.5, None),
+            (0.5, support(0.5, 0.125)),
+            (-0.25, support(0.01, -0.5)),
+            (0.0, support(2.0, 0.25)),
+        ]
+        .map(|(moment, support)| Law {
+            moment,
+            support,
+            ..Law::default()
+        })
     }
 
     #[test]
     fn the_scan_finds_a_root_placed_at_any_axial_force() {
         let mut below = 0;
         for law in laws() {
-            for s in [5.0, 1.5, 0.9, 0.5, 0.15, 0.06, 0.011, -0.02, -0.3, -0.9, -2.0, -6.0, -40.0, -200.0] {
+            for s in [
+                5.0, 1.5, 0.9, 0.5, 0.15, 0.06, 0.011, -0.02, -0.3, -0.9, -2.0, -6.0, -40.0, -200.0,
+            ] {
                 for rho in [0.25, 30.0] {
                     // The β for which s is a root.
                     let beta = s - 1.0 - rho * law.solve(s).slope_squared();
@@ -196,19 +232,29 @@ mod tests {
                 }
             }
         }
-        assert_eq!(below, 4 * 7 * 2, "no count of unstable directions below N = -1");
+        assert_eq!(
+            below,
+            4 * 7 * 2,
+            "no count of unstable directions below N = -1"
+        );
     }
 
     #[test]
     fn the_upper_end_of_the_scan_lies_above_the_largest_root() {
-        for (law, moment) in laws().into_iter().flat_map(|law| [0.01, 1.0, 60.0, 1e4].map(|moment| (law, moment))) {
+        for (law, moment) in laws()
+            .into_iter()
+            .flat_map(|law| [0.01, 1.0, 60.0, 1e4].map(|moment| (law, moment)))
+        {
             let law = Law { moment, ..law };
             for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 100.0, 1e6] {
                 for rho in [1e-6, 1.0, 400.0, 1e6] {
                     let scan = Law { beta, rho, ..law };
                     let pole = law.buckling(1);
                     let end = scan.upper_end(pole);
-                    assert!(end > pole && scan.f(end) > 0.0, "{law:?}, beta {beta}, rho {rho}: {end}");
+                    assert!(
+                        end > pole && scan.f(end) > 0.0,
+                        "{law:?}, beta {beta}, rho {rho}: {end}"
+                    );
                 }
             }
         }
@@ -218,7 +264,15 @@ mod tests {
     fn roots_below_minus_one_exist_only_for_beta_below_minus_one() {
         for law in laws() {
             for beta in [3.0, -0.5, -1.0, -1.0 + f64::EPSILON] {
-                assert_eq!(Law { beta, rho: 1.0, ..law }.roots_below_minus_one(), []);
+                assert_eq!(
+                    Law {
+                        beta,
+                        rho: 1.0,
+                        ..law
+                    }
+                    .roots_below_minus_one(),
+                    []
+                );
             }
         }
     }
@@ -234,31 +288,57 @@ mod tests {
             let (mut left, mut right) = (a, b);
             while right - left > 1e-9 {
                 let (c, d) = (left + (right - left) / 3.0, right - (right - left) / 3.0);
-                if without_beta(c) < without_beta(d) { left = c } else { right = d }
+                if without_beta(c) < without_beta(d) {
+                    left = c
+                } else {
+                    right = d
+                }
             }
             let (s, beta) = (left, without_beta(left));
             let terms = s + (1.0 + beta).abs() + rho * law.solve(s).slope_squared();
             let allowed = 32.0 * f64::EPSILON * terms;
             for (shift, expected) in [(-1.3, 2), (-0.7, 1), (0.7, 1), (1.3, 0)] {
-                let scan = Law { beta: beta + shift * allowed, rho, ..law };
+                let scan = Law {
+                    beta: beta + shift * allowed,
+                    rho,
+                    ..law
+                };
                 let found = match scan.maximum(a, b).0 {
                     Ordering::Greater => 2,
                     Ordering::Equal => 1,
                     Ordering::Less => 0,
                 };
-                assert_eq!(found, expected, "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}");
+                assert_eq!(
+                    found, expected,
+                    "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}"
+                );
             }
-            let fold = Law { beta, rho, ..law }.interval(Endpoint::Buckling(low), Endpoint::Buckling(high), Some(1));
-            let [Root { position: Position::Between(at), unstable_directions: Some(0), fold: true }] = fold[..] else {
-                panic!("{fold:?} of {law:?}");
-            };
-            assert!((at - s).abs() < 1e-6);
-            let apart = Law { beta: beta - 1e-6, rho, ..law }.interval(
+            let fold = Law { beta, rho, ..law }.interval(
                 Endpoint::Buckling(low),
                 Endpoint::Buckling(high),
                 Some(1),
             );
-            let kinds = apart.iter().map(|root| (root.unstable_directions, root.fold)).collect::<Vec<_>>();
+            let [
+                Root {
+                    position: Position::Between(at),
+                    unstable_directions: Some(0),
+                    fold: true,
+                },
+            ] = fold[..]
+            else {
+                panic!("{fold:?} of {law:?}");
+            };
+            assert!((at - s).abs() < 1e-6);
+            let apart = Law {
+                beta: beta - 1e-6,
+                rho,
+                ..law
+            }
+            .interval(Endpoint::Buckling(low), Endpoint::Buckling(high), Some(1));
+            let kinds = apart
+                .iter()
+                .map(|root| (root.unstable_directions, root.fold))
+                .collect::<Vec<_>>();
             assert_eq!(kinds, [(Some(1), false), (Some(0), false)], "{law:?}");
         }
     }

@@ -23,7 +23,12 @@ pub struct Shape {
 impl Shape {
     /// The line with `u' = -moment`.
     pub(super) fn line(moment: f64) -> Self {
-        Self { q: f64::INFINITY, alpha: 0.0, stress: 0.0, moment }
+        Self {
+            q: f64::INFINITY,
+            alpha: 0.0,
+            stress: 0.0,
+            moment,
+        }
     }
 
     pub(super) fn is_line(&self) -> bool {
@@ -158,8 +163,16 @@ mod tests {
 
     #[test]
     fn each_shape_returns_its_axial_force() {
-        let bent = |q| Shape { q, alpha: 1.0, stress: 0.0, moment: 0.0 };
-        assert_eq!([Shape::line(-2.0), bent(0.25), bent(-0.5)].map(|shape| shape.n_value()), [-1.0, 3.0, -3.0]);
+        let bent = |q| Shape {
+            q,
+            alpha: 1.0,
+            stress: 0.0,
+            moment: 0.0,
+        };
+        assert_eq!(
+            [Shape::line(-2.0), bent(0.25), bent(-0.5)].map(|shape| shape.n_value()),
+            [-1.0, 3.0, -3.0]
+        );
         assert_eq!(Shape::line(-3.0).slope_squared(), 9.0);
     }
 }

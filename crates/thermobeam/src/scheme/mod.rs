@@ -85,7 +85,10 @@ mod tests {
 
     #[test]
     fn schemes_are_found_by_name() {
-        assert_eq!(SCHEMES.map(|scheme| by_name(scheme.name)), SCHEMES.map(Some));
+        assert_eq!(
+            SCHEMES.map(|scheme| by_name(scheme.name)),
+            SCHEMES.map(Some)
+        );
         assert_ne!(SCHEMES[0].name, SCHEMES[1].name);
         assert_eq!(by_name("euler"), None);
     }

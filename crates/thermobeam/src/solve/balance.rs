@@ -12,12 +12,19 @@ impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
     fn balances(&self, balances: &mut [Balance]) {
         let sums = self.sums();
         let tip = self.old.len() - 1;
-        for (k, balance) in
-            balances.iter_mut().enumerate().filter(|(k, _)| self.controls[*k].state == Progress::Accepted)
+        for (k, balance) in balances
+            .iter_mut()
+            .enumerate()
+            .filter(|(k, _)| self.controls[*k].state == Progress::Accepted)
         {
             // After the step `old` holds its new level and `new` the previous one.
             let tip = [&self.new, &self.old].map(|level| level[tip][0].lane(k));
-            *balance = Balance::from_sums(&self.cases[k], &sums.of_lane(k), tip, self.controls[k].force);
+            *balance = Balance::from_sums(
+                &self.cases[k],
+                &sums.of_lane(k),
+                tip,
+                self.controls[k].force,
+            );
         }
     }
 
@@ -27,7 +34,9 @@ impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
 
     fn tip(&self, k: usize) -> f64 {
         let tip = self.old.len() - 1;
-        self.failed_levels[k].as_ref().map_or(self.old[tip][0].lane(k), |level| level.u[tip])
+        self.failed_levels[k]
+            .as_ref()
+            .map_or(self.old[tip][0].lane(k), |level| level.u[tip])
     }
 
     fn contact_force(&self, k: usize) -> f64 {
@@ -44,13 +53,23 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         };
         let count = self.elements.len();
         // Slices of equal length, so the compiler removes the bounds checks in the loop.
-        let (elements, old, new) = (&self.elements[..count], &self.new[..count], &self.old[..count]);
+        let (elements, old, new) = (
+            &self.elements[..count],
+            &self.new[..count],
+            &self.old[..count],
+        );
         let (before, velocity) = (&before[..count], &velocity[..count]);
         Sums::over_cases(count - 1, 1.0 / self.cases[0].scheme.inertia, |i| Element {
             length: T::from_fn(|k| self.cases[k].lengths[i]),
             inverse: elements[i + 1].inverse,
-            old: [fields(&old[i], &before[i]), fields(&old[i + 1], &before[i + 1])],
-            new: [fields(&new[i], &velocity[i]), fields(&new[i + 1], &velocity[i + 1])],
+            old: [
+                fields(&old[i], &before[i]),
+                fields(&old[i + 1], &before[i + 1]),
+            ],
+            new: [
+                fields(&new[i], &velocity[i]),
+                fields(&new[i + 1], &velocity[i + 1]),
+            ],
         })
     }
 }
@@ -58,5 +77,11 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 #[inline(always)]
 fn fields<T: Lane, const B: usize>(state: &[T; B], velocity: &[T; B]) -> Fields<T> {
     let theta = if B == 3 { state[2] } else { T::splat(0.0) };
-    Fields { u: state[0], phi: state[1], v: velocity[0], w: velocity[1], theta }
+    Fields {
+        u: state[0],
+        phi: state[1],
+        v: velocity[0],
+        w: velocity[1],
+        theta,
+    }
 }

@@ -59,19 +59,39 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         // ‖u½_x‖ is at most the mean of the norms at both levels.
         let half_slope = 0.5 * (control.slope_squared.sqrt() + slope);
         let lag = (control.m - control.factorized).abs();
-        let residual = (m - control.m).abs() * half_slope + 0.5 * lag * case.dt * control.increment_slope;
+        let residual =
+            (m - control.m).abs() * half_slope + 0.5 * lag * case.dt * control.increment_slope;
         if residual == 0.0 {
-            return Bound { m, increment: 0.0, remaining: 0.0, contraction: 0.0 };
+            return Bound {
+                m,
+                increment: 0.0,
+                remaining: 0.0,
+                contraction: 0.0,
+            };
         }
         let lambda = self.coercivity(k, m);
         if !(lambda > 0.0) {
-            return Bound { m, increment: f64::INFINITY, remaining: f64::INFINITY, contraction: f64::INFINITY };
+            return Bound {
+                m,
+                increment: f64::INFINITY,
+                remaining: f64::INFINITY,
+                contraction: f64::INFINITY,
+            };
         }
         let negative = (1.0 + (-m).max(0.0) * case.dt / (2.0 * lambda)).sqrt();
         let increment = (2.0 * case.dt / lambda).sqrt() * negative * residual;
         let contraction = case.dt / lambda * (0.5 * lag + case.beam.rho * half_slope * slope);
-        let remaining = if contraction < 0.5 { increment / (1.0 - contraction) } else { f64::INFINITY };
-        Bound { m, increment, remaining, contraction }
+        let remaining = if contraction < 0.5 {
+            increment / (1.0 - contraction)
+        } else {
+            f64::INFINITY
+        };
+        Bound {
+            m,
+            increment,
+            remaining,
+            contraction,
+        }
     }
 }
 
@@ -86,24 +106,43 @@ mod tests {
 
     /// One element, β and ρ as given, ζ = 1.
     fn stepper(beta: f64, rho: f64) -> Newton<f64, 2> {
-        let beam = Beam { beta, rho, zeta: 1.0, ..Beam::default() };
-        let case = Case { beam, obstacles: None, scheme: EULER_CRANK_NICOLSON, dt: DT, lengths: vec![1.0] };
+        let beam = Beam {
+            beta,
+            rho,
+            zeta: 1.0,
+            ..Beam::default()
+        };
+        let case = Case {
+            beam,
+            obstacles: None,
+            scheme: EULER_CRANK_NICOLSON,
+            dt: DT,
+            lengths: vec![1.0],
+        };
         Newton::new(vec![case], Settings::default(), &[&Level::new(2)])
     }
 
     /// Sets the state after a pass with m and a factorisation for m̄: ‖u_x‖ is 1/2, and 1 at the old level.
     fn passed(newton: &mut Newton<f64, 2>, m: f64, factorized: f64) {
         let control = &mut newton.controls[0];
-        (control.new_slope_squared, control.slope_squared, control.increment_slope) = (0.25, 1.0, 0.375);
+        (
+            control.new_slope_squared,
+            control.slope_squared,
+            control.increment_slope,
+        ) = (0.25, 1.0, 0.375);
         (control.m, control.factorized) = (m, factorized);
     }
 
     /// The formulas of the module documentation for compression and tension, with q below and above one half.
     #[test]
     fn the_bound_equals_the_documented_formula() {
-        for (beta, rho, finite) in
-            [(-2.0, 0.125, true), (-2.0, 2.0, false), (3.0, 0.125, true), (3.0, 8.0, false), (3.0, 0.5, true)]
-        {
+        for (beta, rho, finite) in [
+            (-2.0, 0.125, true),
+            (-2.0, 2.0, false),
+            (3.0, 0.125, true),
+            (3.0, 8.0, false),
+            (3.0, 0.5, true),
+        ] {
             let mut newton = stepper(beta, rho);
             newton.controls[0].forces[0] = beta + 1.0;
             passed(&mut newton, beta + 0.75, beta + 0.625);
@@ -112,21 +151,39 @@ mod tests {
             let m = beta + (0.25 * rho + 1.0) / 2.0;
             let c = (m - (beta + 0.75)).abs() * 0.75 + 0.125 * 0.25 * 0.375;
             let lambda = BUCKLING * 1.25 + m * 0.25;
-            let soft = if m < 0.0 { 1.0 + m.abs() * 0.25 / lambda } else { 1.0 };
+            let soft = if m < 0.0 {
+                1.0 + m.abs() * 0.25 / lambda
+            } else {
+                1.0
+            };
             let increment = (1.0 / lambda * soft).sqrt() * c;
             let q = 0.5 * (0.125 / 2.0 + rho * 0.75 * 0.5) / lambda;
-            let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-14 * expected.abs();
+            let close =
+                |found: f64, expected: f64| (found - expected).abs() <= 1e-14 * expected.abs();
             assert!(
                 lambda > 0.0 && (q < 0.5) == finite,
                 "expected λ > 0 and q on the given side of 1/2: {lambda}, {q}"
             );
             assert_eq!(bound.m, m);
-            assert!(close(bound.increment, increment) && close(bound.contraction, q), "{bound:?}, {increment}, {q}");
-            let remaining = if finite { increment / (1.0 - q) } else { f64::INFINITY };
-            assert!(bound.remaining == remaining || close(bound.remaining, remaining), "{bound:?}, {remaining}");
+            assert!(
+                close(bound.increment, increment) && close(bound.contraction, q),
+                "{bound:?}, {increment}, {q}"
+            );
+            let remaining = if finite {
+                increment / (1.0 - q)
+            } else {
+                f64::INFINITY
+            };
+            assert!(
+                bound.remaining == remaining || close(bound.remaining, remaining),
+                "{bound:?}, {remaining}"
+            );
             assert!(close(newton.coercivity(0, m), lambda));
             let kept = newton.kept_contraction(0, m);
-            assert!(close(kept, 0.25 * (m - (beta + 0.625)).abs() / lambda), "{kept}");
+            assert!(
+                close(kept, 0.25 * (m - (beta + 0.625)).abs() / lambda),
+                "{kept}"
+            );
         }
     }
 
@@ -135,15 +192,27 @@ mod tests {
         let mut newton = stepper(1.0, 0.0);
         passed(&mut newton, 1.0, 1.0);
         let exact = newton.bound(0);
-        assert_eq!([exact.m, exact.increment, exact.remaining, exact.contraction], [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(
+            [exact.m, exact.increment, exact.remaining, exact.contraction],
+            [1.0, 0.0, 0.0, 0.0]
+        );
         assert_eq!(newton.kept_contraction(0, 1.0), 0.0);
 
         let mut newton = stepper(-5.0, 0.0);
         passed(&mut newton, -4.0, -4.0);
         let lost = newton.bound(0);
         assert!(newton.coercivity(0, -5.0) < 0.0);
-        assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
-        assert_eq!((newton.kept_contraction(0, -5.0), newton.kept_contraction(0, -4.0)), (f64::INFINITY, 0.0));
+        assert_eq!(
+            [lost.increment, lost.remaining, lost.contraction],
+            [f64::INFINITY; 3]
+        );
+        assert_eq!(
+            (
+                newton.kept_contraction(0, -5.0),
+                newton.kept_contraction(0, -4.0)
+            ),
+            (f64::INFINITY, 0.0)
+        );
     }
 
     #[test]
@@ -153,14 +222,20 @@ mod tests {
         passed(&mut newton, -4.0, -4.0);
         assert_eq!(newton.coercivity(0, -5.0 * BUCKLING), 0.0);
         let lost = newton.bound(0);
-        assert_eq!([lost.increment, lost.remaining, lost.contraction], [f64::INFINITY; 3]);
+        assert_eq!(
+            [lost.increment, lost.remaining, lost.contraction],
+            [f64::INFINITY; 3]
+        );
 
         // q = (m - m̄)/(4 λ) is exactly one half.
         let mut newton = stepper(1.0, 0.0);
         let lambda = newton.coercivity(0, 1.0);
         passed(&mut newton, 2.0 * lambda, 0.0);
         let half = newton.bound(0);
-        assert!(half.contraction == 0.5 && half.increment.is_finite(), "{half:?}");
+        assert!(
+            half.contraction == 0.5 && half.increment.is_finite(),
+            "{half:?}"
+        );
         assert_eq!(half.remaining, f64::INFINITY);
     }
 }

@@ -85,7 +85,11 @@ impl Control {
             m: f64::NAN,
             new_slope_squared: f64::NAN,
             increment_slope: f64::NAN,
-            tip: Tip { u, force, stiffness: 0.0 },
+            tip: Tip {
+                u,
+                force,
+                stiffness: 0.0,
+            },
             force,
             iterations: 0,
             increment: f64::NAN,

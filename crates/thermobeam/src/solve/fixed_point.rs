@@ -59,12 +59,19 @@ impl FixedPoint {
     /// large.
     pub(crate) fn new(case: Case, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
         let n = case.lengths.len();
-        let (kappa, s) = (case.scheme.inertia / case.dt, case.beam.zeta + 0.5 * case.dt);
+        let (kappa, s) = (
+            case.scheme.inertia / case.dt,
+            case.beam.zeta + 0.5 * case.dt,
+        );
         let mut factor_phi = TridiagonalFactor::new(n);
         factor_phi.factorize(&case.lengths, kappa + s, s, 0.0)?;
         let mut factor_theta = TridiagonalFactor::new(n - 1);
         factor_theta.factorize(&case.lengths, 2.0 / case.dt, 1.0, 0.0)?;
-        let iterate = Iterate { v: level.v.clone(), w: level.w.clone(), theta: level.theta.clone() };
+        let iterate = Iterate {
+            v: level.v.clone(),
+            w: level.w.clone(),
+            theta: level.theta.clone(),
+        };
         Ok(Self {
             stopping: settings.stopping,
             old: level.clone(),
@@ -92,7 +99,10 @@ impl FixedPoint {
             let previous = increment;
             increment = self.increment();
             if !increment.is_finite() {
-                return Err(StepFailure::NonFinite { iterations: iteration, increment: previous });
+                return Err(StepFailure::NonFinite {
+                    iterations: iteration,
+                    increment: previous,
+                });
             }
             contraction = increment / previous;
             let ends = match self.stopping {
@@ -102,15 +112,28 @@ impl FixedPoint {
             if ends {
                 self.commit();
                 let contraction = contraction.is_finite().then_some(contraction);
-                return Ok(StepReport { iterations: iteration, increment, contraction });
+                return Ok(StepReport {
+                    iterations: iteration,
+                    increment,
+                    contraction,
+                });
             }
             self.remember();
         }
         // NaN, after a single iteration, does not indicate divergence.
         if contraction >= STALLED {
-            Err(StepFailure::Diverged { iterations, increment, contraction, of: Some(self.largest_loop()) })
+            Err(StepFailure::Diverged {
+                iterations,
+                increment,
+                contraction,
+                of: Some(self.largest_loop()),
+            })
         } else {
-            Err(StepFailure::IterationLimit { iterations, increment, contraction })
+            Err(StepFailure::IterationLimit {
+                iterations,
+                increment,
+                contraction,
+            })
         }
     }
 
@@ -119,7 +142,12 @@ impl FixedPoint {
         let tip = self.u_before[self.case.lengths.len()];
         let touches = |obstacles: &Obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0;
         let obstacles = self.case.obstacles.filter(touches);
-        Case { obstacles, ..self.case.clone() }.contraction(&self.old.u).1
+        Case {
+            obstacles,
+            ..self.case.clone()
+        }
+        .contraction(&self.old.u)
+        .1
     }
 
     /// Sets the initial iterate to the previous level, (4.1).
@@ -158,7 +186,13 @@ impl FixedPoint {
 
     /// Second equation of (4.2), for W.
     fn solve_phi(&mut self) {
-        let Case { beam, scheme, dt, lengths, .. } = &self.case;
+        let Case {
+            beam,
+            scheme,
+            dt,
+            lengths,
+            ..
+        } = &self.case;
         let kappa = scheme.inertia / dt;
         let w = &mut self.now.w;
         w.fill(0.0);
@@ -166,8 +200,10 @@ impl FixedPoint {
             let ends = [i, i + 1];
             let phi = ends.map(|j| self.old.phi[j]);
             let theta = ends.map(|j| self.now.theta[j]);
-            let slope = ends.map(|j| 0.5 * (self.old.u[j] + self.u_before[j]) + beam.zeta * self.before.v[j]);
-            let mass = ends.map(|j| kappa * self.old.w[j] - self.old.phi[j] + beam.a * beam.theta_a);
+            let slope = ends
+                .map(|j| 0.5 * (self.old.u[j] + self.u_before[j]) + beam.zeta * self.before.v[j]);
+            let mass =
+                ends.map(|j| kappa * self.old.w[j] - self.old.phi[j] + beam.a * beam.theta_a);
             let shear = 0.5 * (slope[1] - slope[0]);
             let moment = (phi[1] - phi[0]) / h - 0.5 * beam.a * (theta[0] + theta[1]);
             w[i] += h / 6.0 * (2.0 * mass[0] + mass[1]) + shear + moment;
@@ -180,18 +216,26 @@ impl FixedPoint {
 
     /// First equation of (4.2), for V, with N(u) and g(u) of the previous iterate.
     fn solve_u(&mut self) -> Result<(), StepFailure> {
-        let Case { beam, dt, lengths, obstacles, scheme } = &self.case;
+        let Case {
+            beam,
+            dt,
+            lengths,
+            obstacles,
+            scheme,
+        } = &self.case;
         let (n, kappa, s) = (lengths.len(), scheme.inertia / dt, beam.zeta + 0.5 * dt);
         let force = |u: &[f64]| beam.axial_force(slope_squared(lengths, u));
         let m = 0.5 * (force(&self.u_before) + force(&self.old.u));
         self.work.factorizations += 1;
-        self.factor_u.factorize(lengths, kappa, beam.zeta + 0.5 * (1.0 + m) * dt, m)?;
+        self.factor_u
+            .factorize(lengths, kappa, beam.zeta + 0.5 * (1.0 + m) * dt, m)?;
         let v = &mut self.now.v;
         v.fill(0.0);
         for (i, &h) in lengths.iter().enumerate() {
             let ends = [i, i + 1];
             let turn = ends.map(|j| self.old.phi[j] + s * self.now.w[j]);
-            let stress = (1.0 + m) * (self.old.u[i + 1] - self.old.u[i]) / h - 0.5 * (turn[0] + turn[1]);
+            let stress =
+                (1.0 + m) * (self.old.u[i + 1] - self.old.u[i]) / h - 0.5 * (turn[0] + turn[1]);
             let mass = ends.map(|j| kappa * self.old.v[j]);
             v[i] += h / 6.0 * (2.0 * mass[0] + mass[1]) + stress;
             v[i + 1] += h / 6.0 * (mass[0] + 2.0 * mass[1]) - stress;
@@ -200,7 +244,9 @@ impl FixedPoint {
         if let Some(obstacles) = obstacles {
             self.force = match scheme.contact {
                 ContactRule::Implicit => obstacles.force(self.u_before[n]),
-                ContactRule::DiscreteGradient => obstacles.discrete_gradient(self.u_before[n], self.old.u[n]),
+                ContactRule::DiscreteGradient => {
+                    obstacles.discrete_gradient(self.u_before[n], self.old.u[n])
+                }
             };
             v[n] -= self.force;
         }
@@ -232,7 +278,11 @@ impl FixedPoint {
 
     /// Makes the current iterate the previous one, with u^{n,ℓ} by (4.3).
     fn remember(&mut self) {
-        for (u, (u0, v)) in self.u_before.iter_mut().zip(self.old.u.iter().zip(&self.now.v)) {
+        for (u, (u0, v)) in self
+            .u_before
+            .iter_mut()
+            .zip(self.old.u.iter().zip(&self.now.v))
+        {
             *u = u0 + self.case.dt * v;
         }
         std::mem::swap(&mut self.now, &mut self.before);

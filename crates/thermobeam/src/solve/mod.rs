@@ -44,7 +44,11 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { solver: Solver::Newton, stopping: Stopping::default(), start: Start::Extrapolated }
+        Self {
+            solver: Solver::Newton,
+            stopping: Stopping::default(),
+            start: Start::Extrapolated,
+        }
     }
 }
 
@@ -72,14 +76,20 @@ impl Default for Stopping {
 impl Stopping {
     /// Until the increment is at most `tolerance`, with at most 100 iterations.
     pub fn below(tolerance: f64) -> Self {
-        Self::Converged { tolerance, max_iterations: 100 }
+        Self::Converged {
+            tolerance,
+            max_iterations: 100,
+        }
     }
 
     /// The same criterion with another largest number of iterations; without a test the number stays.
     #[must_use]
     pub fn with_limit(self, max_iterations: usize) -> Self {
         match self {
-            Self::Converged { tolerance, .. } => Self::Converged { tolerance, max_iterations },
+            Self::Converged { tolerance, .. } => Self::Converged {
+                tolerance,
+                max_iterations,
+            },
             Self::Iterations(_) => self,
         }
     }
@@ -157,7 +167,14 @@ impl Level {
     /// A level of zeros with the given number of nodes.
     pub fn new(nodes: usize) -> Self {
         let zeros = || vec![0.0; nodes];
-        Self { u: zeros(), v: zeros(), phi: zeros(), w: zeros(), theta: zeros(), contact_force: 0.0 }
+        Self {
+            u: zeros(),
+            v: zeros(),
+            phi: zeros(),
+            w: zeros(),
+            theta: zeros(),
+            contact_force: 0.0,
+        }
     }
 
     /// Whether all nodal values of û and φ̂ are at most `speed` in size; false if one is NaN.

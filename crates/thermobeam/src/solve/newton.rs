@@ -114,14 +114,22 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for (i, (old, start)) in old.iter_mut().zip(&mut start).enumerate() {
             let of = |field: fn(&Level) -> &[f64]| T::from_fn(|k| field(levels[k])[i]);
             let theta = of(|level| &level.theta);
-            let (state, velocity) =
-                ([of(|level| &level.u), of(|level| &level.phi)], [of(|level| &level.v), of(|level| &level.w)]);
+            let (state, velocity) = (
+                [of(|level| &level.u), of(|level| &level.phi)],
+                [of(|level| &level.v), of(|level| &level.w)],
+            );
             *old = std::array::from_fn(|c| if c == 2 { theta } else { state[c] });
             // The initial temperature is the first guess of the mean temperature.
             *start = std::array::from_fn(|c| if c == 2 { theta } else { velocity[c] });
         }
-        let velocity = if scheme.inertia == 1.0 { [vec![], vec![]] } else { [start.clone(), zeros.clone()] };
-        let controls = (0..T::WIDTH).map(|k| Control::new(&cases[k], levels[k])).collect();
+        let velocity = if scheme.inertia == 1.0 {
+            [vec![], vec![]]
+        } else {
+            [start.clone(), zeros.clone()]
+        };
+        let controls = (0..T::WIDTH)
+            .map(|k| Control::new(&cases[k], levels[k]))
+            .collect();
         Self {
             nodes: uninitialised(n),
             elements,
@@ -182,7 +190,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let scalars = scalars::<f64>(&self.cases[k..=k]);
         let count = self.elements.len();
         let elements = &self.elements;
-        let of_lane = |e: Element<T>| Element { inverse: e.inverse.lane(k), sixth: e.sixth.lane(k) };
+        let of_lane = |e: Element<T>| Element {
+            inverse: e.inverse.lane(k),
+            sixth: e.sixth.lane(k),
+        };
         self.controls[k].work.factorizations += 1;
         // Invalid until the elimination has succeeded.
         self.controls[k].factorized = f64::NAN;
@@ -207,7 +218,12 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
         let tip = self.solve_tip(active);
         let [slope_squared, increment_squared] = self.backward(active, tip);
-        for (k, control) in self.controls.iter_mut().enumerate().filter(|(_, control)| control.state == state) {
+        for (k, control) in self
+            .controls
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, control)| control.state == state)
+        {
             control.iterations += 1;
             control.work.passes += 1;
             control.new_slope_squared = slope_squared.lane(k);
@@ -221,13 +237,20 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let inverse = &self.nodes[last].inverse;
         let mut delta = self.middle[last];
         for k in 0..T::WIDTH {
-            let Some(obstacles) = self.cases[k].obstacles else { continue };
+            let Some(obstacles) = self.cases[k].obstacles else {
+                continue;
+            };
             if active.lane(k) == 0.0 {
                 continue;
             }
             let (dt, u0) = (self.cases[k].dt, self.old[last][0].lane(k));
             let free = u0 + dt * (self.iterates[0][last][0].lane(k) + delta[0].lane(k));
-            let tip = obstacles.solve_tip(self.cases[k].scheme.contact, free, dt * inverse[0][0].lane(k), u0);
+            let tip = obstacles.solve_tip(
+                self.cases[k].scheme.contact,
+                free,
+                dt * inverse[0][0].lane(k),
+                u0,
+            );
             self.controls[k].tip = tip;
             for (component, row) in delta.iter_mut().zip(inverse) {
                 component.set_lane(k, component.lane(k) - tip.force * row[0].lane(k));
@@ -252,8 +275,17 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     }
 
     /// Stores the outcome of the safeguarded iteration of case k.
-    fn conclude(&mut self, k: usize, outcome: Result<(), StepFailure>, report: &mut [Result<StepReport, StepFailure>]) {
-        self.controls[k].state = if outcome.is_ok() { Progress::Accepted } else { Progress::Failed };
+    fn conclude(
+        &mut self,
+        k: usize,
+        outcome: Result<(), StepFailure>,
+        report: &mut [Result<StepReport, StepFailure>],
+    ) {
+        self.controls[k].state = if outcome.is_ok() {
+            Progress::Accepted
+        } else {
+            Progress::Failed
+        };
         if let Err(failure) = outcome {
             report[k] = Err(failure);
             if T::WIDTH > 1 {
@@ -273,9 +305,16 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             control.slope_squared = control.new_slope_squared;
             control.force = control.tip.force;
             let [n1, n2, _] = control.forces;
-            control.forces = [self.cases[k].beam.axial_force(control.slope_squared), n1, n2];
-            report[k] =
-                Ok(StepReport { iterations: control.iterations, increment: control.increment, contraction: None });
+            control.forces = [
+                self.cases[k].beam.axial_force(control.slope_squared),
+                n1,
+                n2,
+            ];
+            report[k] = Ok(StepReport {
+                iterations: control.iterations,
+                increment: control.increment,
+                contraction: None,
+            });
         }
         if let [old, new] = &mut self.velocity
             && !old.is_empty()
@@ -320,7 +359,10 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
             }
         }
         for k in 0..T::WIDTH {
-            if matches!(self.controls[k].state, Progress::Iterating | Progress::NeedsSafeguard) {
+            if matches!(
+                self.controls[k].state,
+                Progress::Iterating | Progress::NeedsSafeguard
+            ) {
                 let outcome = self.find_root(k);
                 self.conclude(k, outcome, report);
             }
@@ -335,7 +377,11 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
             level.copy_from(level_before);
             return;
         }
-        let velocity = if self.velocity[0].is_empty() { &self.iterates[1] } else { &self.velocity[0] };
+        let velocity = if self.velocity[0].is_empty() {
+            &self.iterates[1]
+        } else {
+            &self.velocity[0]
+        };
         for (i, (state, velocity)) in self.old.iter().zip(velocity).enumerate() {
             level.u[i] = state[0].lane(k);
             level.phi[i] = state[1].lane(k);
@@ -347,7 +393,15 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
     }
 
     fn work(&self) -> Work {
-        let factorizations = self.controls.iter().map(|control| control.work.factorizations).sum();
-        Work { passes: self.passes, factorizations, ..Work::default() }
+        let factorizations = self
+            .controls
+            .iter()
+            .map(|control| control.work.factorizations)
+            .sum();
+        Work {
+            passes: self.passes,
+            factorizations,
+            ..Work::default()
+        }
     }
 }

@@ -47,7 +47,10 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             control.increment = bound.increment;
             let f = m - bound.m;
             if !f.is_finite() {
-                return Err(StepFailure::NonFinite { iterations: control.iterations, increment: previous });
+                return Err(StepFailure::NonFinite {
+                    iterations: control.iterations,
+                    increment: previous,
+                });
             }
             let rounding = rounding([m, n0, self.cases[k].beam.beta]);
             if bound.remaining <= self.tolerance || f.abs() <= rounding {
@@ -106,7 +109,11 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
         let inverse = of_lane(&self.nodes[last].inverse);
         let mut z = self.middle[last].map(|component| component.lane(k));
-        let stiffness = if self.cases[k].obstacles.is_some() { dt * self.controls[k].tip.stiffness } else { 0.0 };
+        let stiffness = if self.cases[k].obstacles.is_some() {
+            dt * self.controls[k].tip.stiffness
+        } else {
+            0.0
+        };
         let force = stiffness * z[0] / (1.0 + stiffness * inverse[0][0]);
         z = std::array::from_fn(|c| z[c] - force * inverse[c][0]);
         let mut product = 0.0;
@@ -117,7 +124,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             } else {
                 [0.0; B]
             };
-            let slope = (self.new[i][0].lane(k) - self.new[i - 1][0].lane(k)) * self.elements[i].inverse.lane(k);
+            let slope = (self.new[i][0].lane(k) - self.new[i - 1][0].lane(k))
+                * self.elements[i].inverse.lane(k);
             product += slope * (z[0] - next[0]);
             z = next;
         }
@@ -142,7 +150,9 @@ mod tests {
     fn without_an_upper_end_the_bracket_grows_geometrically() {
         for start in [-1e9, -3.0, -1.0, -0.25, 0.0, 0.75, 1e4] {
             assert_eq!(safeguarded(start, f64::INFINITY, start + 0.5), start + 0.5);
-            let ends = std::iter::successors(Some(start), |&low| Some(safeguarded(low, f64::INFINITY, low)));
+            let ends = std::iter::successors(Some(start), |&low| {
+                Some(safeguarded(low, f64::INFINITY, low))
+            });
             let count = ends.take(100).take_while(|&m| m < 1e12).count();
             assert!(count < 80, "{count} extensions from {start}");
         }

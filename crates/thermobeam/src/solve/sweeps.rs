@@ -33,7 +33,10 @@ impl Scalars<f64> {
         right: Option<Element<f64>>,
     ) -> (Block<f64, B>, Block<f64, B>) {
         let tip = right.is_none();
-        let right = right.unwrap_or(Element { inverse: 0.0, sixth: 0.0 });
+        let right = right.unwrap_or(Element {
+            inverse: 0.0,
+            sixth: 0.0,
+        });
         let stiff_u = self.zeta + (1.0 + m) * self.half_dt;
         let (inverse, sixth) = (left.inverse + right.inverse, left.sixth + right.sixth);
         let (mut lower, mut diagonal) = ([[0.0; B]; B], [[0.0; B]; B]);
@@ -50,7 +53,11 @@ impl Scalars<f64> {
         }
         if B == 3 {
             // The temperature is prescribed at the tip: the equation -1 δΘ = 0 keeps the block structure.
-            diagonal[2][2] = if tip { -1.0 } else { -(self.two_over_dt * 2.0 * sixth + inverse) };
+            diagonal[2][2] = if tip {
+                -1.0
+            } else {
+                -(self.two_over_dt * 2.0 * sixth + inverse)
+            };
             if !tip {
                 lower[2][1] = self.half_a;
                 lower[2][2] = -(self.two_over_dt * left.sixth - left.inverse);
@@ -91,12 +98,22 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let [iterate, history @ ..] = &mut self.iterates;
         let history = history.each_ref().map(|level| &level[..count]);
         let old = &self.old[..count];
-        let old_velocity = if self.velocity[0].is_empty() { history[0] } else { &self.velocity[0][..count] };
+        let old_velocity = if self.velocity[0].is_empty() {
+            history[0]
+        } else {
+            &self.velocity[0][..count]
+        };
         let load = if LOADED { &self.load[..count] } else { &[] };
         let (iterate, middle) = (&mut iterate[..count], &mut self.middle[..count]);
         let scalars = &self.scalars;
 
-        let mut left = Nodal { x: [zero; B], axial: zero, displacement: zero, rotation: zero, mass: [zero; B] };
+        let mut left = Nodal {
+            x: [zero; B],
+            axial: zero,
+            displacement: zero,
+            rotation: zero,
+            mass: [zero; B],
+        };
         left.mass[1] = -scalars.lift;
         let (mut pending, mut y) = ([zero; B], [zero; B]);
         for i in 1..count {
@@ -147,7 +164,13 @@ fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
 
 /// The nodal quantities of the iterate x.
 #[inline(always)]
-fn nodal<T: Lane, const B: usize>(s: &Scalars<T>, m: T, x: [T; B], old: [T; B], velocity: [T; B]) -> Nodal<T, B> {
+fn nodal<T: Lane, const B: usize>(
+    s: &Scalars<T>,
+    m: T,
+    x: [T; B],
+    old: [T; B],
+    velocity: [T; B],
+) -> Nodal<T, B> {
     let half_u = x[0].mul_add(s.half_dt, old[0]);
     let displacement = x[0].mul_add(s.zeta, half_u);
     let rotation = x[1].mul_add(s.stiff, old[1]);
@@ -157,7 +180,13 @@ fn nodal<T: Lane, const B: usize>(s: &Scalars<T>, m: T, x: [T; B], old: [T; B], 
     if B == 3 {
         mass[2] = s.two_over_dt * (x[2] - old[2]);
     }
-    Nodal { x, axial: m.mul_add(half_u, displacement), displacement, rotation, mass }
+    Nodal {
+        x,
+        axial: m.mul_add(half_u, displacement),
+        displacement,
+        rotation,
+        mass,
+    }
 }
 
 /// Contributions of an element to the residual of (3.7) at its left and at its right node.
@@ -170,7 +199,8 @@ fn element<T: Lane, const B: usize>(
 ) -> ([T; B], [T; B]) {
     let half = T::splat(0.5);
     // Stresses, multiplied by the derivative of the test function.
-    let stress = (right.axial - left.axial).mul_add(e.inverse, -(half * (left.rotation + right.rotation)));
+    let stress =
+        (right.axial - left.axial).mul_add(e.inverse, -(half * (left.rotation + right.rotation)));
     let mut moment = (right.rotation - left.rotation) * e.inverse;
     // Shear, multiplied by the test function itself, the same at both nodes.
     let shear = half * (right.displacement - left.displacement);
@@ -221,14 +251,20 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 let slope = new[i + 1][0] - updated[0];
                 slope_squared = (slope * elements[i + 1].inverse).mul_add(slope, slope_squared);
             }
-            let next =
-                if i > 1 { minus_transpose_times(middle[i - 1], &nodes[i].multiplier, delta) } else { [zero; B] };
+            let next = if i > 1 {
+                minus_transpose_times(middle[i - 1], &nodes[i].multiplier, delta)
+            } else {
+                [zero; B]
+            };
             let change = delta[0] - next[0];
             increment_squared = (change * elements[i].inverse).mul_add(change, increment_squared);
             delta = next;
         }
         let first = new[1][0];
-        [(first * elements[1].inverse).mul_add(first, slope_squared), increment_squared]
+        [
+            (first * elements[1].inverse).mul_add(first, slope_squared),
+            increment_squared,
+        ]
     }
 }
 

@@ -23,14 +23,28 @@ impl TimeFactor {
     ///
     /// # Errors
     /// [`ParameterError`] if ω or ζ is negative or not finite, or T(0) or T'(0) is not finite.
-    pub fn new(omega: f64, zeta: f64, position: f64, velocity: f64) -> Result<Self, ParameterError> {
+    pub fn new(
+        omega: f64,
+        zeta: f64,
+        position: f64,
+        velocity: f64,
+    ) -> Result<Self, ParameterError> {
         for (name, value) in [("omega", omega), ("zeta", zeta)] {
-            check(name, value, value >= 0.0 && value.is_finite(), "a finite number >= 0")?;
+            check(
+                name,
+                value,
+                value >= 0.0 && value.is_finite(),
+                "a finite number >= 0",
+            )?;
         }
         for (name, value) in [("T(0)", position), ("T'(0)", velocity)] {
             check(name, value, value.is_finite(), "a finite number")?;
         }
-        Ok(Self { omega, zeta, start: (position, velocity) })
+        Ok(Self {
+            omega,
+            zeta,
+            start: (position, velocity),
+        })
     }
 
     /// T at t >= 0.
@@ -53,14 +67,26 @@ impl TimeFactor {
         let excess = (gamma - omega) * (gamma + omega);
         if excess < 0.0 {
             let angle = (-excess).sqrt() * t;
-            let sinc = if angle == 0.0 { 1.0 } else { angle.sin() / angle };
+            let sinc = if angle == 0.0 {
+                1.0
+            } else {
+                angle.sin() / angle
+            };
             return (-gamma * t).exp() * (value * angle.cos() + (slope + gamma * value) * t * sinc);
         }
         // The root of smaller size by Vieta's formula: -γ + √(γ² - ω²) would cancel. For ω = 0 both roots are 0, and T is linear.
-        let slow = if omega == 0.0 { 0.0 } else { -omega * omega / (gamma + excess.sqrt()) };
+        let slow = if omega == 0.0 {
+            0.0
+        } else {
+            -omega * omega / (gamma + excess.sqrt())
+        };
         let gap = 2.0 * excess.sqrt();
         // (1 - e^{-gap t})/gap, equal to t at critical damping.
-        let ramp = if gap == 0.0 { t } else { -(-gap * t).exp_m1() / gap };
+        let ramp = if gap == 0.0 {
+            t
+        } else {
+            -(-gap * t).exp_m1() / gap
+        };
         (slow * t).exp() * (value + (slope - slow * value) * ramp)
     }
 }

@@ -39,7 +39,11 @@ pub enum SpectrumError {
 ///
 /// # Errors
 /// [`SpectrumError`] if `count` is more than 2np, or the degree is not one from 1 to [`MAX_DEGREE`].
-pub fn discrete_frequencies(mesh: &Mesh, degree: usize, count: usize) -> Result<Vec<f64>, SpectrumError> {
+pub fn discrete_frequencies(
+    mesh: &Mesh,
+    degree: usize,
+    count: usize,
+) -> Result<Vec<f64>, SpectrumError> {
     let whole = discrete_frequencies_until(mesh, degree, count, |_| Ok::<(), Infallible>(()))?;
     Ok(whole.unwrap_or_else(|never| match never {}))
 }
@@ -74,7 +78,11 @@ pub fn discrete_frequencies_until<E>(
                 stopped = may_go_on(index).err();
             }
             // After that, bisection ends without further counts, in negligible time.
-            if stopped.is_none() && count_below(&lengths, degree, omega * omega) > index { 1.0 } else { -1.0 }
+            if stopped.is_none() && count_below(&lengths, degree, omega * omega) > index {
+                1.0
+            } else {
+                -1.0
+            }
         };
         let found = bisect(excess, 0.0, highest);
         stopped.take().map_or(Ok(found), Err)
@@ -100,7 +108,11 @@ fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
         negative += element.eliminate_inner();
         // Node 0 is clamped.
         if i > 0 {
-            for (sum, entry) in element.entries[0].as_flattened_mut().iter_mut().zip(node.as_flattened()) {
+            for (sum, entry) in element.entries[0]
+                .as_flattened_mut()
+                .iter_mut()
+                .zip(node.as_flattened())
+            {
                 *sum += entry;
             }
             negative += element.eliminate(0, 1);
@@ -121,17 +133,29 @@ impl Element {
         let blocks = degree + 1;
         let entry = |place: usize| {
             let (i, j) = (place / blocks, place % blocks);
-            let (mass, stiffness) = (0.5 * h * element::mass(i, j), 2.0 / h * element::stiffness(i, j));
+            let (mass, stiffness) = (
+                0.5 * h * element::mass(i, j),
+                2.0 / h * element::stiffness(i, j),
+            );
             // ‖u_x - φ‖²: u of the row with φ of the column, -(N_j, N_i').
             let shear = [element::coupling(i, j), element::coupling(j, i)];
-            [[stiffness - lambda * mass, -shear[0]], [-shear[1], stiffness + mass - lambda * mass]]
+            [
+                [stiffness - lambda * mass, -shear[0]],
+                [-shear[1], stiffness + mass - lambda * mass],
+            ]
         };
-        Self { blocks, entries: (0..blocks * blocks).map(entry).collect() }
+        Self {
+            blocks,
+            entries: (0..blocks * blocks).map(entry).collect(),
+        }
     }
 
     /// Eliminates degrees p to 2. Returns how many of the pivots' eigenvalues are negative.
     fn eliminate_inner(&mut self) -> usize {
-        (2..self.blocks).rev().map(|block| self.eliminate(block, block - 1)).sum()
+        (2..self.blocks)
+            .rev()
+            .map(|block| self.eliminate(block, block - 1))
+            .sum()
     }
 
     /// Updates the blocks up to `last` after the elimination of `pivot`; counts its negative eigenvalues.
@@ -165,7 +189,8 @@ fn invert([[a, b], [_, d]]: [[f64; 2]; 2]) -> (usize, [[f64; 2]; 2]) {
     if determinant == 0.0 {
         // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other
         // λ.
-        determinant = (f64::EPSILON * f64::EPSILON * (a * a + d * d + b * b)).max(f64::MIN_POSITIVE);
+        determinant =
+            (f64::EPSILON * f64::EPSILON * (a * a + d * d + b * b)).max(f64::MIN_POSITIVE);
     }
     let negative = if determinant < 0.0 {
         1
@@ -174,7 +199,10 @@ fn invert([[a, b], [_, d]]: [[f64; 2]; 2]) -> (usize, [[f64; 2]; 2]) {
     } else {
         0
     };
-    (negative, [[d, -b], [-b, a]].map(|row| row.map(|entry| entry / determinant)))
+    (
+        negative,
+        [[d, -b], [-b, a]].map(|row| row.map(|entry| entry / determinant)),
+    )
 }
 
 #[cfg(test)]
@@ -188,7 +216,10 @@ mod tests {
             let (negative, [[a, b], [_, d]]) = invert(block);
             (negative, [a * square, b * square, d * square])
         };
-        assert_eq!(scaled([[1.0, 3.0], [3.0, 9.0]]), (0, [9.0 / 91.0, -3.0 / 91.0, 1.0 / 91.0]));
+        assert_eq!(
+            scaled([[1.0, 3.0], [3.0, 9.0]]),
+            (0, [9.0 / 91.0, -3.0 / 91.0, 1.0 / 91.0])
+        );
         let (negative, [[a, _], [_, d]]) = invert([[-4.0, 0.0], [0.0, 0.0]]);
         assert_eq!((negative, a, d * square), (2, 0.0, -0.25));
         assert_eq!(invert([[0.0; 2]; 2]), (0, [[0.0; 2]; 2]));
@@ -204,7 +235,10 @@ mod tests {
             Ok(())
         });
         assert_eq!(counted, Ok(Ok(whole)));
-        assert!(asked.is_sorted() && asked.len() > 3 * 50 && asked.last() == Some(&2), "{asked:?}");
+        assert!(
+            asked.is_sorted() && asked.len() > 3 * 50 && asked.last() == Some(&2),
+            "{asked:?}"
+        );
         for most in [0, 1, asked.len() / 2, asked.len() - 1] {
             let mut calls = 0;
             let stopped = discrete_frequencies_until(&mesh, 1, 3, |known| {
@@ -218,12 +252,20 @@ mod tests {
 
     #[test]
     fn negative_eigenvalues_of_a_block_are_counted() {
-        for (a, b, d, negative) in [(2.0, 1.0, 3.0, 0), (2.0, 3.0, 3.0, 1), (-1.0, 0.5, 4.0, 1), (-2.0, 1.0, -3.0, 2)] {
+        for (a, b, d, negative) in [
+            (2.0, 1.0, 3.0, 0),
+            (2.0, 3.0, 3.0, 1),
+            (-1.0, 0.5, 4.0, 1),
+            (-2.0, 1.0, -3.0, 2),
+        ] {
             let (found, [[x, y], [_, z]]) = invert([[a, b], [b, d]]);
             assert_eq!(found, negative, "{a} {b} {d}");
             let identity = [a * x + b * y, a * y + b * z, b * y + d * z];
             assert!(
-                identity.iter().zip([1.0, 0.0, 1.0]).all(|(found, one)| (found - one).abs() < 1e-15),
+                identity
+                    .iter()
+                    .zip([1.0, 0.0, 1.0])
+                    .all(|(found, one)| (found - one).abs() < 1e-15),
                 "{identity:?}"
             );
         }
@@ -235,8 +277,16 @@ mod tests {
         assert_eq!(spectral_bound(&lengths, 1), (24.0 * 16.0 + 2.0_f64).sqrt());
         for degree in 1..=7 {
             let bound = spectral_bound(&lengths, degree);
-            assert_eq!(count_below(&lengths, degree, bound * bound), 6 * degree, "p = {degree}");
-            assert_eq!(count_below(&lengths, degree, 0.0), 0, "K is positive definite");
+            assert_eq!(
+                count_below(&lengths, degree, bound * bound),
+                6 * degree,
+                "p = {degree}"
+            );
+            assert_eq!(
+                count_below(&lengths, degree, 0.0),
+                0,
+                "K is positive definite"
+            );
         }
     }
 }

@@ -111,11 +111,19 @@ impl Mode {
         let sum = c0(plus) + c0(minus);
         let rotation = omega * (c1(minus) - c1(plus));
         let shear = (1.0 + omega) * c1(minus) + (1.0 - omega) * c1(plus);
-        let (a, b) = if rotation.abs() > shear.abs() { (rotation, sum) } else { (sum, -shear) };
+        let (a, b) = if rotation.abs() > shear.abs() {
+            (rotation, sum)
+        } else {
+            (sum, -shear)
+        };
         let unscaled = Self { omega, a, b };
         // U(1) ≠ 0: otherwise three conditions at the tip and two at the clamped end would exclude the mode.
         let tip = unscaled.u(1.0);
-        Self { omega, a: a / tip, b: b / tip }
+        Self {
+            omega,
+            a: a / tip,
+            b: b / tip,
+        }
     }
 
     /// ω.
@@ -126,12 +134,14 @@ impl Mode {
     /// U at x in [0, 1].
     pub fn u(&self, x: f64) -> f64 {
         let [[c_plus, s_plus], [c_minus, s_minus]] = self.waves(x);
-        self.a * ((1.0 - self.omega) * s_plus - (1.0 + self.omega) * s_minus) + self.b * (c_plus - c_minus)
+        self.a * ((1.0 - self.omega) * s_plus - (1.0 + self.omega) * s_minus)
+            + self.b * (c_plus - c_minus)
     }
 
     /// U' at x.
     pub fn u_x(&self, x: f64) -> f64 {
-        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) = (self.waves(x), squares(self.omega));
+        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) =
+            (self.waves(x), squares(self.omega));
         self.a * ((1.0 - self.omega) * c_plus - (1.0 + self.omega) * c_minus)
             + self.b * (minus * s_minus - plus * s_plus)
     }
@@ -144,7 +154,8 @@ impl Mode {
 
     /// Φ' at x.
     pub fn phi_x(&self, x: f64) -> f64 {
-        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) = (self.waves(x), squares(self.omega));
+        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) =
+            (self.waves(x), squares(self.omega));
         self.a * (minus * s_minus - plus * s_plus) + self.b * self.omega * (c_plus + c_minus)
     }
 

@@ -6,7 +6,13 @@ use thermobeam::dg::{Field, Level, Stepping};
 #[test]
 fn steps_and_their_observation_allocate_nothing() {
     for q in 0..=5 {
-        let mut simulation = simulate(experiment(0.0, 0.0, 9), Stepping { degree: q, ..Stepping::default() });
+        let mut simulation = simulate(
+            experiment(0.0, 0.0, 9),
+            Stepping {
+                degree: q,
+                ..Stepping::default()
+            },
+        );
         let mut level = Level::new(simulation.space());
         let info = allocation_counter::measure(|| {
             while simulation.step(1.0).unwrap().is_some() {

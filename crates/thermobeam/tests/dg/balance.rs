@@ -8,12 +8,23 @@ use thermobeam::parameters::{Beam, Obstacles};
 /// Largest residual of a step, the sum of residuals, and the largest rise of the energy.
 fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
     let (mut worst, mut sum, mut rise) = (0.0, 0.0, f64::NEG_INFINITY);
-    while simulation.step(t).unwrap_or_else(|error| panic!("{error}")).is_some() {
+    while simulation
+        .step(t)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .is_some()
+    {
         let balance = simulation.balance();
-        let terms =
-            balance.change + balance.viscous + balance.thermal + balance.inertial + balance.load + balance.contact;
+        let terms = balance.change
+            + balance.viscous
+            + balance.thermal
+            + balance.inertial
+            + balance.load
+            + balance.contact;
         assert_eq!(terms, balance.residual);
-        assert!(balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.inertial >= 0.0, "{balance:?}");
+        assert!(
+            balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.inertial >= 0.0,
+            "{balance:?}"
+        );
         worst = larger(worst, balance.residual.abs());
         sum += balance.residual;
         rise = larger(rise, balance.change);
@@ -25,16 +36,28 @@ fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
 fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time() {
     for (beta, theta_a) in EXPERIMENTS {
         for q in 0..=5 {
-            let stepping = Stepping { degree: q, ..Stepping::default() };
+            let stepping = Stepping {
+                degree: q,
+                ..Stepping::default()
+            };
             let mut simulation = simulate(experiment(beta, theta_a, 10), stepping);
             let scale = simulation.energy(simulation.level()).total();
             // The full time of the paper for one degree.
             let (worst, sum, rise) = residuals(&mut simulation, if q == 2 { 10.0 } else { 2.0 });
             let events = simulation.events().len();
 
-            assert!(simulation.events().len() >= 3, "beta {beta}, theta_a {theta_a}, q = {q}: {events} events");
-            assert!(sum.abs() <= 2e-14 * scale && worst <= 1e-14 * scale, "q = {q}: {worst:e} {sum:e}");
-            assert!(rise <= 1e-13 * scale, "beta {beta}, theta_a {theta_a}, q = {q}: the energy rises by {rise:e}");
+            assert!(
+                simulation.events().len() >= 3,
+                "beta {beta}, theta_a {theta_a}, q = {q}: {events} events"
+            );
+            assert!(
+                sum.abs() <= 2e-14 * scale && worst <= 1e-14 * scale,
+                "q = {q}: {worst:e} {sum:e}"
+            );
+            assert!(
+                rise <= 1e-13 * scale,
+                "beta {beta}, theta_a {theta_a}, q = {q}: the energy rises by {rise:e}"
+            );
         }
     }
 }
@@ -43,7 +66,8 @@ fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time()
 fn the_change_in_the_balance_is_the_difference_of_the_energies() {
     let mut simulation = simulate(experiment(-0.5, 20.0, 9), Stepping::default());
     while simulation.step(0.5).unwrap().is_some() {
-        let [old, new] = [simulation.old_level(), simulation.level()].map(|level| simulation.energy(level).total());
+        let [old, new] = [simulation.old_level(), simulation.level()]
+            .map(|level| simulation.energy(level).total());
         let change = simulation.balance().change;
         assert!((new - old - change).abs() <= 1e-12 * old, "{change:e}");
     }
@@ -55,16 +79,41 @@ fn every_beam_and_obstacle_has_an_answer_whose_balance_closes() {
         for (beta, rho) in [(-0.8, 0.0), (0.0, 1e4), (200.0, 1.0), (5.0, 100.0)] {
             for epsilon in [1e-6, 1e-3, 1.0] {
                 for (elements, degree, q) in [(20, 1, 0), (3, 4, 1), (1, 10, 2), (4, 4, 4)] {
-                    let beam = Beam { zeta, beta, rho, a: 0.3, ..Beam::default() };
-                    let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
+                    let beam = Beam {
+                        zeta,
+                        beta,
+                        rho,
+                        a: 0.3,
+                        ..Beam::default()
+                    };
+                    let obstacles = Some(Obstacles {
+                        epsilon,
+                        ..Obstacles::default()
+                    });
                     let mesh = Mesh::mapped(elements, |s| 1.3 * s - 0.3 * s * s).unwrap();
-                    let problem = Problem { beam, obstacles, mesh, ..experiment(0.0, 0.0, degree) };
-                    let mut simulation = simulate(problem, Stepping { degree: q, ..Stepping::default() });
+                    let problem = Problem {
+                        beam,
+                        obstacles,
+                        mesh,
+                        ..experiment(0.0, 0.0, degree)
+                    };
+                    let mut simulation = simulate(
+                        problem,
+                        Stepping {
+                            degree: q,
+                            ..Stepping::default()
+                        },
+                    );
                     let scale = simulation.energy(simulation.level()).total();
                     let (worst, _, rise) = residuals(&mut simulation, 0.5);
-                    let case = format!("zeta {zeta}, beta {beta}, rho {rho}, epsilon {epsilon}, p {degree}, q {q}");
+                    let case = format!(
+                        "zeta {zeta}, beta {beta}, rho {rho}, epsilon {epsilon}, p {degree}, q {q}"
+                    );
                     assert!(worst <= 1e-12 * scale, "{case}: {worst:e} of {scale}");
-                    assert!(rise <= 1e-12 * scale, "{case}: the energy rises by {rise:e}");
+                    assert!(
+                        rise <= 1e-12 * scale,
+                        "{case}: the energy rises by {rise:e}"
+                    );
                 }
             }
         }

@@ -11,20 +11,42 @@ use thermobeam::solve::Settings;
 
 /// A straight, cold beam whose free end moves with the given velocity.
 fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> Problem {
-    let initial = Initial { u_t: Box::new(move |x| velocity * (FRAC_PI_2 * x).sin()), ..Initial::at_rest(0.0) };
+    let initial = Initial {
+        u_t: Box::new(move |x| velocity * (FRAC_PI_2 * x).sin()),
+        ..Initial::at_rest(0.0)
+    };
     let mesh = Mesh::from_nodes(vec![0.0, 0.6, 0.9, 1.0]).unwrap();
-    Problem { beam: Beam::default(), obstacles: Some(obstacles), mesh, degree, initial }
+    Problem {
+        beam: Beam::default(),
+        obstacles: Some(obstacles),
+        mesh,
+        degree,
+        initial,
+    }
 }
 
 /// The same by `midpoint` on a fine graded P1 mesh: u(1, t).
 fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
     let mesh = Mesh::mapped(200, |s| 1.0 - (1.0 - s).powi(3)).unwrap();
     let mut initial = p1::Initial::at_rest(&mesh, 0.0);
-    initial.u_t = mesh.nodes().iter().map(|x| velocity * (FRAC_PI_2 * x).sin()).collect();
-    let problem = p1::Problem { beam: Beam::default(), obstacles: Some(obstacles), mesh, initial };
+    initial.u_t = mesh
+        .nodes()
+        .iter()
+        .map(|x| velocity * (FRAC_PI_2 * x).sin())
+        .collect();
+    let problem = p1::Problem {
+        beam: Beam::default(),
+        obstacles: Some(obstacles),
+        mesh,
+        initial,
+    };
     let steps = 4000;
-    let stepping =
-        p1::Stepping { scheme: MIDPOINT, settings: Settings::default(), dt: t / f64::from(steps), loaded: false };
+    let stepping = p1::Stepping {
+        scheme: MIDPOINT,
+        settings: Settings::default(),
+        dt: t / f64::from(steps),
+        loaded: false,
+    };
     let mut simulation = p1::Simulation::new(problem, stepping).unwrap();
     for _ in 0..steps {
         simulation.advance().unwrap();
@@ -37,13 +59,23 @@ fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
 fn balanced(mut simulation: Simulation, t: f64) -> Simulation {
     let scale = simulation.energy(simulation.level()).total();
     let (mut worst, mut contact) = (0.0, 0.0);
-    while simulation.step(t).unwrap_or_else(|error| panic!("{error}")).is_some() {
+    while simulation
+        .step(t)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .is_some()
+    {
         let balance = simulation.balance();
         worst = larger(worst, balance.residual.abs());
         contact = larger(contact, balance.contact.abs());
     }
-    assert!(worst <= 1e-13 * scale, "the balance is open by {worst:e} of {scale}");
-    assert!(contact <= 1e-13 * scale, "contact costs {contact:e} of {scale}");
+    assert!(
+        worst <= 1e-13 * scale,
+        "the balance is open by {worst:e} of {scale}"
+    );
+    assert!(
+        contact <= 1e-13 * scale,
+        "contact costs {contact:e} of {scale}"
+    );
     simulation
 }
 
@@ -52,14 +84,33 @@ fn phases(events: &[ContactEvent]) -> Vec<Phase> {
 }
 
 fn stepping() -> Stepping {
-    Stepping { degree: 2, dt: 0.01, restart_dt: 2e-4, ..Stepping::default() }
+    Stepping {
+        degree: 2,
+        dt: 0.01,
+        restart_dt: 2e-4,
+        ..Stepping::default()
+    }
 }
 
 #[test]
 fn an_obstacle_at_zero_is_touched_from_the_first_moment() {
     for (obstacles, velocity, phase) in [
-        (Obstacles { g2: 0.0, ..Obstacles::default() }, 1.0, Phase::Upper),
-        (Obstacles { g1: 0.0, ..Obstacles::default() }, -1.0, Phase::Lower),
+        (
+            Obstacles {
+                g2: 0.0,
+                ..Obstacles::default()
+            },
+            1.0,
+            Phase::Upper,
+        ),
+        (
+            Obstacles {
+                g1: 0.0,
+                ..Obstacles::default()
+            },
+            -1.0,
+            Phase::Lower,
+        ),
     ] {
         let simulation = balanced(simulate(thrown(velocity, obstacles, 10), stepping()), 0.01);
         assert_eq!(phases(simulation.events()), [phase]);
@@ -72,13 +123,23 @@ fn an_obstacle_at_zero_is_touched_from_the_first_moment() {
 
 #[test]
 fn two_obstacles_at_one_place_are_touched_in_turn() {
-    let obstacles = Obstacles { epsilon: 1e-2, g1: 0.0, g2: 0.0 };
+    let obstacles = Obstacles {
+        epsilon: 1e-2,
+        g1: 0.0,
+        g2: 0.0,
+    };
     let simulation = balanced(simulate(thrown(1.0, obstacles, 10), stepping()), 3.0);
     let events = simulation.events();
     assert!(events.len() >= 3, "{events:?}");
-    assert!(events.iter().all(|event| event.from != Phase::Free && event.to != Phase::Free && event.from != event.to));
+    assert!(events.iter().all(|event| event.from != Phase::Free
+        && event.to != Phase::Free
+        && event.from != event.to));
     let early = advanced(thrown(1.0, obstacles, 10), stepping(), 0.2);
-    close(tip(&early, Field::U), by_linear_elements(1.0, obstacles, 0.2), 2e-4);
+    close(
+        tip(&early, Field::U),
+        by_linear_elements(1.0, obstacles, 0.2),
+        2e-4,
+    );
     // With g_1 = g_2 = 0 the obstacle is a two-sided spring: started from the other side, the motion is mirrored.
     let mirrored = advanced(thrown(-1.0, obstacles, 10), stepping(), 3.0);
     close(tip(&mirrored, Field::U), -tip(&simulation, Field::U), 1e-10);
@@ -87,8 +148,14 @@ fn two_obstacles_at_one_place_are_touched_in_turn() {
 #[test]
 fn a_free_end_that_starts_beyond_an_obstacle_presses_on_it() {
     for (sign, phase) in [(1.0, Phase::Upper), (-1.0, Phase::Lower)] {
-        let initial = Initial { u: Box::new(move |x| sign * 0.15 * x * x), ..Initial::at_rest(0.0) };
-        let problem = Problem { initial, ..experiment(0.0, 0.0, 12) };
+        let initial = Initial {
+            u: Box::new(move |x| sign * 0.15 * x * x),
+            ..Initial::at_rest(0.0)
+        };
+        let problem = Problem {
+            initial,
+            ..experiment(0.0, 0.0, 12)
+        };
         let simulation = simulate(problem, stepping());
         assert_eq!(simulation.phase(), phase);
         assert!(simulation.energy(simulation.level()).contact > 1.0);
@@ -101,19 +168,37 @@ fn a_free_end_that_starts_beyond_an_obstacle_presses_on_it() {
 #[test]
 fn narrow_gaps_are_crossed() {
     for gap in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
-        let obstacles = Obstacles { epsilon: 1e-2, g1: -gap, g2: gap };
+        let obstacles = Obstacles {
+            epsilon: 1e-2,
+            g1: -gap,
+            g2: gap,
+        };
         let simulation = balanced(simulate(thrown(1.0, obstacles, 8), stepping()), 1.0);
-        assert!(simulation.events().len() >= 3, "gap {gap}: {:?}", simulation.events());
+        assert!(
+            simulation.events().len() >= 3,
+            "gap {gap}: {:?}",
+            simulation.events()
+        );
     }
 }
 
 /// The first maximum of u(1, t) in the first experiment without obstacles, to round-off.
 fn highest(stepping: Stepping) -> f64 {
-    let mut simulation = simulate(Problem { obstacles: None, ..experiment(0.0, 0.0, 8) }, stepping);
+    let mut simulation = simulate(
+        Problem {
+            obstacles: None,
+            ..experiment(0.0, 0.0, 8)
+        },
+        stepping,
+    );
     let mut top = f64::NEG_INFINITY;
     while simulation.step(1.0).unwrap().is_some() {
         let (start, end) = (simulation.old_level().t, simulation.t());
-        let at = |s: f64| simulation.value(Field::U, 1.0, start + s * (end - start)).unwrap();
+        let at = |s: f64| {
+            simulation
+                .value(Field::U, 1.0, start + s * (end - start))
+                .unwrap()
+        };
         for i in 0..=1000 {
             top = top.max(at(f64::from(i) / 1000.0));
         }
@@ -129,14 +214,29 @@ fn a_free_end_may_graze_an_obstacle() {
     for exponent in 3..=17 {
         for sign in [-1.0, 0.0, 1.0] {
             let g2 = top + sign * 10.0_f64.powi(-exponent);
-            let obstacles = Obstacles { g1: -1.0, g2, ..Obstacles::default() };
-            let problem = Problem { obstacles: Some(obstacles), ..experiment(0.0, 0.0, 8) };
+            let obstacles = Obstacles {
+                g1: -1.0,
+                g2,
+                ..Obstacles::default()
+            };
+            let problem = Problem {
+                obstacles: Some(obstacles),
+                ..experiment(0.0, 0.0, 8)
+            };
             let simulation = balanced(simulate(problem, stepping), 1.2);
             let found = phases(simulation.events());
-            assert!(found.chunks(2).all(|pair| pair == [Phase::Upper, Phase::Free]), "{exponent} {sign}: {found:?}");
+            assert!(
+                found
+                    .chunks(2)
+                    .all(|pair| pair == [Phase::Upper, Phase::Free]),
+                "{exponent} {sign}: {found:?}"
+            );
             touched += usize::from(!found.is_empty());
             let work = simulation.work();
-            assert!(work.steps < 150 && work.solves < 400, "{exponent} {sign}: {work:?}");
+            assert!(
+                work.steps < 150 && work.solves < 400,
+                "{exponent} {sign}: {work:?}"
+            );
         }
     }
     assert!(touched >= 5, "{touched} of them touch");
@@ -144,7 +244,11 @@ fn a_free_end_may_graze_an_obstacle() {
 
 #[test]
 fn the_range_of_the_tip_has_its_extrema_inside_steps() {
-    let long = Stepping { degree: 4, dt: 0.02, ..Stepping::default() };
+    let long = Stepping {
+        degree: 4,
+        dt: 0.02,
+        ..Stepping::default()
+    };
     let mut simulation = simulate(experiment(0.0, 0.0, 8), long);
     let start = tip(&simulation, Field::U);
     assert_eq!(simulation.tip_range(), [start, start]);
@@ -152,14 +256,26 @@ fn the_range_of_the_tip_has_its_extrema_inside_steps() {
     while simulation.step(1.0).unwrap().is_some() {
         let [low, high] = simulation.tip_range();
         let (from, to) = (simulation.old_level().t, simulation.t());
-        let at = |k: usize| simulation.value(Field::U, 1.0, from + (to - from) * k as f64 / 1000.0).unwrap();
+        let at = |k: usize| {
+            simulation
+                .value(Field::U, 1.0, from + (to - from) * k as f64 / 1000.0)
+                .unwrap()
+        };
         let values: Vec<f64> = (0..=1000).map(at).collect();
-        let [least, most] =
-            [values.iter().copied().fold(at(0), f64::min), values.iter().copied().fold(at(0), f64::max)];
+        let [least, most] = [
+            values.iter().copied().fold(at(0), f64::min),
+            values.iter().copied().fold(at(0), f64::max),
+        ];
         // A thousand points miss an extremum by some millionths of the change over the step.
         let slack = 1e-5 * (most - least) + 1e-15;
-        assert!(low <= least + 1e-15 && low >= least - slack, "{low} {least}");
-        assert!(high >= most - 1e-15 && high <= most + slack, "{high} {most}");
+        assert!(
+            low <= least + 1e-15 && low >= least - slack,
+            "{low} {least}"
+        );
+        assert!(
+            high >= most - 1e-15 && high <= most + slack,
+            "{high} {most}"
+        );
         inside += usize::from(high > at(0).max(at(1000)) + slack);
     }
     assert!(inside > 0, "no extremum inside a step");
@@ -167,21 +283,48 @@ fn the_range_of_the_tip_has_its_extrema_inside_steps() {
 
 #[test]
 fn without_viscosity_an_impact_takes_the_compliance() {
-    let obstacles = Obstacles { epsilon: 1e-3, ..Obstacles::default() };
-    assert_eq!([0.0, 0.9e-3].map(|zeta| obstacles.impact_time(zeta)), [1e-3, 1e-3]);
-    close(obstacles.impact_time(0.1), (1e-3 * 0.1_f64.sqrt()).powf(2.0 / 3.0), 1e-17);
+    let obstacles = Obstacles {
+        epsilon: 1e-3,
+        ..Obstacles::default()
+    };
+    assert_eq!(
+        [0.0, 0.9e-3].map(|zeta| obstacles.impact_time(zeta)),
+        [1e-3, 1e-3]
+    );
+    close(
+        obstacles.impact_time(0.1),
+        (1e-3 * 0.1_f64.sqrt()).powf(2.0 / 3.0),
+        1e-17,
+    );
 }
 
 #[test]
 fn every_compliance_is_solved() {
     for epsilon in [1e-8, 1e-6, 1e-4, 1e-2, 1.0] {
-        let obstacles = Obstacles { epsilon, ..Obstacles::default() };
-        let problem = Problem { obstacles: Some(obstacles), ..experiment(0.0, 0.0, 8) };
+        let obstacles = Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        };
+        let problem = Problem {
+            obstacles: Some(obstacles),
+            ..experiment(0.0, 0.0, 8)
+        };
         let restart_dt = (0.2 * obstacles.impact_time(0.1)).min(5e-3);
-        let mut simulation = simulate(problem, Stepping { restart_dt, ..Stepping::default() });
-        simulation.advance(0.7).unwrap_or_else(|error| panic!("epsilon {epsilon}: {error}"));
+        let mut simulation = simulate(
+            problem,
+            Stepping {
+                restart_dt,
+                ..Stepping::default()
+            },
+        );
+        simulation
+            .advance(0.7)
+            .unwrap_or_else(|error| panic!("epsilon {epsilon}: {error}"));
         let work = simulation.work();
-        assert!(work.events > 0 && work.steps < 10_000 && work.shortened == 0, "epsilon {epsilon}: {work:?}");
+        assert!(
+            work.events > 0 && work.steps < 10_000 && work.shortened == 0,
+            "epsilon {epsilon}: {work:?}"
+        );
     }
 }
 
@@ -191,7 +334,11 @@ fn an_event_ends_its_step_on_the_obstacle_exactly() {
     let mut events = 0;
     while let Some(report) = simulation.step(3.0).unwrap() {
         if let Some(event) = report.event {
-            let expected = if [event.from, event.to].contains(&Phase::Upper) { 0.1 } else { -0.01 };
+            let expected = if [event.from, event.to].contains(&Phase::Upper) {
+                0.1
+            } else {
+                -0.01
+            };
             assert_eq!(tip(&simulation, Field::U), expected);
             let end = simulation.value(Field::U, 1.0, simulation.t()).unwrap();
             close(end, expected, 1e-16);
@@ -213,9 +360,25 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
             for distance in [0.0, 1e-14, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8] {
                 let mut problem = experiment(-0.5, 20.0, degree);
                 problem.beam.zeta = zeta;
-                problem.obstacles = Some(Obstacles { g1: -0.01 - distance, ..Obstacles::default() });
-                let simulation = balanced(simulate(problem, Stepping { degree: q, ..Stepping::default() }), 0.05);
-                assert_eq!(simulation.events(), [], "p = {degree}, q = {q}, zeta = {zeta}, distance {distance}");
+                problem.obstacles = Some(Obstacles {
+                    g1: -0.01 - distance,
+                    ..Obstacles::default()
+                });
+                let simulation = balanced(
+                    simulate(
+                        problem,
+                        Stepping {
+                            degree: q,
+                            ..Stepping::default()
+                        },
+                    ),
+                    0.05,
+                );
+                assert_eq!(
+                    simulation.events(),
+                    [],
+                    "p = {degree}, q = {q}, zeta = {zeta}, distance {distance}"
+                );
                 assert!(tip(&simulation, Field::U) > -0.01);
                 let work = simulation.work();
                 assert!(work.steps < 16 && work.solves < 60, "{work:?}");
@@ -228,9 +391,23 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
 #[test]
 fn the_first_contact_lasts_as_long_whatever_the_compliance() {
     for epsilon in [1e-3, 1e-4, 1e-5] {
-        let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
-        let fine = Stepping { dt: 0.01, restart_dt: 1e-5, ..Stepping::default() };
-        let simulation = advanced(Problem { obstacles, ..experiment(0.0, 0.0, 20) }, fine, 0.7);
+        let obstacles = Some(Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        });
+        let fine = Stepping {
+            dt: 0.01,
+            restart_dt: 1e-5,
+            ..Stepping::default()
+        };
+        let simulation = advanced(
+            Problem {
+                obstacles,
+                ..experiment(0.0, 0.0, 20)
+            },
+            fine,
+            0.7,
+        );
         let [touch, release] = [simulation.events()[0], simulation.events()[1]];
         assert_eq!([touch.to, release.to], [Phase::Upper, Phase::Free]);
         close(release.t - touch.t, 0.44, 0.01);

@@ -12,7 +12,15 @@ use thermobeam::solve::Settings;
 const REFERENCE: f64 = -0.011764243810;
 
 fn first(p: usize, q: usize, dt: f64, t: f64) -> Simulation {
-    advanced(experiment(0.0, 0.0, p), Stepping { degree: q, dt, ..Stepping::default() }, t)
+    advanced(
+        experiment(0.0, 0.0, p),
+        Stepping {
+            degree: q,
+            dt,
+            ..Stepping::default()
+        },
+        t,
+    )
 }
 
 #[test]
@@ -28,7 +36,10 @@ fn errors_of_the_first_experiment_are_those_of_the_prototype() {
     ] {
         let found = tip(&first(p, q, dt, 1.0), Field::U);
         close(found, REFERENCE, error);
-        assert!((found - REFERENCE).abs() > 0.1 * error, "p = {p}, q = {q}: {found} is better than it can be");
+        assert!(
+            (found - REFERENCE).abs() > 0.1 * error,
+            "p = {p}, q = {q}: {found} is better than it can be"
+        );
     }
 }
 
@@ -38,19 +49,29 @@ fn ten_units_of_time_keep_ten_digits() {
     close(tip(&simulation, Field::U), 0.008482598710, 2e-12);
     close(tip(&simulation, Field::Phi), 0.005168435936, 2e-12);
     close(tip(&simulation, Field::W), -0.0585739110, 1e-10);
-    let expected = [(0.2034132761, Phase::Upper), (0.6481694610, Phase::Free), (0.8582338080, Phase::Lower)];
+    let expected = [
+        (0.2034132761, Phase::Upper),
+        (0.6481694610, Phase::Free),
+        (0.8582338080, Phase::Lower),
+    ];
     for (event, (t, to)) in simulation.events().iter().zip(expected) {
         close(event.t, t, 2e-10);
         assert_eq!(event.to, to);
     }
     assert_eq!(simulation.events().len(), 14);
-    assert!(simulation.events().windows(2).all(|pair| pair[0].t < pair[1].t && pair[0].to == pair[1].from));
+    assert!(
+        simulation
+            .events()
+            .windows(2)
+            .all(|pair| pair[0].t < pair[1].t && pair[0].to == pair[1].from)
+    );
 }
 
 #[test]
 fn events_do_not_depend_on_the_steps() {
     let [coarse, fine] = [(3, 0.02), (4, 0.013)].map(|(q, dt)| first(16, q, dt, 3.0));
-    let pairs: Vec<(&ContactEvent, &ContactEvent)> = coarse.events().iter().zip(fine.events()).collect();
+    let pairs: Vec<(&ContactEvent, &ContactEvent)> =
+        coarse.events().iter().zip(fine.events()).collect();
     assert_eq!((coarse.events().len(), fine.events().len()), (7, 7));
     for (one, other) in pairs {
         assert_eq!((one.from, one.to), (other.from, other.to));
@@ -60,19 +81,34 @@ fn events_do_not_depend_on_the_steps() {
 
 #[test]
 fn the_error_falls_exponentially_with_the_degree() {
-    let errors = [4, 8, 12, 16]
-        .map(|p| (tip(&first(p, 4, 0.01, 0.5), Field::U) - tip(&first(22, 4, 0.01, 0.5), Field::U)).abs());
+    let errors = [4, 8, 12, 16].map(|p| {
+        (tip(&first(p, 4, 0.01, 0.5), Field::U) - tip(&first(22, 4, 0.01, 0.5), Field::U)).abs()
+    });
     for (error, bound) in errors.iter().zip([1e-3, 5e-6, 5e-8, 1e-10]) {
         assert!(*error < bound, "{errors:?}");
     }
-    assert!(errors.windows(2).all(|pair| pair[1] < 0.05 * pair[0]), "{errors:?}");
+    assert!(
+        errors.windows(2).all(|pair| pair[1] < 0.05 * pair[0]),
+        "{errors:?}"
+    );
 }
 
 #[test]
 fn one_element_and_several_agree() {
     let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.85, 1.0]).unwrap();
-    let several = thermobeam::dg::Problem { mesh, ..experiment(0.0, 0.0, 12) };
-    let several = advanced(several, Stepping { degree: 3, dt: 0.01, ..Stepping::default() }, 1.0);
+    let several = thermobeam::dg::Problem {
+        mesh,
+        ..experiment(0.0, 0.0, 12)
+    };
+    let several = advanced(
+        several,
+        Stepping {
+            degree: 3,
+            dt: 0.01,
+            ..Stepping::default()
+        },
+        1.0,
+    );
     close(tip(&several, Field::U), REFERENCE, 2e-11);
 }
 
@@ -85,11 +121,25 @@ fn linear_elements_and_small_steps_lead_to_the_same_answer() {
         for (i, &x) in mesh.nodes().iter().enumerate() {
             initial.u[i] = 0.01 * x * (x - 2.0);
             initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
-            initial.theta[i] = if i == elements { 0.0 } else { (std::f64::consts::PI * x).sin() };
+            initial.theta[i] = if i == elements {
+                0.0
+            } else {
+                (std::f64::consts::PI * x).sin()
+            };
         }
-        let problem = p1::Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial };
+        let problem = p1::Problem {
+            beam: Beam::default(),
+            obstacles: Some(Obstacles::default()),
+            mesh,
+            initial,
+        };
         let dt = 0.04 / elements as f64;
-        let stepping = p1::Stepping { scheme: MIDPOINT, settings: Settings::default(), dt, loaded: false };
+        let stepping = p1::Stepping {
+            scheme: MIDPOINT,
+            settings: Settings::default(),
+            dt,
+            loaded: false,
+        };
         let mut simulation = p1::Simulation::new(problem, stepping).unwrap();
         while simulation.t() < 0.5 - 0.5 * dt {
             simulation.advance().unwrap();
@@ -98,7 +148,10 @@ fn linear_elements_and_small_steps_lead_to_the_same_answer() {
     });
     // `midpoint` on P1 is of second order in h and dt.
     let rate = (errors[0] / errors[1]).log2();
-    assert!((rate - 2.0).abs() < 0.1 && errors[1].abs() < 1e-4, "{errors:?}: rate {rate}");
+    assert!(
+        (rate - 2.0).abs() < 0.1 && errors[1].abs() < 1e-4,
+        "{errors:?}: rate {rate}"
+    );
 }
 
 #[test]

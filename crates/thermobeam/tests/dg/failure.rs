@@ -21,33 +21,102 @@ fn good() -> Stepping {
 fn settings_out_of_range_are_refused_by_name() {
     for degree in [0, 41, 100] {
         let message = refused(experiment(0.0, 0.0, degree), good());
-        assert_eq!(message, format!("degree of the elements: expected an integer from 1 to 40, found {degree}"));
+        assert_eq!(
+            message,
+            format!("degree of the elements: expected an integer from 1 to 40, found {degree}")
+        );
     }
     let cases = [
-        (Stepping { degree: 6, ..good() }, "degree in time: expected an integer from 0 to 5, found 6"),
-        (Stepping { dt: 0.0, ..good() }, "dt: expected a finite number > 0, found 0"),
-        (Stepping { dt: f64::NAN, ..good() }, "dt: expected a finite number > 0, found NaN"),
-        (Stepping { dt: f64::INFINITY, ..good() }, "dt: expected a finite number > 0, found inf"),
         (
-            Stepping { restart_dt: 0.03, ..good() },
+            Stepping {
+                degree: 6,
+                ..good()
+            },
+            "degree in time: expected an integer from 0 to 5, found 6",
+        ),
+        (
+            Stepping { dt: 0.0, ..good() },
+            "dt: expected a finite number > 0, found 0",
+        ),
+        (
+            Stepping {
+                dt: f64::NAN,
+                ..good()
+            },
+            "dt: expected a finite number > 0, found NaN",
+        ),
+        (
+            Stepping {
+                dt: f64::INFINITY,
+                ..good()
+            },
+            "dt: expected a finite number > 0, found inf",
+        ),
+        (
+            Stepping {
+                restart_dt: 0.03,
+                ..good()
+            },
             "restart_dt: expected a number > 0 and at most dt = 0.02, found 0.03",
         ),
-        (Stepping { restart_dt: -1.0, ..good() }, "restart_dt: expected a number > 0 and at most dt = 0.02, found -1"),
-        (Stepping { growth: 0.9, ..good() }, "growth: expected a finite number >= 1, found 0.9"),
-        (Stepping { growth: f64::NAN, ..good() }, "growth: expected a finite number >= 1, found NaN"),
         (
-            Stepping { growth: 1.0001, ..good() },
+            Stepping {
+                restart_dt: -1.0,
+                ..good()
+            },
+            "restart_dt: expected a number > 0 and at most dt = 0.02, found -1",
+        ),
+        (
+            Stepping {
+                growth: 0.9,
+                ..good()
+            },
+            "growth: expected a finite number >= 1, found 0.9",
+        ),
+        (
+            Stepping {
+                growth: f64::NAN,
+                ..good()
+            },
+            "growth: expected a finite number >= 1, found NaN",
+        ),
+        (
+            Stepping {
+                growth: 1.0001,
+                ..good()
+            },
             "growth: expected a ratio that leads from restart_dt to dt in 1000 steps, found 1.0001",
         ),
-        (Stepping { tolerance: 0.0, ..good() }, "tolerance: expected a finite number > 0, found 0"),
-        (Stepping { max_iterations: 0, ..good() }, "max_iterations: expected an integer >= 1, found 0"),
+        (
+            Stepping {
+                tolerance: 0.0,
+                ..good()
+            },
+            "tolerance: expected a finite number > 0, found 0",
+        ),
+        (
+            Stepping {
+                max_iterations: 0,
+                ..good()
+            },
+            "max_iterations: expected an integer >= 1, found 0",
+        ),
     ];
     for (stepping, message) in cases {
         assert_eq!(refused(experiment(0.0, 0.0, 4), stepping), message);
     }
     for degree in [1, 40] {
         for q in [0, 5] {
-            assert!(Simulation::new(experiment(0.0, 0.0, degree), Stepping { degree: q, ..good() }).is_ok());
+            assert!(
+                Simulation::new(
+                    experiment(0.0, 0.0, degree),
+                    Stepping {
+                        degree: q,
+                        ..good()
+                    }
+                )
+                .is_ok()
+            );
         }
     }
 }
@@ -55,58 +124,151 @@ fn settings_out_of_range_are_refused_by_name() {
 #[test]
 fn coefficients_and_initial_data_are_checked() {
     let base = || experiment(0.0, 0.0, 4);
-    let beam = Problem { beam: Beam { rho: -1.0, ..Beam::default() }, ..base() };
-    assert_eq!(refused(beam, good()), "rho: expected a finite number >= 0, found -1");
-    let obstacles = Problem { obstacles: Some(Obstacles { epsilon: 0.0, ..Obstacles::default() }), ..base() };
-    assert_eq!(refused(obstacles, good()), "epsilon: expected a finite number > 0, found 0");
+    let beam = Problem {
+        beam: Beam {
+            rho: -1.0,
+            ..Beam::default()
+        },
+        ..base()
+    };
+    assert_eq!(
+        refused(beam, good()),
+        "rho: expected a finite number >= 0, found -1"
+    );
+    let obstacles = Problem {
+        obstacles: Some(Obstacles {
+            epsilon: 0.0,
+            ..Obstacles::default()
+        }),
+        ..base()
+    };
+    assert_eq!(
+        refused(obstacles, good()),
+        "epsilon: expected a finite number > 0, found 0"
+    );
     let with = |initial: Initial| Problem { initial, ..base() };
-    let lifted = Initial { u: Box::new(|x| 0.5 + x), ..Initial::at_rest(0.0) };
-    assert_eq!(refused(with(lifted), good()), "initial u at x = 0: expected 0 from the boundary condition, found 0.5");
-    let hot = Initial { theta: Box::new(|x| 2.0 * (1.0 - x)), ..Initial::at_rest(0.0) };
-    assert_eq!(refused(with(hot), good()), "initial theta at x = 0: expected 0 from the boundary condition, found 2");
-    let wild = Initial { phi_t: Box::new(|x| 1.0 / (x - x)), ..Initial::at_rest(0.0) };
+    let lifted = Initial {
+        u: Box::new(|x| 0.5 + x),
+        ..Initial::at_rest(0.0)
+    };
+    assert_eq!(
+        refused(with(lifted), good()),
+        "initial u at x = 0: expected 0 from the boundary condition, found 0.5"
+    );
+    let hot = Initial {
+        theta: Box::new(|x| 2.0 * (1.0 - x)),
+        ..Initial::at_rest(0.0)
+    };
+    assert_eq!(
+        refused(with(hot), good()),
+        "initial theta at x = 0: expected 0 from the boundary condition, found 2"
+    );
+    let wild = Initial {
+        phi_t: Box::new(|x| 1.0 / (x - x)),
+        ..Initial::at_rest(0.0)
+    };
     let found = Simulation::new(with(wild), good()).err();
-    assert!(matches!(found, Some(SetupError::NotFiniteBetween { field: "phi_t", .. })), "{found:?}");
+    assert!(
+        matches!(
+            found,
+            Some(SetupError::NotFiniteBetween { field: "phi_t", .. })
+        ),
+        "{found:?}"
+    );
 }
 
 /// The error of a step that must fail, after which the simulation stays at its level.
 #[track_caller]
 fn failed(mut simulation: Simulation) -> StepError {
     let (level, events) = (simulation.level().clone(), simulation.events().to_vec());
-    let error = simulation.step(1e6).expect_err("a step that cannot be done");
-    assert_eq!((simulation.level(), simulation.events()), (&level, &events[..]));
+    let error = simulation
+        .step(1e6)
+        .expect_err("a step that cannot be done");
+    assert_eq!(
+        (simulation.level(), simulation.events()),
+        (&level, &events[..])
+    );
     assert_eq!((error.step, error.t), (1, 0.0));
     error
 }
 
 /// The linear beam, pushed.
 fn pushed(beta: f64) -> Problem {
-    Problem { beam: Beam { beta, rho: 0.0, ..Beam::default() }, ..experiment(0.0, 0.0, 6) }
+    Problem {
+        beam: Beam {
+            beta,
+            rho: 0.0,
+            ..Beam::default()
+        },
+        ..experiment(0.0, 0.0, 6)
+    }
 }
 
 #[test]
 fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
-    let long = Stepping { dt: 50.0, restart_dt: 50.0, ..good() };
+    let long = Stepping {
+        dt: 50.0,
+        restart_dt: 50.0,
+        ..good()
+    };
     let mut simulation = simulate(pushed(-3.0), long);
     let report = simulation.step(50.0).unwrap().expect("a step");
-    assert!(report.dt < 1.0 && simulation.work().shortened > 5, "{report:?} {:?}", simulation.work());
+    assert!(
+        report.dt < 1.0 && simulation.work().shortened > 5,
+        "{report:?} {:?}",
+        simulation.work()
+    );
     let error = failed(simulate(pushed(-1e6), long));
-    let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else { panic!("{error}") };
-    assert!(pivot < 0.0 && n_value == -1e6 && error.dt == 50.0, "{error}");
+    let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else {
+        panic!("{error}")
+    };
+    assert!(
+        pivot < 0.0 && n_value == -1e6 && error.dt == 50.0,
+        "{error}"
+    );
 }
 
 #[test]
 fn iterations_that_are_not_enough_are_an_error() {
-    let error = failed(simulate(experiment(0.0, 0.0, 6), Stepping { max_iterations: 1, ..good() }));
-    assert!(matches!(error.failure, StepFailure::IterationLimit { iterations: 1, .. }), "{error}");
-    assert!(error.to_string().starts_with("step 1 (from t = 0, length 1e-3): the iteration is too slow"), "{error}");
+    let error = failed(simulate(
+        experiment(0.0, 0.0, 6),
+        Stepping {
+            max_iterations: 1,
+            ..good()
+        },
+    ));
+    assert!(
+        matches!(
+            error.failure,
+            StepFailure::IterationLimit { iterations: 1, .. }
+        ),
+        "{error}"
+    );
+    assert!(
+        error
+            .to_string()
+            .starts_with("step 1 (from t = 0, length 1e-3): the iteration is too slow"),
+        "{error}"
+    );
 }
 
 #[test]
 fn numbers_beyond_all_bounds_are_an_error() {
-    let initial = Initial { u_t: Box::new(|x| 1e200 * x), ..Initial::at_rest(0.0) };
-    let error = failed(simulate(Problem { initial, ..experiment(0.0, 0.0, 6) }, good()));
-    assert!(matches!(error.failure, StepFailure::NonFinite { .. }), "{error}");
+    let initial = Initial {
+        u_t: Box::new(|x| 1e200 * x),
+        ..Initial::at_rest(0.0)
+    };
+    let error = failed(simulate(
+        Problem {
+            initial,
+            ..experiment(0.0, 0.0, 6)
+        },
+        good(),
+    ));
+    assert!(
+        matches!(error.failure, StepFailure::NonFinite { .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -127,14 +289,38 @@ fn a_limit_in_the_past_or_no_number_is_no_step() {
 #[test]
 fn contact_that_the_position_cannot_tell_ends_where_its_force_changes_sign() {
     for epsilon in [1e-18, 1e-20, 1e-100] {
-        let obstacles = Obstacles { epsilon, ..Obstacles::default() };
-        let initial = Initial { theta: Box::new(|_| 0.0), ..experiment(0.0, 0.0, 12).initial };
-        let problem = Problem { obstacles: Some(obstacles), initial, ..experiment(0.0, 0.0, 12) };
-        let mut simulation = simulate(problem, Stepping { degree: 3, ..Stepping::default() });
+        let obstacles = Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        };
+        let initial = Initial {
+            theta: Box::new(|_| 0.0),
+            ..experiment(0.0, 0.0, 12).initial
+        };
+        let problem = Problem {
+            obstacles: Some(obstacles),
+            initial,
+            ..experiment(0.0, 0.0, 12)
+        };
+        let mut simulation = simulate(
+            problem,
+            Stepping {
+                degree: 3,
+                ..Stepping::default()
+            },
+        );
         simulation.advance(0.65).unwrap();
-        let [touch, leave] = simulation.events() else { panic!("{epsilon}: {:?}", simulation.events()) };
-        assert!((touch.t - 0.203_455_295_9).abs() < 1e-8, "{epsilon}: {touch:?}");
-        assert!((leave.t - 0.647_054_347_5).abs() < 1e-6, "{epsilon}: {leave:?}");
+        let [touch, leave] = simulation.events() else {
+            panic!("{epsilon}: {:?}", simulation.events())
+        };
+        assert!(
+            (touch.t - 0.203_455_295_9).abs() < 1e-8,
+            "{epsilon}: {touch:?}"
+        );
+        assert!(
+            (leave.t - 0.647_054_347_5).abs() < 1e-6,
+            "{epsilon}: {leave:?}"
+        );
         let tip = simulation.value(Field::U, 1.0, 0.65).unwrap();
         assert!((tip - 0.099_995_486_56).abs() < 1e-8, "{epsilon}: {tip}");
         simulation.advance(0.7).unwrap();

@@ -15,7 +15,12 @@ fn graded() -> Mesh {
 /// The first member and the paper's scheme after `steps` steps to t = 0.2.
 fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
     let dt = 0.2 / steps as f64;
-    let problem = Problem { beam, obstacles: None, mesh: graded(), ..experiment(0.0, 0.0, 1) };
+    let problem = Problem {
+        beam,
+        obstacles: None,
+        mesh: graded(),
+        ..experiment(0.0, 0.0, 1)
+    };
     let mut simulation = simulate(problem, equal_steps(0, dt));
     let mesh = graded();
     let mut initial = p1::Initial::at_rest(&mesh, 0.0);
@@ -23,11 +28,28 @@ fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
     for (i, &x) in mesh.nodes().iter().enumerate() {
         initial.u[i] = 0.01 * x * (x - 2.0);
         initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
-        initial.theta[i] = if i == last { 0.0 } else { (std::f64::consts::PI * x).sin() };
+        initial.theta[i] = if i == last {
+            0.0
+        } else {
+            (std::f64::consts::PI * x).sin()
+        };
     }
-    let settings = Settings { stopping: Stopping::below(1e-14), ..Settings::default() };
-    let stepping = p1::Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
-    let problem = p1::Problem { beam, obstacles: None, mesh, initial };
+    let settings = Settings {
+        stopping: Stopping::below(1e-14),
+        ..Settings::default()
+    };
+    let stepping = p1::Stepping {
+        scheme: EULER_CRANK_NICOLSON,
+        settings,
+        dt,
+        loaded: false,
+    };
+    let problem = p1::Problem {
+        beam,
+        obstacles: None,
+        mesh,
+        initial,
+    };
     let mut paper = p1::Simulation::new(problem, stepping).unwrap();
     for _ in 0..steps {
         simulation.step(f64::INFINITY).unwrap();
@@ -39,11 +61,18 @@ fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
 
 /// Largest difference of a nodal value of u, φ and their velocities.
 fn difference((simulation, level): &(Simulation, Level)) -> f64 {
-    let fields = [(Field::U, &level.u), (Field::Phi, &level.phi), (Field::V, &level.v), (Field::W, &level.w)];
+    let fields = [
+        (Field::U, &level.u),
+        (Field::Phi, &level.phi),
+        (Field::V, &level.v),
+        (Field::W, &level.w),
+    ];
     let mut largest = 0.0_f64;
     for (field, values) in fields {
         for (x, value) in graded().nodes().iter().zip(values) {
-            let found = simulation.value(field, *x, simulation.t()).expect("the present time");
+            let found = simulation
+                .value(field, *x, simulation.t())
+                .expect("the present time");
             assert!(found.is_finite());
             largest = largest.max((found - value).abs());
         }
@@ -55,14 +84,27 @@ fn difference((simulation, level): &(Simulation, Level)) -> f64 {
 fn without_its_three_other_rules_the_first_member_is_the_papers_scheme() {
     // No contact, N constant, no coupling with the temperature.
     for beta in [-0.5, 0.0, 5.0] {
-        let found = difference(&both(Beam { beta, rho: 0.0, a: 0.0, ..Beam::default() }, 100));
+        let found = difference(&both(
+            Beam {
+                beta,
+                rho: 0.0,
+                a: 0.0,
+                ..Beam::default()
+            },
+            100,
+        ));
         assert!(found < 1e-11, "beta = {beta}: {found:e}");
     }
 }
 
 #[test]
 fn the_three_other_rules_are_a_difference_of_first_order() {
-    let beam = Beam { a: 0.5, rho: 2.0, beta: 0.3, ..Beam::default() };
+    let beam = Beam {
+        a: 0.5,
+        rho: 2.0,
+        beta: 0.3,
+        ..Beam::default()
+    };
     let [coarse, fine] = [400, 800].map(|steps| difference(&both(beam, steps)));
     let rate = (coarse / fine).log2();
     assert!((rate - 1.0).abs() < 0.1, "{coarse:e} {fine:e}: rate {rate}");

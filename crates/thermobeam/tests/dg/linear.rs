@@ -8,7 +8,13 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 use thermobeam::vibration::{Mode, TimeFactor};
 
-const BEAM: Beam = Beam { zeta: 0.1, a: 0.5, rho: 0.0, beta: -0.3, theta_a: 3.0 };
+const BEAM: Beam = Beam {
+    zeta: 0.1,
+    a: 0.5,
+    rho: 0.0,
+    beta: -0.3,
+    theta_a: 3.0,
+};
 const ELEMENTS: usize = 5;
 
 /// `y' = A y + b` for y = (u, φ, v, w, θ~) at the nodes 1..=n, θ~ without the last.
@@ -17,18 +23,27 @@ fn system() -> (DMatrix<f64>, DVector<f64>) {
     let n = beam.elements;
     let (m, k, c) = (&beam.mass, &beam.stiffness, &beam.coupling);
     let inverse = m.clone().try_inverse().unwrap();
-    let inner = m.view((0, 0), (n - 1, n - 1)).into_owned().try_inverse().unwrap();
+    let inner = m
+        .view((0, 0), (n - 1, n - 1))
+        .into_owned()
+        .try_inverse()
+        .unwrap();
     let mut a = DMatrix::zeros(5 * n - 1, 5 * n - 1);
     let identity = DMatrix::identity(n, n);
     for field in 0..2 {
-        a.view_mut((field * n, (2 + field) * n), (n, n)).copy_from(&identity);
+        a.view_mut((field * n, (2 + field) * n), (n, n))
+            .copy_from(&identity);
     }
     // Rows v and w: from (u, φ) and, times ζ, from (v, w).
-    let (place, rate) = (beam.stiffness_form(BEAM.beta), beam.stiffness_form(0.0) * BEAM.zeta);
+    let (place, rate) = (
+        beam.stiffness_form(BEAM.beta),
+        beam.stiffness_form(0.0) * BEAM.zeta,
+    );
     for row in 0..2 {
         for (column, form) in [&place, &rate].into_iter().enumerate() {
             let rows = &inverse * form.rows(row * n, n);
-            a.view_mut(((2 + row) * n, 2 * column * n), (n, 2 * n)).copy_from(&-rows);
+            a.view_mut(((2 + row) * n, 2 * column * n), (n, 2 * n))
+                .copy_from(&-rows);
         }
     }
     let from_heat = &inverse * c.columns(0, n - 1) * BEAM.a;
@@ -36,11 +51,13 @@ fn system() -> (DMatrix<f64>, DVector<f64>) {
     let turning = &inner * c.transpose().rows(0, n - 1) * BEAM.a;
     a.view_mut((4 * n, 3 * n), (n - 1, n)).copy_from(&-turning);
     let conduction = &inner * k.view((0, 0), (n - 1, n - 1));
-    a.view_mut((4 * n, 4 * n), (n - 1, n - 1)).copy_from(&-conduction);
+    a.view_mut((4 * n, 4 * n), (n - 1, n - 1))
+        .copy_from(&-conduction);
     let h = 1.0 / n as f64;
     let integrals = DVector::from_fn(n, |i, _| if i + 1 == n { 0.5 * h } else { h });
     let mut b = DVector::zeros(5 * n - 1);
-    b.rows_mut(3 * n, n).copy_from(&(inverse * integrals * BEAM.a * BEAM.theta_a));
+    b.rows_mut(3 * n, n)
+        .copy_from(&(inverse * integrals * BEAM.a * BEAM.theta_a));
     (a, b)
 }
 
@@ -68,15 +85,38 @@ fn steps_of_every_degree_lead_to_the_matrix_exponential() {
     for f in [&start.u, &start.phi, &start.u_t, &start.phi_t] {
         y.extend(nodes.iter().map(|x| f(*x)));
     }
-    y.extend(nodes[..ELEMENTS - 1].iter().map(|x| (start.theta)(*x) - BEAM.theta_a * (1.0 - x)));
+    y.extend(
+        nodes[..ELEMENTS - 1]
+            .iter()
+            .map(|x| (start.theta)(*x) - BEAM.theta_a * (1.0 - x)),
+    );
     y.push(1.0);
     let end = (augmented * t).exp() * DVector::from_vec(y);
-    for (q, steps, tolerance) in [(1, 400, 1e-7), (2, 100, 2e-9), (3, 100, 1e-11), (4, 50, 1e-11), (5, 40, 1e-11)] {
+    for (q, steps, tolerance) in [
+        (1, 400, 1e-7),
+        (2, 100, 2e-9),
+        (3, 100, 1e-11),
+        (4, 50, 1e-11),
+        (5, 40, 1e-11),
+    ] {
         let mesh = Mesh::uniform(ELEMENTS).unwrap();
-        let problem = Problem { beam: BEAM, obstacles: None, mesh, degree: 1, initial: initial() };
+        let problem = Problem {
+            beam: BEAM,
+            obstacles: None,
+            mesh,
+            degree: 1,
+            initial: initial(),
+        };
         let simulation = advanced(problem, equal_steps(q, t / steps as f64), t);
-        for (block, field) in [Field::U, Field::Phi, Field::V, Field::W, Field::Theta].into_iter().enumerate() {
-            let count = if field == Field::Theta { ELEMENTS - 1 } else { ELEMENTS };
+        for (block, field) in [Field::U, Field::Phi, Field::V, Field::W, Field::Theta]
+            .into_iter()
+            .enumerate()
+        {
+            let count = if field == Field::Theta {
+                ELEMENTS - 1
+            } else {
+                ELEMENTS
+            };
             for i in 0..count {
                 let found = simulation.value(field, nodes[i], t).expect("the end");
                 close(found, end[block * ELEMENTS + i], tolerance);
@@ -90,19 +130,53 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
     for (index, zeta) in [(0, 0.1), (2, 0.02), (3, 2.0)] {
         let mode = Mode::new(index);
         let exact = TimeFactor::new(mode.omega(), zeta, 1.0, 0.0).unwrap();
-        let beam = Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 };
-        let initial =
-            Initial { u: Box::new(move |x| mode.u(x)), phi: Box::new(move |x| mode.phi(x)), ..Initial::at_rest(0.0) };
-        let problem = Problem { beam, obstacles: None, mesh: Mesh::uniform(1).unwrap(), degree: 22, initial };
-        let mut simulation = simulate(problem, Stepping { degree: 5, dt: 0.01, ..Stepping::default() });
+        let beam = Beam {
+            zeta,
+            a: 0.0,
+            rho: 0.0,
+            beta: 0.0,
+            theta_a: 0.0,
+        };
+        let initial = Initial {
+            u: Box::new(move |x| mode.u(x)),
+            phi: Box::new(move |x| mode.phi(x)),
+            ..Initial::at_rest(0.0)
+        };
+        let problem = Problem {
+            beam,
+            obstacles: None,
+            mesh: Mesh::uniform(1).unwrap(),
+            degree: 22,
+            initial,
+        };
+        let mut simulation = simulate(
+            problem,
+            Stepping {
+                degree: 5,
+                dt: 0.01,
+                ..Stepping::default()
+            },
+        );
         while simulation.step(0.5).unwrap().is_some() {
             let (start, end) = (simulation.old_level().t, simulation.t());
             for t in [0.7 * start + 0.3 * end, end] {
                 for x in [0.3, 0.77, 1.0] {
-                    close(simulation.value(Field::U, x, t).unwrap(), mode.u(x) * exact.value(t), 1e-11);
-                    close(simulation.value(Field::Phi, x, t).unwrap(), mode.phi(x) * exact.value(t), 1e-11);
+                    close(
+                        simulation.value(Field::U, x, t).unwrap(),
+                        mode.u(x) * exact.value(t),
+                        1e-11,
+                    );
+                    close(
+                        simulation.value(Field::Phi, x, t).unwrap(),
+                        mode.phi(x) * exact.value(t),
+                        1e-11,
+                    );
                     let velocity_tolerance = if t == end { 2e-11 } else { 5e-9 };
-                    close(simulation.value(Field::V, x, t).unwrap(), mode.u(x) * exact.slope(t), velocity_tolerance);
+                    close(
+                        simulation.value(Field::V, x, t).unwrap(),
+                        mode.u(x) * exact.slope(t),
+                        velocity_tolerance,
+                    );
                 }
             }
         }
@@ -114,11 +188,35 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
 fn stiff_modes_are_damped_by_viscosity_alone() {
     let mode = Mode::new(0);
     for (zeta, factor) in [(10.0, -40.0 / 60.0), (0.01, -49.99 / 50.01), (50.0, 0.0)] {
-        let beam = Beam { zeta, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 };
-        let initial =
-            Initial { u: Box::new(move |x| mode.u(x)), phi: Box::new(move |x| mode.phi(x)), ..Initial::at_rest(0.0) };
-        let problem = Problem { beam, obstacles: None, mesh: Mesh::uniform(1).unwrap(), degree: 10, initial };
-        let long = Stepping { degree: 0, dt: 100.0, restart_dt: 100.0, ..Stepping::default() };
-        close(super::scenes::tip(&advanced(problem, long, 100.0), Field::U), factor * mode.u(1.0), 1e-3);
+        let beam = Beam {
+            zeta,
+            a: 0.0,
+            rho: 0.0,
+            beta: 0.0,
+            theta_a: 0.0,
+        };
+        let initial = Initial {
+            u: Box::new(move |x| mode.u(x)),
+            phi: Box::new(move |x| mode.phi(x)),
+            ..Initial::at_rest(0.0)
+        };
+        let problem = Problem {
+            beam,
+            obstacles: None,
+            mesh: Mesh::uniform(1).unwrap(),
+            degree: 10,
+            initial,
+        };
+        let long = Stepping {
+            degree: 0,
+            dt: 100.0,
+            restart_dt: 100.0,
+            ..Stepping::default()
+        };
+        close(
+            super::scenes::tip(&advanced(problem, long, 100.0), Field::U),
+            factor * mode.u(1.0),
+            1e-3,
+        );
     }
 }

@@ -5,9 +5,19 @@ use thermobeam::dg::{Field, Initial, Load, Problem, Simulation, Space, Stepping}
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 
-const BEAM: Beam = Beam { zeta: 0.1, a: 0.5, rho: 2.0, beta: 0.5, theta_a: 0.0 };
+const BEAM: Beam = Beam {
+    zeta: 0.1,
+    a: 0.5,
+    rho: 2.0,
+    beta: 0.5,
+    theta_a: 0.0,
+};
 /// The free end presses on the lower obstacle throughout.
-const OBSTACLES: Obstacles = Obstacles { epsilon: 0.01, g1: -0.01, g2: 0.1 };
+const OBSTACLES: Obstacles = Obstacles {
+    epsilon: 0.01,
+    g1: -0.01,
+    g2: 0.1,
+};
 const K: f64 = 1.3 * PI;
 const END: f64 = 0.3;
 
@@ -39,7 +49,11 @@ fn phi_t(t: f64) -> Jet {
 
 fn theta_x(x: f64) -> Jet {
     let (s, c) = (PI * x).sin_cos();
-    [(1.0 + x) * s, s + (1.0 + x) * PI * c, 2.0 * PI * c - (1.0 + x) * PI * PI * s]
+    [
+        (1.0 + x) * s,
+        s + (1.0 + x) * PI * c,
+        2.0 * PI * c - (1.0 + x) * PI * PI * s,
+    ]
 }
 
 fn theta_t(t: f64) -> Jet {
@@ -67,7 +81,10 @@ fn sources(space: &Space) -> Box<Load> {
         space.add_load(
             Field::Phi,
             &points,
-            |x| phi_x(x)[0] * (pt[2] + pz) - phi_x(x)[2] * pz - u_x(x)[1] * uz + a * theta_x(x)[1] * tt[0],
+            |x| {
+                phi_x(x)[0] * (pt[2] + pz) - phi_x(x)[2] * pz - u_x(x)[1] * uz
+                    + a * theta_x(x)[1] * tt[0]
+            },
             load,
         );
         space.add_load(
@@ -92,28 +109,45 @@ fn run(elements: usize, degree: usize, stepping: Stepping) -> Simulation {
         theta: Box::new(|x| theta_x(x)[0]),
     };
     let mesh = Mesh::mapped(elements, |s| 0.8 * s + 0.2 * s * s).unwrap();
-    let problem = Problem { beam: BEAM, obstacles: Some(OBSTACLES), mesh, degree, initial };
+    let problem = Problem {
+        beam: BEAM,
+        obstacles: Some(OBSTACLES),
+        mesh,
+        degree,
+        initial,
+    };
     let mut simulation = Simulation::with_load(problem, stepping, sources).unwrap();
     simulation.advance(END).unwrap();
     simulation
 }
 
 fn fine_steps() -> Stepping {
-    Stepping { degree: 4, dt: 0.02, restart_dt: 0.02, ..Stepping::default() }
+    Stepping {
+        degree: 4,
+        dt: 0.02,
+        restart_dt: 0.02,
+        ..Stepping::default()
+    }
 }
 
 /// L² errors of u, φ, θ and of u_x, φ_x, θ_x at the end.
 fn errors(simulation: &Simulation) -> [f64; 6] {
     let mut squares = [0.0; 6];
     let points = Space::gauss(simulation.space().degree() + 6);
-    let exact: [Exact; 3] =
-        [(Field::U, u_x, u_t(END)[0]), (Field::Phi, phi_x, phi_t(END)[0]), (Field::Theta, theta_x, theta_t(END)[0])];
+    let exact: [Exact; 3] = [
+        (Field::U, u_x, u_t(END)[0]),
+        (Field::Phi, phi_x, phi_t(END)[0]),
+        (Field::Theta, theta_x, theta_t(END)[0]),
+    ];
     for x in simulation.space().mesh().nodes().windows(2) {
         for (xi, weight) in &points {
             let half = 0.5 * (x[1] - x[0]);
             let at = x[0] + half * (1.0 + xi);
             for (i, (field, jet, factor)) in exact.iter().enumerate() {
-                let (value, slope) = simulation.level().value_and_slope(simulation.space(), *field, at);
+                let (value, slope) =
+                    simulation
+                        .level()
+                        .value_and_slope(simulation.space(), *field, at);
                 squares[i] += half * weight * (value - jet(at)[0] * factor).powi(2);
                 squares[3 + i] += half * weight * (slope - jet(at)[1] * factor).powi(2);
             }
@@ -125,21 +159,37 @@ fn errors(simulation: &Simulation) -> [f64; 6] {
 #[test]
 fn the_order_in_space_is_p_for_slopes_and_p_plus_one_for_values() {
     for (p, elements) in [(1, 32), (2, 16), (3, 12), (4, 10)] {
-        let [coarse, fine] = [elements, 2 * elements].map(|elements| errors(&run(elements, p, fine_steps())));
+        let [coarse, fine] =
+            [elements, 2 * elements].map(|elements| errors(&run(elements, p, fine_steps())));
         for i in 0..6 {
-            let (rate, order) = ((coarse[i] / fine[i]).log2(), if i < 3 { p + 1 } else { p } as f64);
+            let (rate, order) = (
+                (coarse[i] / fine[i]).log2(),
+                if i < 3 { p + 1 } else { p } as f64,
+            );
             // φ is smoother than u and θ, whose errors cause slowly vanishing terms of higher order in φ.
             let above = if i % 3 == 1 { 0.8 } else { 0.05 };
             let within = rate >= order - 0.05 && rate <= order + above;
-            assert!(within, "p = {p}, error {i}: {:e} {:e}, rate {rate}", coarse[i], fine[i]);
+            assert!(
+                within,
+                "p = {p}, error {i}: {:e} {:e}, rate {rate}",
+                coarse[i], fine[i]
+            );
         }
     }
 }
 
 #[test]
 fn the_error_of_a_smooth_solution_falls_exponentially_with_the_degree() {
-    let found: Vec<_> = [2, 4, 6, 8, 10, 12, 14].map(|p| errors(&run(1, p, fine_steps()))[0]).to_vec();
-    assert!(found.windows(2).take(5).all(|pair| pair[1] < 0.06 * pair[0]), "{found:?}");
+    let found: Vec<_> = [2, 4, 6, 8, 10, 12, 14]
+        .map(|p| errors(&run(1, p, fine_steps()))[0])
+        .to_vec();
+    assert!(
+        found
+            .windows(2)
+            .take(5)
+            .all(|pair| pair[1] < 0.06 * pair[0]),
+        "{found:?}"
+    );
     assert!(found[6] < 5e-12, "{found:?}");
 }
 

@@ -6,7 +6,10 @@ use thermobeam::dg::{Field, Level, Problem, Simulation};
 const T: f64 = 0.4;
 
 fn free() -> Problem {
-    Problem { obstacles: None, ..experiment(0.0, 0.0, 3) }
+    Problem {
+        obstacles: None,
+        ..experiment(0.0, 0.0, 3)
+    }
 }
 
 fn run(q: usize, steps: usize) -> Simulation {
@@ -33,9 +36,13 @@ fn distance(simulation: &Simulation, level: &Level) -> f64 {
 fn the_order_at_the_ends_of_steps_is_that_of_radau() {
     let reference = run(5, 100);
     for (q, steps) in [(0, 1600), (1, 160), (2, 40), (3, 12)] {
-        let [coarse, fine] = [steps, 2 * steps].map(|steps| distance(&run(q, steps), reference.level()));
+        let [coarse, fine] =
+            [steps, 2 * steps].map(|steps| distance(&run(q, steps), reference.level()));
         let (rate, order) = ((coarse / fine).log2(), (2 * q + 1) as f64);
-        assert!((rate - order).abs() <= 0.03 * order, "q = {q}: {coarse:e} {fine:e}, rate {rate}");
+        assert!(
+            (rate - order).abs() <= 0.03 * order,
+            "q = {q}: {coarse:e} {fine:e}, rate {rate}"
+        );
     }
 }
 
@@ -50,8 +57,11 @@ fn inside_a_step_the_order_is_that_of_interpolation() {
             for t in [0.9, 0.7, 0.5, 0.3, 0.1].map(|part| T - part * dt) {
                 reference.advance(t).unwrap();
                 for (worst, field) in worst.iter_mut().zip([Field::U, Field::V]) {
-                    let value =
-                        |simulation: &Simulation| simulation.value(field, 0.8, t).expect("a time in the last step");
+                    let value = |simulation: &Simulation| {
+                        simulation
+                            .value(field, 0.8, t)
+                            .expect("a time in the last step")
+                    };
                     *worst = larger(*worst, (value(&simulation) - value(&reference)).abs());
                 }
             }
@@ -61,7 +71,10 @@ fn inside_a_step_the_order_is_that_of_interpolation() {
         let orders = [(q + 2).min(2 * q + 1), q + 1];
         for (k, order) in orders.into_iter().enumerate() {
             let rate = (errors[0][k] / errors[1][k]).log2();
-            assert!((rate - order as f64).abs() <= 0.25, "q = {q}, {k}: {errors:?}, rate {rate}");
+            assert!(
+                (rate - order as f64).abs() <= 0.25,
+                "q = {q}, {k}: {errors:?}, rate {rate}"
+            );
         }
     }
 }

@@ -6,12 +6,25 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The paper's seven experiments in section 5: β and θ_A.
-pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
-    [(0.0, 0.0), (-0.5, 0.0), (5.0, 0.0), (0.0, 20.0), (-0.5, 20.0), (5.0, 20.0), (-0.8, 0.0)];
+pub(crate) const EXPERIMENTS: [(f64, f64); 7] = [
+    (0.0, 0.0),
+    (-0.5, 0.0),
+    (5.0, 0.0),
+    (0.0, 20.0),
+    (-0.5, 20.0),
+    (5.0, 20.0),
+    (-0.8, 0.0),
+];
 
 /// (5.3), with (5.4) for a cold clamped end and (5.5) for a heated one.
 pub(crate) fn initial(theta_a: f64) -> Initial {
-    let theta = move |x: f64| if theta_a == 0.0 { (PI * x).sin() } else { theta_a * (2.5 * PI * x).cos() };
+    let theta = move |x: f64| {
+        if theta_a == 0.0 {
+            (PI * x).sin()
+        } else {
+            theta_a * (2.5 * PI * x).cos()
+        }
+    };
     Initial {
         u: Box::new(|x| 0.01 * x * (x - 2.0)),
         u_t: Box::new(|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
@@ -22,14 +35,30 @@ pub(crate) fn initial(theta_a: f64) -> Initial {
 
 /// An experiment of section 5 on one element.
 pub(crate) fn experiment(beta: f64, theta_a: f64, degree: usize) -> Problem {
-    let beam = Beam { beta, theta_a, ..Beam::default() };
+    let beam = Beam {
+        beta,
+        theta_a,
+        ..Beam::default()
+    };
     let initial = initial(theta_a);
-    Problem { beam, obstacles: Some(Obstacles::default()), mesh: Mesh::uniform(1).unwrap(), degree, initial }
+    Problem {
+        beam,
+        obstacles: Some(Obstacles::default()),
+        mesh: Mesh::uniform(1).unwrap(),
+        degree,
+        initial,
+    }
 }
 
 /// Equal steps.
 pub(crate) fn equal_steps(q: usize, dt: f64) -> Stepping {
-    Stepping { degree: q, dt, restart_dt: dt, tolerance: 1e-14, ..Stepping::default() }
+    Stepping {
+        degree: q,
+        dt,
+        restart_dt: dt,
+        tolerance: 1e-14,
+        ..Stepping::default()
+    }
 }
 
 #[track_caller]
@@ -40,19 +69,26 @@ pub(crate) fn simulate(problem: Problem, stepping: Stepping) -> Simulation {
 #[track_caller]
 pub(crate) fn advanced(problem: Problem, stepping: Stepping, t: f64) -> Simulation {
     let mut simulation = simulate(problem, stepping);
-    simulation.advance(t).unwrap_or_else(|error| panic!("{error}"));
+    simulation
+        .advance(t)
+        .unwrap_or_else(|error| panic!("{error}"));
     simulation
 }
 
 /// The current value of a field at the free end.
 #[track_caller]
 pub(crate) fn tip(simulation: &Simulation, field: Field) -> f64 {
-    simulation.value(field, 1.0, simulation.t()).expect("the present time")
+    simulation
+        .value(field, 1.0, simulation.t())
+        .expect("the present time")
 }
 
 #[track_caller]
 pub(crate) fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{found} is not {expected} to {tolerance:e}");
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} is not {expected} to {tolerance:e}"
+    );
 }
 
 /// The larger of two numbers; NaN if either is.

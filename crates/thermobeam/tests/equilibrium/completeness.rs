@@ -8,34 +8,59 @@ use thermobeam::parameters::{Beam, Obstacles};
 
 /// The textbook formula for one law at one N, with integrals by Simpson's rule: (f, c, u(1)).
 fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64, f64) {
-    let (q, m, moment) = (1.0 / (1.0 + n_value), n_value / (1.0 + n_value), beam.a * beam.theta_a);
+    let (q, m, moment) = (
+        1.0 / (1.0 + n_value),
+        n_value / (1.0 + n_value),
+        beam.a * beam.theta_a,
+    );
     let k = m.abs().sqrt();
-    let cosine = |y: f64| if m > 0.0 { (k * y).cosh() } else { (k * y).cos() };
+    let cosine = |y: f64| {
+        if m > 0.0 {
+            (k * y).cosh()
+        } else {
+            (k * y).cos()
+        }
+    };
     let p = |x: f64| (1.0 - cosine(1.0 - x) / cosine(1.0)) / m;
     let points = 120;
     let (mut a, mut b) = (0.0, 0.0);
     for i in 0..=points {
-        let weight = if i == 0 || i == points { 1.0 } else { f64::from(2 + 2 * (i % 2)) } / f64::from(3 * points);
+        let weight = if i == 0 || i == points {
+            1.0
+        } else {
+            f64::from(2 + 2 * (i % 2))
+        } / f64::from(3 * points);
         let value = p(f64::from(i) / f64::from(points));
         a += weight * value;
         b += weight * value * value;
     }
-    let c = support.map_or(0.0, |(epsilon, g)| (g - q * moment * a) / (epsilon + q * (1.0 + q * a)));
+    let c = support.map_or(0.0, |(epsilon, g)| {
+        (g - q * moment * a) / (epsilon + q * (1.0 + q * a))
+    });
     let d = moment + c * q;
     let slope_squared = q * q * (d * d * b + 2.0 * d * c * a + c * c);
-    (n_value - beam.beta - beam.rho * slope_squared, c, q * (d * a + c))
+    (
+        n_value - beam.beta - beam.rho * slope_squared,
+        c,
+        q * (d * a + c),
+    )
 }
 
 /// All states with N > -0.98 by a fine scan: (contact, u(1)).
 fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Phase, f64)> {
     let Obstacles { epsilon, g1, g2 } = *obstacles;
-    let laws = [(Phase::Free, None), (Phase::Upper, Some((epsilon, g2))), (Phase::Lower, Some((epsilon, g1)))];
+    let laws = [
+        (Phase::Free, None),
+        (Phase::Upper, Some((epsilon, g2))),
+        (Phase::Lower, Some((epsilon, g1))),
+    ];
     let mut found = Vec::new();
     for (contact, support) in laws {
         let f = |n| textbook(beam, support, n).0;
         let points = 20_000;
         // Cubic spacing: dense near N = -1, where the poles are.
-        let node = |i: i32| -0.98 + (largest + 0.98) * ((f64::from(i) + 0.37) / f64::from(points)).powi(3);
+        let node =
+            |i: i32| -0.98 + (largest + 0.98) * ((f64::from(i) + 0.37) / f64::from(points)).powi(3);
         for i in 0..points {
             let (mut lo, mut hi) = (node(i), node(i + 1));
             if (f(lo) > 0.0) == (f(hi) > 0.0) {
@@ -43,7 +68,11 @@ fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Phase, f
             }
             for _ in 0..60 {
                 let middle = 0.5 * (lo + hi);
-                if (f(middle) > 0.0) == (f(lo) > 0.0) { lo = middle } else { hi = middle }
+                if (f(middle) > 0.0) == (f(lo) > 0.0) {
+                    lo = middle
+                } else {
+                    hi = middle
+                }
             }
             let (_, c, tip) = textbook(beam, support, lo);
             let consistent = match contact {
@@ -63,15 +92,54 @@ fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Phase, f
 #[test]
 fn a_fine_scan_of_the_textbook_formula_finds_the_same_states() {
     let cases = [
-        (loaded(-0.95, 1.0, 0.05), Obstacles { epsilon: 1e-3, g1: -0.6, g2: 0.1 }, 2.0),
-        (loaded(-0.97, 0.5, -0.02), Obstacles { epsilon: 0.1, g1: -2.0, g2: 2.0 }, 2.0),
-        (loaded(-1.4, 0.7, 0.4), Obstacles { epsilon: 0.05, g1: -0.2, g2: 0.0 }, 3.0),
-        (loaded(-5.0, 1.0, 0.34), Obstacles { epsilon: 1e-3, g1: -0.01, g2: 0.1 }, 3.0),
+        (
+            loaded(-0.95, 1.0, 0.05),
+            Obstacles {
+                epsilon: 1e-3,
+                g1: -0.6,
+                g2: 0.1,
+            },
+            2.0,
+        ),
+        (
+            loaded(-0.97, 0.5, -0.02),
+            Obstacles {
+                epsilon: 0.1,
+                g1: -2.0,
+                g2: 2.0,
+            },
+            2.0,
+        ),
+        (
+            loaded(-1.4, 0.7, 0.4),
+            Obstacles {
+                epsilon: 0.05,
+                g1: -0.2,
+                g2: 0.0,
+            },
+            3.0,
+        ),
+        (
+            loaded(-5.0, 1.0, 0.34),
+            Obstacles {
+                epsilon: 1e-3,
+                g1: -0.01,
+                g2: 0.1,
+            },
+            3.0,
+        ),
     ];
     for (beam, obstacles, largest) in cases {
         let expected = blind_scan(&beam, &obstacles, largest);
-        let found: Vec<_> = states(&beam, Some(&obstacles)).into_iter().filter(|state| state.n_value > -0.98).collect();
-        assert_eq!(found.len(), expected.len(), "{beam:?}: {found:#?} {expected:?}");
+        let found: Vec<_> = states(&beam, Some(&obstacles))
+            .into_iter()
+            .filter(|state| state.n_value > -0.98)
+            .collect();
+        assert_eq!(
+            found.len(),
+            expected.len(),
+            "{beam:?}: {found:#?} {expected:?}"
+        );
         for (state, (contact, tip)) in found.iter().zip(expected) {
             assert_eq!(state.contact, contact);
             close(state.u_tip, tip, 1e-5);
@@ -80,18 +148,30 @@ fn a_fine_scan_of_the_textbook_formula_finds_the_same_states() {
 }
 
 fn any_beam() -> impl Strategy<Value = Beam> {
-    (-0.999..3.0_f64, -2.0..4.0_f64, -6.0..1.0_f64, prop::bool::ANY).prop_map(|(beta, rho, moment, up)| {
-        loaded(beta, 10.0_f64.powf(rho), if up { 1.0 } else { -1.0 } * 10.0_f64.powf(moment))
-    })
+    (
+        -0.999..3.0_f64,
+        -2.0..4.0_f64,
+        -6.0..1.0_f64,
+        prop::bool::ANY,
+    )
+        .prop_map(|(beta, rho, moment, up)| {
+            loaded(
+                beta,
+                10.0_f64.powf(rho),
+                if up { 1.0 } else { -1.0 } * 10.0_f64.powf(moment),
+            )
+        })
 }
 
 fn any_obstacles() -> impl Strategy<Value = Option<Obstacles>> {
     let gap = || prop_oneof![Just(0.0), 1e-3..0.5_f64];
-    prop::option::of((-8.0..1.0_f64, gap(), gap()).prop_map(|(epsilon, below, above)| Obstacles {
-        epsilon: 10.0_f64.powf(epsilon),
-        g1: -below,
-        g2: above,
-    }))
+    prop::option::of(
+        (-8.0..1.0_f64, gap(), gap()).prop_map(|(epsilon, below, above)| Obstacles {
+            epsilon: 10.0_f64.powf(epsilon),
+            g1: -below,
+            g2: above,
+        }),
+    )
 }
 
 proptest! {
@@ -150,8 +230,16 @@ proptest! {
 #[test]
 fn small_heat_load_splits_each_buckled_pair() {
     let tips = |theta_a: f64| {
-        let beam = Beam { beta: -0.99, theta_a, ..Beam::default() };
-        let mut tips: Vec<f64> = equilibria(&beam, None).unwrap().iter().map(|state| state.u_tip).collect();
+        let beam = Beam {
+            beta: -0.99,
+            theta_a,
+            ..Beam::default()
+        };
+        let mut tips: Vec<f64> = equilibria(&beam, None)
+            .unwrap()
+            .iter()
+            .map(|state| state.u_tip)
+            .collect();
         tips.sort_by(f64::total_cmp);
         tips
     };
@@ -169,8 +257,21 @@ fn small_heat_load_splits_each_buckled_pair() {
 /// Next to N = -1 the sum S(N) stays finite, so there may be a single root.
 #[test]
 fn below_minus_one_there_may_be_one_state() {
-    let beam = Beam { beta: -2.0, a: 1.0, theta_a: 0.5, rho: 1.0, ..Beam::default() };
-    let below: Vec<f64> =
-        equilibria(&beam, None).unwrap().iter().map(|state| state.n_value).filter(|n| *n < -1.0).collect();
-    assert!(below.len() == 1 && (below[0] + 1.98964).abs() < 5e-6, "{below:?}");
+    let beam = Beam {
+        beta: -2.0,
+        a: 1.0,
+        theta_a: 0.5,
+        rho: 1.0,
+        ..Beam::default()
+    };
+    let below: Vec<f64> = equilibria(&beam, None)
+        .unwrap()
+        .iter()
+        .map(|state| state.n_value)
+        .filter(|n| *n < -1.0)
+        .collect();
+    assert!(
+        below.len() == 1 && (below[0] + 1.98964).abs() < 5e-6,
+        "{below:?}"
+    );
 }

@@ -14,7 +14,11 @@ pub(crate) struct P1Matrices {
 impl P1Matrices {
     pub(crate) fn new(elements: usize) -> Self {
         let (n, h) = (elements, 1.0 / elements as f64);
-        let mut full = [DMatrix::zeros(n + 1, n + 1), DMatrix::zeros(n + 1, n + 1), DMatrix::zeros(n + 1, n + 1)];
+        let mut full = [
+            DMatrix::zeros(n + 1, n + 1),
+            DMatrix::zeros(n + 1, n + 1),
+            DMatrix::zeros(n + 1, n + 1),
+        ];
         for e in 0..n {
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let slope = |k: usize| if k == 0 { -1.0 / h } else { 1.0 / h };
@@ -24,17 +28,25 @@ impl P1Matrices {
             }
         }
         let [mass, stiffness, coupling] = full.map(|m| m.view((1, 1), (n, n)).into_owned());
-        Self { elements, mass, stiffness, coupling }
+        Self {
+            elements,
+            mass,
+            stiffness,
+            coupling,
+        }
     }
 
     /// The matrix of `(1 + N)‖u'‖² - 2(u', φ) + ‖φ‖² + ‖φ'‖²`.
     pub(crate) fn stiffness_form(&self, axial: f64) -> DMatrix<f64> {
         let n = self.elements;
         let mut form = DMatrix::zeros(2 * n, 2 * n);
-        form.view_mut((0, 0), (n, n)).copy_from(&(&self.stiffness * (1.0 + axial)));
+        form.view_mut((0, 0), (n, n))
+            .copy_from(&(&self.stiffness * (1.0 + axial)));
         form.view_mut((0, n), (n, n)).copy_from(&-&self.coupling);
-        form.view_mut((n, 0), (n, n)).copy_from(&-self.coupling.transpose());
-        form.view_mut((n, n), (n, n)).copy_from(&(&self.stiffness + &self.mass));
+        form.view_mut((n, 0), (n, n))
+            .copy_from(&-self.coupling.transpose());
+        form.view_mut((n, n), (n, n))
+            .copy_from(&(&self.stiffness + &self.mass));
         form
     }
 }

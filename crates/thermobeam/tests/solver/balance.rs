@@ -11,8 +11,18 @@ fn largest_residual(tolerance: f64, dt: f64) -> f64 {
     let mut worst = 0.0;
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(100) {
-            let settings = Settings { stopping: Stopping::below(tolerance), ..Settings::default() };
-            let mut simulation = simulate(&paper(mesh, experiment), Stepping { scheme, settings, ..stepping(dt) });
+            let settings = Settings {
+                stopping: Stopping::below(tolerance),
+                ..Settings::default()
+            };
+            let mut simulation = simulate(
+                &paper(mesh, experiment),
+                Stepping {
+                    scheme,
+                    settings,
+                    ..stepping(dt)
+                },
+            );
             let mut old = simulation.level();
             let mut new = Level::new(101);
             let initial = simulation.energy(&old).total();
@@ -23,11 +33,22 @@ fn largest_residual(tolerance: f64, dt: f64) -> f64 {
                 let balance = simulation.balance(&old, &new);
                 of_run = max_or_nan(of_run, balance.residual.abs() / initial.abs());
                 let rounding = 1e-12 * initial.abs();
-                assert!(balance.change <= rounding, "{experiment:?} {}: {balance:?} at {step}", scheme.name);
-                assert!(balance.contact >= -rounding, "{experiment:?} {}: {balance:?} at {step}", scheme.name);
+                assert!(
+                    balance.change <= rounding,
+                    "{experiment:?} {}: {balance:?} at {step}",
+                    scheme.name
+                );
+                assert!(
+                    balance.contact >= -rounding,
+                    "{experiment:?} {}: {balance:?} at {step}",
+                    scheme.name
+                );
                 // The midpoint rule with its discrete gradient has no numerical dissipation.
                 let taken = max_or_nan(balance.contact.abs(), balance.inertial.abs());
-                assert!(scheme != MIDPOINT || taken <= rounding, "{experiment:?}: {balance:?} at {step}");
+                assert!(
+                    scheme != MIDPOINT || taken <= rounding,
+                    "{experiment:?}: {balance:?} at {step}"
+                );
                 std::mem::swap(&mut old, &mut new);
             }
             worst = max_or_nan(worst, of_run);
@@ -46,7 +67,10 @@ fn the_energy_falls_and_its_balance_closes_to_round_off() {
 
 #[test]
 fn the_default_tolerance_is_enough_for_the_balance() {
-    assert!(Settings::default().stopping == Stopping::below(1e-10) && Settings::default().start == Start::Extrapolated);
+    assert!(
+        Settings::default().stopping == Stopping::below(1e-10)
+            && Settings::default().start == Start::Extrapolated
+    );
     for dt in [1e-4, 1e-3] {
         let residual = largest_residual(1e-10, dt);
         assert!(residual <= 1e-12, "{residual:e} with dt = {dt}");
@@ -57,19 +81,39 @@ fn the_default_tolerance_is_enough_for_the_balance() {
 fn the_change_of_energy_is_the_difference_of_the_energies() {
     for experiment in EXPERIMENTS {
         for (scheme, mesh) in schemes_and_meshes(30) {
-            let mut simulation = simulate(&paper(mesh, experiment), Stepping { scheme, ..stepping(1e-3) });
+            let mut simulation = simulate(
+                &paper(mesh, experiment),
+                Stepping {
+                    scheme,
+                    ..stepping(1e-3)
+                },
+            );
             for _ in 0..200 {
                 let old = simulation.level();
                 simulation.advance().unwrap();
                 let new = simulation.level();
-                let (before, after) = (simulation.energy(&old).total(), simulation.energy(&new).total());
+                let (before, after) = (
+                    simulation.energy(&old).total(),
+                    simulation.energy(&new).total(),
+                );
                 let change = simulation.balance(&old, &new).change;
                 assert_eq!(simulation.energy_change(&old, &new), change);
-                let Problem { beam, obstacles, .. } = *simulation.problem();
-                let case = Case { beam, obstacles, scheme, dt: 1e-3, lengths: simulation.lengths().to_vec() };
+                let Problem {
+                    beam, obstacles, ..
+                } = *simulation.problem();
+                let case = Case {
+                    beam,
+                    obstacles,
+                    scheme,
+                    dt: 1e-3,
+                    lengths: simulation.lengths().to_vec(),
+                };
                 assert_eq!(simulation.energy_scale(&new), case.energy_scale(&new));
                 let difference = change - (after - before);
-                assert!(difference.abs() <= 1e-12 * before.abs().max(1.0), "{difference:e}");
+                assert!(
+                    difference.abs() <= 1e-12 * before.abs().max(1.0),
+                    "{difference:e}"
+                );
             }
         }
     }

@@ -13,10 +13,20 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> Simulation {
     let settings = Settings {
         solver: Solver::FixedPoint,
-        stopping: Stopping::Converged { tolerance, max_iterations: 1000 },
+        stopping: Stopping::Converged {
+            tolerance,
+            max_iterations: 1000,
+        },
         ..Settings::default()
     };
-    simulate(problem, Stepping { scheme, settings, ..stepping(dt) })
+    simulate(
+        problem,
+        Stepping {
+            scheme,
+            settings,
+            ..stepping(dt)
+        },
+    )
 }
 
 /// A beam whose tip penetrates the upper obstacle by a fifth of the gap, at rest or moving upwards.
@@ -25,8 +35,19 @@ fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
     let mut initial = Initial::at_rest(&mesh, 0.0);
     initial.u = mesh.nodes().iter().map(|x| 0.12 * x).collect();
     initial.u_t = mesh.nodes().iter().map(|x| speed * x).collect();
-    let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
-    Problem { beam: Beam { zeta, ..Beam::default() }, obstacles, mesh, initial }
+    let obstacles = Some(Obstacles {
+        epsilon,
+        ..Obstacles::default()
+    });
+    Problem {
+        beam: Beam {
+            zeta,
+            ..Beam::default()
+        },
+        obstacles,
+        mesh,
+        initial,
+    }
 }
 
 fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
@@ -35,13 +56,28 @@ fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
 
 #[test]
 fn in_contact_the_fixed_point_contracts_by_alpha() {
-    let rows = [(1e-3, 0.1, 1e-4), (1e-3, 0.1, 1e-3), (1e-3, 0.1, 3e-3), (1e-4, 0.1, 1e-3), (1e-3, 0.01, 1e-3)];
+    let rows = [
+        (1e-3, 0.1, 1e-4),
+        (1e-3, 0.1, 1e-3),
+        (1e-3, 0.1, 3e-3),
+        (1e-4, 0.1, 1e-3),
+        (1e-3, 0.01, 1e-3),
+    ];
     for (epsilon, zeta, dt) in rows {
         for scheme in SCHEMES {
             let problem = pressed(zeta, epsilon, 0.0);
-            let report = by_fixed_point(&problem, scheme, dt, 1e-9).advance().unwrap();
-            let (measured, alpha) = (report.contraction.unwrap(), predicted(&problem, &scheme, dt));
-            assert!((measured - alpha).abs() <= 0.03 * alpha, "{}: {measured} for {alpha}", scheme.name);
+            let report = by_fixed_point(&problem, scheme, dt, 1e-9)
+                .advance()
+                .unwrap();
+            let (measured, alpha) = (
+                report.contraction.unwrap(),
+                predicted(&problem, &scheme, dt),
+            );
+            assert!(
+                (measured - alpha).abs() <= 0.03 * alpha,
+                "{}: {measured} for {alpha}",
+                scheme.name
+            );
         }
     }
 }
@@ -49,22 +85,44 @@ fn in_contact_the_fixed_point_contracts_by_alpha() {
 #[test]
 fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
     // In the midpoint rule a tip at rest would leave the obstacle within such a step; a fast tip does not.
-    for (scheme, dt, speed) in
-        [(EULER_CRANK_NICOLSON, 5e-3, 0.0), (EULER_CRANK_NICOLSON, 2e-2, 0.0), (MIDPOINT, 1e-2, 10.0)]
-    {
+    for (scheme, dt, speed) in [
+        (EULER_CRANK_NICOLSON, 5e-3, 0.0),
+        (EULER_CRANK_NICOLSON, 2e-2, 0.0),
+        (MIDPOINT, 1e-2, 10.0),
+    ] {
         let problem = pressed(0.1, 1e-3, speed);
         assert!(predicted(&problem, &scheme, dt) > 1.05);
         let mut simulation = by_fixed_point(&problem, scheme, dt, 1e-10);
         let before = simulation.level();
         let error = simulation.advance().unwrap_err();
         assert_eq!((error.step, error.t, error.dt), (1, 0.0, dt));
-        let StepFailure::Diverged { iterations, increment, contraction, of } = error.failure else { panic!("{error}") };
+        let StepFailure::Diverged {
+            iterations,
+            increment,
+            contraction,
+            of,
+        } = error.failure
+        else {
+            panic!("{error}")
+        };
         assert_eq!(of, Some(Loop::Contact));
         assert_eq!(iterations, 1000);
-        assert!(increment > 1e-3 && contraction >= 1.0, "{increment} {contraction}");
+        assert!(
+            increment > 1e-3 && contraction >= 1.0,
+            "{increment} {contraction}"
+        );
         assert_eq!((simulation.step(), simulation.t()), (0, 0.0));
         assert_eq!(simulation.level(), before);
-        advance(&mut simulate(&problem, Stepping { scheme, ..stepping(dt) }), 100);
+        advance(
+            &mut simulate(
+                &problem,
+                Stepping {
+                    scheme,
+                    ..stepping(dt)
+                },
+            ),
+            100,
+        );
     }
 }
 
@@ -91,9 +149,16 @@ fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
 fn spectral_radius(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
     let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
     let (kappa, s) = (scheme.inertia / dt, problem.beam.zeta + 0.5 * dt);
-    let to_rotation = (&m * (kappa + s) + &k * s).lu().solve(&(c.transpose() * s)).unwrap();
+    let to_rotation = (&m * (kappa + s) + &k * s)
+        .lu()
+        .solve(&(c.transpose() * s))
+        .unwrap();
     let back = (&m * kappa + &k * s).lu().solve(&(&c * s)).unwrap();
-    (back * to_rotation).complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, max_or_nan)
+    (back * to_rotation)
+        .complex_eigenvalues()
+        .iter()
+        .map(|value| value.norm())
+        .fold(0.0, max_or_nan)
 }
 
 #[test]
@@ -102,17 +167,40 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
     for dt in [0.01, 0.1, 1.0, 10.0] {
         for scheme in SCHEMES {
             let mut initial = Initial::at_rest(&mesh, 0.0);
-            initial.u_t = mesh.nodes().iter().map(|x| 20.0 * x * (x - 1.0) * (x - 1.0)).collect();
-            let beam = Beam { rho: 0.0, a: 0.0, ..Beam::default() };
-            let problem = Problem { beam, obstacles: None, mesh: mesh.clone(), initial };
-            let report = by_fixed_point(&problem, scheme, dt, 1e-12).advance().unwrap();
+            initial.u_t = mesh
+                .nodes()
+                .iter()
+                .map(|x| 20.0 * x * (x - 1.0) * (x - 1.0))
+                .collect();
+            let beam = Beam {
+                rho: 0.0,
+                a: 0.0,
+                ..Beam::default()
+            };
+            let problem = Problem {
+                beam,
+                obstacles: None,
+                mesh: mesh.clone(),
+                initial,
+            };
+            let report = by_fixed_point(&problem, scheme, dt, 1e-12)
+                .advance()
+                .unwrap();
             let measured = report.contraction.unwrap();
             let predicted = problem.case(scheme, dt).coupling_contraction(0.0);
             let exact = spectral_radius(&problem, &scheme, dt);
-            assert!((predicted - exact).abs() <= 1e-6 * exact, "{}: {predicted} for {exact}", scheme.name);
+            assert!(
+                (predicted - exact).abs() <= 1e-6 * exact,
+                "{}: {predicted} for {exact}",
+                scheme.name
+            );
             // For small steps the iteration converges before the slowest mode dominates.
             let lowest = if dt < 1.0 { 0.0 } else { 0.97 };
-            assert!((lowest..1.03).contains(&(measured / exact)), "{}: {measured} for {exact}", scheme.name);
+            assert!(
+                (lowest..1.03).contains(&(measured / exact)),
+                "{}: {measured} for {exact}",
+                scheme.name
+            );
         }
     }
 }
@@ -124,19 +212,52 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
     for (a, diverges) in [(20.0, true), (10.0, false)] {
         let mut initial = Initial::at_rest(&mesh, 0.0);
         initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
-        let beam = Beam { a, ..Beam::default() };
-        let problem = Problem { beam, obstacles: None, mesh: mesh.clone(), initial };
+        let beam = Beam {
+            a,
+            ..Beam::default()
+        };
+        let problem = Problem {
+            beam,
+            obstacles: None,
+            mesh: mesh.clone(),
+            initial,
+        };
         let factor = problem.case(EULER_CRANK_NICOLSON, 1e-2).heat_contraction();
         // A hundred iterations, since more would overflow.
-        let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
-        let outcome = simulate(&problem, Stepping { settings, ..stepping(1e-2) }).advance();
-        assert_eq!((outcome.is_err(), factor > 1.0), (diverges, diverges), "{factor}");
+        let settings = Settings {
+            solver: Solver::FixedPoint,
+            ..Settings::default()
+        };
+        let outcome = simulate(
+            &problem,
+            Stepping {
+                settings,
+                ..stepping(1e-2)
+            },
+        )
+        .advance();
+        assert_eq!(
+            (outcome.is_err(), factor > 1.0),
+            (diverges, diverges),
+            "{factor}"
+        );
         let Err(error) = outcome else { continue };
-        let StepFailure::Diverged { contraction, of, .. } = error.failure else { panic!("{error}") };
+        let StepFailure::Diverged {
+            contraction, of, ..
+        } = error.failure
+        else {
+            panic!("{error}")
+        };
         assert_eq!(of, Some(Loop::Heat));
-        assert!((contraction - factor).abs() <= 0.03 * factor, "{contraction} for {factor}");
+        assert!(
+            (contraction - factor).abs() <= 0.03 * factor,
+            "{contraction} for {factor}"
+        );
         let said = error.to_string();
-        assert!(said.contains("rotation and temperature") && !said.contains("epsilon"), "{said}");
+        assert!(
+            said.contains("rotation and temperature") && !said.contains("epsilon"),
+            "{said}"
+        );
     }
 }
 
@@ -146,7 +267,12 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
 /// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial force, with u as old and new level.
 fn spectral_radii(problem: &Problem, u: &[f64], dt: f64) -> [f64; 4] {
     let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
-    let (Beam { zeta, a, beta, rho, .. }, n) = (problem.beam, m.nrows());
+    let (
+        Beam {
+            zeta, a, beta, rho, ..
+        },
+        n,
+    ) = (problem.beam, m.nrows());
     let u = DMatrix::from_column_slice(n, 1, &u[1..]);
     let bent = &k * &u;
     let (kappa, sigma, mean) = (1.0 / dt, zeta + 0.5 * dt, beta + rho * u.dot(&bent));
@@ -159,16 +285,26 @@ fn spectral_radii(problem: &Problem, u: &[f64], dt: f64) -> [f64; 4] {
     let w_of_w = of_phi.solve(&(&heat * theta_of_w * a)).unwrap();
     let w_of_v = of_phi.solve(&(c.transpose() * sigma)).unwrap();
     let mut contact = DMatrix::zeros(n, n);
-    contact[(n - 1, n - 1)] = problem.obstacles.map_or(0.0, |obstacles| dt / obstacles.epsilon);
+    contact[(n - 1, n - 1)] = problem
+        .obstacles
+        .map_or(0.0, |obstacles| dt / obstacles.epsilon);
     let axial = &bent * bent.transpose() * (rho * dt);
     let v_of_w = of_u.solve(&(&c * sigma)).unwrap();
     let [by_contact, by_axial] = [&contact, &axial].map(|force| of_u.solve(force).unwrap());
     let mut pass = DMatrix::zeros(2 * n, 2 * n);
-    pass.view_mut((0, 0), (n, n)).copy_from(&(&v_of_w * &w_of_v - &by_contact - &by_axial));
-    pass.view_mut((0, n), (n, n)).copy_from(&(&v_of_w * &w_of_w));
+    pass.view_mut((0, 0), (n, n))
+        .copy_from(&(&v_of_w * &w_of_v - &by_contact - &by_axial));
+    pass.view_mut((0, n), (n, n))
+        .copy_from(&(&v_of_w * &w_of_w));
     pass.view_mut((n, 0), (n, n)).copy_from(&w_of_v);
     pass.view_mut((n, n), (n, n)).copy_from(&w_of_w);
-    let radius = |matrix: DMatrix<f64>| matrix.complex_eigenvalues().iter().map(|one| one.norm()).fold(0.0, max_or_nan);
+    let radius = |matrix: DMatrix<f64>| {
+        matrix
+            .complex_eigenvalues()
+            .iter()
+            .map(|one| one.norm())
+            .fold(0.0, max_or_nan)
+    };
     [pass, w_of_w, by_contact, by_axial].map(radius)
 }
 
@@ -178,14 +314,33 @@ fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
     let mesh = uniform(50);
     let mut initial = Initial::at_rest(&mesh, 0.0);
     initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
-    let beam = Beam { zeta: 0.1, a: 3.425, rho: 0.0, ..Beam::default() };
-    let problem = Problem { beam, obstacles: None, mesh, initial };
+    let beam = Beam {
+        zeta: 0.1,
+        a: 3.425,
+        rho: 0.0,
+        ..Beam::default()
+    };
+    let problem = Problem {
+        beam,
+        obstacles: None,
+        mesh,
+        initial,
+    };
     let factor = problem.case(EULER_CRANK_NICOLSON, 1.0).heat_contraction();
     let [together, heat, ..] = spectral_radii(&problem, &[0.0; 51], 1.0);
-    assert!((factor - 1.0035).abs() < 1e-4 && (heat - factor).abs() < 1e-6, "{factor} {heat}");
+    assert!(
+        (factor - 1.0035).abs() < 1e-4 && (heat - factor).abs() < 1e-6,
+        "{factor} {heat}"
+    );
     assert!((together - 0.9002).abs() < 1e-4, "{together}");
-    let report = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 1.0, 1e-10).advance().expect("it converges");
-    assert!((report.contraction.expect("a factor") - together).abs() < 0.01, "{:?}", report.contraction);
+    let report = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 1.0, 1e-10)
+        .advance()
+        .expect("it converges");
+    assert!(
+        (report.contraction.expect("a factor") - together).abs() < 0.01,
+        "{:?}",
+        report.contraction
+    );
 }
 
 /// Contact and axial force move the tip in the same way: two factors below 1 add up to more.
@@ -193,44 +348,87 @@ fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
 fn two_loops_with_factors_below_one_diverge_if_they_add() {
     let mesh = uniform(50);
     let u: Vec<f64> = mesh.nodes().iter().map(|x| 0.1 * x.powi(16)).collect();
-    let obstacles = Some(Obstacles { epsilon: 1e-3, ..Obstacles::default() });
-    let beam = Beam { zeta: 0.1, rho: 1000.0, beta: 0.0, ..Beam::default() };
+    let obstacles = Some(Obstacles {
+        epsilon: 1e-3,
+        ..Obstacles::default()
+    });
+    let beam = Beam {
+        zeta: 0.1,
+        rho: 1000.0,
+        beta: 0.0,
+        ..Beam::default()
+    };
     let initial = Initial::at_rest(&mesh, 0.0);
-    let problem = Problem { beam, obstacles, mesh, initial };
+    let problem = Problem {
+        beam,
+        obstacles,
+        mesh,
+        initial,
+    };
     let case = problem.case(EULER_CRANK_NICOLSON, 4e-3);
     let n_value = beam.axial_force(slope_squared(&case.lengths, &u));
-    let factors = [case.contact_contraction(n_value), case.axial_contraction(n_value, &u)];
+    let factors = [
+        case.contact_contraction(n_value),
+        case.axial_contraction(n_value, &u),
+    ];
     let [together, _, contact, axial] = spectral_radii(&problem, &u, 4e-3);
-    assert!((factors[0] - 0.4831).abs() < 1e-4 && (factors[1] - 0.6789).abs() < 1e-4, "{factors:?}");
-    assert!((contact - factors[0]).abs() < 1e-9 && (axial - factors[1]).abs() < 1e-9, "{contact} {axial}");
-    assert!(case.contraction(&u).0 < 1.0 && (together - 1.1002).abs() < 1e-4, "{together}");
+    assert!(
+        (factors[0] - 0.4831).abs() < 1e-4 && (factors[1] - 0.6789).abs() < 1e-4,
+        "{factors:?}"
+    );
+    assert!(
+        (contact - factors[0]).abs() < 1e-9 && (axial - factors[1]).abs() < 1e-9,
+        "{contact} {axial}"
+    );
+    assert!(
+        case.contraction(&u).0 < 1.0 && (together - 1.1002).abs() < 1e-4,
+        "{together}"
+    );
 }
 
 /// The matrix of the linearised iteration over (δV, δW), from dense matrices of (4.2).
 fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DMatrix<f64> {
     let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
-    let Problem { beam, obstacles, initial, .. } = problem;
+    let Problem {
+        beam,
+        obstacles,
+        initial,
+        ..
+    } = problem;
     let n = m.nrows();
     let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
     let u = DVector::from_column_slice(&initial.u[1..]);
     let bent = &k * &u;
     let axial_force = beam.beta + beam.rho * u.dot(&bent);
     // θ vanishes at the free end too.
-    let of_theta = (&m * (2.0 / dt) + &k).view((0, 0), (n - 1, n - 1)).into_owned();
+    let of_theta = (&m * (2.0 / dt) + &k)
+        .view((0, 0), (n - 1, n - 1))
+        .into_owned();
     let of_phi = &m * (kappa + s) + &k * s;
     let of_u = &m * kappa + &k * (s + 0.5 * dt * axial_force);
-    let heat = of_theta.lu().solve(&(c.transpose().rows(0, n - 1) * -beam.a)).unwrap();
+    let heat = of_theta
+        .lu()
+        .solve(&(c.transpose().rows(0, n - 1) * -beam.a))
+        .unwrap();
     let solve_phi = of_phi.lu();
     let phi_of_v = solve_phi.solve(&(c.transpose() * s)).unwrap();
-    let phi_of_w = solve_phi.solve(&(c.columns(0, n - 1) * heat * beam.a)).unwrap();
+    let phi_of_w = solve_phi
+        .solve(&(c.columns(0, n - 1) * heat * beam.a))
+        .unwrap();
     let touches = |obstacles: &Obstacles| u[n - 1] > obstacles.g2 || u[n - 1] < obstacles.g1;
-    let slope = obstacles.filter(touches).map_or(0.0, |obstacles| 1.0 / (scheme.inertia * obstacles.epsilon));
+    let slope = obstacles
+        .filter(touches)
+        .map_or(0.0, |obstacles| 1.0 / (scheme.inertia * obstacles.epsilon));
     let mut lagged = &bent * bent.transpose() * (beam.rho * dt);
     lagged[(n - 1, n - 1)] += dt * slope;
     let solve_u = of_u.lu();
     let mut matrix = DMatrix::zeros(2 * n, 2 * n);
-    matrix.view_mut((0, 0), (n, n)).copy_from(&solve_u.solve(&(&c * &phi_of_v * s - lagged)).unwrap());
-    matrix.view_mut((0, n), (n, n)).copy_from(&solve_u.solve(&(&c * &phi_of_w * s)).unwrap());
+    matrix
+        .view_mut((0, 0), (n, n))
+        .copy_from(&solve_u.solve(&(&c * &phi_of_v * s - lagged)).unwrap());
+    matrix
+        .view_mut((0, n), (n, n))
+        .copy_from(&solve_u.solve(&(&c * &phi_of_w * s)).unwrap());
     matrix.view_mut((n, 0), (n, n)).copy_from(&phi_of_v);
     matrix.view_mut((n, n), (n, n)).copy_from(&phi_of_w);
     matrix
@@ -241,9 +439,22 @@ fn coupled(scheme: &Scheme) -> Problem {
     let mesh = graded(10);
     let mut initial = Initial::at_rest(&mesh, 0.0);
     initial.u = mesh.nodes().iter().map(|x| 0.15 * x * x).collect();
-    let beam = Beam { a: 3.0, rho: 500.0, beta: 0.3, ..Beam::default() };
+    let beam = Beam {
+        a: 3.0,
+        rho: 500.0,
+        beta: 0.3,
+        ..Beam::default()
+    };
     let epsilon = 2e-3 / scheme.inertia;
-    Problem { beam, obstacles: Some(Obstacles { epsilon, ..Obstacles::default() }), mesh, initial }
+    Problem {
+        beam,
+        obstacles: Some(Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        }),
+        mesh,
+        initial,
+    }
 }
 
 #[test]
@@ -251,7 +462,10 @@ fn the_linearised_iteration_is_the_dense_matrix() {
     for scheme in SCHEMES {
         let (problem, dt) = (coupled(&scheme), 3e-3);
         let expected = dense_iteration(&problem, &scheme, dt);
-        let mut map = problem.case(scheme, dt).linearized_iteration(&problem.initial.u).unwrap();
+        let mut map = problem
+            .case(scheme, dt)
+            .linearized_iteration(&problem.initial.u)
+            .unwrap();
         let n = map.elements();
         for column in 0..2 * n {
             let mut errors = [vec![0.0; n + 1], vec![0.0; n + 1]];
@@ -261,7 +475,11 @@ fn the_linearised_iteration_is_the_dense_matrix() {
             for row in 0..2 * n {
                 let found = errors[row / n][1 + row % n];
                 let difference = (found - expected[(row, column)]).abs();
-                assert!(difference <= 1e-12 * expected.amax(), "{}: {row}, {column}: {found}", scheme.name);
+                assert!(
+                    difference <= 1e-12 * expected.amax(),
+                    "{}: {row}, {column}: {found}",
+                    scheme.name
+                );
             }
         }
     }
@@ -272,12 +490,35 @@ fn is_stable(iterations: usize, dt: f64) -> bool {
     let mesh = uniform(20);
     let mut initial = Initial::at_rest(&mesh, 0.0);
     initial.u = mesh.nodes().iter().map(|x| 0.01 * x * x).collect();
-    let beam = Beam { rho: 0.0, a: 0.5, ..Beam::default() };
-    let obstacles = Some(Obstacles { epsilon: 1e-3, g1: 0.0, g2: 0.0 });
-    let problem = Problem { beam, obstacles, mesh, initial };
+    let beam = Beam {
+        rho: 0.0,
+        a: 0.5,
+        ..Beam::default()
+    };
+    let obstacles = Some(Obstacles {
+        epsilon: 1e-3,
+        g1: 0.0,
+        g2: 0.0,
+    });
+    let problem = Problem {
+        beam,
+        obstacles,
+        mesh,
+        initial,
+    };
     let stopping = Stopping::Iterations(iterations);
-    let settings = Settings { solver: Solver::FixedPoint, stopping, ..Settings::default() };
-    let mut simulation = simulate(&problem, Stepping { settings, ..stepping(dt) });
+    let settings = Settings {
+        solver: Solver::FixedPoint,
+        stopping,
+        ..Settings::default()
+    };
+    let mut simulation = simulate(
+        &problem,
+        Stepping {
+            settings,
+            ..stepping(dt)
+        },
+    );
     (0..4000).all(|_| simulation.advance().is_ok()) && simulation.level().u[20].abs() < 1.0
 }
 
@@ -285,7 +526,13 @@ fn is_stable(iterations: usize, dt: f64) -> bool {
 #[test]
 fn a_single_iteration_is_stable_for_twice_the_step_of_convergence() {
     for (iterations, limit) in [(1, 1.039e-2), (2, 5.224e-3), (3, 7.016e-3), (4, 5.224e-3)] {
-        assert!(is_stable(iterations, 0.98 * limit), "L = {iterations} below {limit}");
-        assert!(!is_stable(iterations, 1.02 * limit), "L = {iterations} above {limit}");
+        assert!(
+            is_stable(iterations, 0.98 * limit),
+            "L = {iterations} below {limit}"
+        );
+        assert!(
+            !is_stable(iterations, 1.02 * limit),
+            "L = {iterations} above {limit}"
+        );
     }
 }

@@ -44,7 +44,13 @@ impl State {
         let n = level.u.len() - 1;
         let free = |y: &[f64]| DVector::from_column_slice(&y[1..=n]);
         let theta = DVector::from_column_slice(&level.theta[1..n]);
-        Self { u: free(&level.u), v: free(&level.v), phi: free(&level.phi), w: free(&level.w), theta }
+        Self {
+            u: free(&level.u),
+            v: free(&level.v),
+            phi: free(&level.phi),
+            w: free(&level.w),
+            theta,
+        }
     }
 
     pub(crate) fn to_level(&self) -> Level {
@@ -65,7 +71,13 @@ impl State {
 
     pub(crate) fn unstack(y: &DVector<f64>, n: usize) -> Self {
         let part = |k: usize, length: usize| y.rows(k * n, length).into_owned();
-        Self { u: part(0, n), v: part(1, n), phi: part(2, n), w: part(3, n), theta: part(4, n - 1) }
+        Self {
+            u: part(0, n),
+            v: part(1, n),
+            phi: part(2, n),
+            w: part(3, n),
+            theta: part(4, n - 1),
+        }
     }
 }
 
@@ -84,10 +96,19 @@ impl Dense {
         let (mesh, beam) = (&problem.mesh, problem.beam);
         let n = mesh.elements();
         let [m, k, c] = [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| dense(&matrix));
-        let steady = DVector::from_iterator(n + 1, mesh.nodes().iter().map(|x| beam.theta_a * (1.0 - x)));
+        let steady =
+            DVector::from_iterator(n + 1, mesh.nodes().iter().map(|x| beam.theta_a * (1.0 - x)));
         let lift = (&c * steady * beam.a).rows(1, n).into_owned();
         let free = |matrix: DMatrix<f64>| matrix.view((1, 1), (n, n)).into_owned();
-        Self { beam, obstacles: problem.obstacles, n, m: free(m), k: free(k), c: free(c), lift }
+        Self {
+            beam,
+            obstacles: problem.obstacles,
+            n,
+            m: free(m),
+            k: free(k),
+            c: free(c),
+            lift,
+        }
     }
 
     pub(crate) fn initial(&self, problem: &Problem) -> State {
@@ -121,11 +142,15 @@ impl Dense {
     pub(crate) fn rate(&self) -> impl Fn(&State) -> State + '_ {
         let [m_theta, k_theta, c_theta] = self.of_theta();
         let inverse = self.m.clone().try_inverse().unwrap();
-        let inverse_theta = if self.n > 1 { m_theta.try_inverse().unwrap() } else { m_theta };
+        let inverse_theta = if self.n > 1 {
+            m_theta.try_inverse().unwrap()
+        } else {
+            m_theta
+        };
         move |y| {
             let (zeta, a) = (self.beam.zeta, self.beam.a);
-            let mut force =
-                &self.c * (&y.phi + &y.w * zeta) - &self.k * (&y.u * (1.0 + self.axial_force(&y.u)) + &y.v * zeta);
+            let mut force = &self.c * (&y.phi + &y.w * zeta)
+                - &self.k * (&y.u * (1.0 + self.axial_force(&y.u)) + &y.v * zeta);
             let tip = self.n - 1;
             if let Some(o) = self.obstacles {
                 force[tip] -= ((y.u[tip] - o.g2).max(0.0) - (o.g1 - y.u[tip]).max(0.0)) / o.epsilon;
@@ -147,10 +172,25 @@ impl Dense {
 
     /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the consistent one is
     /// returned.
-    pub(crate) fn step(&self, scheme: &Scheme, dt: f64, old: &State, load: &[[f64; 3]]) -> Option<State> {
-        let sides: &[Side] =
-            if self.obstacles.is_some() { &[Side::Between, Side::Above, Side::Below] } else { &[Side::Between] };
-        let step = Step { dense: self, scheme, dt, old, load };
+    pub(crate) fn step(
+        &self,
+        scheme: &Scheme,
+        dt: f64,
+        old: &State,
+        load: &[[f64; 3]],
+    ) -> Option<State> {
+        let sides: &[Side] = if self.obstacles.is_some() {
+            &[Side::Between, Side::Above, Side::Below]
+        } else {
+            &[Side::Between]
+        };
+        let step = Step {
+            dense: self,
+            scheme,
+            dt,
+            old,
+            load,
+        };
         sides.iter().find_map(|&side| step.solve(side))
     }
 
@@ -164,8 +204,16 @@ impl Dense {
 
     /// G, G' and G'' for a tip on the given side.
     fn potential(&self, side: Side, tip: f64) -> [f64; 3] {
-        let Some(o) = self.obstacles else { return [0.0; 3] };
-        let spring = |depth: f64| [0.5 * depth * depth / o.epsilon, depth / o.epsilon, 1.0 / o.epsilon];
+        let Some(o) = self.obstacles else {
+            return [0.0; 3];
+        };
+        let spring = |depth: f64| {
+            [
+                0.5 * depth * depth / o.epsilon,
+                depth / o.epsilon,
+                1.0 / o.epsilon,
+            ]
+        };
         match side {
             Side::Between => [0.0; 3],
             Side::Above => spring(tip - o.g2),
@@ -185,14 +233,18 @@ struct Step<'a> {
 
 impl Step<'_> {
     fn solve(&self, side: Side) -> Option<State> {
-        self.starts(side).into_iter().find_map(|tip| self.solve_from(tip, side))
+        self.starts(side)
+            .into_iter()
+            .find_map(|tip| self.solve_from(tip, side))
     }
 
     /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method needs a start near the
     /// root, or on the side from which it does not overshoot.
     fn starts(&self, side: Side) -> Vec<f64> {
         let old = self.old.u[self.dense.n - 1];
-        let Some(o) = self.dense.obstacles else { return vec![old] };
+        let Some(o) = self.dense.obstacles else {
+            return vec![old];
+        };
         let depths = [0.1 * o.epsilon, o.epsilon, 1e-3, 1e-2, 0.1, 1.0];
         match side {
             Side::Between if self.dense.side(old) == side => vec![old],
@@ -209,12 +261,16 @@ impl Step<'_> {
         y[n - 1] = tip;
         let mut last = f64::INFINITY;
         for _ in 0..100 {
-            let correction = self.jacobian(&y, side).lu().solve(&self.residual(&y, side))?;
+            let correction = self
+                .jacobian(&y, side)
+                .lu()
+                .solve(&self.residual(&y, side))?;
             y -= &correction;
             let size = correction.amax() / y.amax();
             // Iterate until the corrections are round-off and stop decreasing.
             if size <= 1e-12 && !(size < 0.5 * last) {
-                return Some(State::unstack(&y, n)).filter(|new| self.dense.side(new.u[n - 1]) == side);
+                return Some(State::unstack(&y, n))
+                    .filter(|new| self.dense.side(new.u[n - 1]) == side);
             }
             last = size;
         }
@@ -234,16 +290,30 @@ impl Step<'_> {
 
     /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and the third equation.
     fn residual(&self, y: &DVector<f64>, side: Side) -> DVector<f64> {
-        let Dense { beam, n, m, k, c, lift, .. } = self.dense;
+        let Dense {
+            beam,
+            n,
+            m,
+            k,
+            c,
+            lift,
+            ..
+        } = self.dense;
         let (n, dt, old, zeta, a) = (*n, self.dt, self.old, beam.zeta, beam.a);
         let new = State::unstack(y, n);
         let [m_theta, k_theta, c_theta] = self.dense.of_theta();
         let load = |component: usize, count: usize| {
-            DVector::from_fn(count, |i, _| self.load.get(i + 1).map_or(0.0, |load| load[component]))
+            DVector::from_fn(count, |i, _| {
+                self.load.get(i + 1).map_or(0.0, |load| load[component])
+            })
         };
         let (v, w) = (self.carry(&new.v, &old.v), self.carry(&new.w, &old.w));
-        let [u_half, phi_half, theta_half] =
-            [(&new.u, &old.u), (&new.phi, &old.phi), (&new.theta, &old.theta)].map(|(new, old)| (new + old) * 0.5);
+        let [u_half, phi_half, theta_half] = [
+            (&new.u, &old.u),
+            (&new.phi, &old.phi),
+            (&new.theta, &old.theta),
+        ]
+        .map(|(new, old)| (new + old) * 0.5);
         let mean_n = self.mean_axial_force(&new.u);
         let mut in_u = m * (&new.v - &old.v) / dt + k * &u_half * (1.0 + mean_n) - c * &phi_half
             + (k * &v - c * &w) * zeta
@@ -254,12 +324,20 @@ impl Step<'_> {
             - &c_theta * &theta_half * a
             - lift
             - load(1, n);
-        let in_theta =
-            &m_theta * (&new.theta - &old.theta) / dt + &k_theta * &theta_half + c_theta.transpose() * &w * a
-                - load(2, n - 1);
+        let in_theta = &m_theta * (&new.theta - &old.theta) / dt
+            + &k_theta * &theta_half
+            + c_theta.transpose() * &w * a
+            - load(2, n - 1);
         let mut r = DVector::zeros(5 * n - 1);
-        for (row, part) in
-            [in_u, &new.u - &old.u - &v * dt, in_phi, &new.phi - &old.phi - &w * dt, in_theta].into_iter().enumerate()
+        for (row, part) in [
+            in_u,
+            &new.u - &old.u - &v * dt,
+            in_phi,
+            &new.phi - &old.phi - &w * dt,
+            in_theta,
+        ]
+        .into_iter()
+        .enumerate()
         {
             r.rows_mut(row * n, part.len()).copy_from(&part);
         }
@@ -268,14 +346,17 @@ impl Step<'_> {
 
     /// Derivative of [`Self::residual`] with respect to (u, v, φ, w, θ~).
     fn jacobian(&self, y: &DVector<f64>, side: Side) -> DMatrix<f64> {
-        let Dense { beam, n, m, k, c, .. } = self.dense;
+        let Dense {
+            beam, n, m, k, c, ..
+        } = self.dense;
         let (n, dt, zeta, a) = (*n, self.dt, beam.zeta, beam.a);
         let new = State::unstack(y, n);
         let [m_theta, k_theta, c_theta] = self.dense.of_theta();
         let share = 1.0 / self.scheme.inertia;
         let mut j = DMatrix::zeros(5 * n - 1, 5 * n - 1);
         let mut put = |row: usize, column: usize, block: DMatrix<f64>| {
-            j.view_mut((row * n, column * n), block.shape()).copy_from(&block);
+            j.view_mut((row * n, column * n), block.shape())
+                .copy_from(&block);
         };
         let one = || DMatrix::identity(n, n);
         // d/du of ½(N(u) + N(u0)) K u½: N'(u) = 2ρ (K u)ᵀ.
@@ -312,7 +393,8 @@ impl Step<'_> {
                 (0.5 * (dg + self.dense.potential(side, start)[1]), 0.5 * ddg)
             }
             ContactRule::DiscreteGradient => {
-                let quotient = (g - self.dense.potential(self.dense.side(start), start)[0]) / (tip - start);
+                let quotient =
+                    (g - self.dense.potential(self.dense.side(start), start)[0]) / (tip - start);
                 (quotient, (dg - quotient) / (tip - start))
             }
         }

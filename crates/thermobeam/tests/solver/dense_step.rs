@@ -26,11 +26,19 @@ struct Range {
 }
 
 /// Coefficients for Newton's method.
-const NEWTON_RANGE: Range =
-    Range { log_dt: (-4.0, -0.5), log_epsilon: (-6.0, 0.0), log_rho: (-2.0, 4.0), beta: (-0.7, 50.0) };
+const NEWTON_RANGE: Range = Range {
+    log_dt: (-4.0, -0.5),
+    log_epsilon: (-6.0, 0.0),
+    log_rho: (-2.0, 4.0),
+    beta: (-0.7, 50.0),
+};
 /// Coefficients for which the fixed point converges.
-const FIXED_POINT_RANGE: Range =
-    Range { log_dt: (-4.0, -3.0), log_epsilon: (-1.0, 0.0), log_rho: (-2.0, 0.5), beta: (-0.7, 2.0) };
+const FIXED_POINT_RANGE: Range = Range {
+    log_dt: (-4.0, -3.0),
+    log_epsilon: (-1.0, 0.0),
+    log_rho: (-2.0, 0.5),
+    beta: (-0.7, 2.0),
+};
 
 #[derive(Debug, Clone)]
 struct Random {
@@ -121,7 +129,11 @@ prop_compose! {
 
 /// Compares each step with the dense one from the same level; whether the tip pressed the upper and the lower obstacle.
 fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
-    let Random { problem, stepping, loads } = case;
+    let Random {
+        problem,
+        stepping,
+        loads,
+    } = case;
     let dense = Dense::new(problem);
     let mut simulation = simulate(problem, *stepping);
     let mut pressed = [false; 2];
@@ -135,12 +147,25 @@ fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
         if let Err(error) = simulation.advance() {
             return Err(TestCaseError::fail(error.to_string()));
         }
-        let Some(expected) = dense.step(&stepping.scheme, stepping.dt, &State::from_level(&old), given) else {
-            return Err(TestCaseError::reject("the dense Newton iteration does not converge"));
+        let Some(expected) = dense.step(
+            &stepping.scheme,
+            stepping.dt,
+            &State::from_level(&old),
+            given,
+        ) else {
+            return Err(TestCaseError::reject(
+                "the dense Newton iteration does not converge",
+            ));
         };
         let found = simulation.level();
         let difference = relative_difference(&found, &expected.to_level());
-        prop_assert!(difference <= 1e-10, "{:e}:\n{:?}\n{:?}", difference, found, expected.to_level());
+        prop_assert!(
+            difference <= 1e-10,
+            "{:e}:\n{:?}\n{:?}",
+            difference,
+            found,
+            expected.to_level()
+        );
         pressed[0] |= found.contact_force > 0.0;
         pressed[1] |= found.contact_force < 0.0;
     }
@@ -149,7 +174,11 @@ fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
 
 /// Compares on the given number of random cases; each obstacle must be pressed in a tenth of them.
 fn compare_all(range: Range, solver: Solver, cases: u32) {
-    let config = ProptestConfig { max_global_rejects: 10, source_file: Some(file!()), ..at_least(cases) };
+    let config = ProptestConfig {
+        max_global_rejects: 10,
+        source_file: Some(file!()),
+        ..at_least(cases)
+    };
     let cases = config.cases;
     let pressed = [Cell::new(0), Cell::new(0)];
     TestRunner::new(config)
@@ -160,7 +189,10 @@ fn compare_all(range: Range, solver: Solver, cases: u32) {
             Ok(())
         })
         .unwrap_or_else(|error| panic!("{error}"));
-    assert!(pressed.iter().all(|count| count.get() > cases / 10), "{pressed:?} of {cases}");
+    assert!(
+        pressed.iter().all(|count| count.get() > cases / 10),
+        "{pressed:?} of {cases}"
+    );
 }
 
 #[test]

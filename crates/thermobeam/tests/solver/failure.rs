@@ -11,8 +11,16 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 fn all_steppings() -> impl Iterator<Item = Stepping> {
     SCHEMES.into_iter().flat_map(|scheme| {
         Solver::ALL.map(|solver| {
-            let settings = Settings { solver, ..Settings::default() };
-            Stepping { scheme, settings, loaded: true, ..stepping(1e-3) }
+            let settings = Settings {
+                solver,
+                ..Settings::default()
+            };
+            Stepping {
+                scheme,
+                settings,
+                loaded: true,
+                ..stepping(1e-3)
+            }
         })
     })
 }
@@ -39,17 +47,32 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                     simulation.load_mut().unwrap()[node][component] = bad;
                     for _ in 0..2 {
                         let error = simulation.advance().unwrap_err();
-                        let StepError { step, t, dt, failure } = error;
+                        let StepError {
+                            step,
+                            t,
+                            dt,
+                            failure,
+                        } = error;
                         assert_eq!((step, t, dt), (4, 3.0 * stepping.dt, stepping.dt));
-                        assert!(matches!(failure, StepFailure::NonFinite { .. }), "{stepping:?} {bad}: {failure:?}");
+                        assert!(
+                            matches!(failure, StepFailure::NonFinite { .. }),
+                            "{stepping:?} {bad}: {failure:?}"
+                        );
                         assert_eq!((simulation.step(), simulation.t()), (3, 3.0 * stepping.dt));
-                        assert_eq!(simulation.level(), before, "{stepping:?} {bad} {component} {node}");
+                        assert_eq!(
+                            simulation.level(),
+                            before,
+                            "{stepping:?} {bad} {component} {node}"
+                        );
                     }
                     simulation.load_mut().unwrap().fill([0.1; 3]);
                     undisturbed.load_mut().unwrap().fill([0.1; 3]);
                     simulation.advance().unwrap();
                     undisturbed.advance().unwrap();
-                    let difference = super::scenes::relative_difference(&simulation.level(), &undisturbed.level());
+                    let difference = super::scenes::relative_difference(
+                        &simulation.level(),
+                        &undisturbed.level(),
+                    );
                     assert!(difference <= 1e-9, "{stepping:?}: {difference:e}");
                 }
             }
@@ -64,7 +87,11 @@ fn the_initial_contact_force_is_that_of_the_initial_tip() {
         problem.initial.u = problem.mesh.nodes().iter().map(|x| 0.12 * x).collect();
         let expected = problem.obstacles.unwrap().force(problem.initial.u[10]);
         assert!(expected > 19.0);
-        assert_eq!(simulate(&problem, stepping).level().contact_force, expected, "{stepping:?}");
+        assert_eq!(
+            simulate(&problem, stepping).level().contact_force,
+            expected,
+            "{stepping:?}"
+        );
     }
 }
 
@@ -74,11 +101,34 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
         let mut problem = paper(uniform(10), (0.0, 0.0));
         problem.beam.rho = 1e4;
         let failed_at = |max_iterations: usize| {
-            let settings =
-                Settings { stopping: Stopping::Converged { tolerance: 1e-300, max_iterations }, ..stepping.settings };
-            let error = simulate(&problem, Stepping { settings, dt: 0.1, ..stepping }).advance().unwrap_err();
-            let (StepFailure::IterationLimit { iterations, increment, contraction }
-            | StepFailure::Diverged { iterations, increment, contraction, .. }) = error.failure
+            let settings = Settings {
+                stopping: Stopping::Converged {
+                    tolerance: 1e-300,
+                    max_iterations,
+                },
+                ..stepping.settings
+            };
+            let error = simulate(
+                &problem,
+                Stepping {
+                    settings,
+                    dt: 0.1,
+                    ..stepping
+                },
+            )
+            .advance()
+            .unwrap_err();
+            let (StepFailure::IterationLimit {
+                iterations,
+                increment,
+                contraction,
+            }
+            | StepFailure::Diverged {
+                iterations,
+                increment,
+                contraction,
+                ..
+            }) = error.failure
             else {
                 panic!("{stepping:?}: {error}")
             };
@@ -92,7 +142,11 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
             let (increment, contraction) = failed_at(max_iterations);
             // Newton's method has a contraction factor only in the safeguarded iteration.
             if !contraction.is_nan() {
-                assert_eq!(contraction, increment / previous, "{stepping:?} {max_iterations}");
+                assert_eq!(
+                    contraction,
+                    increment / previous,
+                    "{stepping:?} {max_iterations}"
+                );
                 compared += 1;
             }
             previous = increment;
@@ -104,12 +158,29 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
 #[test]
 fn a_lost_pivot_is_reported_by_both_solvers() {
     for stepping in all_steppings() {
-        let stepping = Stepping { dt: 1.0, ..stepping };
+        let stepping = Stepping {
+            dt: 1.0,
+            ..stepping
+        };
         let mut simulation = simulate(&paper(uniform(10), (-3.0, 0.0)), stepping);
         let error = simulation.advance().unwrap_err();
-        let StepFailure::Indefinite { node, pivot, n_value } = error.failure else { panic!("{error}") };
-        assert!((1..=10).contains(&node) && pivot <= 0.0 && n_value < -2.9, "{error}");
-        assert_eq!(simulation.advance().unwrap_err(), error, "the same failure again");
+        let StepFailure::Indefinite {
+            node,
+            pivot,
+            n_value,
+        } = error.failure
+        else {
+            panic!("{error}")
+        };
+        assert!(
+            (1..=10).contains(&node) && pivot <= 0.0 && n_value < -2.9,
+            "{error}"
+        );
+        assert_eq!(
+            simulation.advance().unwrap_err(),
+            error,
+            "the same failure again"
+        );
     }
 }
 
@@ -137,35 +208,76 @@ fn initial_data_that_violate_a_boundary_condition_are_rejected() {
     for (name, of, node, boundary) in fields {
         let x = node as f64 / 4.0;
         let error = rejection(|problem, _| of(&mut problem.initial)[node] = boundary + 1e-9);
-        assert_eq!(error, SetupError::Boundary { field: name, x, found: boundary + 1e-9, allowed: boundary });
+        assert_eq!(
+            error,
+            SetupError::Boundary {
+                field: name,
+                x,
+                found: boundary + 1e-9,
+                allowed: boundary
+            }
+        );
         let error = rejection(|problem, _| of(&mut problem.initial)[node] = f64::INFINITY);
-        assert_eq!(error, SetupError::NotFinite { field: name, node, found: f64::INFINITY });
+        assert_eq!(
+            error,
+            SetupError::NotFinite {
+                field: name,
+                node,
+                found: f64::INFINITY
+            }
+        );
         let error = rejection(|problem, _| of(&mut problem.initial).push(0.0));
-        assert_eq!(error, SetupError::Length { field: name, found: 6, expected: 5 });
+        assert_eq!(
+            error,
+            SetupError::Length {
+                field: name,
+                found: 6,
+                expected: 5
+            }
+        );
     }
     let error = rejection(|problem, _| problem.initial.phi[2] = f64::NAN);
-    assert!(matches!(error, SetupError::NotFinite { field: "phi", node: 2, found } if found.is_nan()));
+    assert!(
+        matches!(error, SetupError::NotFinite { field: "phi", node: 2, found } if found.is_nan())
+    );
 }
 
 #[test]
 fn invalid_settings_are_rejected() {
-    let is_named =
-        |error: &SetupError, name| matches!(error, SetupError::Parameter(parameter) if parameter.name == name);
+    let is_named = |error: &SetupError, name| matches!(error, SetupError::Parameter(parameter) if parameter.name == name);
     for dt in [0.0, -1.0, f64::INFINITY] {
-        let expected = ParameterError { name: "dt", found: dt, allowed: "a finite number > 0".into() };
-        assert_eq!(rejection(|_, stepping| stepping.dt = dt), SetupError::Parameter(expected));
+        let expected = ParameterError {
+            name: "dt",
+            found: dt,
+            allowed: "a finite number > 0".into(),
+        };
+        assert_eq!(
+            rejection(|_, stepping| stepping.dt = dt),
+            SetupError::Parameter(expected)
+        );
     }
-    assert!(is_named(&rejection(|_, stepping| stepping.dt = f64::NAN), "dt"));
+    assert!(is_named(
+        &rejection(|_, stepping| stepping.dt = f64::NAN),
+        "dt"
+    ));
     for tolerance in [0.0, -1e-10, f64::NAN, f64::INFINITY] {
-        let error = rejection(|_, stepping| stepping.settings.stopping = Stopping::below(tolerance));
+        let error =
+            rejection(|_, stepping| stepping.settings.stopping = Stopping::below(tolerance));
         assert!(is_named(&error, "tolerance"), "{error}");
     }
-    let error = rejection(|_, stepping| stepping.settings.stopping = Stopping::default().with_limit(0));
+    let error =
+        rejection(|_, stepping| stepping.settings.stopping = Stopping::default().with_limit(0));
     assert!(is_named(&error, "max_iterations"), "{error}");
     // Newton's method cannot stop without a test, and the fixed point needs one iteration.
     for (solver, iterations) in [(Solver::Newton, 2), (Solver::FixedPoint, 0)] {
         let stopping = Stopping::Iterations(iterations);
-        let error = rejection(|_, stepping| stepping.settings = Settings { solver, stopping, ..Settings::default() });
+        let error = rejection(|_, stepping| {
+            stepping.settings = Settings {
+                solver,
+                stopping,
+                ..Settings::default()
+            }
+        });
         assert!(is_named(&error, "iterations"), "{error}");
     }
 }
@@ -185,14 +297,26 @@ fn coefficients_out_of_range_are_rejected_by_name() {
         ("g2", |_, obstacles| obstacles.g2 = -1e-9),
     ];
     for (name, change) in changes {
-        let error = rejection(|problem, _| change(&mut problem.beam, problem.obstacles.as_mut().unwrap()));
-        assert!(matches!(&error, SetupError::Parameter(parameter) if parameter.name == name), "{error}");
+        let error =
+            rejection(|problem, _| change(&mut problem.beam, problem.obstacles.as_mut().unwrap()));
+        assert!(
+            matches!(&error, SetupError::Parameter(parameter) if parameter.name == name),
+            "{error}"
+        );
     }
 }
 
 #[test]
 fn invalid_nodes_are_rejected() {
-    for nodes in [vec![0.0], vec![0.0, 0.5], vec![0.0, 0.6, 0.6, 1.0], vec![0.0, f64::NAN, 1.0]] {
-        assert!(matches!(Mesh::from_nodes(nodes).map_err(SetupError::from), Err(SetupError::Mesh(_))));
+    for nodes in [
+        vec![0.0],
+        vec![0.0, 0.5],
+        vec![0.0, 0.6, 0.6, 1.0],
+        vec![0.0, f64::NAN, 1.0],
+    ] {
+        assert!(matches!(
+            Mesh::from_nodes(nodes).map_err(SetupError::from),
+            Err(SetupError::Mesh(_))
+        ));
     }
 }

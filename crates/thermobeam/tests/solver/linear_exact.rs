@@ -18,9 +18,13 @@ fn exact(problem: &Problem, t: f64) -> State {
     for column in 0..size {
         let mut unit = DVector::zeros(size);
         unit[column] = 1.0;
-        augmented.view_mut((0, column), (size, 1)).copy_from(&(at(&unit) - &constant));
+        augmented
+            .view_mut((0, column), (size, 1))
+            .copy_from(&(at(&unit) - &constant));
     }
-    augmented.view_mut((0, size), (size, 1)).copy_from(&constant);
+    augmented
+        .view_mut((0, size), (size, 1))
+        .copy_from(&constant);
     let end = (augmented * t).exp() * start.push(1.0);
     State::unstack(&end.rows(0, size).into_owned(), n)
 }
@@ -30,19 +34,37 @@ fn the_linear_beam_converges_to_the_matrix_exponential_at_the_order_of_the_schem
     for experiment in [(-0.5, 0.0), (5.0, 20.0), (-0.8, 0.0)] {
         for (scheme, mesh) in schemes_and_meshes(5) {
             let problem = paper(mesh, experiment);
-            let beam = Beam { rho: 0.0, a: 0.5, ..problem.beam };
-            let problem = Problem { beam, obstacles: None, ..problem };
+            let beam = Beam {
+                rho: 0.0,
+                a: 0.5,
+                ..problem.beam
+            };
+            let problem = Problem {
+                beam,
+                obstacles: None,
+                ..problem
+            };
             let expected = exact(&problem, 0.5).to_level();
             let errors: Vec<_> = [1024, 2048]
                 .map(|steps| {
                     let dt = 0.5 / steps as f64;
-                    let mut simulation = simulate(&problem, Stepping { scheme, ..stepping(dt) });
+                    let mut simulation = simulate(
+                        &problem,
+                        Stepping {
+                            scheme,
+                            ..stepping(dt)
+                        },
+                    );
                     advance(&mut simulation, steps);
                     (dt, distance(&problem.mesh, &simulation.level(), &expected))
                 })
                 .to_vec();
             let rate = last_rate(&errors);
-            assert!((rate - scheme.order).abs() <= 0.01, "{experiment:?} {}: rate {rate}, {errors:?}", scheme.name);
+            assert!(
+                (rate - scheme.order).abs() <= 0.01,
+                "{experiment:?} {}: rate {rate}, {errors:?}",
+                scheme.name
+            );
         }
     }
 }

@@ -24,8 +24,19 @@ impl<F: Fn(&State) -> State> System<f64, DVector<f64>> for SemiDiscrete<F> {
 fn exact(problem: &Problem, t: f64) -> Level {
     let dense = Dense::new(problem);
     let n = problem.mesh.elements();
-    let system = SemiDiscrete { n, rate: dense.rate() };
-    let mut integrator = Dop853::new(system, 0.0, t, t, dense.initial(problem).stack(), 1e-12, 1e-12);
+    let system = SemiDiscrete {
+        n,
+        rate: dense.rate(),
+    };
+    let mut integrator = Dop853::new(
+        system,
+        0.0,
+        t,
+        t,
+        dense.initial(problem).stack(),
+        1e-12,
+        1e-12,
+    );
     integrator.set_output(OutputType::Sparse);
     integrator.integrate().unwrap();
     assert_eq!(integrator.x_out().last(), Some(&t));
@@ -40,8 +51,18 @@ fn errors(problem: &Problem, scheme: Scheme, t: f64, steps: &[usize]) -> (Vec<(f
         .iter()
         .map(|&steps| {
             let dt = t / steps as f64;
-            let settings = Settings { stopping: Stopping::below(1e-12), ..Settings::default() };
-            let mut simulation = simulate(problem, Stepping { scheme, settings, ..stepping(dt) });
+            let settings = Settings {
+                stopping: Stopping::below(1e-12),
+                ..Settings::default()
+            };
+            let mut simulation = simulate(
+                problem,
+                Stepping {
+                    scheme,
+                    settings,
+                    ..stepping(dt)
+                },
+            );
             let mut level = simulation.level();
             for _ in 0..steps {
                 advance(&mut simulation, 1);
@@ -58,10 +79,17 @@ fn errors(problem: &Problem, scheme: Scheme, t: f64, steps: &[usize]) -> (Vec<(f
 fn without_contact_both_schemes_converge_at_their_order() {
     for experiment in [(0.0, 0.0), (5.0, 20.0), (-0.8, 0.0)] {
         for (scheme, mesh) in schemes_and_meshes(5) {
-            let problem = Problem { obstacles: None, ..paper(mesh, experiment) };
+            let problem = Problem {
+                obstacles: None,
+                ..paper(mesh, experiment)
+            };
             let (errors, _) = errors(&problem, scheme, 0.5, &[2048, 4096]);
             let rate = last_rate(&errors);
-            assert!((rate - scheme.order).abs() <= 0.02, "{experiment:?} {}: rate {rate}, {errors:?}", scheme.name);
+            assert!(
+                (rate - scheme.order).abs() <= 0.02,
+                "{experiment:?} {}: rate {rate}, {errors:?}",
+                scheme.name
+            );
         }
     }
 }
@@ -76,7 +104,11 @@ fn in_contact_both_schemes_converge_at_their_order_once_the_contact_is_resolved(
             let (errors, contact) = errors(&problem, scheme, 0.25, &[32768, 65536]);
             let rate = last_rate(&errors);
             assert!(contact, "{experiment:?}");
-            assert!((rate - scheme.order).abs() <= 0.05, "{experiment:?} {}: rate {rate}, {errors:?}", scheme.name);
+            assert!(
+                (rate - scheme.order).abs() <= 0.05,
+                "{experiment:?} {}: rate {rate}, {errors:?}",
+                scheme.name
+            );
         }
     }
 }

@@ -14,8 +14,18 @@ const BETAS: [f64; 4] = [-0.8, -0.5, 0.0, 5.0];
 /// The paper's data with other ρ and ε.
 fn scene(mesh: Mesh, experiment: (f64, f64), rho: f64, epsilon: f64) -> Problem {
     let problem = paper(mesh, experiment);
-    let obstacles = Some(Obstacles { epsilon, ..Obstacles::default() });
-    Problem { beam: Beam { rho, ..problem.beam }, obstacles, ..problem }
+    let obstacles = Some(Obstacles {
+        epsilon,
+        ..Obstacles::default()
+    });
+    Problem {
+        beam: Beam {
+            rho,
+            ..problem.beam
+        },
+        obstacles,
+        ..problem
+    }
 }
 
 /// Does 50 steps; returns the largest number of iterations, and the largest residual of the balance relative to the
@@ -28,7 +38,10 @@ fn run(problem: &Problem, stepping: Stepping) -> (usize, f64) {
     let (mut most, mut worst) = (0, 0.0);
     for _ in 0..50 {
         let report = simulation.advance().unwrap_or_else(|error| {
-            panic!("{:?} {:?} dt = {:e}: {error}", problem.beam, problem.obstacles, stepping.dt);
+            panic!(
+                "{:?} {:?} dt = {:e}: {error}",
+                problem.beam, problem.obstacles, stepping.dt
+            );
         });
         simulation.observe(&mut new);
         most = most.max(report.iterations);
@@ -49,8 +62,17 @@ fn newton_converges_for_every_compliance_step_force_and_stiffness() {
                         for theta_a in [0.0, 20.0] {
                             let (epsilon, dt) = (10f64.powi(log_epsilon), 10f64.powi(log_dt));
                             let problem = scene(mesh.clone(), (beta, theta_a), rho, epsilon);
-                            let settings = Settings { start: Start::Previous, ..Settings::default() };
-                            let (iterations, balance) = run(&problem, Stepping { settings, ..stepping(dt) });
+                            let settings = Settings {
+                                start: Start::Previous,
+                                ..Settings::default()
+                            };
+                            let (iterations, balance) = run(
+                                &problem,
+                                Stepping {
+                                    settings,
+                                    ..stepping(dt)
+                                },
+                            );
                             most = most.max(iterations);
                             worst = max_or_nan(worst, balance);
                         }
@@ -60,7 +82,10 @@ fn newton_converges_for_every_compliance_step_force_and_stiffness() {
         }
     }
     assert!(most <= 20, "a step took {most} iterations");
-    assert!(worst <= 1e-11, "the largest residual of a balance is {worst:e}");
+    assert!(
+        worst <= 1e-11,
+        "the largest residual of a balance is {worst:e}"
+    );
 }
 
 #[test]
@@ -71,8 +96,18 @@ fn both_schemes_converge_from_the_extrapolated_start() {
                 for epsilon in [1e-8, 1e-3] {
                     for log_dt in -5..=0 {
                         let problem = scene(graded(30), (beta, 20.0), rho, epsilon);
-                        let (iterations, _) = run(&problem, Stepping { scheme, ..stepping(10f64.powi(log_dt)) });
-                        assert!(iterations <= 30, "{} {beta} {rho} {epsilon:e}: {iterations}", scheme.name);
+                        let (iterations, _) = run(
+                            &problem,
+                            Stepping {
+                                scheme,
+                                ..stepping(10f64.powi(log_dt))
+                            },
+                        );
+                        assert!(
+                            iterations <= 30,
+                            "{} {beta} {rho} {epsilon:e}: {iterations}",
+                            scheme.name
+                        );
                     }
                 }
             }
@@ -89,7 +124,9 @@ fn beyond_the_buckling_force_only_large_steps_are_rejected() {
         let before = simulation.level();
         let error = simulation.advance().unwrap_err();
         assert_eq!((error.step, error.dt), (1, 10.0));
-        let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else { panic!("{error}") };
+        let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else {
+            panic!("{error}")
+        };
         assert!(pivot <= 0.0 && (-0.8..-0.79).contains(&n_value), "{error}");
         assert_eq!(simulation.level(), before);
     }
@@ -102,8 +139,17 @@ fn a_step_succeeds_despite_a_bad_prediction_of_the_axial_force() {
         for rho in [1.0, 100.0, 1e4] {
             let problem = scene(uniform(30), (-0.8, 0.0), rho, 1e-3);
             let outcome = |start| {
-                let settings = Settings { start, ..Settings::default() };
-                let mut simulation = simulate(&problem, Stepping { settings, ..stepping(dt) });
+                let settings = Settings {
+                    start,
+                    ..Settings::default()
+                };
+                let mut simulation = simulate(
+                    &problem,
+                    Stepping {
+                        settings,
+                        ..stepping(dt)
+                    },
+                );
                 (0..100).map_while(|_| simulation.advance().ok()).count()
             };
             let (rough, extrapolated) = (outcome(Start::Previous), outcome(Start::Extrapolated));
@@ -122,9 +168,19 @@ fn the_safeguarded_iteration_stops_when_the_bracket_reaches_round_off() {
             for dt in [1e-3, 3e-3, 1e-2, 0.1, 1.0] {
                 for scheme in SCHEMES {
                     let mut problem = scene(uniform(1), (0.5, 20.0), rho, epsilon);
-                    problem.obstacles = Some(Obstacles { epsilon, g1: -1e-4, g2: 1e-4 });
+                    problem.obstacles = Some(Obstacles {
+                        epsilon,
+                        g1: -1e-4,
+                        g2: 1e-4,
+                    });
                     problem.initial.u_t[1] = 2.0;
-                    let mut simulation = simulate(&problem, Stepping { scheme, ..stepping(dt) });
+                    let mut simulation = simulate(
+                        &problem,
+                        Stepping {
+                            scheme,
+                            ..stepping(dt)
+                        },
+                    );
                     super::scenes::advance(&mut simulation, 100);
                 }
             }

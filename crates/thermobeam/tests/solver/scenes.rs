@@ -10,8 +10,15 @@ use thermobeam::solve::{Level, Settings};
 
 /// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with θ_A = 0, (5.5) with θ_A
 /// = 20, and the buckled beam.
-pub(crate) const EXPERIMENTS: [(f64, f64); 7] =
-    [(-0.5, 0.0), (0.0, 0.0), (5.0, 0.0), (-0.5, 20.0), (0.0, 20.0), (5.0, 20.0), (-0.8, 0.0)];
+pub(crate) const EXPERIMENTS: [(f64, f64); 7] = [
+    (-0.5, 0.0),
+    (0.0, 0.0),
+    (5.0, 0.0),
+    (-0.5, 20.0),
+    (0.0, 20.0),
+    (5.0, 20.0),
+    (-0.8, 0.0),
+];
 
 /// An experiment of the paper on a mesh: its initial temperature is sin(πx), or 20 cos(5πx/2) for θ_A = 20.
 pub(crate) fn paper(mesh: Mesh, (beta, theta_a): (f64, f64)) -> Problem {
@@ -21,9 +28,24 @@ pub(crate) fn paper(mesh: Mesh, (beta, theta_a): (f64, f64)) -> Problem {
         u_t: on_nodes(&|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
         phi: on_nodes(&|_| 0.0),
         phi_t: on_nodes(&|_| 0.0),
-        theta: on_nodes(&|x| if theta_a == 0.0 { (PI * x).sin() } else { theta_a * (2.5 * PI * x).cos() }),
+        theta: on_nodes(&|x| {
+            if theta_a == 0.0 {
+                (PI * x).sin()
+            } else {
+                theta_a * (2.5 * PI * x).cos()
+            }
+        }),
     };
-    Problem { beam: Beam { beta, theta_a, ..Beam::default() }, obstacles: Some(Obstacles::default()), mesh, initial }
+    Problem {
+        beam: Beam {
+            beta,
+            theta_a,
+            ..Beam::default()
+        },
+        obstacles: Some(Obstacles::default()),
+        mesh,
+        initial,
+    }
 }
 
 pub(crate) fn uniform(elements: usize) -> Mesh {
@@ -37,7 +59,12 @@ pub(crate) fn graded(elements: usize) -> Mesh {
 
 /// The paper's scheme and default settings.
 pub(crate) fn stepping(dt: f64) -> Stepping {
-    Stepping { scheme: EULER_CRANK_NICOLSON, settings: Settings::default(), dt, loaded: false }
+    Stepping {
+        scheme: EULER_CRANK_NICOLSON,
+        settings: Settings::default(),
+        dt,
+        loaded: false,
+    }
 }
 
 #[track_caller]
@@ -49,17 +76,32 @@ pub(crate) fn simulate(problem: &Problem, stepping: Stepping) -> Simulation {
 #[track_caller]
 pub(crate) fn advance(simulation: &mut Simulation, steps: usize) {
     for _ in 0..steps {
-        simulation.advance().unwrap_or_else(|error| panic!("{error}"));
+        simulation
+            .advance()
+            .unwrap_or_else(|error| panic!("{error}"));
     }
 }
 
 /// The problem with a level of another run as initial data.
 pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
     let theta_a = problem.beam.theta_a;
-    let theta = level.theta.iter().zip(problem.mesh.nodes()).map(|(theta, x)| theta + theta_a * (1.0 - x)).collect();
-    let initial =
-        Initial { u: level.u.clone(), u_t: level.v.clone(), phi: level.phi.clone(), phi_t: level.w.clone(), theta };
-    Problem { initial, ..problem.clone() }
+    let theta = level
+        .theta
+        .iter()
+        .zip(problem.mesh.nodes())
+        .map(|(theta, x)| theta + theta_a * (1.0 - x))
+        .collect();
+    let initial = Initial {
+        u: level.u.clone(),
+        u_t: level.v.clone(),
+        phi: level.phi.clone(),
+        phi_t: level.w.clone(),
+        theta,
+    };
+    Problem {
+        initial,
+        ..problem.clone()
+    }
 }
 
 /// Distance of two levels in the norm of (3.14).
@@ -79,7 +121,13 @@ pub(crate) fn distance(mesh: &Mesh, a: &Level, b: &Level) -> f64 {
 
 /// The fields of a level with their names.
 pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
-    [("u", &level.u), ("v", &level.v), ("phi", &level.phi), ("w", &level.w), ("theta", &level.theta)]
+    [
+        ("u", &level.u),
+        ("v", &level.v),
+        ("phi", &level.phi),
+        ("w", &level.w),
+        ("theta", &level.theta),
+    ]
 }
 
 /// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if any value is NaN.
@@ -87,7 +135,10 @@ pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
     let mut worst = 0.0;
     for ((_, a), (_, b)) in fields(a).into_iter().zip(fields(b)) {
         let scale = max_or_nan(largest(b.iter().copied()), 1e-3);
-        worst = max_or_nan(worst, largest(a.iter().zip(b).map(|(a, b)| (a - b) / scale)));
+        worst = max_or_nan(
+            worst,
+            largest(a.iter().zip(b).map(|(a, b)| (a - b) / scale)),
+        );
     }
     worst
 }
@@ -99,12 +150,16 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Slope of log(error) over log(dt) between the last two of (dt, error).
 pub(crate) fn last_rate(errors: &[(f64, f64)]) -> f64 {
-    let [.., (dt0, e0), (dt1, e1)] = errors else { panic!("a rate needs two levels") };
+    let [.., (dt0, e0), (dt1, e1)] = errors else {
+        panic!("a rate needs two levels")
+    };
     (e0 / e1).ln() / (dt0 / dt1).ln()
 }
 
 /// Both schemes and both kinds of mesh.
 pub(crate) fn schemes_and_meshes(elements: usize) -> impl Iterator<Item = (Scheme, Mesh)> {
     let meshes = [uniform(elements), graded(elements)];
-    thermobeam::scheme::SCHEMES.into_iter().flat_map(move |scheme| meshes.clone().map(|mesh| (scheme, mesh)))
+    thermobeam::scheme::SCHEMES
+        .into_iter()
+        .flat_map(move |scheme| meshes.clone().map(|mesh| (scheme, mesh)))
 }

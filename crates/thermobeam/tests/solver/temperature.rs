@@ -1,7 +1,8 @@
 //! The solver omits the temperature if nothing heats the beam, and the result is the same.
 
 use super::scenes::{
-    EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping, uniform,
+    EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping,
+    uniform,
 };
 use thermobeam::parameters::Beam;
 use thermobeam::simulation::{Initial, Problem, Stepping};
@@ -9,9 +10,20 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 
 /// The paper's data without temperature.
 fn cold(problem: Problem) -> Problem {
-    let beam = Beam { a: 0.0, theta_a: 0.0, ..problem.beam };
+    let beam = Beam {
+        a: 0.0,
+        theta_a: 0.0,
+        ..problem.beam
+    };
     let theta = vec![0.0; problem.initial.theta.len()];
-    Problem { beam, initial: Initial { theta, ..problem.initial }, ..problem }
+    Problem {
+        beam,
+        initial: Initial {
+            theta,
+            ..problem.initial
+        },
+        ..problem
+    }
 }
 
 #[test]
@@ -24,10 +36,23 @@ fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
                     problem.beam.rho = 0.0;
                     problem.obstacles = None;
                 }
-                let settings = Settings { stopping: Stopping::below(1e-13), ..Settings::default() };
-                let stepping = Stepping { scheme, settings, ..stepping(1e-3) };
+                let settings = Settings {
+                    stopping: Stopping::below(1e-13),
+                    ..Settings::default()
+                };
+                let stepping = Stepping {
+                    scheme,
+                    settings,
+                    ..stepping(1e-3)
+                };
                 let mut without = simulate(&problem, stepping);
-                let mut with = simulate(&problem, Stepping { loaded: true, ..stepping });
+                let mut with = simulate(
+                    &problem,
+                    Stepping {
+                        loaded: true,
+                        ..stepping
+                    },
+                );
                 assert!(!without.is_heated() && with.is_heated());
                 assert!(without.load_mut().is_none());
                 for _ in 0..300 {
@@ -37,7 +62,11 @@ fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
                 }
                 let (without, with) = (without.level(), with.level());
                 let difference = relative_difference(&without, &with);
-                assert!(difference <= 1e-12, "{experiment:?} {}: {difference:e}", scheme.name);
+                assert!(
+                    difference <= 1e-12,
+                    "{experiment:?} {}: {difference:e}",
+                    scheme.name
+                );
                 assert!(with.theta.iter().all(|&theta| theta == 0.0));
             }
         }
@@ -47,12 +76,30 @@ fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
 #[test]
 fn the_temperature_is_computed_when_anything_heats_the_beam() {
     let base = cold(paper(uniform(8), (0.0, 0.0)));
-    let coupled = Problem { beam: Beam { a: 0.017, ..base.beam }, ..base.clone() };
+    let coupled = Problem {
+        beam: Beam {
+            a: 0.017,
+            ..base.beam
+        },
+        ..base.clone()
+    };
     assert!(simulate(&coupled, stepping(1e-3)).is_heated());
     let mut warm = base.clone();
     warm.initial.theta[3] = 1e-3;
     assert!(simulate(&warm, stepping(1e-3)).is_heated());
-    let settings = Settings { solver: Solver::FixedPoint, ..Settings::default() };
-    assert!(simulate(&base, Stepping { settings, ..stepping(1e-3) }).is_heated());
+    let settings = Settings {
+        solver: Solver::FixedPoint,
+        ..Settings::default()
+    };
+    assert!(
+        simulate(
+            &base,
+            Stepping {
+                settings,
+                ..stepping(1e-3)
+            }
+        )
+        .is_heated()
+    );
     assert!(!simulate(&base, stepping(1e-3)).is_heated());
 }

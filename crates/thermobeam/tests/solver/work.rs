@@ -13,8 +13,18 @@ fn loads_and_observations_are_counted_exactly() {
     for solver in Solver::ALL {
         for loaded in [false, true] {
             for every in [1, 5, STEPS + 1] {
-                let settings = Settings { solver, ..Settings::default() };
-                let mut simulation = simulate(&problem, Stepping { settings, loaded, ..stepping(1e-4) });
+                let settings = Settings {
+                    solver,
+                    ..Settings::default()
+                };
+                let mut simulation = simulate(
+                    &problem,
+                    Stepping {
+                        settings,
+                        loaded,
+                        ..stepping(1e-4)
+                    },
+                );
                 for step in 1..=STEPS {
                     if let Some(load) = simulation.load_mut() {
                         load.fill([0.0; 3]);
@@ -26,12 +36,23 @@ fn loads_and_observations_are_counted_exactly() {
                 }
                 let work = simulation.work();
                 let expected = (if loaded { STEPS } else { 0 }, STEPS / every);
-                assert_eq!((work.loads, work.observations), expected, "{solver:?}, loaded: {loaded}, every {every}");
+                assert_eq!(
+                    (work.loads, work.observations),
+                    expected,
+                    "{solver:?}, loaded: {loaded}, every {every}"
+                );
                 assert!(work.passes >= STEPS, "{work:?}");
                 // Newton's method keeps a factorisation over many steps; in the fixed point m changes with every
                 // iterate.
-                let expected = if solver == Solver::Newton { 1..STEPS } else { work.passes..work.passes + 1 };
-                assert!(expected.contains(&work.factorizations), "{solver:?}: {work:?}");
+                let expected = if solver == Solver::Newton {
+                    1..STEPS
+                } else {
+                    work.passes..work.passes + 1
+                };
+                assert!(
+                    expected.contains(&work.factorizations),
+                    "{solver:?}: {work:?}"
+                );
             }
         }
     }
@@ -50,18 +71,33 @@ fn a_free_linear_beam_is_solved_once_a_step_and_factorized_once() {
     problem.beam.rho = 0.0;
     problem.obstacles = None;
     assert_eq!(passes(&problem), (STEPS, 1));
-    assert!(nonlinear.0 > STEPS && nonlinear.1 == 1, "expected more passes with one factorisation: {nonlinear:?}");
+    assert!(
+        nonlinear.0 > STEPS && nonlinear.1 == 1,
+        "expected more passes with one factorisation: {nonlinear:?}"
+    );
 }
 
 #[test]
 fn a_start_extrapolated_from_three_levels_saves_passes() {
     let problem = paper(uniform(20), EXPERIMENTS[0]);
     let passes = |start: Start| {
-        let settings = Settings { start, ..Settings::default() };
-        let mut simulation = simulate(&problem, Stepping { settings, ..stepping(1e-4) });
+        let settings = Settings {
+            start,
+            ..Settings::default()
+        };
+        let mut simulation = simulate(
+            &problem,
+            Stepping {
+                settings,
+                ..stepping(1e-4)
+            },
+        );
         advance(&mut simulation, STEPS);
         simulation.work().passes
     };
     let (extrapolated, previous) = (passes(Start::Extrapolated), passes(Start::Previous));
-    assert!(4 * extrapolated < 3 * previous, "{extrapolated} passes, {previous} from the level before");
+    assert!(
+        4 * extrapolated < 3 * previous,
+        "{extrapolated} passes, {previous} from the level before"
+    );
 }

@@ -1,7 +1,9 @@
 //! Error bars of values whose limit is known: how often they hold the error, alongside the grid convergence index.
 
 use super::laws::LAWS;
-use super::{ALL, CalibrationError, Draw, LEVEL_COUNTS, Row, Share, Sheet, is_declared, row, steps};
+use super::{
+    ALL, CalibrationError, Draw, LEVEL_COUNTS, Row, Share, Sheet, is_declared, row, steps,
+};
 use crate::judge::fit::Level;
 use crate::judge::richardson::{Estimator, Value};
 use crate::judge::verdict::FEWEST_LEVELS;
@@ -37,7 +39,8 @@ impl Bars {
 
     fn row(&self, name: impl Into<String>, declared: bool) -> Row {
         let mut row = row(name, declared, &self.shares);
-        row.values.extend(self.lengths.iter().map(|lengths| median(lengths)));
+        row.values
+            .extend(self.lengths.iter().map(|lengths| median(lengths)));
         row
     }
 }
@@ -65,23 +68,46 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         let count = FEWEST_LEVELS + random.below(LEVEL_COUNTS);
         let table = law.draw_at(&steps(random, count), random);
         let (limit, sign) = (random.within([-1.0, 1.0]), [1.0, -1.0][random.below(2)]);
-        let value = |level: &Level| Value { step: level.step, value: limit + sign * level.error };
+        let value = |level: &Level| Value {
+            step: level.step,
+            value: limit + sign * level.error,
+        };
         let values: Vec<Value> = table.levels.iter().map(value).collect();
         let estimate = estimator.estimate(&values, table.shown);
-        let (bar, index) =
-            (estimate.bar.ok().map(|bar| bar.error_interval), estimate.gci.ok().map(|gci| gci.half_width));
-        let count_in = |bars: &mut Bars| bars.count(bar, index, sign * table.levels[count - 1].error);
+        let (bar, index) = (
+            estimate.bar.ok().map(|bar| bar.error_interval),
+            estimate.gci.ok().map(|gci| gci.half_width),
+        );
+        let count_in =
+            |bars: &mut Bars| bars.count(bar, index, sign * table.levels[count - 1].error);
         count_in(&mut of_laws[k % LAWS.len()]);
         if is_declared(law, &NO_BAR) {
             count_in(&mut of_counts[count - FEWEST_LEVELS]);
             count_in(&mut of_all);
         }
     }
-    let columns = ["refused", "bar holds it", "index holds it", "half-width of the bar", "of the index"];
+    let columns = [
+        "refused",
+        "bar holds it",
+        "index holds it",
+        "half-width of the bar",
+        "of the index",
+    ];
     let title = "Error bars and grid convergence index on values of known limit: how often they hold the true error; half-widths are medians, as shares of it";
-    let laws = LAWS.iter().zip(&of_laws).map(|(law, bars)| bars.row(law.name, is_declared(law, &NO_BAR)));
-    let counts = of_counts.iter().zip(FEWEST_LEVELS..).map(|(bars, count)| bars.row(format!("{count} values"), true));
-    let bars = Sheet::new("bars", title, &columns, laws.chain(counts).chain([of_all.row(ALL, true)]));
+    let laws = LAWS
+        .iter()
+        .zip(&of_laws)
+        .map(|(law, bars)| bars.row(law.name, is_declared(law, &NO_BAR)));
+    let counts = of_counts
+        .iter()
+        .zip(FEWEST_LEVELS..)
+        .map(|(bars, count)| bars.row(format!("{count} values"), true));
+    let bars = Sheet::new(
+        "bars",
+        title,
+        &columns,
+        laws.chain(counts).chain([of_all.row(ALL, true)]),
+    );
     Ok(vec![bars, noise(&estimator, 10 * tables, &mut draw)?])
 }
 
@@ -94,7 +120,10 @@ fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet,
             let random = draw.next()?;
             let mut value = |k: usize| {
                 let step = 0.5_f64.powi(k as i32 + 1);
-                Value { step, value: 1.0 + step * step * (1.0 + 0.02 * random.normal()) }
+                Value {
+                    step,
+                    value: 1.0 + step * step * (1.0 + 0.02 * random.normal()),
+                }
             };
             let values: Vec<Value> = (0..count).map(&mut value).collect();
             let bar = estimator.estimate(&values, 2.0).bar;
@@ -106,7 +135,12 @@ fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet,
         rows.push(row(format!("{count} values"), true, &shares));
     }
     let title = "Limits of values of second order whose errors scatter by 2 %, steps halved";
-    Ok(Sheet::new("noise", title, &["refused", "interval holds the limit"], rows))
+    Ok(Sheet::new(
+        "noise",
+        title,
+        &["refused", "interval holds the limit"],
+        rows,
+    ))
 }
 
 #[cfg(test)]
@@ -117,6 +151,10 @@ mod tests {
     fn a_median_of_nothing_is_none_and_each_law_that_is_excepted_is_a_law() {
         assert!(median(&[]).is_nan());
         assert_eq!(median(&[4.0, 1.0, 2.0]), 2.0);
-        assert!(NO_BAR.iter().all(|name| LAWS.iter().any(|law| law.name == *name)));
+        assert!(
+            NO_BAR
+                .iter()
+                .all(|name| LAWS.iter().any(|law| law.name == *name))
+        );
     }
 }

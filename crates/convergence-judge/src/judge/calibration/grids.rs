@@ -31,7 +31,9 @@ impl Law {
     fn draw(levels: usize, hidden: bool, random: &mut SplitMix) -> Self {
         let mut halved = || {
             let first = [0.5, 0.25, 0.125][random.below(3)];
-            (0..levels).map(|k| first * 0.5_f64.powi(k as i32)).collect::<Vec<f64>>()
+            (0..levels)
+                .map(|k| first * 0.5_f64.powi(k as i32))
+                .collect::<Vec<f64>>()
         };
         let (h, dt) = (halved(), halved());
         let mut order = || ORDERS[random.below(ORDERS.len())];
@@ -66,7 +68,8 @@ impl Law {
     /// The errors, each of them changed.
     fn errors(&self, mut change: impl FnMut(f64) -> f64) -> Vec<f64> {
         let power = |error: f64| error.powf(self.power);
-        let error = |h: f64, dt: f64| (power(self.space(h)) + power(self.time(dt))).powf(1.0 / self.power);
+        let error =
+            |h: f64, dt: f64| (power(self.space(h)) + power(self.time(dt))).powf(1.0 / self.power);
         self.h
             .iter()
             .flat_map(|&h| self.dt.iter().map(move |&dt| (h, dt)))
@@ -76,10 +79,25 @@ impl Law {
 
     /// Both orders, judged by the way of adding that describes the errors better.
     fn judge(&self, errors: &[f64]) -> Result<[RateVerdict; 2], CalibrationError> {
-        let grid = GridErrors { h: &self.h, dt: &self.dt, errors };
+        let grid = GridErrors {
+            h: &self.h,
+            dt: &self.dt,
+            errors,
+        };
         let squares = grid.misfit(Adding::Squares) <= grid.misfit(Adding::Plain);
-        let claims = [self.orders[0] + if self.hidden.is_some() { 1.0 } else { 0.0 }, self.orders[1]];
-        Ok(grid.judge(if squares { Adding::Squares } else { Adding::Plain }, claims, TOLERANCE)?)
+        let claims = [
+            self.orders[0] + if self.hidden.is_some() { 1.0 } else { 0.0 },
+            self.orders[1],
+        ];
+        Ok(grid.judge(
+            if squares {
+                Adding::Squares
+            } else {
+                Adding::Plain
+            },
+            claims,
+            TOLERANCE,
+        )?)
     }
 }
 
@@ -99,15 +117,27 @@ pub fn of_grids(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError
         let (mut draw, mut shares) = (Draw::new(seed), [Share::default(); 9]);
         for _ in 0..tables {
             let random = draw.next()?;
-            let (law, hidden) = (Law::draw(levels, false, random), Law::draw(levels, true, random));
-            let size = random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
+            let (law, hidden) = (
+                Law::draw(levels, false, random),
+                Law::draw(levels, true, random),
+            );
+            let size =
+                random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
             let sound = law.errors(|error| error);
             let constant = size * sound[sound.len() - 1];
             let judged = law.judge(&sound)?;
             shares[0].count(both_pass(&judged));
-            shares[3].count(hidden.judge(&hidden.errors(|error| error))?[0].verdict.is_pass());
-            shares[4].count(both_pass(&law.judge(&law.errors(|error| (error + constant).abs()))?));
-            shares[5].count(both_pass(&law.judge(&law.errors(|error| error.hypot(constant)))?));
+            shares[3].count(
+                hidden.judge(&hidden.errors(|error| error))?[0]
+                    .verdict
+                    .is_pass(),
+            );
+            shares[4].count(both_pass(
+                &law.judge(&law.errors(|error| (error + constant).abs()))?,
+            ));
+            shares[5].count(both_pass(
+                &law.judge(&law.errors(|error| error.hypot(constant)))?,
+            ));
             let noisy = law.judge(&law.errors(|error| error * (0.01 * random.normal()).exp()))?;
             shares[6].count(both_pass(&noisy));
             for (place, rates) in [(1, judged), (7, noisy)] {

@@ -7,15 +7,27 @@ use crate::judge::random::SplitMix;
 
 /// The laws.
 pub const HELD_OUT: [Law; 10] = [
-    held_out("h^p (1 + a s (1 - s)), s the fraction of c/h", Group::Scattered, interface),
+    held_out(
+        "h^p (1 + a s (1 - s)), s the fraction of c/h",
+        Group::Scattered,
+        interface,
+    ),
     held_out("√(h^2p + a² h^(2p+2))", Group::Polluted, two_components),
     held_out("max(h^p, a h^(p+1))", Group::Polluted, two_places),
     held_out("h^p (1 + a exp(-h/h0))", Group::Polluted, layer),
     held_out("tanh((h/h0)^p)", Group::Polluted, bounded),
     held_out("h^p (1 + a h^p)", Group::Polluted, dispersion),
     held_out("(h / (1 - h/n))^p", Group::Polluted, nodes_for_elements),
-    held_out("h^p + b h^(p - d) |log h|", Group::Emerging, lower_order_with_a_logarithm),
-    held_out("h^p + b h^(p - d) |N|", Group::Emerging, lower_order_at_random),
+    held_out(
+        "h^p + b h^(p - d) |log h|",
+        Group::Emerging,
+        lower_order_with_a_logarithm,
+    ),
+    held_out(
+        "h^p + b h^(p - d) |N|",
+        Group::Emerging,
+        lower_order_at_random,
+    ),
     held_out("h^p (1 + 1 % N) + f", Group::Stagnating, noisy_limit),
 ];
 
@@ -65,7 +77,10 @@ fn nodes_for_elements(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64
 }
 
 /// A lower order with a logarithm. The second term is 0.01 to 10 times the first on the finest level.
-fn lower_order_with_a_logarithm(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn lower_order_with_a_logarithm(
+    of: Exponents,
+    random: &mut SplitMix,
+) -> Box<dyn FnMut(f64) -> f64 + '_> {
     let lower = of.order.unwrap_or(of.p);
     let b = of.finest.powf(of.p - lower) / of.finest.ln().abs() * log_uniform([0.01, 10.0], random);
     Box::new(move |h| h.powf(of.p) + b * h.powf(lower) * h.ln().abs())
@@ -103,7 +118,11 @@ mod tests {
                     (Group::Emerging, Some(order)) => assert!(order < table.shown, "{}", law.name),
                     // log h changes by one part in forty: the exponent of the logarithm shows.
                     (Group::Polluted, Some(order)) => {
-                        assert!((finest - order).abs() < 0.05, "{}: {finest} {order}", law.name);
+                        assert!(
+                            (finest - order).abs() < 0.05,
+                            "{}: {finest} {order}",
+                            law.name
+                        );
                     }
                     (Group::Scattered, Some(order)) => {
                         let mean = (table.levels[0].error / table.levels[59].error).log2() / 59.0;

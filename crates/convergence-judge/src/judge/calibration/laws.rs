@@ -12,10 +12,16 @@ use crate::judge::fit::Level;
 use crate::judge::random::SplitMix;
 
 /// 3 to 12 levels, ratios 1.1 to 4: what papers use, sound or not.
-pub const WIDE: Meshes = Meshes { levels: &[3, 4, 5, 6, 8, 12], ratios: &[1.1, 1.3, 2.0, 4.0] };
+pub const WIDE: Meshes = Meshes {
+    levels: &[3, 4, 5, 6, 8, 12],
+    ratios: &[1.1, 1.3, 2.0, 4.0],
+};
 
 /// 4 to 8 levels, ratios 1.5 to 3: what a convergence study should have.
-pub const USUAL: Meshes = Meshes { levels: &[4, 5, 6, 8], ratios: &[1.5, 2.0, 3.0] };
+pub const USUAL: Meshes = Meshes {
+    levels: &[4, 5, 6, 8],
+    ratios: &[1.5, 2.0, 3.0],
+};
 
 /// All combinations of numbers of levels and step ratios.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +35,9 @@ pub struct Meshes {
 impl Meshes {
     /// Each number of levels with each ratio, which runs faster.
     pub fn each(self) -> impl Iterator<Item = (usize, f64)> {
-        self.levels.iter().flat_map(move |&levels| self.ratios.iter().map(move |&ratio| (levels, ratio)))
+        self.levels
+            .iter()
+            .flat_map(move |&levels| self.ratios.iter().map(move |&ratio| (levels, ratio)))
     }
 }
 
@@ -70,13 +78,20 @@ enum Shape {
     /// h^p + b h^(p - d), d = 1/2 or 1; the second term is 0.01 to 10 times the first on the finest level.
     LowerOrder,
     /// An error that does not tend to zero: of [h, H], h^p and f, f being a share of H^p and H the finest step.
-    Stagnating { share: [f64; 2], error: fn([f64; 2], f64, f64) -> f64 },
+    Stagnating {
+        share: [f64; 2],
+        error: fn([f64; 2], f64, f64) -> f64,
+    },
     /// h^p / (h + h0)^g, g in [0.25, 1]
     Shifted,
     /// x / (1 + x), x = (h / h0)^p
     Saturated,
     /// h^p exp(σ h^s N)
-    Noise { sigma: f64, a: [f64; 2], s: [f64; 2] },
+    Noise {
+        sigma: f64,
+        a: [f64; 2],
+        s: [f64; 2],
+    },
     /// h^p, except that one level is up to 3 times too large or too small.
     Outlier,
     /// A law of another file.
@@ -96,45 +111,119 @@ const fn polluted(name: &'static str, a: [f64; 2], r: [f64; 2]) -> Law {
     law(name, Group::Polluted, Shape::Pollution { a, r })
 }
 
-const fn stagnating(name: &'static str, share: [f64; 2], error: fn([f64; 2], f64, f64) -> f64) -> Law {
+const fn stagnating(
+    name: &'static str,
+    share: [f64; 2],
+    error: fn([f64; 2], f64, f64) -> f64,
+) -> Law {
     law(name, Group::Stagnating, Shape::Stagnating { share, error })
 }
 
 const fn noisy(name: &'static str, sigma: f64) -> Law {
-    law(name, Group::Scattered, Shape::Noise { sigma, a: [0.0, 0.0], s: [0.0, 0.0] })
+    law(
+        name,
+        Group::Scattered,
+        Shape::Noise {
+            sigma,
+            a: [0.0, 0.0],
+            s: [0.0, 0.0],
+        },
+    )
 }
 
 /// The laws.
 pub const LAWS: [Law; 29] = [
     polluted("h^p", [0.0, 0.0], [1.0, 1.0]),
-    polluted("h^p |1 + a h^r|, r 1 to 4, |a| < 0.5", [-0.5, 0.5], [1.0, 4.0]),
-    polluted("h^p |1 + a h^r|, r 0.5 to 1, |a| < 0.5", [-0.5, 0.5], [0.5, 1.0]),
-    polluted("h^p |1 + a h^r|, r 0.25 to 0.5, |a| < 0.5", [-0.5, 0.5], [0.25, 0.5]),
-    polluted("h^p (1 + a h^(1/3)), a 0.5 to 3", [0.5, 3.0], [1.0 / 3.0, 1.0 / 3.0]),
+    polluted(
+        "h^p |1 + a h^r|, r 1 to 4, |a| < 0.5",
+        [-0.5, 0.5],
+        [1.0, 4.0],
+    ),
+    polluted(
+        "h^p |1 + a h^r|, r 0.5 to 1, |a| < 0.5",
+        [-0.5, 0.5],
+        [0.5, 1.0],
+    ),
+    polluted(
+        "h^p |1 + a h^r|, r 0.25 to 0.5, |a| < 0.5",
+        [-0.5, 0.5],
+        [0.25, 0.5],
+    ),
+    polluted(
+        "h^p (1 + a h^(1/3)), a 0.5 to 3",
+        [0.5, 3.0],
+        [1.0 / 3.0, 1.0 / 3.0],
+    ),
     polluted("h^p (1 + a h), a 1 to 30", [1.0, 30.0], [1.0, 1.0]),
     polluted("h^p (1 + a h^2), a 1 to 100", [1.0, 100.0], [2.0, 2.0]),
     polluted("h^p |1 - a h^r|, a 1 to 30", [-30.0, -1.0], [0.5, 2.0]),
     law("h^p (L - log h)^k", Group::Polluted, Shape::Logarithm),
-    law("h^p (1 ± a), odd and even", Group::Scattered, Shape::OddEven),
-    law("h^p (1 + a h^r cos), r 0.5 to 2", Group::Polluted, Shape::Oscillation { r: [0.5, 2.0] }),
-    law("h^p (1 + a cos)", Group::Scattered, Shape::Oscillation { r: [0.0, 0.0] }),
-    law("h^p + b h^(p - 1/2 or 1)", Group::Emerging, Shape::LowerOrder),
-    stagnating("h^p + f, f 1 to 100 H^p", [1.0, 100.0], |_, power, f| power + f),
-    stagnating("h^p + f, f 0.01 to 1 H^p", [0.01, 1.0], |_, power, f| power + f),
+    law(
+        "h^p (1 ± a), odd and even",
+        Group::Scattered,
+        Shape::OddEven,
+    ),
+    law(
+        "h^p (1 + a h^r cos), r 0.5 to 2",
+        Group::Polluted,
+        Shape::Oscillation { r: [0.5, 2.0] },
+    ),
+    law(
+        "h^p (1 + a cos)",
+        Group::Scattered,
+        Shape::Oscillation { r: [0.0, 0.0] },
+    ),
+    law(
+        "h^p + b h^(p - 1/2 or 1)",
+        Group::Emerging,
+        Shape::LowerOrder,
+    ),
+    stagnating("h^p + f, f 1 to 100 H^p", [1.0, 100.0], |_, power, f| {
+        power + f
+    }),
+    stagnating("h^p + f, f 0.01 to 1 H^p", [0.01, 1.0], |_, power, f| {
+        power + f
+    }),
     stagnating("|h^p - f|", [0.01, 0.9], |_, power, f| (power - f).abs()),
     stagnating("√(h^2p + f²)", [0.1, 10.0], |_, power, f| power.hypot(f)),
     stagnating("max(h^p, f)", [0.1, 10.0], |_, power, f| power.max(f)),
-    stagnating("h^p + f/h²", [0.1, 10.0], |[h, finest], power, f| power + f * finest.powi(2) / (h * h)),
+    stagnating("h^p + f/h²", [0.1, 10.0], |[h, finest], power, f| {
+        power + f * finest.powi(2) / (h * h)
+    }),
     law("h^p / (h + h0)^g", Group::Polluted, Shape::Shifted),
-    law("x / (1 + x), x = (h/h0)^p", Group::Polluted, Shape::Saturated),
+    law(
+        "x / (1 + x), x = (h/h0)^p",
+        Group::Polluted,
+        Shape::Saturated,
+    ),
     noisy("noise 0.1 %", 0.001),
     noisy("noise 1 %", 0.01),
     noisy("noise 3 %", 0.03),
     noisy("noise 10 %", 0.1),
     noisy("noise 30 %", 0.3),
-    law("pollution, noise 1 %", Group::Scattered, Shape::Noise { sigma: 0.01, a: [-0.5, 0.5], s: [0.0, 0.0] }),
-    law("one outlier, up to a factor of 3", Group::Scattered, Shape::Outlier),
-    law("noise 3 to 30 % that fades", Group::Scattered, Shape::Noise { sigma: 0.1, a: [0.0, 0.0], s: [0.5, 2.0] }),
+    law(
+        "pollution, noise 1 %",
+        Group::Scattered,
+        Shape::Noise {
+            sigma: 0.01,
+            a: [-0.5, 0.5],
+            s: [0.0, 0.0],
+        },
+    ),
+    law(
+        "one outlier, up to a factor of 3",
+        Group::Scattered,
+        Shape::Outlier,
+    ),
+    law(
+        "noise 3 to 30 % that fades",
+        Group::Scattered,
+        Shape::Noise {
+            sigma: 0.1,
+            a: [0.0, 0.0],
+            s: [0.5, 2.0],
+        },
+    ),
 ];
 
 /// A sequence of errors with its true order.
@@ -167,13 +256,24 @@ impl Law {
             order = None;
         }
         let mut error = self.shape.draw(shown, order, steps, random);
-        let levels = steps.iter().map(|&step| Level { step, error: error(step) }).collect();
-        Table { levels, shown, order }
+        let levels = steps
+            .iter()
+            .map(|&step| Level {
+                step,
+                error: error(step),
+            })
+            .collect();
+        Table {
+            levels,
+            shown,
+            order,
+        }
     }
 }
 
 /// Draws the numbers of a law; the error is a function of the step, to be called once for each step, coarsest first.
-pub(super) type Formula = for<'a> fn(Exponents, &'a mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + 'a>;
+pub(super) type Formula =
+    for<'a> fn(Exponents, &'a mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + 'a>;
 
 /// The numbers that are the same for all levels of a table of a held-out law.
 #[derive(Debug, Clone, Copy)]
@@ -216,9 +316,15 @@ impl Shape {
                 })
             }
             Self::Oscillation { r } => {
-                let (a, r, frequency) = (random.within([0.05, 0.5]), random.within(r), random.within([1.0, 8.0]));
+                let (a, r, frequency) = (
+                    random.within([0.05, 0.5]),
+                    random.within(r),
+                    random.within([1.0, 8.0]),
+                );
                 let phase = random.within([0.0, std::f64::consts::TAU]);
-                Box::new(move |h| h.powf(p) * (1.0 + a * h.powf(r) * (phase + frequency * h.ln()).cos()))
+                Box::new(move |h| {
+                    h.powf(p) * (1.0 + a * h.powf(r) * (phase + frequency * h.ln()).cos())
+                })
             }
             Self::LowerOrder => {
                 let lower = p - order.unwrap_or(p);
@@ -230,7 +336,10 @@ impl Shape {
                 Box::new(move |h| error([h, finest], h.powf(p), f))
             }
             Self::Shifted => {
-                let (h0, g) = (log_uniform([finest, 1.0], random), random.within([0.25, 1.0]));
+                let (h0, g) = (
+                    log_uniform([finest, 1.0], random),
+                    random.within([0.25, 1.0]),
+                );
                 Box::new(move |h| h.powf(p) / (h + h0).powf(g))
             }
             Self::Saturated => {
@@ -238,12 +347,25 @@ impl Shape {
                 Box::new(move |h| saturated((h / h0).powf(p)))
             }
             Self::Noise { sigma, a, s } => {
-                let (a, r, s) = (random.within(a), random.within([1.0, 4.0]), random.within(s));
-                let sigma = if s > 0.0 { sigma * log_uniform([0.3, 3.0], random) } else { sigma };
-                Box::new(move |h| h.powf(p) * (1.0 + a * h.powf(r)) * (sigma * h.powf(s) * random.normal()).exp())
+                let (a, r, s) = (
+                    random.within(a),
+                    random.within([1.0, 4.0]),
+                    random.within(s),
+                );
+                let sigma = if s > 0.0 {
+                    sigma * log_uniform([0.3, 3.0], random)
+                } else {
+                    sigma
+                };
+                Box::new(move |h| {
+                    h.powf(p) * (1.0 + a * h.powf(r)) * (sigma * h.powf(s) * random.normal()).exp()
+                })
             }
             Self::Outlier => {
-                let (wrong, factor) = (steps[random.below(steps.len())], log_uniform([1.0 / 3.0, 3.0], random));
+                let (wrong, factor) = (
+                    steps[random.below(steps.len())],
+                    log_uniform([1.0 / 3.0, 3.0], random),
+                );
                 Box::new(move |h| h.powf(p) * if h == wrong { factor } else { 1.0 })
             }
             Self::HeldOut(formula) => formula(Exponents { p, order, finest }, random),
@@ -271,7 +393,11 @@ pub const HIDDEN_SHARES: [f64; 5] = [0.05, 0.07, 0.10, 0.15, 0.20];
 pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> Table {
     let p = random.within([1.0, 4.0]);
     let (q, sign) = [(0.0, 1.0), (0.0, -1.0), (p - 1.0, 1.0), (p - 0.5, 1.0)][random.below(4)];
-    let a = if random.below(2) == 0 { 0.0 } else { random.within([-0.5, 0.5]) };
+    let a = if random.below(2) == 0 {
+        0.0
+    } else {
+        random.within([-0.5, 0.5])
+    };
     let r = random.within([1.0, 4.0]);
     let finest = 0.5_f64.powi(levels as i32 - 1);
     let main = |h: f64| h.powf(p) * (1.0 + a * h.powf(r));
@@ -279,9 +405,16 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
     let b = sign * main(finest) * share / (1.0 - sign * share) / finest.powf(q);
     let level = |k: usize| {
         let step = 0.5_f64.powi(k as i32);
-        Level { step, error: main(step) + b * step.powf(q) }
+        Level {
+            step,
+            error: main(step) + b * step.powf(q),
+        }
     };
-    Table { levels: (0..levels).map(level).collect(), shown: p, order: (q > 0.0).then_some(q) }
+    Table {
+        levels: (0..levels).map(level).collect(),
+        shown: p,
+        order: (q > 0.0).then_some(q),
+    }
 }
 
 /// Eight errors of second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`: a in [-0.9, 3], r = 1 or 2, f from 1 to 90 % of the finest error.
@@ -305,7 +438,16 @@ pub(crate) fn three_terms(random: &mut SplitMix) -> Table {
 
 fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
     let steps = (0..8).map(|k| 0.5_f64.powi(k));
-    Table { levels: steps.map(|step| Level { step, error: error(step) }).collect(), shown, order }
+    Table {
+        levels: steps
+            .map(|step| Level {
+                step,
+                error: error(step),
+            })
+            .collect(),
+        shown,
+        order,
+    }
 }
 
 #[cfg(test)]
@@ -322,9 +464,13 @@ mod tests {
                 let rates = pairwise_rates(&table.levels);
                 // Without other pollution (half of the tables), the first rate is p except for what is left of the term there.
                 assert!(
-                    table.levels.iter().all(|level| level.error > 0.0) && rates.iter().all(|rate| rate.is_finite())
+                    table.levels.iter().all(|level| level.error > 0.0)
+                        && rates.iter().all(|rate| rate.is_finite())
                 );
-                assert!((rates[6] - table.shown).abs() > 0.01 * share, "{share} leaves a trace: {rates:?}");
+                assert!(
+                    (rates[6] - table.shown).abs() > 0.01 * share,
+                    "{share} leaves a trace: {rates:?}"
+                );
                 assert!(table.order.is_none_or(|order| order < table.shown));
             }
         }
@@ -337,12 +483,18 @@ mod tests {
             let table = wrong_limit(&mut random);
             assert!(table.levels.len() == 8 && table.order.is_none() && table.shown == 2.0);
             let rates = pairwise_rates(&three_terms(&mut random).levels);
-            assert!(rates.len() == 7 && rates.iter().all(|rate| rate.is_finite()), "{rates:?}");
+            assert!(
+                rates.len() == 7 && rates.iter().all(|rate| rate.is_finite()),
+                "{rates:?}"
+            );
         }
     }
 
     #[test]
     fn the_meshes_are_all_combinations() {
-        assert_eq!((WIDE.each().count(), USUAL.each().count(), LAWS.len()), (24, 12, 29));
+        assert_eq!(
+            (WIDE.each().count(), USUAL.each().count(), LAWS.len()),
+            (24, 12, 29)
+        );
     }
 }

@@ -57,18 +57,38 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         FACTOR_OF_THREE * change / apart
     } else {
         let polluted = |r: f64| {
-            let column = centred(&x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect::<Vec<_>>());
-            Line::fit(&project_out(&column, &log_h), &project_out(&column, &log_e), round_off, Some(r))
+            let column = centred(
+                &x.iter()
+                    .map(|x_k| (r * (x_k - x[0])).exp())
+                    .collect::<Vec<_>>(),
+            );
+            Line::fit(
+                &project_out(&column, &log_h),
+                &project_out(&column, &log_e),
+                round_off,
+                Some(r),
+            )
         };
         line = line.or_clearly_better(POLLUTION_EXPONENTS.map(polluted));
         let of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
         let correction = ((line.rate - finest_rate).abs() - of_pair).max(0.0);
         FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction)
     };
-    let Line { rate, pollution, dof, variance, .. } = line;
+    let Line {
+        rate,
+        pollution,
+        dof,
+        variance,
+        ..
+    } = line;
     let is_regular = rate.is_finite() && half.is_finite();
     let scatter = student_t(dof) * variance.sqrt();
-    is_regular.then_some(RateInterval { rate, pollution, interval: [rate - half, rate + half], scatter })
+    is_regular.then_some(RateInterval {
+        rate,
+        pollution,
+        interval: [rate - half, rate + half],
+        scatter,
+    })
 }
 
 /// One model of the logarithms: `y = a + q x`, or `y = a + q x + c (h / h_1)^r`.
@@ -95,14 +115,21 @@ impl Line {
         let rate = dot(x, y) / square;
         let rest = project_out(x, y);
         let variance = dot(&rest, &rest) / dof as f64 + round_off.powi(2);
-        Self { pollution, rate, dof, variance, square }
+        Self {
+            pollution,
+            rate,
+            dof,
+            variance,
+            square,
+        }
     }
 
     /// The best of the others if it is [`CLEARLY_BETTER`] than this one.
     fn or_clearly_better(self, others: [Self; 5]) -> Self {
         let rss = |line: &Self| line.variance * line.dof as f64;
         let best = others.into_iter().min_by(|a, b| rss(a).total_cmp(&rss(b)));
-        best.filter(|best| CLEARLY_BETTER * rss(best) < rss(&self)).unwrap_or(self)
+        best.filter(|best| CLEARLY_BETTER * rss(best) < rss(&self))
+            .unwrap_or(self)
     }
 }
 
@@ -118,5 +145,9 @@ fn centred(values: &[f64]) -> Vec<f64> {
 /// The values without their projection on `direction`.
 fn project_out(direction: &[f64], values: &[f64]) -> Vec<f64> {
     let factor = dot(values, direction) / dot(direction, direction);
-    values.iter().zip(direction).map(|(value, along)| value - factor * along).collect()
+    values
+        .iter()
+        .zip(direction)
+        .map(|(value, along)| value - factor * along)
+        .collect()
 }

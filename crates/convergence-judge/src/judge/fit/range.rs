@@ -24,10 +24,17 @@ pub const SPREAD: f64 = 0.55;
 /// The range may end up shorter than any fit needs; the judge deals with that. Errors must be positive and finite: a
 /// NaN rate drops every level before it.
 pub fn asymptotic_range(levels: &[Level], floor: f64) -> Range<usize> {
-    let end = levels.iter().rposition(|level| level.error > floor).map_or(0, |finest| finest + 1);
+    let end = levels
+        .iter()
+        .rposition(|level| level.error > floor)
+        .map_or(0, |finest| finest + 1);
     let rates = pairwise_rates(&levels[..end]);
     let finest = rates.last().copied().unwrap_or(f64::NAN);
-    let near = rates.iter().rev().take(MOST_USED - 1).take_while(|rate| (**rate - finest).abs() <= SPREAD);
+    let near = rates
+        .iter()
+        .rev()
+        .take(MOST_USED - 1)
+        .take_while(|rate| (**rate - finest).abs() <= SPREAD);
     rates.len() - near.count()..end
 }
 
@@ -40,7 +47,13 @@ pub(crate) fn changes(rates: &[f64]) -> Vec<f64> {
 ///
 /// Pollution, plateaus and terms of another order change the rates one way and have a scatter of zero; noise changes them to and fro.
 pub fn scatter(rates: &[f64]) -> f64 {
-    let cancelled = |pair: &[f64]| if pair[0] * pair[1] < 0.0 { pair[0].abs().min(pair[1].abs()) } else { 0.0 };
+    let cancelled = |pair: &[f64]| {
+        if pair[0] * pair[1] < 0.0 {
+            pair[0].abs().min(pair[1].abs())
+        } else {
+            0.0
+        }
+    };
     changes(rates).windows(2).map(cancelled).fold(0.0, f64::max)
 }
 

@@ -45,7 +45,9 @@ pub enum Refusal {
     #[error("the values of two neighbouring levels do not differ")]
     NoChange,
     /// The finest difference is at round-off.
-    #[error("the finest values differ by {difference:.1e}, no more than the round-off floor of {floor:.1e}")]
+    #[error(
+        "the finest values differ by {difference:.1e}, no more than the round-off floor of {floor:.1e}"
+    )]
     RoundOff {
         /// Size of the finest difference.
         difference: f64,
@@ -107,7 +109,10 @@ impl Estimator {
     /// # Errors
     /// [`JudgeError`] for a meaningless tolerance.
     pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
-        Ok(Self { judge: Judge::new(tolerance)?, floor: None })
+        Ok(Self {
+            judge: Judge::new(tolerance)?,
+            floor: None,
+        })
     }
 
     /// Differences up to this floor are not used. The default is [`FLOOR_MARGIN`] times 1e-13 of the largest value.
@@ -118,17 +123,28 @@ impl Estimator {
     /// [`JudgeError::Floor`] for a negative or infinite one.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         let judge = self.judge.clone().with_floor(floor)?;
-        Ok(Self { judge, floor: Some(floor) })
+        Ok(Self {
+            judge,
+            floor: Some(floor),
+        })
     }
 
     /// Estimates the error of the finest of the values, coarsest first.
     ///
     /// * `order`: claimed by theory.
     pub fn estimate(&self, values: &[Value], order: f64) -> Estimate {
-        let largest = values.iter().map(|level| level.value.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let largest = values
+            .iter()
+            .map(|level| level.value.abs())
+            .filter(|size| size.is_finite())
+            .fold(0.0, f64::max);
         let floor = self.floor.unwrap_or(FLOOR_MARGIN * ROUND_OFF * largest);
         // A finite number >= 0, which no judge refuses.
-        let judge = self.judge.clone().with_floor(floor).unwrap_or_else(|_| self.judge.clone());
+        let judge = self
+            .judge
+            .clone()
+            .with_floor(floor)
+            .unwrap_or_else(|_| self.judge.clone());
         let levels = differences(&judge, values, order);
         let reading = judge.read(&levels);
         let judged = judge.judge_read(&reading, order);
@@ -147,18 +163,25 @@ impl Estimator {
     pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
         let judged = self.estimate(values, f64::NAN).judged;
         let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
-        Estimate { judged, ..self.estimate(values, observed) }
+        Estimate {
+            judged,
+            ..self.estimate(values, observed)
+        }
     }
 }
 
 /// Whether there is a difference to extrapolate from.
 fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
     let step_usable = |level: &Value| level.step > 0.0 && level.step.is_finite();
-    let [.., before, finest] = values else { return Err(Refusal::TooFewValues(values.len())) };
+    let [.., before, finest] = values else {
+        return Err(Refusal::TooFewValues(values.len()));
+    };
     let difference = (before.value - finest.value).abs();
     if values.iter().any(|level| !level.value.is_finite()) {
         Err(Refusal::NotFinite)
-    } else if !values.iter().all(step_usable) || values.windows(2).any(|pair| pair[1].step >= pair[0].step) {
+    } else if !values.iter().all(step_usable)
+        || values.windows(2).any(|pair| pair[1].step >= pair[0].step)
+    {
         Err(Refusal::Steps)
     } else if values.len() < FEWEST_LEVELS {
         Err(Refusal::TooFewValues(values.len()))
@@ -174,21 +197,36 @@ fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
 /// The differences as if all ratios equalled the last one, each at the finer of its steps; see the [module](super).
 pub(super) fn reduced(values: &[Value], rate: f64) -> Vec<Level> {
     let ratio = |pair: &[Value]| pair[0].step / pair[1].step;
-    let Some(last) = values.windows(2).last().map(ratio) else { return vec![] };
+    let Some(last) = values.windows(2).last().map(ratio) else {
+        return vec![];
+    };
     let level = |pair: &[Value]| {
         let here = ratio(pair);
         let same = (here / last - 1.0).abs() <= SAME_RATIO;
-        let factor = if same { 1.0 } else { growth(last, rate) / growth(here, rate) };
-        Level { step: pair[1].step, error: (pair[0].value - pair[1].value).abs() * factor }
+        let factor = if same {
+            1.0
+        } else {
+            growth(last, rate) / growth(here, rate)
+        };
+        Level {
+            step: pair[1].step,
+            error: (pair[0].value - pair[1].value).abs() * factor,
+        }
     };
     values.windows(2).map(level).collect()
 }
 
 /// The reduced differences, reduced with the rate that they then have.
 fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
-    let ratios: Vec<f64> = values.windows(2).map(|pair| pair[0].step / pair[1].step).collect();
+    let ratios: Vec<f64> = values
+        .windows(2)
+        .map(|pair| pair[0].step / pair[1].step)
+        .collect();
     let start = if order > 0.0 { order } else { 1.0 };
-    if ratios.windows(2).all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO) {
+    if ratios
+        .windows(2)
+        .all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO)
+    {
         return reduced(values, start);
     }
     let excess = |rate: f64| Some(judge.read(&reduced(values, rate)).fit?.rate - rate);
@@ -196,7 +234,10 @@ fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
 }
 
 /// The zero of a function that falls from above zero to below it, by false position (Illinois); `None` if it has no value.
-pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64; 2]) -> Option<f64> {
+pub(crate) fn crossing(
+    f: impl Fn(f64) -> Option<f64>,
+    [mut low, mut high]: [f64; 2],
+) -> Option<f64> {
     let (mut above, mut below) = (f(low)?, f(high)?);
     let mut middle = low;
     for _ in 0..60 {
@@ -218,7 +259,11 @@ pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, [mut low, mut high]: [f64
 /// Whether the interval of the rule means something: its reason may concern the claim, but not the levels.
 fn asymptotic(reason: Reason) -> Result<(), Refusal> {
     match reason {
-        Reason::Agrees | Reason::TooLow | Reason::TooHigh | Reason::IntervalTooWide | Reason::AtTheEdge => Ok(()),
+        Reason::Agrees
+        | Reason::TooLow
+        | Reason::TooHigh
+        | Reason::IntervalTooWide
+        | Reason::AtTheEdge => Ok(()),
         Reason::ErrorGrows => Err(Refusal::Diverging),
         Reason::ZeroError => Err(Refusal::NoChange),
         other => Err(Refusal::NotAsymptotic(other)),
@@ -227,17 +272,29 @@ fn asymptotic(reason: Reason) -> Result<(), Refusal> {
 
 /// Observed rate and its interval, for differences that fall as the rule requires, without a change of sign.
 fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refusal> {
-    let differences: Vec<f64> = values.windows(2).map(|pair| pair[0].value - pair[1].value).collect();
-    let one_sign = |differences: &[f64]| differences.windows(2).all(|pair| pair[0] * pair[1] >= 0.0);
+    let differences: Vec<f64> = values
+        .windows(2)
+        .map(|pair| pair[0].value - pair[1].value)
+        .collect();
+    let one_sign =
+        |differences: &[f64]| differences.windows(2).all(|pair| pair[0] * pair[1] >= 0.0);
     if !one_sign(&differences[differences.len() - 2..]) {
         return Err(Refusal::Oscillating);
     }
     let Some(interval) = judged.interval else {
         if values.len() > FEWEST_LEVELS {
-            return Err(asymptotic(judged.kind).err().unwrap_or(Refusal::NotAsymptotic(judged.kind)));
+            return Err(asymptotic(judged.kind)
+                .err()
+                .unwrap_or(Refusal::NotAsymptotic(judged.kind)));
         }
         let (rate, order) = (observed_order(values)?, judged.order);
-        return Ok((rate, [rate.min(order) - DOUBT_OF_A_SINGLE_RATE, rate.max(order) + DOUBT_OF_A_SINGLE_RATE]));
+        return Ok((
+            rate,
+            [
+                rate.min(order) - DOUBT_OF_A_SINGLE_RATE,
+                rate.max(order) + DOUBT_OF_A_SINGLE_RATE,
+            ],
+        ));
     };
     asymptotic(judged.kind)?;
     if !one_sign(&differences[judged.used.clone()]) {
@@ -248,7 +305,12 @@ fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refus
 
 /// * `scatter`: of the logarithm of the last difference, at the confidence of the interval.
 /// * `round_off`: of a value.
-fn bar(values: &[Value], judged: &RateVerdict, scatter: f64, round_off: f64) -> Result<Bar, Refusal> {
+fn bar(
+    values: &[Value],
+    judged: &RateVerdict,
+    scatter: f64,
+    round_off: f64,
+) -> Result<Bar, Refusal> {
     let (rate, rate_interval) = rate(values, judged)?;
     if rate_interval[0] <= 0.0 {
         return Err(Refusal::RateMayBeZero(rate_interval[0]));
@@ -264,7 +326,21 @@ fn bar(values: &[Value], judged: &RateVerdict, scatter: f64, round_off: f64) -> 
     let least = size(rate_interval[1]) * (-scatter).exp() - rounding;
     let most = size(rate_interval[0]) * scatter.exp() + rounding;
     let error = size(rate).copysign(difference);
-    let error_interval = if difference > 0.0 { [least, most] } else { [-most, -least] };
-    let limit = [finest.value - error_interval[1], finest.value - error_interval[0]];
-    Ok(Bar { rate, rate_interval, error, error_interval, extrapolated: finest.value - error, limit })
+    let error_interval = if difference > 0.0 {
+        [least, most]
+    } else {
+        [-most, -least]
+    };
+    let limit = [
+        finest.value - error_interval[1],
+        finest.value - error_interval[0],
+    ];
+    Ok(Bar {
+        rate,
+        rate_interval,
+        error,
+        error_interval,
+        extrapolated: finest.value - error,
+        limit,
+    })
 }

@@ -44,19 +44,31 @@ impl Cause {
     ///
     /// * `doubt`: the share of the error at a level that its digits leave open.
     pub fn of(levels: &[Level], order: f64, doubt: impl Fn(usize) -> f64) -> Option<Self> {
-        let usable = |level: &Level| level.error > 0.0 && level.error.is_finite() && level.step > 0.0;
+        let usable =
+            |level: &Level| level.error > 0.0 && level.error.is_finite() && level.step > 0.0;
         let first = levels.first()?.step;
-        if !EXPLAINED_LEVELS.contains(&levels.len()) || !levels.iter().all(usable) || !order.is_finite() {
+        if !EXPLAINED_LEVELS.contains(&levels.len())
+            || !levels.iter().all(usable)
+            || !order.is_finite()
+        {
             return None;
         }
         // In units of h^p: a + b x(h).
-        let heights: Vec<f64> = levels.iter().map(|level| level.error / (level.step / first).powf(order)).collect();
+        let heights: Vec<f64> = levels
+            .iter()
+            .map(|level| level.error / (level.step / first).powf(order))
+            .collect();
         let allowed = |k: usize, unit: f64| EXPLAINED * unit + doubt(k) * heights[k];
-        let logarithms: Vec<f64> = levels.iter().map(|level| (first / level.step).ln()).collect();
+        let logarithms: Vec<f64> = levels
+            .iter()
+            .map(|level| (first / level.step).ln())
+            .collect();
         let [_, slope] = line(&logarithms, &heights);
         let highest = heights.iter().copied().fold(0.0, f64::max);
         let change = slope * logarithms[levels.len() - 1];
-        if change > LEAST_CHANGE * highest && explains(&logarithms, &heights, |k| allowed(k, highest)) {
+        if change > LEAST_CHANGE * highest
+            && explains(&logarithms, &heights, |k| allowed(k, highest))
+        {
             return Some(Self::Logarithm);
         }
         let changes_sign = |r: f64| {
@@ -68,7 +80,10 @@ impl Cause {
                 explains(&powers, &signed, |k| allowed(k, constant))
             })
         };
-        POLLUTION_EXPONENTS.into_iter().any(changes_sign).then_some(Self::SignChange)
+        POLLUTION_EXPONENTS
+            .into_iter()
+            .any(changes_sign)
+            .then_some(Self::SignChange)
     }
 }
 
@@ -77,7 +92,12 @@ fn line(x: &[f64], heights: &[f64]) -> [f64; 2] {
     let count = x.len() as f64;
     let [mean_x, mean] = [x, heights].map(|values| values.iter().sum::<f64>() / count);
     let square: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();
-    let slope = x.iter().zip(heights).map(|(x, height)| (x - mean_x) * (height - mean)).sum::<f64>() / square;
+    let slope = x
+        .iter()
+        .zip(heights)
+        .map(|(x, height)| (x - mean_x) * (height - mean))
+        .sum::<f64>()
+        / square;
     [mean - slope * mean_x, slope]
 }
 
@@ -94,7 +114,12 @@ mod tests {
 
     fn cause(count: i32, first: f64, order: f64, error: impl Fn(f64) -> f64) -> Option<Cause> {
         let steps = (0..count).map(|k| first * 0.5_f64.powi(k));
-        let levels: Vec<Level> = steps.map(|step| Level { step, error: error(step).abs() }).collect();
+        let levels: Vec<Level> = steps
+            .map(|step| Level {
+                step,
+                error: error(step).abs(),
+            })
+            .collect();
         Cause::of(&levels, order, |_| 0.0)
     }
 
@@ -102,7 +127,11 @@ mod tests {
     fn errors_that_change_their_sign_and_logarithms_are_recognised_with_their_order_alone() {
         for (count, first, factor) in [(4, 0.1, 24.2), (5, 0.1, 125.0)] {
             let error = |h: f64| h * h - factor * h.powi(3);
-            assert_eq!(cause(count, first, 2.0, error), Some(Cause::SignChange), "{factor}");
+            assert_eq!(
+                cause(count, first, 2.0, error),
+                Some(Cause::SignChange),
+                "{factor}"
+            );
             assert_eq!(cause(count, first, 1.5, error), None, "{factor}");
         }
         let logarithm = |h: f64| h * h * h.ln();
@@ -129,7 +158,9 @@ mod tests {
 
     #[test]
     fn digits_that_are_missing_explain_as_much_as_they_may() {
-        let levels = [0.0142, 5.25e-4, 2.47e-4, 1.09e-4].iter().zip([0.1, 0.05, 0.025, 0.0125]);
+        let levels = [0.0142, 5.25e-4, 2.47e-4, 1.09e-4]
+            .iter()
+            .zip([0.1, 0.05, 0.025, 0.0125]);
         let levels: Vec<Level> = levels.map(|(&error, step)| Level { step, error }).collect();
         assert_eq!(Cause::of(&levels, 2.0, |_| 0.005), Some(Cause::SignChange));
     }

@@ -8,7 +8,8 @@ use super::reason::Reason;
 use super::words::{Aside, SetAside, Verdict};
 use crate::text::json::{nan, nan_pair, nans};
 use crate::text::number::{
-    RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text, plain_text,
+    RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text,
+    plain_text,
 };
 
 /// `error = constant · step^rate`, a straight line in a figure with logarithmic axes.
@@ -81,7 +82,10 @@ pub struct RateVerdict {
 impl RateVerdict {
     /// The rate with its constant, as a curve through the finest error used; `None` without a rate.
     pub fn power_law(&self) -> Option<PowerLaw> {
-        Some(PowerLaw { rate: self.fitted?, constant: self.constant? })
+        Some(PowerLaw {
+            rate: self.fitted?,
+            constant: self.constant?,
+        })
     }
 
     /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is narrow; `None` without
@@ -93,47 +97,82 @@ impl RateVerdict {
         let fitted = decimals(fitted, interval_places(interval, most));
         let interval = interval_text(interval, most);
         // A narrow interval begins with its middle.
-        let rate = if interval.contains(" ± ") { interval } else { format!("{fitted} ({interval})") };
+        let rate = if interval.contains(" ± ") {
+            interval
+        } else {
+            format!("{fitted} ({interval})")
+        };
         let all = self.used == (0..self.pairwise.len() + 1);
-        Some(if all { rate } else { format!("{rate} {}", self.levels_in_words()) })
+        Some(if all {
+            rate
+        } else {
+            format!("{rate} {}", self.levels_in_words())
+        })
     }
 
     /// The claim: `2 ± 0.05`.
     pub fn claim(&self) -> String {
-        format!("{} ± {}", order_text(self.order), plain_text(self.tolerance))
+        format!(
+            "{} ± {}",
+            order_text(self.order),
+            plain_text(self.tolerance)
+        )
     }
 
     /// What a pass confirms, and the nearest orders that it excludes: `2, not 1.5 or 2.5`.
     pub fn excludes(&self) -> String {
-        let others =
-            [-2.0, 2.0].map(|sides| self.order + sides * self.tolerance).into_iter().filter(|other| *other > 0.0);
-        let others: Vec<String> = others.map(|other| order_text(committed_rate(other))).collect();
+        let others = [-2.0, 2.0]
+            .map(|sides| self.order + sides * self.tolerance)
+            .into_iter()
+            .filter(|other| *other > 0.0);
+        let others: Vec<String> = others
+            .map(|other| order_text(committed_rate(other)))
+            .collect();
         format!("{}, not {}", order_text(self.order), others.join(" or "))
     }
 
     /// Rate, claim and reason on one line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        format!("{}, claimed {}: {}", self.rate_in_words(RATE_PLACES), self.claim(), self.because)
+        format!(
+            "{}, claimed {}: {}",
+            self.rate_in_words(RATE_PLACES),
+            self.claim(),
+            self.because
+        )
     }
 
     /// What the reason means, its cause if one is known, and what to do; `None` for a pass.
     pub fn advice(&self) -> Option<String> {
-        let cause = self.cause.map_or(String::new(), |cause| format!(" {}", cause.advice()));
+        let cause = self
+            .cause
+            .map_or(String::new(), |cause| format!(" {}", cause.advice()));
         (!self.verdict.is_pass()).then(|| self.kind.advice().to_owned() + &cause)
     }
 
     /// The last rate between neighbouring levels that is a number.
     pub fn finest_rate(&self) -> Option<f64> {
-        self.pairwise.iter().rev().copied().find(|rate| rate.is_finite())
+        self.pairwise
+            .iter()
+            .rev()
+            .copied()
+            .find(|rate| rate.is_finite())
     }
 
     /// Like [`found`](Self::found); without an interval, the rate between the finest levels.
     ///
     /// * `most`: the largest number of decimals.
     pub fn rate_in_words(&self, most: usize) -> String {
-        let finest =
-            || self.finest_rate().map(|rate| format!("{} between the finest levels that have one", decimals(rate, 3)));
-        self.found(most).or_else(finest).unwrap_or_else(|| "no rate".to_owned())
+        let finest = || {
+            self.finest_rate().map(|rate| {
+                format!(
+                    "{} between the finest levels that have one",
+                    decimals(rate, 3)
+                )
+            })
+        };
+        self.found(most)
+            .or_else(finest)
+            .unwrap_or_else(|| "no rate".to_owned())
     }
 
     /// The levels that the fit used.
@@ -162,21 +201,48 @@ impl RateVerdict {
             Range { start, end } if start < end => present[start]..present[end - 1] + 1,
             _ => 0..0,
         };
-        let aside = |aside: &SetAside| SetAside { level: present[aside.level], ..*aside };
+        let aside = |aside: &SetAside| SetAside {
+            level: present[aside.level],
+            ..*aside
+        };
         let without = (0..has.len()).filter(|level| !has[*level]);
-        let without = without.map(|level| SetAside { level, because: Aside::NoResult });
-        let mut set_aside: Vec<SetAside> = self.set_aside.iter().map(aside).chain(without).collect();
+        let without = without.map(|level| SetAside {
+            level,
+            because: Aside::NoResult,
+        });
+        let mut set_aside: Vec<SetAside> =
+            self.set_aside.iter().map(aside).chain(without).collect();
         set_aside.sort_by_key(|aside| aside.level);
-        let missing = names.iter().zip(has).filter(|(_, has)| !**has).map(|(name, _)| *name);
-        Self { pairwise, used, set_aside, ..self }.without_result(has.len(), &missing.collect::<Vec<_>>())
+        let missing = names
+            .iter()
+            .zip(has)
+            .filter(|(_, has)| !**has)
+            .map(|(name, _)| *name);
+        Self {
+            pairwise,
+            used,
+            set_aside,
+            ..self
+        }
+        .without_result(has.len(), &missing.collect::<Vec<_>>())
     }
 
     /// The same rate with a reason from another rule than that of its levels.
     pub fn with_reason(self, kind: Reason, because: &str) -> Self {
-        let rest = self.reason.strip_prefix(self.kind.text()).unwrap_or_default();
+        let rest = self
+            .reason
+            .strip_prefix(self.kind.text())
+            .unwrap_or_default();
         let reason = format!("{because}{rest}");
         let cause = self.cause.filter(|_| !kind.verdict().is_pass());
-        Self { verdict: kind.verdict(), kind, because: because.to_owned(), reason, cause, ..self }
+        Self {
+            verdict: kind.verdict(),
+            kind,
+            because: because.to_owned(),
+            reason,
+            cause,
+            ..self
+        }
     }
 
     /// The same rate with the verdict that some levels have no result.
@@ -187,17 +253,37 @@ impl RateVerdict {
         const MOST_NAMED: usize = 4;
         let named: Vec<&str> = missing.iter().take(MOST_NAMED).map(AsRef::as_ref).collect();
         let named = named.join("; ");
-        let more = if missing.len() > MOST_NAMED { "; ..." } else { "" };
-        let (levels, have) = (counted(levels, "level"), if missing.len() == 1 { "has" } else { "have" });
-        let lacking = format!("{} of {levels} {have} no result: {named}{more}", missing.len());
+        let more = if missing.len() > MOST_NAMED {
+            "; ..."
+        } else {
+            ""
+        };
+        let (levels, have) = (
+            counted(levels, "level"),
+            if missing.len() == 1 { "has" } else { "have" },
+        );
+        let lacking = format!(
+            "{} of {levels} {have} no result: {named}{more}",
+            missing.len()
+        );
         let reason = match self.interval {
             Some(interval) => {
                 let rate = interval_text(interval, RATE_PLACES);
-                format!("{lacking}; {rate} {}, claimed {}", self.levels_in_words(), self.claim())
+                format!(
+                    "{lacking}; {rate} {}, claimed {}",
+                    self.levels_in_words(),
+                    self.claim()
+                )
             }
             None => lacking.clone(),
         };
-        Self { verdict: Verdict::Fail, kind: Reason::NoResult, because: lacking, reason, ..self }
+        Self {
+            verdict: Verdict::Fail,
+            kind: Reason::NoResult,
+            because: lacking,
+            reason,
+            ..self
+        }
     }
 
     /// Builds the verdict, with the words that quote its numbers.
@@ -219,7 +305,11 @@ impl RateVerdict {
             cause: reading.cause(order).filter(|_| !kind.verdict().is_pass()),
         };
         if let Some(interval) = found.interval {
-            found.reason += &format!(": {} {}", interval_text(interval, RATE_PLACES), found.levels_in_words());
+            found.reason += &format!(
+                ": {} {}",
+                interval_text(interval, RATE_PLACES),
+                found.levels_in_words()
+            );
             if kind != Reason::ClaimUnusable {
                 found.reason += &format!(", claimed {}", found.claim());
             }

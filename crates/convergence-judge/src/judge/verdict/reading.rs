@@ -35,10 +35,22 @@ impl<'a> Reading<'a> {
             None => asymptotic_range(sequence, floor),
         };
         let end = range.end;
-        let start = if range.len() < FEWEST_LEVELS { end.saturating_sub(FEWEST_LEVELS) } else { range.start };
+        let start = if range.len() < FEWEST_LEVELS {
+            end.saturating_sub(FEWEST_LEVELS)
+        } else {
+            range.start
+        };
         let fit = rate_interval(&sequence[start..end]);
         let used = if fit.is_some() { start..end } else { 0..0 };
-        Self { sequence, levels: sequence.len(), pairwise: pairwise_rates(sequence), range, used, fit, unusable }
+        Self {
+            sequence,
+            levels: sequence.len(),
+            pairwise: pairwise_rates(sequence),
+            range,
+            used,
+            fit,
+            unusable,
+        }
     }
 
     /// Limit of the finest pairwise rates that the fit uses.
@@ -48,7 +60,11 @@ impl<'a> Reading<'a> {
 
     /// Extends the interval at either end.
     pub(crate) fn widen(&mut self, doubt: f64) {
-        if let Some(RateInterval { interval: [low, high], .. }) = &mut self.fit {
+        if let Some(RateInterval {
+            interval: [low, high],
+            ..
+        }) = &mut self.fit
+        {
             *low -= doubt;
             *high += doubt;
         }
@@ -67,7 +83,8 @@ impl<'a> Reading<'a> {
 
     /// The law that explains the levels above the floor, if rates can be formed.
     pub(super) fn cause(&self, order: f64) -> Option<Cause> {
-        self.fit.and_then(|_| Cause::of(&self.sequence[..self.range.end], order, |_| 0.0))
+        self.fit
+            .and_then(|_| Cause::of(&self.sequence[..self.range.end], order, |_| 0.0))
     }
 
     /// The levels that the fit leaves out.
@@ -76,7 +93,11 @@ impl<'a> Reading<'a> {
             return vec![];
         }
         let above_floor = self.range.end;
-        let coarse = if self.used.is_empty() { self.range.start } else { self.used.start };
+        let coarse = if self.used.is_empty() {
+            self.range.start
+        } else {
+            self.used.start
+        };
         let finest = self.rates().last().copied().unwrap_or(f64::NAN);
         let is_far = |level: &usize| (self.pairwise[*level] - finest).abs() > SPREAD;
         // The level next to the range was dropped for its rate, or because the range is as long as it may be.
@@ -84,8 +105,11 @@ impl<'a> Reading<'a> {
             Some(next) if !is_far(&next) => Aside::BeyondFive,
             _ => Aside::PreAsymptotic,
         };
-        let aside = |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
-        aside(0..coarse, because).chain(aside(above_floor..self.levels, Aside::AtFloor)).collect()
+        let aside =
+            |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
+        aside(0..coarse, because)
+            .chain(aside(above_floor..self.levels, Aside::AtFloor))
+            .collect()
     }
 
     /// The reason for the verdict on a claim: the steps of the rule, in their order.
@@ -124,7 +148,10 @@ impl<'a> Reading<'a> {
     /// Ratio of the coarsest step above the floor to the finest.
     fn span(&self) -> f64 {
         let above_floor = &self.sequence[..self.range.end];
-        above_floor.first().zip(above_floor.last()).map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
+        above_floor
+            .first()
+            .zip(above_floor.last())
+            .map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
     }
 
     /// The rates between levels above the floor.
@@ -136,7 +163,8 @@ impl<'a> Reading<'a> {
 /// Steps 1 and 2 of the rule, except for what depends on the claim.
 fn unusable(levels: &[Level]) -> Option<Reason> {
     let step_usable = |level: &Level| level.step > 0.0 && level.step.is_finite();
-    let decreasing = levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
+    let decreasing =
+        levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
     if levels.iter().any(|level| !level.error.is_finite()) {
         Some(Reason::NonFiniteError)
     } else if levels.iter().any(|level| level.error < 0.0) {

@@ -3,7 +3,19 @@
 use super::words::Verdict;
 
 /// The reason for a verdict; each reason has one verdict, and they are in the order pass, fail, inconclusive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Default,
+    serde::Serialize,
+    serde::Deserialize,
+)]
 #[serde(into = "&'static str", try_from = "String")]
 pub enum Reason {
     /// The whole interval lies in the band about the order.
@@ -71,8 +83,15 @@ impl TryFrom<String> for Reason {
     fn try_from(code: String) -> Result<Self, String> {
         // Records of earlier versions have codes of vetoes that the rule no longer has.
         let is_earlier = ["wild", "outlier", "last-pair"].contains(&code.as_str());
-        let code = if is_earlier { Self::NotAsymptotic.code() } else { &code };
-        Self::ALL.into_iter().find(|reason| reason.code() == code).ok_or_else(|| format!("unknown reason `{code}`"))
+        let code = if is_earlier {
+            Self::NotAsymptotic.code()
+        } else {
+            &code
+        };
+        Self::ALL
+            .into_iter()
+            .find(|reason| reason.code() == code)
+            .ok_or_else(|| format!("unknown reason `{code}`"))
     }
 }
 

@@ -32,8 +32,12 @@ fn larger(from: f64, to: f64, factor: f64) -> bool {
 /// between the scheme and the sources; dropping the levels where it shows would hide it. Rates that have come to rest are those of a lost order:
 /// [`Reason::TooLow`](super::Reason::TooLow) says so, with the rate.
 pub fn falls_away(rates: &[f64], order: f64) -> bool {
-    let [.., before, middle, finest] = rates else { return false };
-    before > middle && middle - finest > STILL_FALLING && finest + 2.0 * scatter(rates) < order - 0.5
+    let [.., before, middle, finest] = rates else {
+        return false;
+    };
+    before > middle
+        && middle - finest > STILL_FALLING
+        && finest + 2.0 * scatter(rates) < order - 0.5
 }
 
 /// Whether the last changes of the rate grow; those of fading pollution shrink. A plateau, a wrong limit or a lower order is about to show.
@@ -43,14 +47,20 @@ pub fn falls_away(rates: &[f64], order: f64) -> bool {
 pub fn departs(rates: &[f64], tolerance: f64) -> bool {
     let [three, two, one] = DEPARTED.map(|share| share * tolerance);
     let changes = changes(rates);
-    let [.., before, last] = changes[..] else { return false };
+    let [.., before, last] = changes[..] else {
+        return false;
+    };
     let of_three = |first: f64| {
         let in_a_row = larger(first, before, GROWTH) && larger(before, last, GROWTH);
         let turns = before * last <= 0.0 && last.abs() > TURN * before.abs();
-        in_a_row && (first + before + last).abs() > three || larger(before, first, 1.0) && turns && last.abs() > one
+        in_a_row && (first + before + last).abs() > three
+            || larger(before, first, 1.0) && turns && last.abs() > one
     };
     larger(before, last, GROWTH) && (before + last).abs() > two
-        || changes.len().checked_sub(3).is_some_and(|first| of_three(changes[first]))
+        || changes
+            .len()
+            .checked_sub(3)
+            .is_some_and(|first| of_three(changes[first]))
 }
 
 /// Whether the rates of three or four levels, too few for [`departs`] to see, may be leaving the order.
@@ -59,7 +69,9 @@ pub fn departs(rates: &[f64], tolerance: f64) -> bool {
 /// second rate is farther from the order than the first.
 pub(super) fn emerges(rates: &[f64], order: f64, tolerance: f64) -> bool {
     match (rates, &changes(rates)[..]) {
-        (_, &[before, last]) => larger(before, last, GROWTH) && (before + last).abs() > DEPARTED[0] * tolerance,
+        (_, &[before, last]) => {
+            larger(before, last, GROWTH) && (before + last).abs() > DEPARTED[0] * tolerance
+        }
         (&[first, second], _) => (second - order).abs() > (first - order).abs() + LEFT * tolerance,
         _ => false,
     }
@@ -91,7 +103,9 @@ mod tests {
     /// Rates from 2 on with these changes.
     fn departs_by(changes: &[f64], tolerance: f64) -> bool {
         let mut rates = vec![2.0];
-        changes.iter().for_each(|change| rates.push(rates[rates.len() - 1] + change));
+        changes
+            .iter()
+            .for_each(|change| rates.push(rates[rates.len() - 1] + change));
         departs(&rates, tolerance)
     }
 
@@ -126,9 +140,19 @@ mod tests {
             (&[1.5], 0.1, false),
             (&[], 0.1, false),
         ] {
-            assert_eq!(departs_by(changes, tolerance), expected, "{changes:?} {tolerance}");
-            let earlier: Vec<f64> = [-30.0, 40.0].into_iter().chain(changes.iter().copied()).collect();
-            assert!(!expected || departs_by(&earlier, tolerance), "disarmed: {changes:?} {tolerance}");
+            assert_eq!(
+                departs_by(changes, tolerance),
+                expected,
+                "{changes:?} {tolerance}"
+            );
+            let earlier: Vec<f64> = [-30.0, 40.0]
+                .into_iter()
+                .chain(changes.iter().copied())
+                .collect();
+            assert!(
+                !expected || departs_by(&earlier, tolerance),
+                "disarmed: {changes:?} {tolerance}"
+            );
         }
     }
 

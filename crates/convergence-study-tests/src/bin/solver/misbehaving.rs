@@ -11,13 +11,23 @@ use nix::sys::signal::{SigSet, Signal};
 /// `solver TOKEN MODE N [DT]`; the token marks the processes of one test. Only the case n = 16 misbehaves.
 pub(crate) fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [token, mode, n, rest @ ..] = &arguments[..] else { exit(64) };
-    let n: u32 = if mode == "stdin" { number_from_stdin() } else { n.parse().unwrap_or(0) };
+    let [token, mode, n, rest @ ..] = &arguments[..] else {
+        exit(64)
+    };
+    let n: u32 = if mode == "stdin" {
+        number_from_stdin()
+    } else {
+        n.parse().unwrap_or(0)
+    };
     if n == 16 {
         misbehave(token, mode, n);
     }
     if mode == "count" {
-        let mut file = OpenOptions::new().append(true).create(true).open("runs").unwrap();
+        let mut file = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open("runs")
+            .unwrap();
         writeln!(file, "{n}").unwrap();
         sleep(Duration::from_millis(30));
     }
@@ -31,20 +41,34 @@ pub(crate) fn main() {
     if mode == "late" {
         // Second order, but only on fine levels; L1 shows it at once.
         let h = f64::from(n).recip();
-        println!(r#"{{"errors": {{"L2": {:e}, "L1": {:e}}}}}"#, h * h * (1.0 + 4.0 * h), h * h);
+        println!(
+            r#"{{"errors": {{"L2": {:e}, "L1": {:e}}}}}"#,
+            h * h * (1.0 + 4.0 * h),
+            h * h
+        );
         exit(0)
     }
     if mode == "cells" {
         // n is the number of cells of a square: the step is the edge of a cell, which is not 1/n.
-        println!(r#"{{"errors": {{"L2": {:e}}}, "h": {:e}}}"#, f64::from(n).recip(), f64::from(n).sqrt().recip());
+        println!(
+            r#"{{"errors": {{"L2": {:e}}}, "h": {:e}}}"#,
+            f64::from(n).recip(),
+            f64::from(n).sqrt().recip()
+        );
         exit(0)
     }
     if mode == "degrees" {
-        println!(r#"{{"errors": {{"L2": {:e}}}}}"#, 3.0 * 5.0_f64.powf(-f64::from(n)));
+        println!(
+            r#"{{"errors": {{"L2": {:e}}}}}"#,
+            3.0 * 5.0_f64.powf(-f64::from(n))
+        );
         exit(0)
     }
     if mode == "twice" {
-        println!(r#"{{"errors": {{"L2": {:e}, "L2": 1e-3}}}}"#, f64::from(n).powi(-2));
+        println!(
+            r#"{{"errors": {{"L2": {:e}, "L2": 1e-3}}}}"#,
+            f64::from(n).powi(-2)
+        );
         exit(0)
     }
     println!("{}", answer(n));
@@ -66,7 +90,11 @@ fn number_from_stdin() -> u32 {
     let mut text = String::new();
     io::stdin().read_to_string(&mut text).unwrap();
     let case: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(case["h"].as_f64(), case["n"].as_f64().map(f64::recip), "{text}");
+    assert_eq!(
+        case["h"].as_f64(),
+        case["n"].as_f64().map(f64::recip),
+        "{text}"
+    );
     case["n"].as_u64().unwrap() as u32
 }
 
@@ -82,12 +110,18 @@ fn wrong_answer(mode: &str, n: u32) -> Option<String> {
     let is_complete = || std::path::Path::new("all").exists();
     Some(match mode {
         "nan" => r#"{"errors": {"L2": NaN, "H1": 1.0}}"#.to_owned(),
-        "half" => format!(r#"{{"errors": {{"L2": NaN, "H1": {}}}, "values": {{"flux": 3.1}}}}"#, 3.0 / 16.0),
+        "half" => format!(
+            r#"{{"errors": {{"L2": NaN, "H1": {}}}, "values": {{"flux": 3.1}}}}"#,
+            3.0 / 16.0
+        ),
         "cut" => answer(64) + "\n" + r#"{"errors": {"L2": 1e5, "H1": 1.0 }"#,
         "own-step" => answer(n).replace("{\"errors\"", "{\"h\": 0.06, \"errors\""),
         "missing" => r#"{"errors": {"H1": 1.0}}"#.to_owned(),
         "optional" if is_complete() => {
-            format!(r#"{{"errors": {{"L2": {:e}, "max": 1.0}}, "values": {{"lift": 2.0}}}}"#, 1.0 / 256.0)
+            format!(
+                r#"{{"errors": {{"L2": {:e}, "max": 1.0}}, "values": {{"lift": 2.0}}}}"#,
+                1.0 / 256.0
+            )
         }
         _ => return None,
     })
@@ -125,11 +159,20 @@ fn misbehave(token: &str, mode: &str, n: u32) {
         }
         // Each leaves a child that keeps standard output open and would hang for ever.
         "fork" => drop(start(token, "hang").spawn().unwrap()),
-        "leave" => drop(start(token, "ignore-term").process_group(0).spawn().unwrap()),
+        "leave" => drop(
+            start(token, "ignore-term")
+                .process_group(0)
+                .spawn()
+                .unwrap(),
+        ),
         "flood" => flood(),
         "read" => {
             let mut text = String::new();
-            assert_eq!(io::stdin().read_to_string(&mut text).unwrap(), 0, "standard input is not at its end");
+            assert_eq!(
+                io::stdin().read_to_string(&mut text).unwrap(),
+                0,
+                "standard input is not at its end"
+            );
         }
         _ => {}
     }

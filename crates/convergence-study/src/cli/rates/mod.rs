@@ -35,7 +35,12 @@ pub struct Arguments {
     /// drops none
     ///
     /// A level above the floor is kept, and so are all levels coarser than it.
-    #[arg(long, value_name = "E", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     floor: f64,
     /// The column of the step, of a count or of levels: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
@@ -74,21 +79,34 @@ struct Claimed {
 }
 
 fn claimed(text: &str) -> Result<Claimed, String> {
-    let at = text.rfind(">=").or_else(|| text.rfind('=').map(|at| at + 1));
+    let at = text
+        .rfind(">=")
+        .or_else(|| text.rfind('=').map(|at| at + 1));
     let (name, order) = text.split_at(at.unwrap_or(0));
     let name = name.trim_end();
     let order = order_from_text(order).filter(|_| name.is_empty() || name.ends_with('='));
     let (order, at_least) = order.ok_or("expected a number > 0, or NAME= and a number > 0")?;
-    Ok(Claimed { text: text.to_owned(), name: name.strip_suffix('=').map(str::to_owned), order, at_least })
+    Ok(Claimed {
+        text: text.to_owned(),
+        name: name.strip_suffix('=').map(str::to_owned),
+        order,
+        at_least,
+    })
 }
 
 fn dimension(text: &str) -> Result<f64, String> {
-    let dim = text.parse().ok().filter(|dim| *dim > 0.0 && f64::is_finite(*dim));
+    let dim = text
+        .parse()
+        .ok()
+        .filter(|dim| *dim > 0.0 && f64::is_finite(*dim));
     dim.ok_or_else(|| "expected a number > 0".to_owned())
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
-    let ratio = text.parse().ok().filter(|ratio| *ratio > 1.0 && f64::is_finite(*ratio));
+    let ratio = text
+        .parse()
+        .ok()
+        .filter(|ratio| *ratio > 1.0 && f64::is_finite(*ratio));
     ratio.ok_or_else(|| "expected a number > 1".to_owned())
 }
 
@@ -128,13 +146,21 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let estimator = Estimator::new(arguments.tolerance)?;
     let source = arguments.file.display().to_string();
-    let claims: String = arguments.order.iter().map(|claimed| format!(" --order {}", quoted(&claimed.text))).collect();
+    let claims: String = arguments
+        .order
+        .iter()
+        .map(|claimed| format!(" --order {}", quoted(&claimed.text)))
+        .collect();
     let choice = Choice {
         step: arguments.step.clone(),
         columns: arguments.columns.clone(),
         values: arguments.values.clone(),
         names: arguments.names.clone(),
-        claimed: arguments.order.iter().filter_map(|claimed| claimed.name.clone()).collect(),
+        claimed: arguments
+            .order
+            .iter()
+            .filter_map(|claimed| claimed.name.clone())
+            .collect(),
         dim: arguments.dim,
         ratio: arguments.ratio,
         command: format!("{} rates {source}{claims}", project.command),
@@ -143,18 +169,44 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judged = |(k, (column, claim)): (usize, (_, Claim))| {
         let column: &Column = column;
         let estimate = (k >= table.columns.len()).then(|| column.estimate(&estimator, claim.order));
-        let rate = estimate.as_ref().map_or_else(|| column.judge(&judge, &claim), |estimate| estimate.judged.clone());
-        JudgedColumn { column, claim, rate, estimate, decides: arguments.all || !claim.order.is_nan() }
+        let rate = estimate.as_ref().map_or_else(
+            || column.judge(&judge, &claim),
+            |estimate| estimate.judged.clone(),
+        );
+        JudgedColumn {
+            column,
+            claim,
+            rate,
+            estimate,
+            decides: arguments.all || !claim.order.is_nan(),
+        }
     };
     let claims = claims_of(arguments, &table)?;
     let columns: Vec<JudgedColumn<'_>> = all(&table).zip(claims).enumerate().map(judged).collect();
-    let verdict = Verdict::worst(columns.iter().filter(|column| column.decides).map(|column| column.rate.verdict));
-    let findings = Judgement { project, source, table: &table, columns, judge: &judge, verdict };
+    let verdict = Verdict::worst(
+        columns
+            .iter()
+            .filter(|column| column.decides)
+            .map(|column| column.rate.verdict),
+    );
+    let findings = Judgement {
+        project,
+        source,
+        table: &table,
+        columns,
+        judge: &judge,
+        verdict,
+    };
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
         shown::write(&findings, folder)?;
     }
-    Ok(flags.show("rates", verdict, &shown::object(&findings), &shown::text(&findings, flags.quiet))?)
+    Ok(flags.show(
+        "rates",
+        verdict,
+        &shown::object(&findings),
+        &shown::text(&findings, flags.quiet),
+    )?)
 }
 
 /// The columns to judge: errors, then values.
@@ -175,17 +227,30 @@ fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unu
         if let Some(Claimed { text: first, .. }) = of[k].replace(claimed) {
             let expected = "expected one order for all columns, and --order NAME=P for others";
             return Err(Unusable::because(&match names.get(k) {
-                Some(name) => format!("--order {text}: expected each column once; found `{name}` a second time"),
+                Some(name) => format!(
+                    "--order {text}: expected each column once; found `{name}` a second time"
+                ),
                 None => format!("{expected}; found --order {first} and --order {text}"),
             }));
         }
     }
     let claim = |(k, name): (usize, &&str)| match of[k].or(of[names.len()]) {
-        Some(Claimed { order, at_least: true, .. }) if k >= table.columns.len() => {
+        Some(Claimed {
+            order,
+            at_least: true,
+            ..
+        }) if k >= table.columns.len() => {
             let found = format!("found --order '>={order}' for `{name}`");
-            Err(Unusable::because(&format!("expected an order alone for values; {found}")))
+            Err(Unusable::because(&format!(
+                "expected an order alone for values; {found}"
+            )))
         }
-        Some(&Claimed { order, at_least, .. }) => Ok(Claim { at_least, ..Claim::new(order, arguments.tolerance) }),
+        Some(&Claimed {
+            order, at_least, ..
+        }) => Ok(Claim {
+            at_least,
+            ..Claim::new(order, arguments.tolerance)
+        }),
         None => Ok(Claim::new(f64::NAN, arguments.tolerance)),
     };
     names.iter().enumerate().map(claim).collect()
@@ -202,5 +267,7 @@ fn unknown(name: &str, claim: &str, names: &[&str]) -> Unusable {
         did_you_mean(&nearest(name, names.iter().copied()).map(str::to_owned))
     };
     let known = names[..names.len().min(LISTED)].join(", ") + more;
-    Unusable::because(&format!("--order {claim}: expected a column of errors: {known}; found `{name}`{hint}"))
+    Unusable::because(&format!(
+        "--order {claim}: expected a column of errors: {known}; found `{name}`{hint}"
+    ))
 }

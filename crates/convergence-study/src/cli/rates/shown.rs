@@ -16,7 +16,9 @@ use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit_of};
-use crate::text::number::{committed_rate, error_text, order_text, pair_text, plain_text, short_text};
+use crate::text::number::{
+    committed_rate, error_text, order_text, pair_text, plain_text, short_text,
+};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would repeat the colours.
@@ -32,18 +34,41 @@ impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
     fn found(&self) -> String {
         let found = match self.claim {
-            Claim { at_least: true, order, tolerance, .. } => {
+            Claim {
+                at_least: true,
+                order,
+                tolerance,
+                ..
+            } => {
                 let passes = format!("at least {}", order_text(committed_rate(order - tolerance)));
-                let why = if self.rate.verdict.is_pass() { &passes } else { &self.rate.because };
-                format!("{}, claimed {}: {why}", self.rate.rate_in_words(MOST_PLACES), self.claim)
+                let why = if self.rate.verdict.is_pass() {
+                    &passes
+                } else {
+                    &self.rate.because
+                };
+                format!(
+                    "{}, claimed {}: {why}",
+                    self.rate.rate_in_words(MOST_PLACES),
+                    self.claim
+                )
             }
             _ => self.shown().found(),
         };
-        match self.estimate.as_ref().map(|estimate| (&estimate.bar, &estimate.gci)) {
+        match self
+            .estimate
+            .as_ref()
+            .map(|estimate| (&estimate.bar, &estimate.gci))
+        {
             Some((Ok(bar), gci)) => {
                 let [low, high] = pair_text(bar.limit);
-                let gci = gci.map_or(String::new(), |gci| format!(", GCI ± {}", short_text(gci.half_width)));
-                found + &format!("; limit {} ({low} to {high}){gci}", pair_text([bar.extrapolated, bar.limit[1]])[0])
+                let gci = gci.map_or(String::new(), |gci| {
+                    format!(", GCI ± {}", short_text(gci.half_width))
+                });
+                found
+                    + &format!(
+                        "; limit {} ({low} to {high}){gci}",
+                        pair_text([bar.extrapolated, bar.limit[1]])[0]
+                    )
             }
             Some((Err(refusal), _)) => found + &format!("; no limit: {refusal}"),
             None => found,
@@ -52,7 +77,12 @@ impl JudgedColumn<'_> {
 
     fn shown(&self) -> Shown<'_> {
         let late = usize::from(self.estimate.is_some());
-        Shown { name: &self.column.name, levels: &self.column.levels, rate: &self.rate, late }
+        Shown {
+            name: &self.column.name,
+            levels: &self.column.levels,
+            rate: &self.rate,
+            late,
+        }
     }
 }
 
@@ -61,20 +91,41 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     let (table, columns) = (findings.table, &findings.columns);
     let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
     let line = |judged: &JudgedColumn<'_>| {
-        format!("{}: {}: {}\n", judged.column.name, screen::verdict(judged.rate.verdict), judged.found())
+        format!(
+            "{}: {}: {}\n",
+            judged.column.name,
+            screen::verdict(judged.rate.verdict),
+            judged.found()
+        )
     };
-    let last = format!("{}: {}\n", screen::verdict(findings.verdict), sentence(findings));
+    let last = format!(
+        "{}: {}\n",
+        screen::verdict(findings.verdict),
+        sentence(findings)
+    );
     let reading = format!("{}\n", table.reading);
     if quiet {
-        let lines: String = columns.iter().filter(|judged| judged.decides && !is_pass(judged)).map(line).collect();
-        return if table.is_guessed { reading } else { String::new() } + &lines + &last;
+        let lines: String = columns
+            .iter()
+            .filter(|judged| judged.decides && !is_pass(judged))
+            .map(line)
+            .collect();
+        return if table.is_guessed {
+            reading
+        } else {
+            String::new()
+        } + &lines
+            + &last;
     }
     let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::shown).collect();
     let mut text = reading + &shown::table(&table.step, &shown, findings.judge.floor()) + "\n";
     text.extend(columns.iter().map(line));
     // Words common to several columns appear once.
     let mut said = vec![];
-    for judged in columns.iter().filter(|judged| judged.is_claimed() && !is_pass(judged)) {
+    for judged in columns
+        .iter()
+        .filter(|judged| judged.is_claimed() && !is_pass(judged))
+    {
         let words = (judged.rate.kind.code(), advice(judged, findings));
         if !said.contains(&words) {
             section(&mut text, words.0, &words.1);
@@ -83,7 +134,9 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     }
     if !columns.iter().all(JudgedColumn::is_claimed) {
         let command = format!("{} rates {}", findings.project.command, findings.source);
-        text += &format!("\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n");
+        text += &format!(
+            "\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n"
+        );
     }
     text + "\n" + &last
 }
@@ -92,23 +145,43 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
     let general = rate.advice().unwrap_or_default();
-    let errors: Vec<f64> = judged.column.levels.iter().map(|level| level.error).collect();
+    let errors: Vec<f64> = judged
+        .column
+        .levels
+        .iter()
+        .map(|level| level.error)
+        .collect();
     let grows = |rates: &[f64]| rates.len() > 1 && rates.iter().all(|rate| *rate < 0.0);
-    let stays = matches!(rate.kind, Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow | Reason::ZeroError);
+    let stays = matches!(
+        rate.kind,
+        Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow | Reason::ZeroError
+    );
     if judged.estimate.is_some() || rate.cause.is_some() || !(stays || rate.kind.wants_a_level()) {
         general
-    } else if errors.iter().position(|error| *error == 0.0).is_some_and(|zero| zero + 1 == errors.len()) {
-        format!("{name} is zero on the finest level only. Is that level its own reference? Leave it out.")
-    } else if findings.columns.iter().all(|column| !column.is_claimed() || grows(&column.rate.pairwise)) {
+    } else if errors
+        .iter()
+        .position(|error| *error == 0.0)
+        .is_some_and(|zero| zero + 1 == errors.len())
+    {
+        format!(
+            "{name} is zero on the finest level only. Is that level its own reference? Leave it out."
+        )
+    } else if findings
+        .columns
+        .iter()
+        .all(|column| !column.is_claimed() || grows(&column.rate.pairwise))
+    {
         format!("The errors fall as `{step}` grows. Do they stand beside their own steps?")
     } else if let Some(level) = stop(&rate.pairwise) {
         let (rate, error) = (rate.pairwise[level - 1], error_text(errors[level]));
-        let causes =
-            "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
-        format!("{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}")
+        let causes = "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
+        format!(
+            "{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}"
+        )
     } else if let Some(limit) = limit(&errors).filter(|_| may_be_zero(rate)).map(plain_text) {
-        let would =
-            format!("{name} would tend to {limit}, not to zero, if its differences went on falling as the last two");
+        let would = format!(
+            "{name} would tend to {limit}, not to zero, if its differences went on falling as the last two"
+        );
         format!("{would}. If it is a value and no error: --values '{name}'. {general}")
     } else {
         general + &next_level(judged, findings).unwrap_or_default()
@@ -117,7 +190,8 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
 
 /// Whether the rate may be 0, within the tolerance, and the finest levels do not say otherwise.
 fn may_be_zero(rate: &RateVerdict) -> bool {
-    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance) && rate.finest_rate().is_none_or(|rate| rate < STOP)
+    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance)
+        && rate.finest_rate().is_none_or(|rate| rate < STOP)
 }
 
 /// The level down to which the error falls at a steady rate, if it stops falling there.
@@ -125,7 +199,9 @@ fn stop(rates: &[f64]) -> Option<usize> {
     let last = rates.last()?;
     (2..rates.len()).find(|&k| {
         let steady = rates[k - 1];
-        let stops = rates[k..].iter().all(|rate| *rate < steady - STOP) && *last < 0.5 * steady && steady > STOP;
+        let stops = rates[k..].iter().all(|rate| *rate < steady - STOP)
+            && *last < 0.5 * steady
+            && steady > STOP;
         stops && (rates[k - 2] - steady).abs() <= STEADY
     })
 }
@@ -133,12 +209,16 @@ fn stop(rates: &[f64]) -> Option<usize> {
 /// The level that would decide if the rates continued: their changes shrink as the last two did.
 fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
     let (mut levels, rates) = (judged.column.levels.clone(), &judged.rate.pairwise);
-    let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else { return None };
+    let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else {
+        return None;
+    };
     let (ratio, finest, mut rate) = (before.step / finest.step, finest.step, *last);
     let changes: Vec<f64> = rates.windows(2).map(|two| two[1] - two[0]).collect();
     let mut change = *changes.last()?;
     let shrinks = changes.iter().rev().nth(1).map(|before| change / before);
-    let shrinks = shrinks.filter(|share| *share > 0.0 && *share < 1.0).unwrap_or(0.5);
+    let shrinks = shrinks
+        .filter(|share| *share > 0.0 && *share < 1.0)
+        .unwrap_or(0.5);
     if !judged.rate.kind.wants_a_level() || !rates.iter().all(|rate| *rate > 0.0) {
         return None;
     }
@@ -146,19 +226,41 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
         let last = levels[levels.len() - 1];
         change *= shrinks;
         rate += change;
-        levels.push(Level { step: last.step / ratio, error: last.error * ratio.powf(-rate) });
+        levels.push(Level {
+            step: last.step / ratio,
+            error: last.error * ratio.powf(-rate),
+        });
         let next = findings.judge.judge(&levels, judged.rate.order);
         if next.verdict == Verdict::Inconclusive {
             continue;
         }
-        let (name, step, parts) = (&judged.column.name, &findings.table.step, ratio.powi(ahead) / finest);
+        let (name, step, parts) = (
+            &judged.column.name,
+            &findings.table.step,
+            ratio.powi(ahead) / finest,
+        );
         let is_part = step == "h" && (parts - parts.round()).abs() < 1e-9 * parts;
-        let at = if is_part { format!("1/{}", parts.round()) } else { plain_text(1.0 / parts) };
-        let (which, are) = if ahead == 1 { ("Another level,", "is") } else { ("Levels down to", "are") };
+        let at = if is_part {
+            format!("1/{}", parts.round())
+        } else {
+            plain_text(1.0 / parts)
+        };
+        let (which, are) = if ahead == 1 {
+            ("Another level,", "is")
+        } else {
+            ("Levels down to", "are")
+        };
         let half = |interval: [f64; 2]| short_text(0.5 * (interval[1] - interval[0]));
-        let now = judged.rate.interval.map_or(String::new(), |now| format!("interval ± {} now, ", half(now)));
-        let then = format!("{name}: {now}about ± {} then", next.interval.map_or(String::new(), half));
-        return Some(format!(" {which} {step} = {at}, {are} likely to decide ({then})."));
+        let now = judged.rate.interval.map_or(String::new(), |now| {
+            format!("interval ± {} now, ", half(now))
+        });
+        let then = format!(
+            "{name}: {now}about ± {} then",
+            next.interval.map_or(String::new(), half)
+        );
+        return Some(format!(
+            " {which} {step} = {at}, {are} likely to decide ({then})."
+        ));
     }
     None
 }
@@ -166,7 +268,9 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
 /// The overall verdict in words.
 fn sentence(findings: &Judgement<'_>) -> String {
     let deciding = || findings.columns.iter().filter(|column| column.decides);
-    let passed = deciding().filter(|column| column.rate.verdict == Verdict::Pass).count();
+    let passed = deciding()
+        .filter(|column| column.rate.verdict == Verdict::Pass)
+        .count();
     match deciding().count() {
         0 => "no order is claimed".to_owned(),
         1 => format!("{passed} of 1 column agrees with its order"),
@@ -180,7 +284,8 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
     let rate = |judged: &JudgedColumn<'_>| {
         let mut object = json!(judged.rate);
         let level = |level: &Level| json!({"step": level.step, "error": level.error});
-        let aside = |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
+        let aside =
+            |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
         object["norm"] = json!(judged.column.name);
         object["decides"] = json!(judged.decides);
         object["at_least"] = json!(judged.claim.at_least);
@@ -197,8 +302,11 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
         }
         object
     };
-    let not_errors =
-        findings.table.not_errors.iter().map(|(column, because)| json!({"column": column, "because": because}));
+    let not_errors = findings
+        .table
+        .not_errors
+        .iter()
+        .map(|(column, because)| json!({"column": column, "because": because}));
     json!({
         "step": findings.table.step, "floor": findings.judge.floor(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
@@ -213,17 +321,38 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
 pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
     atomic::write(&folder.join("rates.svg"), figure(findings))?;
-    atomic::write(&folder.join("rates.md"), markdown(findings, "![Errors over steps](rates.svg)\n\n"))?;
+    atomic::write(
+        &folder.join("rates.md"),
+        markdown(findings, "![Errors over steps](rates.svg)\n\n"),
+    )?;
     let case = |judged: &JudgedColumn<'_>| {
-        let least = if judged.claim.at_least { "at least " } else { "" };
-        let claim = if judged.is_claimed() { format!(": order {least}{}", judged.rate.order) } else { String::new() };
-        (judged.column.name.clone() + &claim, judged.rate.verdict, judged.found())
+        let least = if judged.claim.at_least {
+            "at least "
+        } else {
+            ""
+        };
+        let claim = if judged.is_claimed() {
+            format!(": order {least}{}", judged.rate.order)
+        } else {
+            String::new()
+        };
+        (
+            judged.column.name.clone() + &claim,
+            judged.rate.verdict,
+            judged.found(),
+        )
     };
-    let mut cases: Vec<_> = findings.columns.iter().filter(|column| column.decides).map(case).collect();
+    let mut cases: Vec<_> = findings
+        .columns
+        .iter()
+        .filter(|column| column.decides)
+        .map(case)
+        .collect();
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
     }
-    let junit = junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
+    let junit =
+        junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
     atomic::write(&folder.join("junit.xml"), junit)?;
     // A picture would need an address on the web.
     github::summarise(&markdown(findings, ""));
@@ -232,12 +361,20 @@ pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
 
 /// The errors over the steps, columns with a claim first.
 fn figure(findings: &Judgement<'_>) -> String {
-    let mut drawn: Vec<&JudgedColumn<'_>> =
-        findings.columns.iter().filter(|judged| judged.estimate.is_none()).collect();
+    let mut drawn: Vec<&JudgedColumn<'_>> = findings
+        .columns
+        .iter()
+        .filter(|judged| judged.estimate.is_none())
+        .collect();
     drawn.sort_by_key(|judged| !judged.decides);
     let series = |judged: &&JudgedColumn<'_>| ErrorSeries {
         label: judged.column.name.clone(),
-        points: judged.column.levels.iter().map(|level| (level.step, level.error)).collect(),
+        points: judged
+            .column
+            .levels
+            .iter()
+            .map(|level| (level.step, level.error))
+            .collect(),
         order: Some(judged.rate.order).filter(|order| !order.is_nan()),
         fit: judged.rate.power_law(),
         interval: judged.rate.interval,
@@ -245,20 +382,45 @@ fn figure(findings: &Judgement<'_>) -> String {
         ..ErrorSeries::default()
     };
     let series: Vec<ErrorSeries> = drawn.iter().take(DRAWN).map(series).collect();
-    let at_floor =
-        |judged: &&JudgedColumn<'_>| judged.rate.set_aside.iter().any(|aside| aside.because == Aside::AtFloor);
-    let floor = drawn.iter().any(at_floor).then(|| Guide { label: "floor".to_owned(), value: findings.judge.floor() });
+    let at_floor = |judged: &&JudgedColumn<'_>| {
+        judged
+            .rate
+            .set_aside
+            .iter()
+            .any(|aside| aside.because == Aside::AtFloor)
+    };
+    let floor = drawn.iter().any(at_floor).then(|| Guide {
+        label: "floor".to_owned(),
+        value: findings.judge.floor(),
+    });
     let guides = floor.into_iter().collect();
-    convergence(Xy { guides, ..Xy::of_errors(&findings.table.step) }, &series, &[])
+    convergence(
+        Xy {
+            guides,
+            ..Xy::of_errors(&findings.table.step)
+        },
+        &series,
+        &[],
+    )
 }
 
 /// The printed result, as a page.
 ///
 /// * `picture`: the link to the figure, with the empty line below it.
 fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
-    let plain = |c: char| if "\\|*_`<[]".contains(c) { vec!['\\', c] } else { vec![c] };
+    let plain = |c: char| {
+        if "\\|*_`<[]".contains(c) {
+            vec!['\\', c]
+        } else {
+            vec![c]
+        }
+    };
     let source: String = visible(&findings.source).chars().flat_map(plain).collect();
     let text = visible::lines(&text(findings, false));
     let block: String = text.lines().map(|line| format!("    {line}\n")).collect();
-    format!("# Rates of {source}\n\n**{}**: {}\n\n{picture}{block}", findings.verdict, sentence(findings))
+    format!(
+        "# Rates of {source}\n\n**{}**: {}\n\n{picture}{block}",
+        findings.verdict,
+        sentence(findings)
+    )
 }

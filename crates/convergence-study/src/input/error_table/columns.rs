@@ -42,12 +42,18 @@ impl Cells<'_> {
     }
 
     pub(super) fn is_whole(&self) -> bool {
-        self.values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0)
+        self.values
+            .iter()
+            .all(|value| *value >= 1.0 && value.fract() == 0.0)
     }
 
     /// Whether each number is positive and much smaller than the previous one.
     pub(super) fn is_steep(&self) -> bool {
-        self.values.len() > 2 && self.values.windows(2).all(|two| 0.0 < two[1] && two[1] <= STEEP * two[0])
+        self.values.len() > 2
+            && self
+                .values
+                .windows(2)
+                .all(|two| 0.0 < two[1] && two[1] <= STEEP * two[0])
     }
 
     fn widest_half(&self) -> f64 {
@@ -67,26 +73,38 @@ impl Cells<'_> {
         let is_regular = ratios.iter().all(|one| (one / ratio - 1.0).abs() < same)
             || values.iter().all(|value| is_whole(most / value))
             || values.iter().all(|value| is_whole(value / least));
-        (ratios.len() > 1 && is_regular && ratio > 1.0 && ratio.is_finite() && least > 0.0).then_some(ratio)
+        (ratios.len() > 1 && is_regular && ratio > 1.0 && ratio.is_finite() && least > 0.0)
+            .then_some(ratio)
     }
 
     /// Whether two columns are the steps of one mesh in several directions, or of space and time.
     pub(super) fn is_in_proportion(&self, other: &Self) -> bool {
         let (a, b) = (&self.values, &other.values);
-        a.iter().zip(b).all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
+        a.iter()
+            .zip(b)
+            .all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
     }
 
     /// Whether this column counts what the other one measures.
     pub(super) fn is_inverse(&self, other: &Self) -> bool {
-        let products = || self.values.iter().zip(&other.values).map(|(count, step)| count * step);
+        let products = || {
+            self.values
+                .iter()
+                .zip(&other.values)
+                .map(|(count, step)| count * step)
+        };
         let least = products().fold(f64::INFINITY, f64::min);
-        self.is_whole() && !other.is_whole() && products().all(|product| product / least - 1.0 < SAME)
+        self.is_whole()
+            && !other.is_whole()
+            && products().all(|product| product / least - 1.0 < SAME)
     }
 
     /// The number of steps in which both fall or both grow, minus those in which one falls and the other grows.
     pub(super) fn together(&self, other: &Self) -> f64 {
         let signs = self.values.windows(2).zip(other.values.windows(2));
-        signs.map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum()).sum()
+        signs
+            .map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum())
+            .sum()
     }
 
     /// Whether these are the rates or the reduction factors of an error, to its digits, on the finer or on the coarser
@@ -112,21 +130,36 @@ impl Cells<'_> {
             };
             (found - value).abs() <= (half + doubt).min(0.25) + SAME * value.abs()
         };
-        let matches = |shift: usize, derived| (0..last).all(|k| is_same(k, self.values[k + shift], derived));
+        let matches =
+            |shift: usize, derived| (0..last).all(|k| is_same(k, self.values[k + shift], derived));
         // Three rates are proof enough; two need a name, or an end without one.
-        let is_end = |row: usize| !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row]);
-        let may = |shift: &usize| last > 2 || self.word == Word::Rate || is_end(if *shift == 1 { 0 } else { last });
+        let is_end =
+            |row: usize| !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row]);
+        let may = |shift: &usize| {
+            last > 2 || self.word == Word::Rate || is_end(if *shift == 1 { 0 } else { last })
+        };
         let shifts: Vec<usize> = [1, 0].into_iter().filter(may).collect();
-        [Derived::Rates, Derived::RatesOfHalvedSteps, Derived::Factors]
-            .into_iter()
-            .find(|derived| shifts.iter().any(|shift| matches(*shift, *derived)))
+        [
+            Derived::Rates,
+            Derived::RatesOfHalvedSteps,
+            Derived::Factors,
+        ]
+        .into_iter()
+        .find(|derived| shifts.iter().any(|shift| matches(*shift, *derived)))
     }
 
     /// Whether the error of no name that is known falls, tends to a limit, or does neither.
     pub(super) fn trend(&self, step: &Self) -> Trend {
-        let numbers: Vec<f64> = self.values.iter().copied().filter(|value| !value.is_nan()).collect();
+        let numbers: Vec<f64> = self
+            .values
+            .iter()
+            .copied()
+            .filter(|value| !value.is_nan())
+            .collect();
         let (first, last) = (numbers[0], numbers[numbers.len() - 1]);
-        let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count() >= numbers.len() - 1 && last < first;
+        let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count()
+            >= numbers.len() - 1
+            && last < first;
         let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
         match limit(&numbers).filter(|_| !is_whole) {
             _ if self.is_constant() => Trend::Doubtful("the same in each row"),
@@ -164,9 +197,15 @@ pub(super) enum Trend {
 pub fn limit(numbers: &[f64]) -> Option<f64> {
     let [.., a, b, c] = *numbers else { return None };
     let shrinks = (c - b) / (b - a);
-    let limit = if shrinks.abs() < 0.95 { c + (c - b) * shrinks / (1.0 - shrinks) } else { c };
+    let limit = if shrinks.abs() < 0.95 {
+        c + (c - b) * shrinks / (1.0 - shrinks)
+    } else {
+        c
+    };
     let sizes = || numbers.iter().map(|value| value.abs());
-    let is_near = sizes().fold(0.0, f64::max) < NEAR * sizes().fold(f64::INFINITY, f64::min) && b != c;
+    let is_near =
+        sizes().fold(0.0, f64::max) < NEAR * sizes().fold(f64::INFINITY, f64::min) && b != c;
     let settles = b != a && shrinks.abs() < 0.95 && limit / c > 0.7;
-    (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite()).then_some(limit)
+    (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite())
+        .then_some(limit)
 }

@@ -85,7 +85,11 @@ impl RateTable {
             let text = input::read_from(STANDARD_INPUT, io::stdin().lock())?;
             return Self::parse_with(&text, STANDARD_INPUT, choice);
         }
-        Self::parse_with(&input::read_text(path)?, &path.display().to_string(), choice)
+        Self::parse_with(
+            &input::read_text(path)?,
+            &path.display().to_string(),
+            choice,
+        )
     }
 
     /// Reads a table from `text`; messages name `file_name`.
@@ -107,8 +111,10 @@ impl Choice {
     /// The command with this choice.
     fn line(&self) -> String {
         let list = |list: &[String]| Some(list.join(",")).filter(|list| !list.is_empty());
-        let [names, columns] = [&self.names, &self.columns].map(|names| names.as_deref().and_then(list));
-        let [dim, ratio] = [self.dim, self.ratio].map(|number| number.map(|number| number.to_string()));
+        let [names, columns] =
+            [&self.names, &self.columns].map(|names| names.as_deref().and_then(list));
+        let [dim, ratio] =
+            [self.dim, self.ratio].map(|number| number.map(|number| number.to_string()));
         let options = [
             ("names", names),
             ("step", self.step.clone()),
@@ -117,7 +123,11 @@ impl Choice {
             ("columns", columns),
             ("values", list(&self.values)),
         ];
-        let given = options.into_iter().filter_map(|(name, value)| Some((name, quoted(&value?))));
-        given.fold(self.command.clone(), |line, (name, value)| format!("{line} --{name} {value}"))
+        let given = options
+            .into_iter()
+            .filter_map(|(name, value)| Some((name, quoted(&value?))));
+        given.fold(self.command.clone(), |line, (name, value)| {
+            format!("{line} --{name} {value}")
+        })
     }
 }

@@ -21,7 +21,10 @@ pub(super) enum Word {
 type Words = LazyLock<HashMap<&'static str, usize>>;
 
 fn ranked(list: &'static str) -> HashMap<&'static str, usize> {
-    list.split(' ').enumerate().map(|(rank, word)| (word, rank)).collect()
+    list.split(' ')
+        .enumerate()
+        .map(|(rank, word)| (word, rank))
+        .collect()
 }
 
 static STEPS: Words = LazyLock::new(|| ranked(STEP_WORDS));
@@ -36,12 +39,15 @@ const STEP_WORDS: &str = "h dt dx dy dz hmax hmin hk diam diameter cellsize tau 
 const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
     pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof unknowns kdofs \
     mdofs finiteelementunknowns";
-const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
+const RATE_WORDS: &str =
+    "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
 const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters its nit mem memory nnz cond \
     cfl row index cycle level lvl refinement i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
     displacement temperature stress flux solution gradient";
-const NORMS: [&str; 12] = ["err", "norm", "resid", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv"];
+const NORMS: [&str; 12] = [
+    "err", "norm", "resid", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv",
+];
 
 impl Word {
     /// The meaning of a name, with or without a unit after it.
@@ -62,18 +68,46 @@ impl Word {
                 _ => Self::Unknown,
             };
         }
-        let joined: String = lower.chars().filter(|c| c.is_alphanumeric() || *c == '∆').collect();
-        let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let joined: String = lower
+            .chars()
+            .filter(|c| c.is_alphanumeric() || *c == '∆')
+            .collect();
+        let words = || {
+            lower
+                .split(|c: char| !c.is_alphanumeric())
+                .filter(|word| !word.is_empty())
+        };
         let has = |list: &Words| words().any(|word| list.contains_key(word));
-        let argument = lower.trim_start_matches('\\').strip_prefix("log").or_else(|| lower.strip_prefix("ln"));
+        let argument = lower
+            .trim_start_matches('\\')
+            .strip_prefix("log")
+            .or_else(|| lower.strip_prefix("ln"));
         match () {
-            () if argument.is_some_and(|argument| !argument.starts_with(char::is_alphabetic)) => Self::Logarithm,
-            () if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") => Self::Rate,
-            () if NORMS.iter().any(|part| lower.contains(part) || joined.contains(part)) => Self::Error,
+            () if argument.is_some_and(|argument| !argument.starts_with(char::is_alphabetic)) => {
+                Self::Logarithm
+            }
+            () if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") => {
+                Self::Rate
+            }
+            () if NORMS
+                .iter()
+                .any(|part| lower.contains(part) || joined.contains(part)) =>
+            {
+                Self::Error
+            }
             () if STEPS.contains_key(joined.as_str()) => Self::Step,
             () if has(&ERRORS) && !words().any(|word| word == "time") => Self::Error,
-            () if words().all(|word| COSTS.contains_key(word)) && words().next().is_some() => Self::Cost,
-            () => count(&joined).map_or(if has(&COSTS) { Self::Cost } else { Self::Unknown }, Self::Count),
+            () if words().all(|word| COSTS.contains_key(word)) && words().next().is_some() => {
+                Self::Cost
+            }
+            () => count(&joined).map_or(
+                if has(&COSTS) {
+                    Self::Cost
+                } else {
+                    Self::Unknown
+                },
+                Self::Count,
+            ),
         }
     }
 
@@ -94,36 +128,65 @@ impl Word {
 fn count(name: &str) -> Option<usize> {
     let rank = |name: &str| COUNTS.get(name).copied();
     let prefixes = ["numberof", "number", "num", "nr", "no", "n", "total"];
-    rank(name).or_else(|| prefixes.iter().find_map(|prefix| rank(name.strip_prefix(prefix)?)))
+    rank(name).or_else(|| {
+        prefixes
+            .iter()
+            .find_map(|prefix| rank(name.strip_prefix(prefix)?))
+    })
 }
 
 /// Whether values are those of one row above the other: 1/h counts, 1/N is a step.
 pub(super) fn reciprocal(name: &str) -> Option<&str> {
     let name = without_unit(name);
-    name.strip_prefix("1/").or_else(|| name.strip_suffix("^-1")).map(str::trim)
+    name.strip_prefix("1/")
+        .or_else(|| name.strip_suffix("^-1"))
+        .map(str::trim)
 }
 
 /// A name without the markup of mathematics.
 pub(super) fn shown(text: &str) -> String {
-    let text = text.trim_matches(|c: char| c.is_whitespace() || "*`$".contains(c)).replace('$', "");
-    let inner = text.strip_prefix('{').and_then(|text| text.strip_suffix('}')).filter(|inner| !inner.starts_with('}'));
-    let plain = [("\\_", "_"), ("\\|", "|"), ("\\#", "#"), ("\\%", "%"), ("\\Delta ", "Δ")];
-    plain.iter().fold(inner.unwrap_or(&text).trim().to_owned(), |text, (from, to)| text.replace(from, to))
+    let text = text
+        .trim_matches(|c: char| c.is_whitespace() || "*`$".contains(c))
+        .replace('$', "");
+    let inner = text
+        .strip_prefix('{')
+        .and_then(|text| text.strip_suffix('}'))
+        .filter(|inner| !inner.starts_with('}'));
+    let plain = [
+        ("\\_", "_"),
+        ("\\|", "|"),
+        ("\\#", "#"),
+        ("\\%", "%"),
+        ("\\Delta ", "Δ"),
+    ];
+    plain.iter().fold(
+        inner.unwrap_or(&text).trim().to_owned(),
+        |text, (from, to)| text.replace(from, to),
+    )
 }
 
 /// A name without a unit in brackets after it: `h [m]`, `CPU (s)`.
 fn without_unit(name: &str) -> &str {
-    let before =
-        name.strip_suffix([']', ')']).and_then(|name| name.rsplit_once(['[', '('])).map(|(name, _)| name.trim());
+    let before = name
+        .strip_suffix([']', ')'])
+        .and_then(|name| name.rsplit_once(['[', '(']))
+        .map(|(name, _)| name.trim());
     before.filter(|before| !before.is_empty()).unwrap_or(name)
 }
 
 /// Position of the name wanted: as written, or the only such name without its unit, or a nameless column by its number.
-pub(crate) fn position<'n>(names: impl Iterator<Item = &'n str> + Clone, wanted: &str) -> Option<usize> {
+pub(crate) fn position<'n>(
+    names: impl Iterator<Item = &'n str> + Clone,
+    wanted: &str,
+) -> Option<usize> {
     let numbered = format!("column {wanted}");
     let same = |text: &str| names.clone().position(|name| name == text);
     same(wanted).or_else(|| same(&numbered)).or_else(|| {
-        let mut same = names.clone().enumerate().filter(|(_, name)| without_unit(name) == wanted).map(|(k, _)| k);
+        let mut same = names
+            .clone()
+            .enumerate()
+            .filter(|(_, name)| without_unit(name) == wanted)
+            .map(|(k, _)| k);
         same.next().filter(|_| same.next().is_none())
     })
 }

@@ -1,10 +1,13 @@
 //! Numbers as tables write them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`, `32x32`.
 
 /// What tables write if there is no number: the rate of the coarsest level.
-const DASHES: [&str; 12] = ["", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)"];
+const DASHES: [&str; 12] = [
+    "", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)",
+];
 
 /// Markup around a number that does not change it, and what it stands for.
-const DRESS: &str = "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\num= \\textbf= \\mathbf= \\bf= {}=";
+const DRESS: &str =
+    "**=^ \u{2212}=- \\times=* \\cdot=* ×=* ·=* \\,= \\num= \\textbf= \\mathbf= \\bf= {}=";
 
 /// A number, and the digits it is printed with.
 #[derive(Debug, Clone, Copy)]
@@ -21,12 +24,18 @@ pub(super) struct Number {
 pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
     let places = |scaled: bool| {
         let places = column.iter().flatten().filter_map(|number| number.place);
-        places.filter(|place| place.1.is_some() == scaled).map(|place| place.0).max().unwrap_or(0)
+        places
+            .filter(|place| place.1.is_some() == scaled)
+            .map(|place| place.0)
+            .max()
+            .unwrap_or(0)
     };
     let (plain, scaled) = (places(false), places(true));
     let half = |number: &Option<Number>| match number.and_then(|number| number.place) {
         Some((_, None)) if plain > 0 => 0.5 * 10f64.powi(-plain),
-        Some((_, Some(ten))) if number.is_some_and(|number| number.value != 0.0) => 0.5 * 10f64.powi(ten - scaled),
+        Some((_, Some(ten))) if number.is_some_and(|number| number.value != 0.0) => {
+            0.5 * 10f64.powi(ten - scaled)
+        }
         _ => 0.0,
     };
     column.iter().map(half).collect()
@@ -45,23 +54,41 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     // Most cells that are no number are words, perhaps a hundred thousand; two numbers are not one.
     let is_other = || {
         let starts = cell.is_empty() || cell.starts_with(char::is_alphabetic);
-        starts || cell.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count() > 1
+        starts
+            || cell
+                .split_whitespace()
+                .filter(|word| word.parse::<f64>().is_ok())
+                .count()
+                > 1
     };
-    if let Some(number) = real(cell).or_else(|| cell.strip_prefix('(').and_then(|cell| real(cell.strip_suffix(')')?))) {
+    if let Some(number) = real(cell).or_else(|| {
+        cell.strip_prefix('(')
+            .and_then(|cell| real(cell.strip_suffix(')')?))
+    }) {
         return Some(number);
     } else if is_other() {
         return None;
     }
     let (edge, others) = cell.split_once(['x', '×']).unwrap_or((cell, ""));
-    if edge.bytes().all(|c| c.is_ascii_digit()) && others.split(['x', '×']).all(|other| other == edge) {
+    if edge.bytes().all(|c| c.is_ascii_digit())
+        && others.split(['x', '×']).all(|other| other == edge)
+    {
         return real(edge);
     }
     let mut text = cell.trim_matches(|c| "`_".contains(c)).to_owned();
-    if let Some(bold) = text.strip_prefix("**").and_then(|text| text.strip_suffix("**")) {
+    if let Some(bold) = text
+        .strip_prefix("**")
+        .and_then(|text| text.strip_suffix("**"))
+    {
         text = bold.to_owned();
     }
-    let marks = DRESS.split_whitespace().filter_map(|mark| mark.split_once('='));
-    text = marks.fold(text.replace("\\frac{", "").replace("}{", "/"), |text, (from, to)| text.replace(from, to));
+    let marks = DRESS
+        .split_whitespace()
+        .filter_map(|mark| mark.split_once('='));
+    text = marks.fold(
+        text.replace("\\frac{", "").replace("}{", "/"),
+        |text, (from, to)| text.replace(from, to),
+    );
     text.retain(|c| !c.is_whitespace() && !matches!(c, '$' | '{' | '}'));
     match text.split_once(',') {
         // Three digits after a comma, and no zero before it, may be thousands.
@@ -75,36 +102,64 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
 /// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number 0.1 twice.
 fn value(text: &str) -> Option<Number> {
     let integer = |text: &str| text.trim_matches(['(', ')']).parse::<i32>().ok();
-    if let Some((above, below)) = text.split_once('/').filter(|(_, below)| !below.contains('/')) {
-        return Some(Number { value: value(above)?.value / value(below)?.value, place: None });
+    if let Some((above, below)) = text
+        .split_once('/')
+        .filter(|(_, below)| !below.contains('/'))
+    {
+        return Some(Number {
+            value: value(above)?.value / value(below)?.value,
+            place: None,
+        });
     }
     if let Some((factor, power)) = text.split_once('*') {
         // Read as one number, because a product is rounded once more.
-        return real(&format!("{factor}e{}", integer(power.strip_prefix("10^")?)?));
+        return real(&format!(
+            "{factor}e{}",
+            integer(power.strip_prefix("10^")?)?
+        ));
     }
     match text.split_once('^') {
-        Some(("10", exponent)) => Some(Number { place: None, ..real(&format!("1e{}", integer(exponent)?))? }),
-        Some((base, exponent)) => Some(Number { value: real(base)?.value.powi(integer(exponent)?), place: None }),
+        Some(("10", exponent)) => Some(Number {
+            place: None,
+            ..real(&format!("1e{}", integer(exponent)?))?
+        }),
+        Some((base, exponent)) => Some(Number {
+            value: real(base)?.value.powi(integer(exponent)?),
+            place: None,
+        }),
         None => real(text),
     }
 }
 
 /// A number of C or Fortran; Fortran's exponents begin with D or, with three digits, with their sign.
 fn real(text: &str) -> Option<Number> {
-    let decimals = |text: &str| text.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+    let decimals = |text: &str| {
+        text.split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len() as i32)
+    };
     let signed = || {
         let (_, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
-        let is_exponent = exponent.starts_with(['+', '-']) && exponent[1..].bytes().all(|c| c.is_ascii_digit());
+        let is_exponent =
+            exponent.starts_with(['+', '-']) && exponent[1..].bytes().all(|c| c.is_ascii_digit());
         is_exponent.then_some([text.len() - 4; 2])
     };
-    let exponent = text.find(['e', 'E', 'D', 'd', 'Q', 'q']).map(|at| [at, at + 1]).or_else(signed);
+    let exponent = text
+        .find(['e', 'E', 'D', 'd', 'Q', 'q'])
+        .map(|at| [at, at + 1])
+        .or_else(signed);
     if let Some([end, start]) = exponent
         && text[..end].ends_with(|c: char| c.is_ascii_digit() || c == '.')
     {
         let (mantissa, ten): (&str, i32) = (&text[..end], text[start..].parse().ok()?);
         let value = format!("{mantissa}e{ten}").parse().ok()?;
-        return Some(Number { value, place: Some((decimals(mantissa), Some(ten))) });
+        return Some(Number {
+            value,
+            place: Some((decimals(mantissa), Some(ten))),
+        });
     }
     let value: f64 = text.parse().ok()?;
-    Some(Number { value, place: value.is_finite().then_some((decimals(text), None)) })
+    Some(Number {
+        value,
+        place: value.is_finite().then_some((decimals(text), None)),
+    })
 }

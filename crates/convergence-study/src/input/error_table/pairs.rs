@@ -47,26 +47,43 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     let (pairs, rows) = pairs(text);
     let marked = pairs.iter().filter(|pair| pair.is_marked).count();
     let longest = pairs.iter().map(|pair| pair.values.len()).max()?;
-    if if must_mark { marked < 2 || marked <= rows } else { rows > 0 } {
+    if if must_mark {
+        marked < 2 || marked <= rows
+    } else {
+        rows > 0
+    } {
         return None;
     }
-    Some(if longest > 1 { lists(pairs, longest) } else { records(&pairs) })
+    Some(if longest > 1 {
+        lists(pairs, longest)
+    } else {
+        records(&pairs)
+    })
 }
 
 /// The pairs of a text, and how many lines begin with a nameless number.
 fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
     let (mut pairs, mut known): (Vec<Pair<'_>>, HashSet<&str>) = Default::default();
     let (mut rows, mut is_row, mut depth, mut label, mut position) = (0, false, 0_usize, 0, 0);
-    while let Some(start) = text[position..].find(|c| !is_mark(c)).map(|start| position + start) {
-        position = text[start..].find(is_mark).map_or(text.len(), |end| start + end);
+    while let Some(start) = text[position..]
+        .find(|c| !is_mark(c))
+        .map(|start| position + start)
+    {
+        position = text[start..]
+            .find(is_mark)
+            .map_or(text.len(), |end| start + end);
         let (before, word) = (&text[label..start], &text[start..position]);
         let behind = text[position..].trim_start_matches([' ', '\t']);
         let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
-        let is_marked = before.trim_end_matches(|c| is_mark(c) && !":=".contains(c)).ends_with([':', '=']);
+        let is_marked = before
+            .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
+            .ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
         // After a name that has a number elsewhere, a word means that the number is missing.
         let is_word = || is_dash(word) || known.contains(name_before(before));
-        if !((begins || is_last) && number(word, false).is_some() || is_marked && is_last && is_word()) {
+        if !((begins || is_last) && number(word, false).is_some()
+            || is_marked && is_last && is_word())
+        {
             continue;
         }
         let marks = &before[before.trim_end_matches(is_mark).len()..];
@@ -75,11 +92,16 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
         // The first number of a line may have its name on the line above: `"h": [`.
         let is_first = label == 0 || before.contains('\n');
         let is_near = !marks.contains('\n') || marks.contains([':', '=', '[']);
-        let has_name = name.contains(char::is_alphabetic) && is_near && !marks.contains(['(', ',', ';', '{']);
+        let has_name =
+            name.contains(char::is_alphabetic) && is_near && !marks.contains(['(', ',', ';', '{']);
         is_row = !has_name && (is_first || is_row);
         match pairs.last_mut() {
             _ if has_name => {
-                pairs.push(Pair { name, values: vec![word], is_marked });
+                pairs.push(Pair {
+                    name,
+                    values: vec![word],
+                    is_marked,
+                });
                 known.insert(name);
             }
             Some(last) if depth > 0 || !is_row => last.values.push(word),
@@ -94,28 +116,51 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
 fn name_before(text: &str) -> &str {
     let words = text.trim_end_matches(is_mark);
     // The search for a name is bounded, because a text may have a hundred thousand words before its next number.
-    let start = (words.len().saturating_sub(LONGEST_LABEL)..).find(|at| words.is_char_boundary(*at));
-    let words = words[start.unwrap_or(0)..].rsplit('\n').next().unwrap_or_default();
+    let start =
+        (words.len().saturating_sub(LONGEST_LABEL)..).find(|at| words.is_char_boundary(*at));
+    let words = words[start.unwrap_or(0)..]
+        .rsplit('\n')
+        .next()
+        .unwrap_or_default();
     // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
     let cuts = |c: char| matches!(c, ',' | ';' | '{' | '\t') || (c == '(' && !words.contains(')'));
     let name = words.rsplit(cuts).next().unwrap_or_default();
-    let name = name.trim_matches(is_mark).trim_start_matches(['-', '>', ' ']);
-    let name = name.rsplit([':', ']']).next().unwrap_or_default().trim_matches(is_mark);
-    LEVELS.iter().find_map(|level| name.strip_prefix(level)).unwrap_or(name).trim_start()
+    let name = name
+        .trim_matches(is_mark)
+        .trim_start_matches(['-', '>', ' ']);
+    let name = name
+        .rsplit([':', ']'])
+        .next()
+        .unwrap_or_default()
+        .trim_matches(is_mark);
+    LEVELS
+        .iter()
+        .find_map(|level| name.strip_prefix(level))
+        .unwrap_or(name)
+        .trim_start()
 }
 
 /// A column for each list; rates, one fewer, begin on the second level.
 fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
-    let mut grid = RawTable { rows: vec![vec![]; longest], ..RawTable::default() };
+    let mut grid = RawTable {
+        rows: vec![vec![]; longest],
+        ..RawTable::default()
+    };
     for mut pair in pairs {
         if pair.values.len() + 1 == longest && longest > 2 {
             pair.values.insert(0, &pair.name[..0]);
         }
         if pair.values.len() == longest {
             grid.names.push(pair.name);
-            grid.rows.iter_mut().zip(pair.values).for_each(|(row, value)| row.push(value));
+            grid.rows
+                .iter_mut()
+                .zip(pair.values)
+                .for_each(|(row, value)| row.push(value));
         } else {
-            let why = format!("{} instead of {longest}", counted(pair.values.len(), "number"));
+            let why = format!(
+                "{} instead of {longest}",
+                counted(pair.values.len(), "number")
+            );
             grid.left_out.push((pair.name.to_owned(), why));
         }
     }
@@ -134,16 +179,41 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
         counts[place].1 += 1;
     }
     let mut alike: HashMap<usize, usize> = HashMap::new();
-    counts.iter().for_each(|(_, count)| *alike.entry(*count).or_default() += 1);
-    let is_step = |(name, count): &&(&str, usize)| *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_));
-    let common = || counts.iter().max_by_key(|(_, count)| (alike[count], *count));
-    let levels = counts.iter().find(is_step).or_else(common).map_or(0, |(_, count)| *count);
-    let (kept, others): (Vec<_>, Vec<_>) =
-        counts.iter().partition(|(_, count)| *count <= levels && 2 * count >= levels);
-    let why = |(name, count): (&str, usize)| (name.to_owned(), format!("printed {count} times for {levels} levels"));
-    let first = kept.iter().find(|(_, count)| *count == levels).map(|(name, _)| *name);
+    counts
+        .iter()
+        .for_each(|(_, count)| *alike.entry(*count).or_default() += 1);
+    let is_step = |(name, count): &&(&str, usize)| {
+        *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_))
+    };
+    let common = || {
+        counts
+            .iter()
+            .max_by_key(|(_, count)| (alike[count], *count))
+    };
+    let levels = counts
+        .iter()
+        .find(is_step)
+        .or_else(common)
+        .map_or(0, |(_, count)| *count);
+    let (kept, others): (Vec<_>, Vec<_>) = counts
+        .iter()
+        .partition(|(_, count)| *count <= levels && 2 * count >= levels);
+    let why = |(name, count): (&str, usize)| {
+        (
+            name.to_owned(),
+            format!("printed {count} times for {levels} levels"),
+        )
+    };
+    let first = kept
+        .iter()
+        .find(|(_, count)| *count == levels)
+        .map(|(name, _)| *name);
     let names: Vec<&str> = kept.iter().map(|(name, _)| *name).collect();
-    let columns: HashMap<&str, usize> = names.iter().enumerate().map(|(column, name)| (*name, column)).collect();
+    let columns: HashMap<&str, usize> = names
+        .iter()
+        .enumerate()
+        .map(|(column, name)| (*name, column))
+        .collect();
     let mut rows: Vec<Vec<&str>> = vec![];
     for pair in pairs {
         if Some(pair.name) == first {
@@ -153,5 +223,10 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
             row[*column] = pair.values[0];
         }
     }
-    RawTable { names, rows, left_out: others.into_iter().map(why).collect(), ..RawTable::default() }
+    RawTable {
+        names,
+        rows,
+        left_out: others.into_iter().map(why).collect(),
+        ..RawTable::default()
+    }
 }

@@ -42,7 +42,10 @@ pub(super) struct Offer {
 
 impl From<InputError> for Refusal {
     fn from(error: InputError) -> Self {
-        Self { error, offers: vec![] }
+        Self {
+            error,
+            offers: vec![],
+        }
     }
 }
 
@@ -68,7 +71,14 @@ impl<'t> TableReader<'t> {
         choice: &'t Choice,
         table: &'t RawTable<'t>,
     ) -> Result<Self, Refusal> {
-        let mut reader = Self { text, file, choice, table, columns: vec![], left_out: table.left_out.clone() };
+        let mut reader = Self {
+            text,
+            file,
+            choice,
+            table,
+            columns: vec![],
+            left_out: table.left_out.clone(),
+        };
         reader.columns = reader.filled()?;
         Ok(reader)
     }
@@ -77,7 +87,10 @@ impl<'t> TableReader<'t> {
     pub(super) fn offer(&self, change: impl FnOnce(&mut Choice)) -> Offer {
         let mut choice = self.choice.clone();
         change(&mut choice);
-        Offer { choice, comment: "" }
+        Offer {
+            choice,
+            comment: "",
+        }
     }
 
     /// The columns; refuses a text without a table, and names that do not fit its columns.
@@ -85,8 +98,14 @@ impl<'t> TableReader<'t> {
         let RawTable { names, rows, .. } = self.table;
         let width = rows.iter().map(Vec::len).max().unwrap_or(0);
         if width == 0 {
-            let line = self.text.lines().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
-            let found = line.map_or("an empty table".to_owned(), |line| format!("no row of numbers, but `{line}`"));
+            let line = self
+                .text
+                .lines()
+                .find(|line| !line.trim().is_empty())
+                .map(|line| shorten(line.trim()));
+            let found = line.map_or("an empty table".to_owned(), |line| {
+                format!("no row of numbers, but `{line}`")
+            });
             let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
             return Err(self.refuse(expected, &found).into());
         }
@@ -100,38 +119,82 @@ impl<'t> TableReader<'t> {
             let error = self.error(row.first().unwrap_or(&self.text), None, &expected, &found);
             return Err(Refusal::from(error).offering([offer]));
         }
-        if let Some(k) = names.iter().position(|name| name.contains(char::is_control)) {
+        if let Some(k) = names
+            .iter()
+            .position(|name| name.contains(char::is_control))
+        {
             let found = format!("`{}`", shorten(&names[k]));
-            return Err(self.error(self.head(k), None, "a name without control characters", &found).into());
+            return Err(self
+                .error(
+                    self.head(k),
+                    None,
+                    "a name without control characters",
+                    &found,
+                )
+                .into());
         }
         if width < 2 {
             let found = "one column: write the table as CSV";
-            return Err(self.refuse("a column of steps and at least one of errors", found).into());
+            return Err(self
+                .refuse("a column of steps and at least one of errors", found)
+                .into());
         }
         Ok(self.columns_of(names))
     }
 
     fn columns_of(&self, names: Vec<String>) -> Vec<Cells<'t>> {
-        let RawTable { rows, decimal_comma, .. } = self.table;
-        let numbered = |(k, name): (usize, String)| if name.is_empty() { format!("column {}", k + 1) } else { name };
+        let RawTable {
+            rows,
+            decimal_comma,
+            ..
+        } = self.table;
+        let numbered = |(k, name): (usize, String)| {
+            if name.is_empty() {
+                format!("column {}", k + 1)
+            } else {
+                name
+            }
+        };
         let names: Vec<String> = names.into_iter().enumerate().map(numbered).collect();
-        let Choice { columns, claimed, values, .. } = self.choice;
+        let Choice {
+            columns,
+            claimed,
+            values,
+            ..
+        } = self.choice;
         let claimed = columns.iter().flatten().chain(claimed).chain(values);
-        let claimed = claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
+        let claimed =
+            claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
         let claimed: HashSet<usize> = claimed.collect();
         // With decimal commas, `1.024` may be 1024.
-        let is_comma = |cell: &&str| *decimal_comma && cell.contains(',') && number(cell, true).is_some();
+        let is_comma =
+            |cell: &&str| *decimal_comma && cell.contains(',') && number(cell, true).is_some();
         let has_comma = rows.iter().flatten().any(is_comma);
-        let value = |text: &&str| number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')));
+        let value = |text: &&str| {
+            number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')))
+        };
         let column = |(k, name): (usize, &String)| {
             let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
             let numbers: Vec<_> = texts.iter().map(value).collect();
             let (name, word) = (name.clone(), Word::of(name));
-            let may_count = matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
+            let may_count =
+                matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
             let (is_claimed, is_index) = (claimed.contains(&k), may_count && counts_rows(&texts));
-            let values = numbers.iter().map(|number| number.map_or(f64::NAN, |number| number.value)).collect();
+            let values = numbers
+                .iter()
+                .map(|number| number.map_or(f64::NAN, |number| number.value))
+                .collect();
             let is_number = numbers.iter().map(Option::is_some).collect();
-            Cells { name, word, texts, values, is_number, halves: halves(&numbers), is_claimed, is_index }
+            Cells {
+                name,
+                word,
+                texts,
+                values,
+                is_number,
+                halves: halves(&numbers),
+                is_claimed,
+                is_index,
+            }
         };
         names.iter().enumerate().map(column).collect()
     }
@@ -139,17 +202,37 @@ impl<'t> TableReader<'t> {
     /// The column with that name, or with that number from 1.
     pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
         let names = || self.columns.iter().map(|column| column.name.as_str());
-        let numbered = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|column| *column < self.columns.len());
-        names::position(names(), wanted).or_else(numbered).ok_or_else(|| {
-            let suggestion = nearest(wanted, names().take(LISTED)).map(str::to_owned);
-            let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
-            self.refuse(&format!("a column for {option}: {}", listed(names().map(str::to_owned))), &found)
-        })
+        let numbered = || {
+            wanted
+                .parse::<usize>()
+                .ok()?
+                .checked_sub(1)
+                .filter(|column| *column < self.columns.len())
+        };
+        names::position(names(), wanted)
+            .or_else(numbered)
+            .ok_or_else(|| {
+                let suggestion = nearest(wanted, names().take(LISTED)).map(str::to_owned);
+                let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
+                self.refuse(
+                    &format!(
+                        "a column for {option}: {}",
+                        listed(names().map(str::to_owned))
+                    ),
+                    &found,
+                )
+            })
     }
 
     /// The number of a cell that must hold one.
     pub(super) fn must(&self, row: usize, column: usize) -> Result<f64, InputError> {
-        let Cells { name, texts, values, is_number, .. } = &self.columns[column];
+        let Cells {
+            name,
+            texts,
+            values,
+            is_number,
+            ..
+        } = &self.columns[column];
         is_number[row].then_some(values[row]).ok_or_else(|| {
             let cell = texts[row];
             let more = match () {
@@ -169,12 +252,19 @@ impl<'t> TableReader<'t> {
     }
 
     pub(super) fn names(&self, columns: &[usize]) -> Vec<String> {
-        columns.iter().map(|k| self.columns[*k].name.clone()).collect()
+        columns
+            .iter()
+            .map(|k| self.columns[*k].name.clone())
+            .collect()
     }
 
     /// Names of columns in a line or message.
     pub(super) fn quoted(&self, columns: &[usize]) -> String {
-        listed(columns.iter().map(|k| format!("`{}`", self.columns[*k].name)))
+        listed(
+            columns
+                .iter()
+                .map(|k| format!("`{}`", self.columns[*k].name)),
+        )
     }
 
     /// The name above a column, or the beginning of the text.
@@ -193,10 +283,26 @@ impl<'t> TableReader<'t> {
     }
 
     /// A complaint about a piece of the text.
-    pub(super) fn error(&self, piece: &str, field: Option<&str>, expected: &str, found: &str) -> InputError {
+    pub(super) fn error(
+        &self,
+        piece: &str,
+        field: Option<&str>,
+        expected: &str,
+        found: &str,
+    ) -> InputError {
         let reason = format!("expected {expected}, found {found}");
-        let source = Source { file: self.file, text: self.text };
-        let error = source.error(self.offset(piece), field.map(str::to_owned), Complaint::Invalid { reason });
-        InputError { place: error.place.filter(|_| !self.text.trim().is_empty()), ..error }
+        let source = Source {
+            file: self.file,
+            text: self.text,
+        };
+        let error = source.error(
+            self.offset(piece),
+            field.map(str::to_owned),
+            Complaint::Invalid { reason },
+        );
+        InputError {
+            place: error.place.filter(|_| !self.text.trim().is_empty()),
+            ..error
+        }
     }
 }

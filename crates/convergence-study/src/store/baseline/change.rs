@@ -24,12 +24,20 @@ pub struct Change {
 
 impl Change {
     pub(super) fn new(study: &str, name: &str, movement: Movement) -> Self {
-        Self { study: study.to_owned(), name: name.to_owned(), movement }
+        Self {
+            study: study.to_owned(),
+            name: name.to_owned(),
+            movement,
+        }
     }
 
     /// What changed, in words: the quantity, or `claim PATH`.
     pub fn subject(&self) -> String {
-        if self.movement.is_of_one_claim() { format!("claim {}", self.name) } else { self.name.clone() }
+        if self.movement.is_of_one_claim() {
+            format!("claim {}", self.name)
+        } else {
+            self.name.clone()
+        }
     }
 
     /// The name of the change: study, colon, number or `claim PATH`.
@@ -39,13 +47,18 @@ impl Change {
 
     /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; any other change as displayed.
     pub fn words(&self) -> String {
-        let Self { study, name, movement } = self;
+        let Self {
+            study,
+            name,
+            movement,
+        } = self;
         match movement {
             Movement::VanishedFile { .. } => format!("{study}: deleted"),
             Movement::Claim { from, to, entry } => {
                 let key = name.rsplit_once('.').map_or(name.as_str(), |(_, key)| key);
-                let what =
-                    entry.as_ref().map_or(format!("{study}: {name}"), |entry| format!("{study}, {entry}: {key}"));
+                let what = entry.as_ref().map_or(format!("{study}: {name}"), |entry| {
+                    format!("{study}, {entry}: {key}")
+                });
                 match (from, to) {
                     (Some(from), Some(to)) => format!("{what} {from}, now {to}"),
                     (Some(from), None) => format!("{what} {from} removed"),
@@ -125,14 +138,21 @@ impl Movement {
 
     /// Whether a blessing needs a reason: a claim was changed, withdrawn with its study, or is missing although numbers are guarded.
     pub fn needs_a_reason(&self) -> bool {
-        matches!(self, Self::Claim { .. } | Self::VanishedFile { .. } | Self::NewFile { guarded: 1.., .. })
+        matches!(
+            self,
+            Self::Claim { .. } | Self::VanishedFile { .. } | Self::NewFile { guarded: 1.., .. }
+        )
     }
 
     /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite if old and
     /// new value cannot be compared, 0 for new ones.
     pub fn weight(&self) -> f64 {
         match *self {
-            Self::Moved { from, to, tolerance } => {
+            Self::Moved {
+                from,
+                to,
+                tolerance,
+            } => {
                 let times = (to - from).abs() / (tolerance * from.abs());
                 if times.is_nan() { f64::INFINITY } else { times }
             }
@@ -148,26 +168,55 @@ pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
 }
 
 /// The changes of one study: in the run's order, then those that have vanished.
-pub(super) fn of_numbers(study: &str, expected: &BTreeMap<String, Guarded>, found: &[Quantity]) -> Vec<Change> {
+pub(super) fn of_numbers(
+    study: &str,
+    expected: &BTreeMap<String, Guarded>,
+    found: &[Quantity],
+) -> Vec<Change> {
     let change = |name: &String, movement| Change::new(study, name, movement);
     let mut changes = Vec::new();
     for quantity in found {
         match expected.get(&quantity.name) {
-            Some(guarded) => changes.extend(movement(guarded, quantity).map(|moved| change(&quantity.name, moved))),
-            None => changes.push(change(&quantity.name, Movement::New { value: quantity.value })),
+            Some(guarded) => changes
+                .extend(movement(guarded, quantity).map(|moved| change(&quantity.name, moved))),
+            None => changes.push(change(
+                &quantity.name,
+                Movement::New {
+                    value: quantity.value,
+                },
+            )),
         }
     }
-    let names: HashSet<&str> = found.iter().map(|quantity| quantity.name.as_str()).collect();
-    let vanished = expected.iter().filter(|(name, _)| !names.contains(name.as_str()));
-    changes.extend(vanished.map(|(name, guarded)| change(name, Movement::Vanished { value: guarded.value })));
+    let names: HashSet<&str> = found
+        .iter()
+        .map(|quantity| quantity.name.as_str())
+        .collect();
+    let vanished = expected
+        .iter()
+        .filter(|(name, _)| !names.contains(name.as_str()));
+    changes.extend(vanished.map(|(name, guarded)| {
+        change(
+            name,
+            Movement::Vanished {
+                value: guarded.value,
+            },
+        )
+    }));
     changes
 }
 
 fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
     if !meets(from.value, to.value, from.tolerance) {
-        Some(Movement::Moved { from: from.value, to: to.value, tolerance: from.tolerance })
+        Some(Movement::Moved {
+            from: from.value,
+            to: to.value,
+            tolerance: from.tolerance,
+        })
     } else if from.tolerance != to.tolerance {
-        Some(Movement::Tolerance { from: from.tolerance, to: to.tolerance })
+        Some(Movement::Tolerance {
+            from: from.tolerance,
+            to: to.tolerance,
+        })
     } else {
         None
     }
@@ -175,16 +224,32 @@ fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let colon = if self.movement.is_of_one_claim() { ":" } else { "" };
-        write!(f, "{}: {}{colon} {}", self.study, self.subject(), self.movement)
+        let colon = if self.movement.is_of_one_claim() {
+            ":"
+        } else {
+            ""
+        };
+        write!(
+            f,
+            "{}: {}{colon} {}",
+            self.study,
+            self.subject(),
+            self.movement
+        )
     }
 }
 
 impl fmt::Display for Movement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Moved { from, to, tolerance } => moved(f, *from, *to, *tolerance),
-            Self::Tolerance { from, to } => write!(f, "has another tolerance: was {from:e}, is {to:e}"),
+            Self::Moved {
+                from,
+                to,
+                tolerance,
+            } => moved(f, *from, *to, *tolerance),
+            Self::Tolerance { from, to } => {
+                write!(f, "has another tolerance: was {from:e}, is {to:e}")
+            }
             Self::New { value } => write!(f, "is new: {}", plain_text(*value)),
             Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(*value)),
             Self::Claim { from, to, .. } => {
@@ -193,7 +258,10 @@ impl fmt::Display for Movement {
             }
             Self::NewFile { values, guarded: 0 } => write!(f, "is new: {values} values"),
             Self::NewFile { values, guarded } => {
-                write!(f, "has no claims in the baseline, which guards {guarded} of its numbers: {values} values")
+                write!(
+                    f,
+                    "has no claims in the baseline, which guards {guarded} of its numbers: {values} values"
+                )
             }
             Self::VanishedFile { values } => write!(f, "was deleted: it had {values} values"),
         }
@@ -205,7 +273,13 @@ fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt:
     write!(f, "moved from {before} to {after}")?;
     let change = (to - from) / from.abs();
     if change.is_finite() {
-        write!(f, ", by {}{}, tolerated {}", if change > 0.0 { "+" } else { "" }, percent(change), percent(tolerance))
+        write!(
+            f,
+            ", by {}{}, tolerated {}",
+            if change > 0.0 { "+" } else { "" },
+            percent(change),
+            percent(tolerance)
+        )
     } else if from == 0.0 && to.is_finite() {
         write!(f, ", and nothing but 0 is tolerated")
     } else {
@@ -251,18 +325,42 @@ pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usiz
     let Header { id, settings, .. } = header;
     let standing = standing(blessed);
     if standing.is_empty() {
-        let new = Change::new(id, WHOLE_FILE, Movement::NewFile { values: settings.len(), guarded });
-        return if settings.is_empty() { vec![] } else { vec![new] };
+        let new = Change::new(
+            id,
+            WHOLE_FILE,
+            Movement::NewFile {
+                values: settings.len(),
+                guarded,
+            },
+        );
+        return if settings.is_empty() {
+            vec![]
+        } else {
+            vec![new]
+        };
     }
-    let mut paths: BTreeMap<&str, [Option<&str>; 2]> =
-        standing.into_iter().map(|(path, value)| (path, [Some(value), None])).collect();
+    let mut paths: BTreeMap<&str, [Option<&str>; 2]> = standing
+        .into_iter()
+        .map(|(path, value)| (path, [Some(value), None]))
+        .collect();
     for (path, value) in settings {
         paths.entry(path).or_default()[1] = Some(value);
     }
-    let changed = paths.iter().map(|(path, values)| (*path, *values)).filter(|(_, [from, to])| from != to);
+    let changed = paths
+        .iter()
+        .map(|(path, values)| (*path, *values))
+        .filter(|(_, [from, to])| from != to);
     let change = |(path, [from, to]): (&str, [Option<&str>; 2])| {
         let [from, to] = [from, to].map(|value| value.map(str::to_owned));
-        Change::new(id, path, Movement::Claim { from, to, entry: entry(path, &paths) })
+        Change::new(
+            id,
+            path,
+            Movement::Claim {
+                from,
+                to,
+                entry: entry(path, &paths),
+            },
+        )
     };
     changed.map(change).collect()
 }
@@ -274,8 +372,12 @@ const ENTRY_KEYS: [&str; 5] = ["norm", "error", "value", "quantity", "name"];
 ///
 /// * `paths`: the previous and the current value by path.
 fn entry(path: &str, paths: &BTreeMap<&str, [Option<&str>; 2]>) -> Option<String> {
-    let (entry, _) = path.rsplit_once('.').filter(|(entry, _)| entry.ends_with(']'))?;
-    let [from, to] = ENTRY_KEYS.iter().find_map(|key| paths.get(format!("{entry}.{key}").as_str()))?;
+    let (entry, _) = path
+        .rsplit_once('.')
+        .filter(|(entry, _)| entry.ends_with(']'))?;
+    let [from, to] = ENTRY_KEYS
+        .iter()
+        .find_map(|key| paths.get(format!("{entry}.{key}").as_str()))?;
     to.or(*from).map(|value| value.trim_matches('"').to_owned())
 }
 
@@ -288,7 +390,9 @@ pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<Change> {
 /// The values that have not been withdrawn.
 fn standing(blessed: Option<&Claims>) -> Vec<(&str, &str)> {
     let claims = blessed.into_iter().flatten();
-    claims.filter_map(|(path, claim)| Some((path.as_str(), claim.value.as_deref()?))).collect()
+    claims
+        .filter_map(|(path, claim)| Some((path.as_str(), claim.value.as_deref()?)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -309,8 +413,15 @@ mod tests {
 
     #[test]
     fn a_number_that_vanishes_is_a_change_whatever_else_the_run_has() {
-        let guarded = |value| Guarded { value, tolerance: 1e-3, reason: None };
-        let expected = BTreeMap::from([("kept".to_owned(), guarded(1.0)), ("gone".to_owned(), guarded(2.0))]);
+        let guarded = |value| Guarded {
+            value,
+            tolerance: 1e-3,
+            reason: None,
+        };
+        let expected = BTreeMap::from([
+            ("kept".to_owned(), guarded(1.0)),
+            ("gone".to_owned(), guarded(2.0)),
+        ]);
         let gone = Change::new("study", "gone", Movement::Vanished { value: 2.0 });
         let kept = Change::new("study", "kept", Movement::Vanished { value: 1.0 });
         let found = Quantity::new("kept", 1.0, 1e-3);

@@ -66,11 +66,27 @@ struct Set<'v> {
 fn set<'v>(votes: &[Vote], settings: Vec<&'v Setting>, holds: Vec<bool>) -> Set<'v> {
     let failing = votes.iter().filter(|vote| vote.fails).count() as f64;
     let with = holds.iter().filter(|holds| **holds).count() as f64;
-    let both = votes.iter().zip(&holds).filter(|(vote, holds)| vote.fails && **holds).count() as f64;
+    let both = votes
+        .iter()
+        .zip(&holds)
+        .filter(|(vote, holds)| vote.fails && **holds)
+        .count() as f64;
     let second = if settings.len() > 1 { SECOND } else { 0.0 };
-    let alone = if settings.iter().any(|(key, _)| key == STUDY) { ALONE } else { 0.0 };
-    let score = if both == 0.0 { 0.0 } else { both / (failing * with).sqrt() };
-    Set { settings, holds, score: score - second - alone }
+    let alone = if settings.iter().any(|(key, _)| key == STUDY) {
+        ALONE
+    } else {
+        0.0
+    };
+    let score = if both == 0.0 {
+        0.0
+    } else {
+        both / (failing * with).sqrt()
+    };
+    Set {
+        settings,
+        holds,
+        score: score - second - alone,
+    }
 }
 
 /// The best conjunction of at most two settings. Of equals, the first named.
@@ -78,7 +94,10 @@ pub(super) fn contrast(votes: &[Vote]) -> Contrast {
     let mut singles: Vec<Set<'_>> = vec![];
     for setting in votes.iter().flat_map(|vote| &vote.settings) {
         if singles.iter().all(|known| known.settings[0] != setting) {
-            let holds: Vec<bool> = votes.iter().map(|vote| vote.settings.contains(setting)).collect();
+            let holds: Vec<bool> = votes
+                .iter()
+                .map(|vote| vote.settings.contains(setting))
+                .collect();
             // Two settings with the same votes are equivalent.
             if singles.iter().all(|known| known.holds != holds) {
                 singles.push(set(votes, vec![setting], holds));
@@ -91,10 +110,18 @@ pub(super) fn contrast(votes: &[Vote]) -> Contrast {
     let mut best = set(votes, vec![], nothing.holds.clone());
     best.score += GAIN;
     for (k, one) in singles.iter().enumerate() {
-        let pairs = singles[k + 1..].iter().filter(|other| other.settings[0].0 != one.settings[0].0).map(|other| {
-            let holds = one.holds.iter().zip(&other.holds).map(|(a, b)| *a && *b).collect();
-            set(votes, vec![one.settings[0], other.settings[0]], holds)
-        });
+        let pairs = singles[k + 1..]
+            .iter()
+            .filter(|other| other.settings[0].0 != one.settings[0].0)
+            .map(|other| {
+                let holds = one
+                    .holds
+                    .iter()
+                    .zip(&other.holds)
+                    .map(|(a, b)| *a && *b)
+                    .collect();
+                set(votes, vec![one.settings[0], other.settings[0]], holds)
+            });
         let single = set(votes, one.settings.clone(), one.holds.clone());
         for next in std::iter::once(single).chain(pairs) {
             if next.score > best.score + 1e-9 {
@@ -113,10 +140,14 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
             fails = [fails[0] + vote.count[0], fails[1] + vote.count[1]];
             continue;
         }
-        let lacks = best.settings.iter().find(|setting| !vote.settings.contains(setting));
+        let lacks = best
+            .settings
+            .iter()
+            .find(|setting| !vote.settings.contains(setting));
         // There would be too many names.
         let instead = lacks.filter(|(key, _)| key != STUDY);
-        let instead = instead.and_then(|(key, _)| vote.settings.iter().find(|(other, _)| other == key));
+        let instead =
+            instead.and_then(|(key, _)| vote.settings.iter().find(|(other, _)| other == key));
         let name = instead.map_or("the others", |(_, value)| value);
         let [failed, all] = vote.count;
         match passes.iter_mut().find(|(known, _)| known == name) {
@@ -127,28 +158,58 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     passes.sort_by_key(|(_, [passing, _])| std::cmp::Reverse(*passing));
     passes.truncate(GROUPS);
     passes.retain(|(_, [passing, _])| *passing > 0);
-    let settings: Vec<Setting> = best.settings.iter().map(|setting| (*setting).clone()).collect();
-    let score = if settings.is_empty() { nothing } else { best.score };
-    Contrast { shared: shared(votes, &settings), settings, score, fails, passes }
+    let settings: Vec<Setting> = best
+        .settings
+        .iter()
+        .map(|setting| (*setting).clone())
+        .collect();
+    let score = if settings.is_empty() {
+        nothing
+    } else {
+        best.score
+    };
+    Contrast {
+        shared: shared(votes, &settings),
+        settings,
+        score,
+        fails,
+        passes,
+    }
 }
 
 /// The settings of all failing votes, except those `named` and those that most passing votes share.
 fn shared(votes: &[Vote], named: &[Setting]) -> Vec<Setting> {
     let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
     // One item shares everything with itself.
-    let (Some((first, others)), true) = (failing.split_first(), failing.len() > 1) else { return vec![] };
+    let (Some((first, others)), true) = (failing.split_first(), failing.len() > 1) else {
+        return vec![];
+    };
     let is_named = |value: &str| named.iter().any(|(_, words)| names(words, value));
     let is_new = |(key, value): &&Setting| key != STUDY && !is_named(value);
-    let of_all =
-        first.settings.iter().filter(is_new).filter(|one| others.iter().all(|vote| vote.settings.contains(one)));
-    let share =
-        |one: &Setting| passing.iter().filter(|vote| vote.settings.contains(one)).count() as f64 / passing.len() as f64;
-    let mut shared: Vec<(f64, &Setting)> =
-        of_all.map(|one| (share(one), one)).filter(|(share, _)| *share <= RARE).collect();
+    let of_all = first
+        .settings
+        .iter()
+        .filter(is_new)
+        .filter(|one| others.iter().all(|vote| vote.settings.contains(one)));
+    let share = |one: &Setting| {
+        passing
+            .iter()
+            .filter(|vote| vote.settings.contains(one))
+            .count() as f64
+            / passing.len() as f64
+    };
+    let mut shared: Vec<(f64, &Setting)> = of_all
+        .map(|one| (share(one), one))
+        .filter(|(share, _)| *share <= RARE)
+        .collect();
     shared.sort_by(|(one, _), (next, _)| one.total_cmp(next));
     // A method without the choice has the same name under several keys.
     shared.dedup_by(|(_, (_, one)), (_, (_, kept))| one == kept);
-    shared.into_iter().take(SHARED).map(|(_, one)| one.clone()).collect()
+    shared
+        .into_iter()
+        .take(SHARED)
+        .map(|(_, one)| one.clone())
+        .collect()
 }
 
 #[cfg(test)]
@@ -156,8 +217,15 @@ mod tests {
     use super::*;
 
     fn vote(settings: &[(&str, &str)], count: [usize; 2]) -> Vote {
-        let settings = settings.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-        Vote { settings, fails: count[0] > 0, count }
+        let settings = settings
+            .iter()
+            .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
+            .collect();
+        Vote {
+            settings,
+            fails: count[0] > 0,
+            count,
+        }
     }
 
     #[test]
@@ -168,9 +236,19 @@ mod tests {
             vote(&[("method", "any order"), ("coupling", "a > 0")], [0, 24]),
         ];
         let found = contrast(&votes);
-        let values: Vec<&str> = found.settings.iter().map(|(_, value)| value.as_str()).collect();
+        let values: Vec<&str> = found
+            .settings
+            .iter()
+            .map(|(_, value)| value.as_str())
+            .collect();
         assert_eq!((values, found.fails), (vec!["one step", "a > 0"], [60, 62]));
-        assert_eq!(found.passes, [("a = 0".to_owned(), [31, 31]), ("any order".to_owned(), [24, 24])]);
+        assert_eq!(
+            found.passes,
+            [
+                ("a = 0".to_owned(), [31, 31]),
+                ("any order".to_owned(), [24, 24])
+            ]
+        );
         assert!((found.score - 0.98).abs() < 1e-12);
         // A second setting that adds nothing is not named.
         let one = contrast(&votes[..2]);
@@ -180,14 +258,33 @@ mod tests {
     #[test]
     fn what_all_failing_items_share_is_named_where_few_of_the_others_have_it() {
         let votes = [
-            vote(&[("method", "any order"), ("mesh", "graded"), ("field", "u")], [1, 1]),
-            vote(&[("method", "any order"), ("mesh", "graded"), ("field", "v")], [1, 1]),
-            vote(&[("method", "any order"), ("mesh", "uniform"), ("field", "u")], [0, 1]),
-            vote(&[("method", "one step"), ("mesh", "graded"), ("field", "u")], [0, 1]),
-            vote(&[("method", "one step"), ("mesh", "uniform"), ("field", "u")], [0, 9]),
+            vote(
+                &[("method", "any order"), ("mesh", "graded"), ("field", "u")],
+                [1, 1],
+            ),
+            vote(
+                &[("method", "any order"), ("mesh", "graded"), ("field", "v")],
+                [1, 1],
+            ),
+            vote(
+                &[("method", "any order"), ("mesh", "uniform"), ("field", "u")],
+                [0, 1],
+            ),
+            vote(
+                &[("method", "one step"), ("mesh", "graded"), ("field", "u")],
+                [0, 1],
+            ),
+            vote(
+                &[("method", "one step"), ("mesh", "uniform"), ("field", "u")],
+                [0, 9],
+            ),
         ];
-        let values =
-            |named: &[Setting]| -> Vec<String> { shared(&votes, named).into_iter().map(|(_, value)| value).collect() };
+        let values = |named: &[Setting]| -> Vec<String> {
+            shared(&votes, named)
+                .into_iter()
+                .map(|(_, value)| value)
+                .collect()
+        };
         assert_eq!(values(&[]), ["any order", "graded"]);
         let named = ("study".to_owned(), "a alone (any order)".to_owned());
         assert_eq!(values(&[named]), ["graded"]);
@@ -196,11 +293,23 @@ mod tests {
 
     #[test]
     fn where_everything_fails_or_nothing_separates_no_setting_is_named() {
-        let all = [vote(&[("method", "one step")], [2, 2]), vote(&[("method", "any order")], [1, 1])];
-        assert_eq!((contrast(&all).settings, contrast(&all).fails), (vec![], [3, 3]));
-        let mixed =
-            ["one step", "any order"].map(|method| [0, 1].map(|failed| vote(&[("method", method)], [failed, 1])));
+        let all = [
+            vote(&[("method", "one step")], [2, 2]),
+            vote(&[("method", "any order")], [1, 1]),
+        ];
+        assert_eq!(
+            (contrast(&all).settings, contrast(&all).fails),
+            (vec![], [3, 3])
+        );
+        let mixed = ["one step", "any order"]
+            .map(|method| [0, 1].map(|failed| vote(&[("method", method)], [failed, 1])));
         assert_eq!(contrast(&mixed.concat()).settings, []);
-        assert_eq!(contrast(&[]), Contrast { score: contrast(&[]).score, ..Contrast::default() });
+        assert_eq!(
+            contrast(&[]),
+            Contrast {
+                score: contrast(&[]).score,
+                ..Contrast::default()
+            }
+        );
     }
 }

@@ -25,19 +25,47 @@ impl Fingerprint {
     /// That of a run: 1 for each field with a rate or check that does not pass; for a moved field the logarithm of its ratio.
     pub fn of(finished: &[Finished], changes: &[Change]) -> Self {
         let mut items = BTreeMap::new();
-        for Finished { header, outcome, .. } in finished {
-            let rates = outcome.rates.iter().map(|(norm, rate)| (norm, rate.verdict));
-            let checks = outcome.checks.iter().map(|check| (&check.claim, check.verdict));
-            let failing = rates.chain(checks).filter(|(_, verdict)| !verdict.is_pass());
-            items.extend(failing.map(|(name, _)| (format!("{}: {}{FAILS}", header.id, field(name)), 1.0)));
+        for Finished {
+            header, outcome, ..
+        } in finished
+        {
+            let rates = outcome
+                .rates
+                .iter()
+                .map(|(norm, rate)| (norm, rate.verdict));
+            let checks = outcome
+                .checks
+                .iter()
+                .map(|check| (&check.claim, check.verdict));
+            let failing = rates
+                .chain(checks)
+                .filter(|(_, verdict)| !verdict.is_pass());
+            items.extend(
+                failing.map(|(name, _)| (format!("{}: {}{FAILS}", header.id, field(name)), 1.0)),
+            );
         }
-        for Change { study, name, movement } in changes {
-            let Movement::Moved { from, to, .. } = movement else { continue };
+        for Change {
+            study,
+            name,
+            movement,
+        } in changes
+        {
+            let Movement::Moved { from, to, .. } = movement else {
+                continue;
+            };
             let log = (to / from).abs().ln();
-            let size = if log.is_nan() { 1.0 } else { (log / LARGE).clamp(-1.0, 1.0) };
+            let size = if log.is_nan() {
+                1.0
+            } else {
+                (log / LARGE).clamp(-1.0, 1.0)
+            };
             // With two digits, because people commit the file.
             let least = if size < 0.0 { -0.1 } else { 0.1 };
-            let size = if size.abs() < 0.1 { least } else { (100.0 * size).round() / 100.0 };
+            let size = if size.abs() < 0.1 {
+                least
+            } else {
+                (100.0 * size).round() / 100.0
+            };
             items.insert(format!("{study}: {}", field(name)), size);
         }
         Self(items)
@@ -56,7 +84,11 @@ impl Fingerprint {
 
     /// Cosine of the angle between two: 1 if they are alike, 0 if they share nothing.
     pub fn likeness(&self, other: &Self) -> f64 {
-        let both: f64 = self.0.iter().filter_map(|(item, size)| Some(size * other.0.get(item)?)).sum();
+        let both: f64 = self
+            .0
+            .iter()
+            .filter_map(|(item, size)| Some(size * other.0.get(item)?))
+            .sum();
         let norm = |of: &Self| of.0.values().map(|size| size * size).sum::<f64>().sqrt();
         let product = norm(self) * norm(other);
         if product > 0.0 { both / product } else { 0.0 }
@@ -106,7 +138,13 @@ impl Fingerprints {
     /// The two most alike, if they are alike enough. Where nothing fails in the run, those that move numbers alike.
     pub fn nearest(&self, run: &Fingerprint) -> Vec<Resembling> {
         let only_moves = run.numbers() == *run;
-        let likeness = |of: &Fingerprint| if only_moves { of.numbers().likeness(run) } else { of.likeness(run) };
+        let likeness = |of: &Fingerprint| {
+            if only_moves {
+                of.numbers().likeness(run)
+            } else {
+                of.likeness(run)
+            }
+        };
         let like = |known: &Known| Resembling {
             mistake: known.mistake.clone(),
             file: known.file.clone(),
@@ -125,20 +163,36 @@ mod tests {
     use super::*;
 
     fn fingerprint(items: &[(&str, f64)]) -> Fingerprint {
-        Fingerprint(items.iter().map(|(item, size)| ((*item).to_owned(), *size)).collect())
+        Fingerprint(
+            items
+                .iter()
+                .map(|(item, size)| ((*item).to_owned(), *size))
+                .collect(),
+        )
     }
 
     /// Most of what the mistake does in the dictionary are failures; a run with only its moved numbers resembles it all the same.
     #[test]
     fn moved_numbers_are_compared_with_the_moved_numbers_of_mistakes_that_also_fail() {
         let moves = [("s: u", 0.5), ("s: v", -0.2)];
-        let fails = ["a: u fails", "b: u fails", "c: u fails", "d: u fails"].map(|item| (item, 1.0));
-        let known = |mistake: &str, items: Fingerprint| Known { mistake: mistake.into(), file: "f.rs".into(), items };
+        let fails =
+            ["a: u fails", "b: u fails", "c: u fails", "d: u fails"].map(|item| (item, 1.0));
+        let known = |mistake: &str, items: Fingerprint| Known {
+            mistake: mistake.into(),
+            file: "f.rs".into(),
+            items,
+        };
         let other = fingerprint(&[("s: u", -0.5), ("t: w", 1.0)]);
         let both = fingerprint(&[&moves[..], &fails].concat());
-        let all = Fingerprints { threshold: 0.6, known: vec![known("other", other), known("one", both)] };
+        let all = Fingerprints {
+            threshold: 0.6,
+            known: vec![known("other", other), known("one", both)],
+        };
         let names = |run: &[(&str, f64)]| -> Vec<(String, f64)> {
-            all.nearest(&fingerprint(run)).into_iter().map(|one| (one.mistake, one.likeness)).collect()
+            all.nearest(&fingerprint(run))
+                .into_iter()
+                .map(|one| (one.mistake, one.likeness))
+                .collect()
         };
         assert_eq!(names(&moves), [("one".to_owned(), 1.0)]);
         assert_eq!(names(&[("u: u", 1.0)]), []);

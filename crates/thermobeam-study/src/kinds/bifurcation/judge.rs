@@ -28,7 +28,11 @@ impl<'r> DiagramOf<'r> {
             Some(Found::Rest(rest)) => (beta, Some(rest)),
             _ => (beta, None),
         };
-        Self { scene: &study.scenes[k], diagram, rests: study.rest.betas.iter().enumerate().map(rest).collect() }
+        Self {
+            scene: &study.scenes[k],
+            diagram,
+            rests: study.rest.betas.iter().enumerate().map(rest).collect(),
+        }
     }
 
     fn theta_a(&self) -> f64 {
@@ -42,7 +46,9 @@ impl<'r> DiagramOf<'r> {
 
     /// β and u(1) at rest; NaN if the case failed.
     fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.rests.iter().map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.tip[0])))
+        self.rests
+            .iter()
+            .map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.tip[0])))
     }
 
     fn checks(&self, study: &BifurcationStudy) -> Vec<Check> {
@@ -60,22 +66,48 @@ impl<'r> DiagramOf<'r> {
 
     fn ends_are_stable(&self, allowed: f64) -> Check {
         let is_stable = |rest: &AtRest| rest.is_stable() && rest.distance() <= allowed;
-        let distances = self.rests.iter().map(|(_, rest)| rest.map_or(f64::NAN, AtRest::distance));
+        let distances = self
+            .rests
+            .iter()
+            .map(|(_, rest)| rest.map_or(f64::NAN, AtRest::distance));
         let farthest = distances.fold(0.0, max_or_nan);
-        let off = list(self.rests.iter().filter(|(_, rest)| !rest.is_some_and(is_stable)).map(|(beta, _)| *beta));
+        let off = list(
+            self.rests
+                .iter()
+                .filter(|(_, rest)| !rest.is_some_and(is_stable))
+                .map(|(beta, _)| *beta),
+        );
         let count = self.rests.len();
         Check::that(
             count > 0 && off == "none",
-            format!("θ_A = {}: every moving beam comes to rest on a stable branch", self.theta_a()),
-            format!("{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {off}"),
+            format!(
+                "θ_A = {}: every moving beam comes to rest on a stable branch",
+                self.theta_a()
+            ),
+            format!(
+                "{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {off}"
+            ),
         )
     }
 
     fn bent_below(&self) -> Check {
         let is_bent = |u_tip: f64| u_tip.abs() > STRAIGHT;
-        let as_expected = |(beta, tip): (f64, f64)| if beta < -BUCKLING { is_bent(tip) } else { tip.abs() <= STRAIGHT };
-        let bent = self.tips().filter(|(_, tip)| is_bent(*tip)).map(|(beta, _)| beta).fold(f64::NEG_INFINITY, f64::max);
-        let straight = self.tips().filter(|(_, tip)| tip.abs() <= STRAIGHT).map(|(beta, _)| beta);
+        let as_expected = |(beta, tip): (f64, f64)| {
+            if beta < -BUCKLING {
+                is_bent(tip)
+            } else {
+                tip.abs() <= STRAIGHT
+            }
+        };
+        let bent = self
+            .tips()
+            .filter(|(_, tip)| is_bent(*tip))
+            .map(|(beta, _)| beta)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let straight = self
+            .tips()
+            .filter(|(_, tip)| tip.abs() <= STRAIGHT)
+            .map(|(beta, _)| beta);
         let straight = straight.fold(f64::INFINITY, f64::min);
         Check::that(
             bent < straight && self.tips().all(as_expected),
@@ -84,7 +116,14 @@ impl<'r> DiagramOf<'r> {
         )
     }
 
-    fn unambiguous(&self, Diagram { ambiguous, branches, .. }: &Diagram) -> Check {
+    fn unambiguous(
+        &self,
+        Diagram {
+            ambiguous,
+            branches,
+            ..
+        }: &Diagram,
+    ) -> Check {
         let claim = "contact, side and number of unstable directions tell all branches apart";
         Check::that(
             *ambiguous == 0 && !branches.is_empty(),
@@ -94,19 +133,33 @@ impl<'r> DiagramOf<'r> {
     }
 
     fn one_state(&self, Diagram { counts, .. }: &Diagram) -> Check {
-        let several = list(counts.iter().filter(|(_, n)| *n != 1).map(|(beta, _)| *beta));
+        let several = list(
+            counts
+                .iter()
+                .filter(|(_, n)| *n != 1)
+                .map(|(beta, _)| *beta),
+        );
         Check::that(
             !counts.is_empty() && several == "none",
-            format!("θ_A = {}: one steady state for every β of the diagram, even beyond buckling", self.theta_a()),
-            format!("{} values of β, with another number of states: {several}", counts.len()),
+            format!(
+                "θ_A = {}: one steady state for every β of the diagram, even beyond buckling",
+                self.theta_a()
+            ),
+            format!(
+                "{} values of β, with another number of states: {several}",
+                counts.len()
+            ),
         )
     }
 
     /// The whole diagram, and a close-up of the fork if there is one.
     fn figures(&self) -> Vec<Figure> {
-        let Some(diagram) = self.diagram else { return vec![] };
+        let Some(diagram) = self.diagram else {
+            return vec![];
+        };
         let theta_a = self.theta_a();
-        let markers = "solid where stable, dashed where not; open markers: where moving beams come to rest";
+        let markers =
+            "solid where stable, dashed where not; open markers: where moving beams come to rest";
         let caption = format!("Steady states over β for θ_A = {theta_a}: {markers}.");
         let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
         let mut figures = vec![Figure::new(&format!("theta-a-{theta_a}"), caption, whole)];
@@ -114,31 +167,62 @@ impl<'r> DiagramOf<'r> {
             let fork = diagram.event[0];
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
             let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
-            figures.push(Figure::new(&format!("theta-a-{theta_a}-fork"), caption, close));
+            figures.push(Figure::new(
+                &format!("theta-a-{theta_a}-fork"),
+                caption,
+                close,
+            ));
         }
         figures
     }
 
     fn drawing(&self, diagram: &Diagram, range: [f64; 2]) -> String {
         let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-            points.iter().copied().filter(|(beta, _)| (range[0]..=range[1]).contains(beta)).collect()
+            points
+                .iter()
+                .copied()
+                .filter(|(beta, _)| (range[0]..=range[1]).contains(beta))
+                .collect()
         };
-        let labels = [(Phase::Free, "free"), (Phase::Upper, "upper obstacle"), (Phase::Lower, "lower obstacle")];
+        let labels = [
+            (Phase::Free, "free"),
+            (Phase::Upper, "upper obstacle"),
+            (Phase::Lower, "lower obstacle"),
+        ];
         let mut branches = Vec::new();
-        for ((contact, label), stable) in labels.into_iter().flat_map(|label| [(label, true), (label, false)]) {
-            let of = |branch: &&SteadyBranch| branch.key.contact == contact && branch.key.stable == stable;
+        for ((contact, label), stable) in labels
+            .into_iter()
+            .flat_map(|label| [(label, true), (label, false)])
+        {
+            let of = |branch: &&SteadyBranch| {
+                branch.key.contact == contact && branch.key.stable == stable
+            };
             // A branch found at a single β is a corner of the diagram, not a line.
-            let curves = diagram.branches.iter().filter(of).map(|branch| shown(&branch.points));
+            let curves = diagram
+                .branches
+                .iter()
+                .filter(of)
+                .map(|branch| shown(&branch.points));
             let lines = curves.filter(|points| points.len() > 1);
-            branches.extend(lines.map(|points| figures::Branch { label: label.to_owned(), points, stable }));
+            branches.extend(lines.map(|points| figures::Branch {
+                label: label.to_owned(),
+                points,
+                stable,
+            }));
         }
         let ends = plots::Series::new("end of a run", shown(&self.tips().collect::<Vec<_>>()));
-        figures::bifurcation(&branches, figures::obstacle_lines(self.scene.obstacles), &ends)
+        figures::bifurcation(
+            &branches,
+            figures::obstacle_lines(self.scene.obstacles),
+            &ends,
+        )
     }
 }
 
 pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -> Outcome {
-    let scenes: Vec<DiagramOf<'_>> = (0..study.scenes.len()).map(|k| DiagramOf::of(study, ran, k)).collect();
+    let scenes: Vec<DiagramOf<'_>> = (0..study.scenes.len())
+        .map(|k| DiagramOf::of(study, ran, k))
+        .collect();
     let force = |&n: &usize| match found(ran, &DiagramTask::Buckling(n)) {
         Some(Found::Force(force)) => (n, *force),
         _ => (n, f64::NAN),
@@ -146,30 +230,61 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     let forces: Vec<(usize, f64)> = study.meshes.iter().map(force).collect();
     let mut checks = vec![completion(ran, numbers_not_finite), discrete_limit(&forces)];
     checks.extend(scenes.iter().flat_map(|of| of.checks(study)));
-    let refinement = |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
-    let errors = forces.iter().map(|(_, force)| Some((force - BUCKLING).abs())).collect();
-    let (name, claim) = ("buckling force of P1 elements".to_owned(), Some(Claim::new(2.0, study.tolerance)));
-    let column = ErrorColumn { name, errors, claim, look: 0 };
+    let refinement =
+        |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
+    let errors = forces
+        .iter()
+        .map(|(_, force)| Some((force - BUCKLING).abs()))
+        .collect();
+    let (name, claim) = (
+        "buckling force of P1 elements".to_owned(),
+        Some(Claim::new(2.0, study.tolerance)),
+    );
+    let column = ErrorColumn {
+        name,
+        errors,
+        claim,
+        look: 0,
+    };
     let levels = Levels::new(Axis::Space, study.meshes.iter().map(refinement), [column]);
     let rates = levels.judge();
-    let events = scenes.iter().map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
-    let guarded = forces.iter().map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
-    let at: Vec<String> = scenes.iter().map(|of| format!("{:.6}", of.event())).collect();
+    let events = scenes
+        .iter()
+        .map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
+    let guarded = forces
+        .iter()
+        .map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
+    let at: Vec<String> = scenes
+        .iter()
+        .map(|of| format!("{:.6}", of.event()))
+        .collect();
     let headline = format!("buckling and lift-off at β = {}", at.join(", "));
-    let (diagrams, runs) = (study.scenes.len(), study.scenes.len() * study.rest.betas.len());
+    let (diagrams, runs) = (
+        study.scenes.len(),
+        study.scenes.len() * study.rest.betas.len(),
+    );
     Outcome {
         tables: vec![force_table(&forces), rest_table(study, &scenes)],
         figures: scenes.iter().flat_map(|of| of.figures()).collect(),
-        quantities: events.chain(guarded).chain(levels.quantities(&rates)).collect(),
+        quantities: events
+            .chain(guarded)
+            .chain(levels.quantities(&rates))
+            .collect(),
         levels: levels.errors(),
         headline: headline.clone(),
-        ..Outcome::new(format!("{diagrams} diagrams, {runs} runs to rest; {headline}"), rates, checks)
+        ..Outcome::new(
+            format!("{diagrams} diagrams, {runs} runs to rest; {headline}"),
+            rates,
+            checks,
+        )
     }
 }
 
 fn numbers_not_finite(found: &Found) -> Vec<String> {
     not_finite(match found {
-        Found::Diagram(Diagram { event: [low, high], .. }) => vec![("event, below", *low), ("event, above", *high)],
+        Found::Diagram(Diagram {
+            event: [low, high], ..
+        }) => vec![("event, below", *low), ("event, above", *high)],
         Found::Force(force) => vec![("force", *force)],
         Found::Rest(rest) => vec![("u(1)", rest.tip[0]), ("distance", rest.distance())],
     })
@@ -178,12 +293,18 @@ fn numbers_not_finite(found: &Found) -> Vec<String> {
 /// Numbers in words.
 fn list(betas: impl Iterator<Item = f64>) -> String {
     let betas: Vec<String> = betas.map(|beta| beta.to_string()).collect();
-    if betas.is_empty() { "none".to_owned() } else { betas.join(", ") }
+    if betas.is_empty() {
+        "none".to_owned()
+    } else {
+        betas.join(", ")
+    }
 }
 
 /// The discrete buckling force for vanishing mesh width, from the last two meshes.
 fn extrapolated(forces: &[(usize, f64)]) -> f64 {
-    let &[.., (coarse, before), (fine, last)] = forces else { return f64::NAN };
+    let &[.., (coarse, before), (fine, last)] = forces else {
+        return f64::NAN;
+    };
     last + richardson::correction(before, last, fine as f64 / coarse as f64, 2.0)
 }
 
@@ -203,18 +324,31 @@ fn buckles(diagram: &Diagram) -> Check {
     Check::that(
         holds,
         "θ_A = 0: the straight beam is the only steady state down to β = -(π²/4)/(1 + π²/4), and not below",
-        format!("several states up to {low:.10}, one from {high:.10}, for {:.10}", -BUCKLING),
+        format!(
+            "several states up to {low:.10}, one from {high:.10}, for {:.10}",
+            -BUCKLING
+        ),
     )
 }
 
 fn lifts_off(diagram: &Diagram) -> Check {
     let [low, high] = diagram.event;
     let claim = "the heated beam leaves the upper obstacle at one β, and is free above";
-    Check::that(high - low <= BRACKET, claim, format!("between {low:.9} and {high:.9}"))
+    Check::that(
+        high - low <= BRACKET,
+        claim,
+        format!("between {low:.9} and {high:.9}"),
+    )
 }
 
 fn force_table(forces: &[(usize, f64)]) -> Table {
-    let row = |name: String, force: f64| vec![name, format!("-{force:.10}"), format!("{:.3e}", force - BUCKLING)];
+    let row = |name: String, force: f64| {
+        vec![
+            name,
+            format!("-{force:.10}"),
+            format!("{:.3e}", force - BUCKLING),
+        ]
+    };
     let rows = forces.iter().map(|(n, force)| row(n.to_string(), *force));
     let last = row("extrapolated".to_owned(), extrapolated(forces));
     let head = ["elements", "β", "above -(π²/4)/(1 + π²/4)"];
@@ -225,12 +359,26 @@ fn rest_table(study: &BifurcationStudy, scenes: &[DiagramOf<'_>]) -> Table {
     let readings = |k: usize, of: &DiagramOf<'_>| {
         let rest = of.rests[k].1;
         let exact = rest.map_or(f64::NAN, |rest| rest.exact_tip()[0]);
-        [decimals(rest.map_or(f64::NAN, |rest| rest.tip[0]), 8), decimals(exact, 8)]
+        [
+            decimals(rest.map_or(f64::NAN, |rest| rest.tip[0]), 8),
+            decimals(exact, 8),
+        ]
     };
     let row = |(k, beta): (usize, &f64)| {
-        std::iter::once(beta.to_string()).chain(scenes.iter().flat_map(|of| readings(k, of))).collect()
+        std::iter::once(beta.to_string())
+            .chain(scenes.iter().flat_map(|of| readings(k, of)))
+            .collect()
     };
-    let of_scene = |of: &DiagramOf<'_>| [format!("u(1) at rest, θ_A = {}", of.theta_a()), "exact".to_owned()];
+    let of_scene = |of: &DiagramOf<'_>| {
+        [
+            format!("u(1) at rest, θ_A = {}", of.theta_a()),
+            "exact".to_owned(),
+        ]
+    };
     let head = std::iter::once("β".to_owned()).chain(scenes.iter().flat_map(of_scene));
-    Table::new("Where moving beams come to rest", head, study.rest.betas.iter().enumerate().map(row))
+    Table::new(
+        "Where moving beams come to rest",
+        head,
+        study.rest.betas.iter().enumerate().map(row),
+    )
 }

@@ -76,7 +76,12 @@ impl FromFile for BifurcationStudy {
         root.allow(&["study", "diagram", "buckling", "rest"])?;
         let diagram = root.table("diagram", &["scenes", "beta", "points"])?;
         let fits = |ends: &[f64]| ends.len() == 2 && increases(ends);
-        let ends = diagram.list("beta", "a list of two numbers, ascending", Field::number, fits)?;
+        let ends = diagram.list(
+            "beta",
+            "a list of two numbers, ascending",
+            Field::number,
+            fits,
+        )?;
         let points = diagram.count("points", 2..=100_000)?;
         let beta = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 / (points - 1) as f64);
         let buckling = root.table("buckling", &["elements", "tolerance"])?;
@@ -102,22 +107,47 @@ impl Kind for BifurcationStudy {
         let cost = 3e3 * self.grid.len() as f64;
         let theta_a = |scene: usize| self.scenes[scene].beam.theta_a;
         let scenes = 0..self.scenes.len();
-        let diagram = |k| Case::new(format!("branches, θ_A = {}", theta_a(k)), cost, DiagramTask::Diagram(k));
-        let force = |&n: &usize| Case::new(format!("buckling force, n = {n}"), n as f64, DiagramTask::Buckling(n));
+        let diagram = |k| {
+            Case::new(
+                format!("branches, θ_A = {}", theta_a(k)),
+                cost,
+                DiagramTask::Diagram(k),
+            )
+        };
+        let force = |&n: &usize| {
+            Case::new(
+                format!("buckling force, n = {n}"),
+                n as f64,
+                DiagramTask::Buckling(n),
+            )
+        };
         let rest = |scene: usize, (k, beta): (usize, &f64)| {
             let label = format!("to rest, θ_A = {}, β = {beta}", theta_a(scene));
             Case::new(label, self.rest.cost(), DiagramTask::Rest(scene, k))
         };
-        let rests = |scene: usize| self.rest.betas.iter().enumerate().map(move |beta| rest(scene, beta));
+        let rests = |scene: usize| {
+            self.rest
+                .betas
+                .iter()
+                .enumerate()
+                .map(move |beta| rest(scene, beta))
+        };
         let forces = self.meshes.iter().map(force);
-        scenes.clone().map(diagram).chain(forces).chain(scenes.flat_map(rests)).collect()
+        scenes
+            .clone()
+            .map(diagram)
+            .chain(forces)
+            .chain(scenes.flat_map(rests))
+            .collect()
     }
 
     fn run(&self, task: &DiagramTask) -> Result<Found, CaseFailure> {
         Ok(match *task {
             DiagramTask::Diagram(scene) => Found::Diagram(self.diagram(&self.scenes[scene])?),
             DiagramTask::Buckling(n) => Found::Force(discrete_buckling_force(&Mesh::uniform(n)?)?),
-            DiagramTask::Rest(scene, beta) => Found::Rest(self.rest.run(&self.scenes[scene], beta)?),
+            DiagramTask::Rest(scene, beta) => {
+                Found::Rest(self.rest.run(&self.scenes[scene], beta)?)
+            }
         })
     }
 
@@ -162,8 +192,19 @@ struct BranchKey {
 
 impl BranchKey {
     fn of(state: &Equilibrium) -> Self {
-        let Equilibrium { contact, stable, unstable_directions, u_tip, .. } = *state;
-        Self { contact, side: u_tip.partial_cmp(&0.0), stable, unstable_directions }
+        let Equilibrium {
+            contact,
+            stable,
+            unstable_directions,
+            u_tip,
+            ..
+        } = *state;
+        Self {
+            contact,
+            side: u_tip.partial_cmp(&0.0),
+            stable,
+            unstable_directions,
+        }
     }
 }
 
@@ -178,7 +219,10 @@ impl StatesAt {
     fn at(scene: &Scene, beta: f64) -> Result<Self, CaseFailure> {
         let mut scene = scene.clone();
         scene.beam.beta = beta;
-        Ok(Self { beta, states: exact_states(&scene)? })
+        Ok(Self {
+            beta,
+            states: exact_states(&scene)?,
+        })
     }
 
     fn keys(&self) -> Vec<BranchKey> {
@@ -209,7 +253,12 @@ fn sample(scene: &Scene, betas: &[f64], halvings: usize) -> Result<Vec<StatesAt>
 }
 
 /// The middle of an interval in which branches meet, between the same of both halves.
-fn between(scene: &Scene, low: &StatesAt, high: &StatesAt, depth: usize) -> Result<Vec<StatesAt>, CaseFailure> {
+fn between(
+    scene: &Scene,
+    low: &StatesAt,
+    high: &StatesAt,
+    depth: usize,
+) -> Result<Vec<StatesAt>, CaseFailure> {
     if depth == 0 || low.keys() == high.keys() {
         return Ok(vec![]);
     }
@@ -234,7 +283,12 @@ pub struct Diagram {
 
 /// Traces all branches.
 fn trace(samples: &[StatesAt], event: [f64; 2]) -> Diagram {
-    let mut diagram = Diagram { branches: vec![], counts: vec![], ambiguous: 0, event };
+    let mut diagram = Diagram {
+        branches: vec![],
+        counts: vec![],
+        ambiguous: 0,
+        event,
+    };
     let mut open: Vec<SteadyBranch> = Vec::new();
     for StatesAt { beta, states } in samples {
         diagram.counts.push((*beta, states.len()));
@@ -243,7 +297,13 @@ fn trace(samples: &[StatesAt], event: [f64; 2]) -> Diagram {
             let key = BranchKey::of(state);
             diagram.ambiguous += usize::from(continued.iter().any(|branch| branch.key == key));
             let before = open.iter().position(|branch| branch.key == key);
-            let mut branch = before.map_or_else(|| SteadyBranch { key, points: vec![] }, |k| open.swap_remove(k));
+            let mut branch = before.map_or_else(
+                || SteadyBranch {
+                    key,
+                    points: vec![],
+                },
+                |k| open.swap_remove(k),
+            );
             branch.points.push((*beta, state.u_tip));
             continued.push(branch);
         }
@@ -270,14 +330,20 @@ fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result<[f64; 2], 
         false => at.states.iter().any(|state| state.contact == Phase::Upper),
     };
     let before: Vec<bool> = samples.iter().map(is_before).collect();
-    let changes: Vec<usize> = (1..before.len()).filter(|&k| before[k - 1] != before[k]).collect();
+    let changes: Vec<usize> = (1..before.len())
+        .filter(|&k| before[k - 1] != before[k])
+        .collect();
     let [mut low, mut high] = match changes[..] {
         [k] if before[0] => [samples[k - 1].beta, samples[k].beta],
         _ => return Ok([f64::NAN; 2]),
     };
     while high - low > width {
         let middle = StatesAt::at(scene, 0.5 * (low + high))?;
-        *(if is_before(&middle) { &mut low } else { &mut high }) = middle.beta;
+        *(if is_before(&middle) {
+            &mut low
+        } else {
+            &mut high
+        }) = middle.beta;
     }
     Ok([low, high])
 }
@@ -315,5 +381,9 @@ fn discrete_buckling_force(mesh: &Mesh) -> Result<f64, StepFailure> {
 }
 
 fn product(lengths: &[f64], p: &[f64], q: &[f64]) -> f64 {
-    lengths.iter().zip(p.iter().zip(q)).map(|(h, (p, q))| h * p * q).sum()
+    lengths
+        .iter()
+        .zip(p.iter().zip(q))
+        .map(|(h, (p, q))| h * p * q)
+        .sum()
 }

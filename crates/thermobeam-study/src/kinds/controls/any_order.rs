@@ -39,26 +39,47 @@ pub struct Judged {
 
 impl FromFile for AnyOrderControls {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.table("any-order", &["relative", "studies", "coefficients", "defects"])?;
+        let section = root.table(
+            "any-order",
+            &["relative", "studies", "coefficients", "defects"],
+        )?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind any-order beside this one";
         let read = |file: &Field<'_>| Described::<AnyOrder>::read(file.file(folder)?);
         let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;
-        let names: Vec<(&str, &'static str)> = Coefficients::names().map(|name| (name, name)).collect();
+        let names: Vec<(&str, &'static str)> =
+            Coefficients::names().map(|name| (name, name)).collect();
         let allowed = "a list of at least one coefficient";
-        let listed = section.list("coefficients", allowed, |item| item.choice(&names), |list| !list.is_empty())?;
+        let listed = section.list(
+            "coefficients",
+            allowed,
+            |item| item.choice(&names),
+            |list| !list.is_empty(),
+        )?;
         let mut faults = vec![Fault::None];
         faults.extend(listed.into_iter().map(Fault::Coefficient));
         faults.extend(defects(&section)?.into_iter().map(Fault::Defect));
         for study in &studies {
             let is_absent = |fault: &&Fault| fault.plant(study.kind.theory, relative).is_none();
             if let Some(absent) = faults.iter().find(is_absent) {
-                let key = if matches!(absent, Fault::Defect(_)) { "defects" } else { "coefficients" };
-                let found = format!("{}, which {} does not have or has zero", absent.name(), study.header.id);
+                let key = if matches!(absent, Fault::Defect(_)) {
+                    "defects"
+                } else {
+                    "coefficients"
+                };
+                let found = format!(
+                    "{}, which {} does not have or has zero",
+                    absent.name(),
+                    study.header.id
+                );
                 return Err(section.refuse(key, found, format!("{key} that every study has")));
             }
         }
-        Ok(Self { relative, studies, faults })
+        Ok(Self {
+            relative,
+            studies,
+            faults,
+        })
     }
 }
 
@@ -67,9 +88,18 @@ fn defects(section: &Section<'_>) -> Result<Vec<Defect>, InputError> {
     if section.get("defects").is_none() {
         return Ok(vec![]);
     }
-    let of_the_problem = Defect::ALL.iter().filter(|(defect, _)| defect.is_of_the_problem());
-    let names: Vec<(&str, Defect)> = of_the_problem.map(|&(defect, name)| (name, defect)).collect();
-    section.list("defects", "a list of at least one defect", |item| item.choice(&names), |list| !list.is_empty())
+    let of_the_problem = Defect::ALL
+        .iter()
+        .filter(|(defect, _)| defect.is_of_the_problem());
+    let names: Vec<(&str, Defect)> = of_the_problem
+        .map(|&(defect, name)| (name, defect))
+        .collect();
+    section.list(
+        "defects",
+        "a list of at least one defect",
+        |item| item.choice(&names),
+        |list| !list.is_empty(),
+    )
 }
 
 impl Kind for AnyOrderControls {
@@ -79,9 +109,22 @@ impl Kind for AnyOrderControls {
 
     fn cases(&self) -> Vec<Case<(usize, Fault)>> {
         let case = |study: usize, fault: Fault| {
-            let name = if fault == Fault::None { "no fault" } else { fault.name() };
-            let cost = self.studies[study].kind.cases().iter().map(|case| case.cost).sum();
-            Case::new(format!("{}, {name}", self.studies[study].header.id), cost, (study, fault))
+            let name = if fault == Fault::None {
+                "no fault"
+            } else {
+                fault.name()
+            };
+            let cost = self.studies[study]
+                .kind
+                .cases()
+                .iter()
+                .map(|case| case.cost)
+                .sum();
+            Case::new(
+                format!("{}, {name}", self.studies[study].header.id),
+                cost,
+                (study, fault),
+            )
         };
         let of_study = |study: usize| self.faults.iter().map(move |&fault| case(study, fault));
         (0..self.studies.len()).flat_map(of_study).collect()
@@ -91,14 +134,24 @@ impl Kind for AnyOrderControls {
         let study = &self.studies[study].kind;
         let absent = || CaseFailure::new("what is wrong is absent");
         let mut planted = study.clone();
-        (planted.solver, planted.defect) = fault.plant(study.theory, self.relative).ok_or_else(absent)?;
+        (planted.solver, planted.defect) = fault
+            .plant(study.theory, self.relative)
+            .ok_or_else(absent)?;
         let ran = run_cases_here(&planted);
         // A fault that breaks a run down is detected; only runs without a fault must finish.
-        if let (Fault::None, Some(failure)) = (fault, ran.iter().find_map(|ran| ran.found.as_ref().err())) {
+        if let (Fault::None, Some(failure)) =
+            (fault, ran.iter().find_map(|ran| ran.found.as_ref().err()))
+        {
             return Err(failure.clone());
         }
-        let error = ran.last().and_then(Ran::ok).map_or(f64::NAN, |errors| errors.named[0].1);
-        Ok(Judged { verdict: planted.judge(&ran).verdict, error })
+        let error = ran
+            .last()
+            .and_then(Ran::ok)
+            .map_or(f64::NAN, |errors| errors.named[0].1);
+        Ok(Judged {
+            verdict: planted.judge(&ran).verdict,
+            error,
+        })
     }
 
     fn judge(&self, ran: &[Ran<(usize, Fault), Judged>]) -> Outcome {
@@ -114,19 +167,32 @@ impl Kind for AnyOrderControls {
                 if fault == Fault::None {
                     honest = max_or_nan(honest, error);
                 } else if error.is_finite() {
-                    quantities.push(Quantity::new(guarded_name(fault, &study.header.id), error, TOLERANCE));
+                    quantities.push(Quantity::new(
+                        guarded_name(fault, &study.header.id),
+                        error,
+                        TOLERANCE,
+                    ));
                 }
             }
             let cell = |judged: &Option<&Judged>| match judged {
                 Some(Judged { verdict, error }) => format!("{verdict} ({error:.1e})"),
                 None => "missing".to_owned(),
             };
-            let verdicts: Vec<_> = judged.iter().map(|judged| judged.map(|judged| judged.verdict)).collect();
+            let verdicts: Vec<_> = judged
+                .iter()
+                .map(|judged| judged.map(|judged| judged.verdict))
+                .collect();
             matrix.add(fault, &verdicts, judged.iter().map(cell).collect());
         }
-        let more = format!("coefficients being off by {:e}; error without a fault {honest:.1e}", self.relative);
+        let more = format!(
+            "coefficients being off by {:e}; error without a fault {honest:.1e}",
+            self.relative
+        );
         let title = "Verdict of each study under each fault, and the error of its finest run";
-        Outcome { quantities, ..matrix.outcome("planted faults", &more, title, "fault") }
+        Outcome {
+            quantities,
+            ..matrix.outcome("planted faults", &more, title, "fault")
+        }
     }
 }
 

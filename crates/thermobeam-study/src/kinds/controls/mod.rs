@@ -63,7 +63,11 @@ pub enum Fault {
 impl Fault {
     fn all() -> Vec<Self> {
         let defects = Defect::ALL.map(|(defect, _)| Fault::Defect(defect));
-        [Fault::None].into_iter().chain(Coefficients::names().map(Fault::Coefficient)).chain(defects).collect()
+        [Fault::None]
+            .into_iter()
+            .chain(Coefficients::names().map(Fault::Coefficient))
+            .chain(defects)
+            .collect()
     }
 
     fn name(self) -> &'static str {
@@ -80,9 +84,9 @@ impl Fault {
     fn plant(self, theory: Coefficients, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
         match self {
             Fault::None => Some((theory, None)),
-            Fault::Defect(defect) => {
-                defect.applies(&theory.beam, theory.obstacles.as_ref()).then_some((theory, Some(defect)))
-            }
+            Fault::Defect(defect) => defect
+                .applies(&theory.beam, theory.obstacles.as_ref())
+                .then_some((theory, Some(defect))),
             Fault::Coefficient(key) => Some((theory.off(key, relative)?, None)),
         }
     }
@@ -96,14 +100,24 @@ fn relative(field: &Field<'_>) -> Result<f64, InputError> {
 }
 
 /// The studies that a section names, with the section's own levels if it has any.
-fn named_studies(section: &Section<'_>, folder: &Path) -> Result<Vec<Described<Convergence>>, InputError> {
+fn named_studies(
+    section: &Section<'_>,
+    folder: &Path,
+) -> Result<Vec<Described<Convergence>>, InputError> {
     let file = |item: &Field<'_>| Described::<Convergence>::read(item.file(folder)?);
     let allowed = "a list of at least one study file beside this one";
     let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
     if section.get("elements").is_some() {
-        let levels = section.list("elements", "a list of numbers of elements", tables::elements, |_| true)?;
+        let levels = section.list(
+            "elements",
+            "a list of numbers of elements",
+            tables::elements,
+            |_| true,
+        )?;
         if !levels.is_empty() {
-            studies.iter_mut().for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
+            studies
+                .iter_mut()
+                .for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
         }
     }
     Ok(studies)
@@ -122,36 +136,79 @@ struct Matrix<'s> {
 
 impl<'s> Matrix<'s> {
     fn new<K>(studies: &'s [Described<K>], every: bool, completion: Check) -> Self {
-        let ids = studies.iter().map(|study| study.header.id.as_str()).collect();
-        Self { ids, every, checks: vec![completion], rows: vec![] }
+        let ids = studies
+            .iter()
+            .map(|study| study.header.id.as_str())
+            .collect();
+        Self {
+            ids,
+            every,
+            checks: vec![completion],
+            rows: vec![],
+        }
     }
 
     /// Adds a fault: the verdict of each study, if it has one, and its cell of the table.
     fn add(&mut self, fault: Fault, verdicts: &[Option<Verdict>], cells: Vec<String>) {
-        self.rows.push([vec![fault.name().to_owned()], cells].concat());
+        self.rows
+            .push([vec![fault.name().to_owned()], cells].concat());
         let all = verdicts.len();
         if fault == Fault::None {
-            let fail = self.ids.iter().zip(verdicts).filter(|(_, verdict)| **verdict != Some(Verdict::Pass));
+            let fail = self
+                .ids
+                .iter()
+                .zip(verdicts)
+                .filter(|(_, verdict)| **verdict != Some(Verdict::Pass));
             let others: Vec<&str> = fail.map(|(id, _)| *id).collect();
-            let not = if others.is_empty() { String::new() } else { format!("; not {}", others.join(", ")) };
+            let not = if others.is_empty() {
+                String::new()
+            } else {
+                format!("; not {}", others.join(", "))
+            };
             let evidence = format!("{} of {all} pass{not}", all - others.len());
-            self.checks.push(Check::that(others.is_empty(), "without a fault every study passes", evidence));
+            self.checks.push(Check::that(
+                others.is_empty(),
+                "without a fault every study passes",
+                evidence,
+            ));
             return;
         }
-        let failed = verdicts.iter().filter(|verdict| **verdict == Some(Verdict::Fail)).count();
-        let (holds, by) = if self.every { (failed == all, " by every study") } else { (failed > 0, "") };
+        let failed = verdicts
+            .iter()
+            .filter(|verdict| **verdict == Some(Verdict::Fail))
+            .count();
+        let (holds, by) = if self.every {
+            (failed == all, " by every study")
+        } else {
+            (failed > 0, "")
+        };
         let evidence = format!("{failed} of {all} studies notice it");
-        self.checks.push(Check::that(holds, format!("{} is detected{by}", fault.name()), evidence));
+        self.checks.push(Check::that(
+            holds,
+            format!("{} is detected{by}", fault.name()),
+            evidence,
+        ));
     }
 
     /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the faults' column.
     fn outcome(self, faults: &str, more: &str, title: &str, first: &str) -> Outcome {
         let of_faults = &self.checks[2..];
-        let detected = of_faults.iter().filter(|check| check.verdict == Verdict::Pass).count();
+        let detected = of_faults
+            .iter()
+            .filter(|check| check.verdict == Verdict::Pass)
+            .count();
         let headline = format!("{detected} of {} {faults} detected", of_faults.len());
         let summary = format!("{headline}, {more}");
-        let tables = vec![Table::new(title, [first].into_iter().chain(self.ids), self.rows)];
-        Outcome { headline, tables, ..Outcome::new(summary, vec![], self.checks) }
+        let tables = vec![Table::new(
+            title,
+            [first].into_iter().chain(self.ids),
+            self.rows,
+        )];
+        Outcome {
+            headline,
+            tables,
+            ..Outcome::new(summary, vec![], self.checks)
+        }
     }
 }
 
@@ -168,7 +225,10 @@ impl FromFile for Controls {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.table("controls", &["relative", "studies", "elements"])?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
-        Ok(Self { relative, studies: named_studies(&section, folder)? })
+        Ok(Self {
+            relative,
+            studies: named_studies(&section, folder)?,
+        })
     }
 }
 
@@ -182,18 +242,34 @@ impl Kind for Controls {
         let faults = Fault::all().len() as f64;
         let case = |study: usize, (n, steps): (usize, usize)| {
             let label = format!("{}, n = {n}, {steps} steps", self.studies[study].header.id);
-            Case::new(label, n as f64 * (steps as f64 * faults + 50.0), (study, (n, steps)))
+            Case::new(
+                label,
+                n as f64 * (steps as f64 * faults + 50.0),
+                (study, (n, steps)),
+            )
         };
-        let levels = |study: usize| self.studies[study].kind.refine.cases().into_iter().map(move |n| case(study, n));
+        let levels = |study: usize| {
+            self.studies[study]
+                .kind
+                .refine
+                .cases()
+                .into_iter()
+                .map(move |n| case(study, n))
+        };
         (0..self.studies.len()).flat_map(levels).collect()
     }
 
-    fn run(&self, &(study, (elements, steps)): &Self::Data) -> Result<Vec<(Fault, Norms)>, CaseFailure> {
+    fn run(
+        &self,
+        &(study, (elements, steps)): &Self::Data,
+    ) -> Result<Vec<(Fault, Norms)>, CaseFailure> {
         let spec = &self.studies[study].kind;
         let mut prepared = Prepared::new(spec, elements)?;
         let mut found = vec![];
         for fault in Fault::all() {
-            let Some((solver, defect)) = fault.plant(spec.theory, self.relative) else { continue };
+            let Some((solver, defect)) = fault.plant(spec.theory, self.relative) else {
+                continue;
+            };
             // A fault that breaks a run down is detected; only the run without a fault must finish.
             let errors = match prepared.run(steps, solver, defect) {
                 Err(failure) if fault == Fault::None => return Err(failure),
@@ -208,12 +284,19 @@ impl Kind for Controls {
         // In a run with a fault, a number that is not finite is a detection.
         let not_finite = |found: &Vec<(Fault, Norms)>| {
             let honest = errors_with(found, Fault::None);
-            let finite = honest.is_some_and(|errors| errors.iter().all(|(_, error)| error.is_finite()));
-            if finite { vec![] } else { vec!["an error without a fault".to_owned()] }
+            let finite =
+                honest.is_some_and(|errors| errors.iter().all(|(_, error)| error.is_finite()));
+            if finite {
+                vec![]
+            } else {
+                vec!["an error without a fault".to_owned()]
+            }
         };
         let mut matrix = Matrix::new(&self.studies, false, completion(ran, not_finite));
         for fault in Fault::all() {
-            let verdicts: Vec<_> = (0..self.studies.len()).map(|study| self.verdict(study, fault, ran)).collect();
+            let verdicts: Vec<_> = (0..self.studies.len())
+                .map(|study| self.verdict(study, fault, ran))
+                .collect();
             let cell = |verdict: &Option<Verdict>| verdict.map_or("n/a", Verdict::name).to_owned();
             matrix.add(fault, &verdicts, verdicts.iter().map(cell).collect());
         }
@@ -232,11 +315,18 @@ impl Controls {
             let errors = ran.ok().and_then(|found| errors_with(found, fault));
             (ran.case.data.1, errors.copied().unwrap_or(Norms::NAN))
         };
-        let levels: Vec<_> = ran.iter().filter(|ran| ran.case.data.0 == study).map(level).collect();
+        let levels: Vec<_> = ran
+            .iter()
+            .filter(|ran| ran.case.data.0 == study)
+            .map(level)
+            .collect();
         Some(Verdict::worst(verdicts(spec, &levels)))
     }
 }
 
 fn errors_with(found: &[(Fault, Norms)], fault: Fault) -> Option<&Norms> {
-    found.iter().find(|(planted, _)| *planted == fault).map(|(_, errors)| errors)
+    found
+        .iter()
+        .find(|(planted, _)| *planted == fault)
+        .map(|(_, errors)| errors)
 }

@@ -27,10 +27,16 @@ impl FromFile for Sensitivity {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let section = root.table("sensitivity", &["studies", "elements", "range", "at_most"])?;
         let ascending = "a list of two ascending numbers between 0 and 1";
-        let range = section.list("range", ascending, relative, |ends| ends.len() == 2 && increases(ends))?;
+        let range = section.list("range", ascending, relative, |ends| {
+            ends.len() == 2 && increases(ends)
+        })?;
         let studies = named_studies(&section, folder)?;
         let at_most = relative(&section.require("at_most", RELATIVE)?)?;
-        Ok(Self { studies, range: [range[0], range[1]], at_most })
+        Ok(Self {
+            studies,
+            range: [range[0], range[1]],
+            at_most,
+        })
     }
 }
 
@@ -43,12 +49,27 @@ impl Kind for Sensitivity {
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let cost = |spec: &Described<Convergence>| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
-            spec.kind.refine.cases().iter().map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0)).sum()
+            spec.kind
+                .refine
+                .cases()
+                .iter()
+                .map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0))
+                .sum()
         };
         let of_study = |(study, spec): (usize, &Described<Convergence>)| {
-            let can_be_planted = |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
-            let case = |key| Case::new(format!("{key} in {}", spec.header.id), cost(spec), (study, key));
-            Coefficients::names().filter(can_be_planted).map(case).collect::<Vec<_>>()
+            let can_be_planted =
+                |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
+            let case = |key| {
+                Case::new(
+                    format!("{key} in {}", spec.header.id),
+                    cost(spec),
+                    (study, key),
+                )
+            };
+            Coefficients::names()
+                .filter(can_be_planted)
+                .map(case)
+                .collect::<Vec<_>>()
         };
         self.studies.iter().enumerate().flat_map(of_study).collect()
     }
@@ -56,7 +77,12 @@ impl Kind for Sensitivity {
     fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
         let study = &self.studies[study].kind;
         let mut detector = Detector::new(study)?;
-        let mut detects = |relative| study.theory.off(key, relative).is_some_and(|off| detector.detects(off));
+        let mut detects = |relative| {
+            study
+                .theory
+                .off(key, relative)
+                .is_some_and(|off| detector.detects(off))
+        };
         let [least, most] = self.range;
         if detects(least) || !detects(most) {
             return Ok(None);
@@ -64,29 +90,60 @@ impl Kind for Sensitivity {
         let [mut missed, mut detected] = self.range.map(f64::log10);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (missed + detected);
-            if detects(10f64.powf(middle)) { detected = middle } else { missed = middle }
+            if detects(10f64.powf(middle)) {
+                detected = middle
+            } else {
+                missed = middle
+            }
         }
         Ok(Some(10f64.powf(detected)))
     }
 
     fn judge(&self, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> Outcome {
-        let mut checks = vec![completion(ran, |smallest| not_finite([("the smallest error", *smallest)]))];
+        let mut checks = vec![completion(ran, |smallest| {
+            not_finite([("the smallest error", *smallest)])
+        })];
         let (mut rows, mut quantities) = (vec![], vec![]);
         for key in Coefficients::names() {
-            let cells: Vec<(f64, String)> = (0..self.studies.len()).map(|study| cell(study, key, ran)).collect();
-            let best = cells.iter().map(|(smallest, _)| *smallest).fold(f64::INFINITY, min_or_nan);
+            let cells: Vec<(f64, String)> = (0..self.studies.len())
+                .map(|study| cell(study, key, ran))
+                .collect();
+            let best = cells
+                .iter()
+                .map(|(smallest, _)| *smallest)
+                .fold(f64::INFINITY, min_or_nan);
             let claim = format!("{key} off by {:e} is detected", self.at_most);
-            checks.push(Check::that(best <= self.at_most, claim, format!("detected from {best:.1e} on")));
+            checks.push(Check::that(
+                best <= self.at_most,
+                claim,
+                format!("detected from {best:.1e} on"),
+            ));
             quantities.push(Quantity::new(format!("smallest {key} seen"), best, 0.2));
-            rows.push(std::iter::once(key.to_owned()).chain(cells.into_iter().map(|(_, text)| text)).collect());
+            rows.push(
+                std::iter::once(key.to_owned())
+                    .chain(cells.into_iter().map(|(_, text)| text))
+                    .collect(),
+            );
         }
         let holds = checks.iter().all(|check| check.verdict == Verdict::Pass);
-        let [which, is] = if holds { ["every", "detected, most from far less"] } else { ["some", "not detected"] };
+        let [which, is] = if holds {
+            ["every", "detected, most from far less"]
+        } else {
+            ["some", "not detected"]
+        };
         let summary = format!("{which} coefficient off by {:e} is {is}", self.at_most);
-        let head = ["coefficient"].into_iter().chain(self.studies.iter().map(|spec| spec.header.id.as_str()));
-        let title = "Smallest relative error that makes the study fail; n/a: coefficient absent or zero";
+        let head = ["coefficient"]
+            .into_iter()
+            .chain(self.studies.iter().map(|spec| spec.header.id.as_str()));
+        let title =
+            "Smallest relative error that makes the study fail; n/a: coefficient absent or zero";
         let tables = vec![Table::new(title, head, rows)];
-        Outcome { headline: summary.clone(), tables, quantities, ..Outcome::new(summary, vec![], checks) }
+        Outcome {
+            headline: summary.clone(),
+            tables,
+            quantities,
+            ..Outcome::new(summary, vec![], checks)
+        }
     }
 }
 

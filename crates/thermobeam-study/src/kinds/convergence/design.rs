@@ -32,12 +32,28 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// [`MeshError`] if the study's map gives no valid mesh.
     pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, MeshError> {
-        let (exact, beam, mesh) = (&study.exact, &study.theory.beam, study.refine.layout.mesh(elements)?);
+        let (exact, beam, mesh) = (
+            &study.exact,
+            &study.theory.beam,
+            study.refine.layout.mesh(elements)?,
+        );
         let is_nodal = study.refine.isolates(Axis::Time);
-        let sources =
-            if is_nodal { Sources::discrete(exact, beam, &mesh) } else { Sources::strong(exact, beam, &mesh) };
-        let (meter, nodal) = (ErrorMeter::new(exact, &mesh, is_nodal), Nodal::of(exact, &mesh));
-        Ok(Self { study, mesh, nodal, sources, meter })
+        let sources = if is_nodal {
+            Sources::discrete(exact, beam, &mesh)
+        } else {
+            Sources::strong(exact, beam, &mesh)
+        };
+        let (meter, nodal) = (
+            ErrorMeter::new(exact, &mesh, is_nodal),
+            Nodal::of(exact, &mesh),
+        );
+        Ok(Self {
+            study,
+            mesh,
+            nodal,
+            sources,
+            meter,
+        })
     }
 
     /// Runs this number of steps and returns the errors, each the maximum over n = 1..N; NaN stays.
@@ -46,9 +62,22 @@ impl<'a> Prepared<'a> {
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's message.
-    pub fn run(&mut self, steps: usize, solver: Coefficients, defect: Option<Defect>) -> Result<Norms, CaseFailure> {
-        let Convergence { exact, theory, refine, .. } = self.study;
-        let scheme = self.study.formulas.map_or_else(|| formulas_of(refine.scheme), Ok)?;
+    pub fn run(
+        &mut self,
+        steps: usize,
+        solver: Coefficients,
+        defect: Option<Defect>,
+    ) -> Result<Norms, CaseFailure> {
+        let Convergence {
+            exact,
+            theory,
+            refine,
+            ..
+        } = self.study;
+        let scheme = self
+            .study
+            .formulas
+            .map_or_else(|| formulas_of(refine.scheme), Ok)?;
         let obstacles = theory.obstacles.as_ref();
         let (mut old, dt) = (Factors::default(), refine.dt(steps));
         old.at(exact, 0.0);
@@ -61,9 +90,14 @@ impl<'a> Prepared<'a> {
                 if defect == Some(Defect::SourceAtNewLevel) {
                     source.u.value.clone_from(&new.u.value);
                 }
-                self.sources.forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
+                self.sources
+                    .forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
             } else {
-                let middle = if defect == Some(Defect::SourceAtNewLevel) { n as f64 } else { n as f64 - 0.5 };
+                let middle = if defect == Some(Defect::SourceAtNewLevel) {
+                    n as f64
+                } else {
+                    n as f64 - 0.5
+                };
                 source.at(exact, middle * dt);
                 self.sources.forces(&source.u, obstacles, defect)
             };
@@ -86,16 +120,34 @@ impl<'a> Prepared<'a> {
     ) -> Result<Driver, CaseFailure> {
         let Convergence { theory, refine, .. } = self.study;
         let exact_theta_a = theory.beam.theta_a;
-        let mut initial = self.nodal.initial(&self.mesh, factors, exact_theta_a, beam.theta_a);
+        let mut initial = self
+            .nodal
+            .initial(&self.mesh, factors, exact_theta_a, beam.theta_a);
         if defect == Some(Defect::StartNotLifted) {
             // Without the ends: the solver refuses initial data that contradict the boundary conditions.
             let inner = 1..self.mesh.elements();
-            for (theta, x) in initial.theta[inner.clone()].iter_mut().zip(&self.mesh.nodes()[inner]) {
+            for (theta, x) in initial.theta[inner.clone()]
+                .iter_mut()
+                .zip(&self.mesh.nodes()[inner])
+            {
                 *theta -= exact_theta_a * (1.0 - x);
             }
         }
-        let stepping = Stepping { scheme: refine.scheme, settings: refine.settings, dt, loaded: true };
-        let driver = Driver::new(Problem { beam, obstacles, mesh: self.mesh.clone(), initial }, stepping)?;
+        let stepping = Stepping {
+            scheme: refine.scheme,
+            settings: refine.settings,
+            dt,
+            loaded: true,
+        };
+        let driver = Driver::new(
+            Problem {
+                beam,
+                obstacles,
+                mesh: self.mesh.clone(),
+                initial,
+            },
+            stepping,
+        )?;
         self.meter.lift(&self.mesh, beam.theta_a);
         Ok(driver)
     }
@@ -106,7 +158,12 @@ impl<'a> Prepared<'a> {
 /// # Errors
 /// [`CaseFailure`] if it has none there.
 pub(in crate::kinds) fn formulas_of(scheme: Scheme) -> Result<SchemeFormulas, CaseFailure> {
-    let none = || CaseFailure::new(format!("no formulas of the scheme {} to compare with", scheme.name));
+    let none = || {
+        CaseFailure::new(format!(
+            "no formulas of the scheme {} to compare with",
+            scheme.name
+        ))
+    };
     SchemeFormulas::of(scheme.name).ok_or_else(none)
 }
 
@@ -119,13 +176,27 @@ pub(in crate::kinds) struct Detector<'a> {
 impl<'a> Detector<'a> {
     pub(in crate::kinds) fn new(study: &'a Convergence) -> Result<Self, MeshError> {
         let prepare = |level: (usize, usize)| Ok((Prepared::new(study, level.0)?, level));
-        Ok(Self { study, levels: study.refine.cases().into_iter().map(prepare).collect::<Result<_, MeshError>>()? })
+        Ok(Self {
+            study,
+            levels: study
+                .refine
+                .cases()
+                .into_iter()
+                .map(prepare)
+                .collect::<Result<_, MeshError>>()?,
+        })
     }
 
     /// The errors of every level; NaN if a run breaks down, so that every study fails on it.
-    pub(in crate::kinds) fn measure(&mut self, solver: Coefficients) -> Vec<((usize, usize), Norms)> {
+    pub(in crate::kinds) fn measure(
+        &mut self,
+        solver: Coefficients,
+    ) -> Vec<((usize, usize), Norms)> {
         let measure = |(prepared, level): &mut (Prepared<'_>, (usize, usize))| {
-            (*level, prepared.run(level.1, solver, None).unwrap_or(Norms::NAN))
+            (
+                *level,
+                prepared.run(level.1, solver, None).unwrap_or(Norms::NAN),
+            )
         };
         self.levels.iter_mut().map(measure).collect()
     }
@@ -143,9 +214,16 @@ pub(in crate::kinds) fn verdicts<'a>(
     levels: &'a [((usize, usize), Norms)],
 ) -> impl Iterator<Item = Verdict> + 'a {
     study.expect.iter().map(move |&(norm, claim)| {
-        let error =
-            |&((n, steps), errors): &((usize, usize), Norms)| Error { step: study.step(n, steps), error: errors[norm] };
-        judge(&levels.iter().map(error).collect::<Vec<_>>(), claim.order, claim.tolerance).verdict
+        let error = |&((n, steps), errors): &((usize, usize), Norms)| Error {
+            step: study.step(n, steps),
+            error: errors[norm],
+        };
+        judge(
+            &levels.iter().map(error).collect::<Vec<_>>(),
+            claim.order,
+            claim.tolerance,
+        )
+        .verdict
     })
 }
 
@@ -162,7 +240,9 @@ const ROUND_OFF: f64 = 1e-12;
 pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
     let mut found = vec![];
     let is_looked_at = study.solver == study.theory && !study.refine.grid;
-    let Some(mut detector) = is_looked_at.then(|| Detector::new(study).ok()).flatten() else { return found };
+    let Some(mut detector) = is_looked_at.then(|| Detector::new(study).ok()).flatten() else {
+        return found;
+    };
     let levels = detector.measure(study.theory);
     if verdicts(study, &levels).any(|verdict| verdict != Verdict::Pass) {
         return found;
@@ -174,16 +254,21 @@ pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
             }
             None => "it is zero".to_owned(),
             Some(off) if detector.detects(off) => continue,
-            Some(_) => {
-                contact(study, key).unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected"))
-            }
+            Some(_) => contact(study, key)
+                .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
         };
-        found.push(Untested { what: key.to_owned(), why });
+        found.push(Untested {
+            what: key.to_owned(),
+            why,
+        });
     }
     let is_exact = |norm: &Norm| levels.iter().all(|(_, errors)| errors[*norm] <= ROUND_OFF);
     let why = "its error is round-off on every level: the solution lies in the space of the scheme";
     let exact = Norm::ALL.into_iter().filter(is_exact).map(Norm::name);
-    found.extend(exact.map(|what| Untested { what: what.to_owned(), why: why.to_owned() }));
+    found.extend(exact.map(|what| Untested {
+        what: what.to_owned(),
+        why: why.to_owned(),
+    }));
     found
 }
 
@@ -194,9 +279,9 @@ fn contact(study: &Convergence, key: &str) -> Option<String> {
     match key {
         "g1" if low >= g1 => Some(format!("the free end stays above it: u(1) >= {low:.4}")),
         "g2" if high <= g2 => Some(format!("the free end stays below it: u(1) <= {high:.4}")),
-        "epsilon" if low >= g1 && high <= g2 => {
-            Some(format!("the free end touches nothing: {low:.4} <= u(1) <= {high:.4}"))
-        }
+        "epsilon" if low >= g1 && high <= g2 => Some(format!(
+            "the free end touches nothing: {low:.4} <= u(1) <= {high:.4}"
+        )),
         _ => None,
     }
 }
@@ -206,5 +291,7 @@ fn range_of_the_tip(study: &Convergence) -> [f64; 2] {
     let steps = study.refine.steps.iter().copied().max().unwrap_or(1);
     let tip = |n: usize| study.exact.tip(n as f64 * study.refine.dt(steps));
     let ends = |[low, high]: [f64; 2], u: f64| [low.min(u), high.max(u)];
-    (0..=steps).map(tip).fold([f64::INFINITY, f64::NEG_INFINITY], ends)
+    (0..=steps)
+        .map(tip)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], ends)
 }

@@ -82,17 +82,36 @@ impl FromFile for Convergence {
             let found = format!("\"{}\"", header.kind);
             return Err(study.refuse("kind", found, format!("\"{}\" for this reader", ROW.name)));
         }
-        root.allow(&["study", "beam", "obstacles", "exact", "refine", "control", "expect"])?;
+        root.allow(&[
+            "study",
+            "beam",
+            "obstacles",
+            "exact",
+            "refine",
+            "control",
+            "expect",
+        ])?;
         let theory = Coefficients::read(root)?;
         let refine = refine(root)?;
         let exact = manufactured(root, &theory.beam, refine.t_end)?;
         let solver = control(root, theory)?;
         let expect = expectations(root)?;
-        if refine.grid && expect.iter().any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance)) {
+        if refine.grid
+            && expect
+                .iter()
+                .any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance))
+        {
             let allowed = "orders alone, for a grid has one in h and in dt";
             return Err(root.refuse("expect", "a least order or a constant", allowed));
         }
-        Ok(Self { theory, solver, exact, refine, expect, formulas: None })
+        Ok(Self {
+            theory,
+            solver,
+            exact,
+            refine,
+            expect,
+            formulas: None,
+        })
     }
 }
 
@@ -108,7 +127,8 @@ impl Kind for Convergence {
 
     fn more(&self, ran: &[Ran<(usize, usize), Norms>]) -> Option<Case<(usize, usize)>> {
         let next = self.next(ran, &self.levels(ran))?;
-        let data = (next == Next::Another).then(|| self.refine.finer(ran[ran.len() - 1].case.data))?;
+        let data =
+            (next == Next::Another).then(|| self.refine.finer(ran[ran.len() - 1].case.data))?;
         Some(Self::case(data))
     }
 
@@ -118,7 +138,9 @@ impl Kind for Convergence {
 
     fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
         let levels = self.levels(ran);
-        let completion = completion(ran, |errors| not_finite(errors.iter().map(|(norm, error)| (norm.name(), error))));
+        let completion = completion(ran, |errors| {
+            not_finite(errors.iter().map(|(norm, error)| (norm.name(), error)))
+        });
         if self.refine.grid {
             return self.judge_grid(ran, &levels, completion);
         }
@@ -130,16 +152,24 @@ impl Kind for Convergence {
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
         let outcome = levels.outcome("rates", None, &caption, vec![completion]);
         match self.next(ran, &levels).zip(self.refine.budget) {
-            Some((next, budget)) => until_decided::ended(outcome, next, &levels, budget, "node-steps"),
+            Some((next, budget)) => {
+                until_decided::ended(outcome, next, &levels, budget, "node-steps")
+            }
             None => outcome,
         }
     }
 
     fn details(&self) -> Vec<(String, String)> {
         let orders = self.expect.iter().map(|&(norm, claim)| {
-            (format!("{}, order {claim}", norm.name()), format!("{}.", TERMS[norm as usize].text))
+            (
+                format!("{}, order {claim}", norm.name()),
+                format!("{}.", TERMS[norm as usize].text),
+            )
         });
-        [("what is done".to_owned(), self.design())].into_iter().chain(orders).collect()
+        [("what is done".to_owned(), self.design())]
+            .into_iter()
+            .chain(orders)
+            .collect()
     }
 
     fn untested(&self) -> Vec<Untested> {
@@ -165,29 +195,59 @@ impl Convergence {
     /// Errors of each level in each norm; NaN if the case failed, so that it cannot pass.
     fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
         let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
-        norm_levels(&self.refine, &self.expect, |elements, steps| self.step(elements, steps), errors)
+        norm_levels(
+            &self.refine,
+            &self.expect,
+            |elements, steps| self.step(elements, steps),
+            errors,
+        )
     }
 
     /// The next action of a study that adds levels; `None` if the levels are listed or a case has failed.
     fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
-        let budget = self.refine.budget.filter(|_| ran.iter().all(|ran| ran.found.is_ok()))?;
+        let budget = self
+            .refine
+            .budget
+            .filter(|_| ran.iter().all(|ran| ran.found.is_ok()))?;
         let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
         let finer = cost(self.refine.finer(ran.last()?.case.data));
         let spent = ran.iter().map(|ran| cost(ran.case.data)).sum();
-        Some(until_decided::next(&levels.judge(), ran.len(), finer, spent, budget))
+        Some(until_decided::next(
+            &levels.judge(),
+            ran.len(),
+            finer,
+            spent,
+            budget,
+        ))
     }
 
     /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is judged by itself.
-    fn judge_grid(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels, completion: Check) -> Outcome {
+    fn judge_grid(
+        &self,
+        ran: &[Ran<(usize, usize), Norms>],
+        levels: &Levels,
+        completion: Check,
+    ) -> Outcome {
         // The same order is expected in h and in dt.
         let column = |&(norm, claim): &(Norm, Claim)| GridColumn {
             name: norm.name().to_owned(),
             space: claim,
             time: claim.order,
-            errors: ran.iter().map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm])).collect(),
+            errors: ran
+                .iter()
+                .map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm]))
+                .collect(),
         };
         let grid = Grid {
-            points: ran.iter().map(|run| [1.0 / run.case.data.0 as f64, self.refine.dt(run.case.data.1)]).collect(),
+            points: ran
+                .iter()
+                .map(|run| {
+                    [
+                        1.0 / run.case.data.0 as f64,
+                        self.refine.dt(run.case.data.1),
+                    ]
+                })
+                .collect(),
             times: self.refine.steps.len(),
             columns: self.expect.iter().map(column).collect(),
             squares_add: true,
@@ -226,11 +286,22 @@ impl Convergence {
             }
             (Axis::Both, _) => "Mesh and time step are refined together: the theorem as it stands.",
         };
-        let text = format!("{what} {} levels; scheme {}.", refine.cases().len(), refine.scheme.name);
-        match self.solver.differing(self.theory).collect::<Vec<_>>().join(", ") {
+        let text = format!(
+            "{what} {} levels; scheme {}.",
+            refine.cases().len(),
+            refine.scheme.name
+        );
+        match self
+            .solver
+            .differing(self.theory)
+            .collect::<Vec<_>>()
+            .join(", ")
+        {
             same if same.is_empty() => text,
             changed => {
-                format!("{text} The solver differs from the sources in {changed}: a negative control, which must fail.")
+                format!(
+                    "{text} The solver differs from the sources in {changed}: a negative control, which must fail."
+                )
             }
         }
     }

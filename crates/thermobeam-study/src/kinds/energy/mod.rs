@@ -43,7 +43,11 @@ pub const ROW: KindRow = KindRow {
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    match only_table(root, ["energy", "case", "random"], "one of the tables [energy], [[case]] and [random]")? {
+    match only_table(
+        root,
+        ["energy", "case", "random"],
+        "one of the tables [energy], [[case]] and [random]",
+    )? {
         "random" => reader::<random::RandomScenes>(header, root, folder),
         _ => reader::<runs::EnergyRuns>(header, root, folder),
     }
@@ -61,7 +65,11 @@ pub(in crate::kinds) fn named_cases<C>(
         if names.insert(name.clone()) {
             return Ok(case);
         }
-        Err(section.refuse("name", format!("a second \"{name}\""), "a name that no other case has"))
+        Err(section.refuse(
+            "name",
+            format!("a second \"{name}\""),
+            "a name that no other case has",
+        ))
     })
 }
 
@@ -93,11 +101,17 @@ impl End {
     /// # Errors
     /// The failure, if it is not a failed step of a one-step scheme.
     pub(crate) fn of(failure: Option<&RunError>) -> Result<Self, RunError> {
-        let Some(run) = failure else { return Ok(End::Answer) };
-        let RunError::Step(StepError { failure, .. }) = run else { return Err(run.clone()) };
+        let Some(run) = failure else {
+            return Ok(End::Answer);
+        };
+        let RunError::Step(StepError { failure, .. }) = run else {
+            return Err(run.clone());
+        };
         match failure {
             StepFailure::Indefinite { .. } => Ok(End::Indefinite),
-            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => Ok(End::IterationLimit),
+            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => {
+                Ok(End::IterationLimit)
+            }
             StepFailure::NonFinite { .. } => Ok(End::NotFinite),
             _ => Err(run.clone()),
         }
@@ -119,14 +133,28 @@ fn smooth(mesh: &Mesh, seed: u64) -> Problem {
     let beam = Beam {
         zeta: 10f64.powf(between(-2.0, 0.0)),
         a: between(-1.0, 1.0),
-        rho: if between(0.0, 1.0) < 0.2 { 0.0 } else { 10f64.powf(between(-1.0, 2.0)) },
+        rho: if between(0.0, 1.0) < 0.2 {
+            0.0
+        } else {
+            10f64.powf(between(-1.0, 2.0))
+        },
         beta: between(-0.65, 6.0),
         theta_a: between(-20.0, 20.0),
     };
-    let obstacles =
-        Obstacles { epsilon: 10f64.powf(between(-5.0, -1.0)), g1: -between(0.0, 0.1), g2: between(0.0, 0.1) };
-    let initial = random_data(mesh, beam.theta_a, |size, wave| modes(&mut random, mesh, size, wave));
-    Problem { beam, obstacles: Some(obstacles), mesh: mesh.clone(), initial }
+    let obstacles = Obstacles {
+        epsilon: 10f64.powf(between(-5.0, -1.0)),
+        g1: -between(0.0, 0.1),
+        g2: between(0.0, 0.1),
+    };
+    let initial = random_data(mesh, beam.theta_a, |size, wave| {
+        modes(&mut random, mesh, size, wave)
+    });
+    Problem {
+        beam,
+        obstacles: Some(obstacles),
+        mesh: mesh.clone(),
+        initial,
+    }
 }
 
 /// A random beam and its time step, the same on every machine: every coefficient over its whole range including zero, element lengths that differ by a
@@ -136,15 +164,31 @@ fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
     let mesh = wild_mesh(&mut random, elements)?;
     let beam = wild_beam(&mut random);
     let gap = |random: &mut SplitMix| or_zero(random, |random| power(random, -6.0, 0.0));
-    let mut pair = || Obstacles { epsilon: power(&mut random, -8.0, 1.0), g1: -gap(&mut random), g2: gap(&mut random) };
+    let mut pair = || Obstacles {
+        epsilon: power(&mut random, -8.0, 1.0),
+        g1: -gap(&mut random),
+        g2: gap(&mut random),
+    };
     let obstacles = pair();
     let without = random.uniform() < 0.1;
     let dt = power(&mut random, -6.0, 1.0);
     let rough = random.uniform() < 0.3;
     let initial = random_data(&mesh, beam.theta_a, |size, wave| {
-        if rough { noise(&mut random, &mesh, size) } else { modes(&mut random, &mesh, size, wave) }
+        if rough {
+            noise(&mut random, &mesh, size)
+        } else {
+            modes(&mut random, &mesh, size, wave)
+        }
     });
-    Ok((Problem { beam, obstacles: (!without).then_some(obstacles), mesh, initial }, dt))
+    Ok((
+        Problem {
+            beam,
+            obstacles: (!without).then_some(obstacles),
+            mesh,
+            initial,
+        },
+        dt,
+    ))
 }
 
 /// Ten to a random power between the two.
@@ -164,7 +208,11 @@ fn wild_beam(random: &mut SplitMix) -> Beam {
         zeta: or_zero(random, |random| power(random, -6.0, 1.0)),
         a: sign * or_zero(random, |random| power(random, -3.0, 0.0)),
         rho: or_zero(random, |random| power(random, -2.0, 6.0)),
-        beta: if random.uniform() < 0.5 { random.within([-2.0, 2.0]) } else { power(random, 0.0, 3.0) },
+        beta: if random.uniform() < 0.5 {
+            random.within([-2.0, 2.0])
+        } else {
+            power(random, 0.0, 3.0)
+        },
         theta_a: or_zero(random, |random| random.within([-50.0, 50.0])),
     }
 }
@@ -183,7 +231,11 @@ fn wild_mesh(random: &mut SplitMix, elements: usize) -> Result<Mesh, MeshError> 
 }
 
 /// The five fields, each from `field(size, wave numbers in π)`; the temperature satisfies its boundary conditions.
-fn random_data(mesh: &Mesh, theta_a: f64, mut field: impl FnMut(f64, fn(f64) -> f64) -> Vec<f64>) -> Initial {
+fn random_data(
+    mesh: &Mesh,
+    theta_a: f64,
+    mut field: impl FnMut(f64, fn(f64) -> f64) -> Vec<f64>,
+) -> Initial {
     let clamped = |k: f64| k + 0.5;
     let mut theta = field(5.0, |k| k + 1.0);
     let last = theta.len() - 1;
@@ -202,12 +254,28 @@ fn random_data(mesh: &Mesh, theta_a: f64, mut field: impl FnMut(f64, fn(f64) -> 
 
 /// A sum of sines with random factors.
 fn modes(random: &mut SplitMix, mesh: &Mesh, size: f64, wave: fn(f64) -> f64) -> Vec<f64> {
-    let factors: [f64; MODES] = std::array::from_fn(|k| random.within([-size, size]) / (1.0 + k as f64));
-    let value = |x: f64| factors.iter().enumerate().map(|(k, c)| c * (wave(k as f64) * PI * x).sin()).sum::<f64>();
+    let factors: [f64; MODES] =
+        std::array::from_fn(|k| random.within([-size, size]) / (1.0 + k as f64));
+    let value = |x: f64| {
+        factors
+            .iter()
+            .enumerate()
+            .map(|(k, c)| c * (wave(k as f64) * PI * x).sin())
+            .sum::<f64>()
+    };
     mesh.nodes().iter().map(|&x| value(x)).collect()
 }
 
 /// Independent values at the nodes, zero at the clamped end.
 fn noise(random: &mut SplitMix, mesh: &Mesh, size: f64) -> Vec<f64> {
-    mesh.nodes().iter().map(|&x| if x == 0.0 { 0.0 } else { random.within([-size, size]) }).collect()
+    mesh.nodes()
+        .iter()
+        .map(|&x| {
+            if x == 0.0 {
+                0.0
+            } else {
+                random.within([-size, size])
+            }
+        })
+        .collect()
 }

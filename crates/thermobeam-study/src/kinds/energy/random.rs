@@ -80,8 +80,11 @@ impl Kind for RandomScenes {
     fn cases(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
-        let label = |batch: usize| format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
-        (0..self.batches).map(|batch| Case::new(label(batch), cost, batch)).collect()
+        let label =
+            |batch: usize| format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
+        (0..self.batches)
+            .map(|batch| Case::new(label(batch), cost, batch))
+            .collect()
     }
 
     /// Runs the scenes in lanes, each to its end.
@@ -92,18 +95,34 @@ impl Kind for RandomScenes {
     }
 
     fn judge(&self, ran: &[Ran<usize, Batch>]) -> Outcome {
-        let total = ran.iter().filter_map(Ran::ok).fold(Batch::default(), Batch::with);
+        let total = ran
+            .iter()
+            .filter_map(Ran::ok)
+            .fold(Batch::default(), Batch::with);
         let (scenes, listed) = (self.batches * BATCH, exceptions(ran));
-        let (Batch { ends, steps, worst, .. }, exceptions) = (&total, listed.len());
+        let (
+            Batch {
+                ends, steps, worst, ..
+            },
+            exceptions,
+        ) = (&total, listed.len());
         let mut checks = vec![completion(ran, |batch| not_finite(batch.worst.named()))];
         checks.extend(total.claims(scenes, exceptions));
         let [answers, indefinite, others] = total.ended();
         let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
         let largest = format!("{:.1e} of the energy", worst.residual);
         let above = format!("residual at most {largest}, {exceptions} above {CLOSED:.0e}");
-        let summary = format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
-        let others = if others > 0 { format!(", {others} other failures") } else { String::new() };
-        let counts = End::ALL.iter().zip(ends).map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
+        let summary =
+            format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
+        let others = if others > 0 {
+            format!(", {others} other failures")
+        } else {
+            String::new()
+        };
+        let counts = End::ALL
+            .iter()
+            .zip(ends)
+            .map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
         let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);
         // On another machine, a scene at the limit of definiteness may fall on either side.
         let quantities = vec![Quantity::new("answers", answers as f64, 1e-3)];
@@ -132,14 +151,21 @@ impl RandomScenes {
     /// Runs scenes with `group + 1` elements each to their ends.
     fn run_group(&self, number: usize, group: usize, batch: &mut Batch) -> Result<(), CaseFailure> {
         let first = number * BATCH + group * LANES;
-        let scenes: Vec<(Problem, f64)> =
-            (first..first + LANES).map(|scene| self.problem(scene)).collect::<Result<_, _>>()?;
+        let scenes: Vec<(Problem, f64)> = (first..first + LANES)
+            .map(|scene| self.problem(scene))
+            .collect::<Result<_, _>>()?;
         let dt: [f64; LANES] = std::array::from_fn(|k| scenes[k].1);
         let problems = scenes.iter().map(|(problem, _)| problem.clone()).collect();
-        let runs = watched(problems, &dt, self.scheme(number), self.steps, |_, _, level| {
-            batch.steps += 1;
-            batch.not_finite_levels += usize::from(!is_finite(level));
-        })?;
+        let runs = watched(
+            problems,
+            &dt,
+            self.scheme(number),
+            self.steps,
+            |_, _, level| {
+                batch.steps += 1;
+                batch.not_finite_levels += usize::from(!is_finite(level));
+            },
+        )?;
         for (Watched { worst, failure }, (problem, dt)) in runs.iter().zip(&scenes) {
             batch.ends[End::of(failure.clone().map(RunError::Step).as_ref())? as usize] += 1;
             batch.refused += usize::from(failure.is_some() && is_definite(&problem.beam, *dt));
@@ -161,11 +187,15 @@ impl RandomScenes {
                 format!("{dt:.2e}"),
                 format!("{:.1e}", problem.beam.beta),
                 format!("{:.1e}", problem.beam.rho),
-                problem.obstacles.map_or("none".to_owned(), |obstacles| format!("{:.1e}", obstacles.epsilon)),
+                problem.obstacles.map_or("none".to_owned(), |obstacles| {
+                    format!("{:.1e}", obstacles.epsilon)
+                }),
                 format!("{residual:.1e}"),
             ])
         };
-        let head = ["scene", "scheme", "elements", "shortest", "dt", "beta", "rho", "epsilon", "residual"];
+        let head = [
+            "scene", "scheme", "elements", "shortest", "dt", "beta", "rho", "epsilon", "residual",
+        ];
         let title = "Largest residuals above 1e-12: long steps (Δu as large as u) over short elements (u/h cancels)";
         Table::new(title, head, exceptions.iter().take(LISTED).filter_map(row))
     }
@@ -173,8 +203,11 @@ impl RandomScenes {
 
 /// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and residual.
 fn exceptions(ran: &[Ran<usize, Batch>]) -> Vec<(usize, f64)> {
-    let batches = ran.iter().filter_map(|ran| Some((ran.case.data * BATCH, &ran.ok()?.scenes)));
-    let all = batches.flat_map(|(first, scenes)| (first..).zip(scenes.iter().map(|[.., residual]| *residual)));
+    let batches = ran
+        .iter()
+        .filter_map(|ran| Some((ran.case.data * BATCH, &ran.ok()?.scenes)));
+    let all = batches
+        .flat_map(|(first, scenes)| (first..).zip(scenes.iter().map(|[.., residual]| *residual)));
     let mut above: Vec<(usize, f64)> = all.filter(|(_, residual)| !(*residual <= CLOSED)).collect();
     above.sort_by(|a, b| b.1.total_cmp(&a.1));
     above
@@ -192,7 +225,10 @@ fn is_definite(beam: &Beam, dt: f64) -> bool {
 impl Batch {
     /// The sum of both.
     fn with(mut self, other: &Self) -> Self {
-        self.ends.iter_mut().zip(other.ends).for_each(|(count, more)| *count += more);
+        self.ends
+            .iter_mut()
+            .zip(other.ends)
+            .for_each(|(count, more)| *count += more);
         self.refused += other.refused;
         self.steps += other.steps;
         self.not_finite_levels += other.not_finite_levels;
@@ -204,18 +240,30 @@ impl Batch {
     /// Scenes with an answer, with an indefinite operator, and with another failure.
     fn ended(&self) -> [usize; 3] {
         let count = |end: End| self.ends[end as usize];
-        [count(End::Answer), count(End::Indefinite), count(End::IterationLimit) + count(End::NotFinite)]
+        [
+            count(End::Answer),
+            count(End::Indefinite),
+            count(End::IterationLimit) + count(End::NotFinite),
+        ]
     }
 
     /// Claims about all scenes together.
     fn claims(&self, scenes: usize, exceptions: usize) -> [Check; 5] {
-        let Self { ends, refused, not_finite_levels, worst, .. } = self;
+        let Self {
+            ends,
+            refused,
+            not_finite_levels,
+            worst,
+            ..
+        } = self;
         let (ended, [_, _, others]) = (ends.iter().sum::<usize>(), self.ended());
         [
             Check::that(
                 ended == scenes && *not_finite_levels == 0,
                 "every scene is solved with finite numbers, or refused with a stated reason",
-                format!("{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"),
+                format!(
+                    "{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"
+                ),
             ),
             Check::that(
                 *refused == 0 && others == 0,
@@ -225,12 +273,20 @@ impl Batch {
             Check::that(
                 worst.risen <= 1.0,
                 "the energy never rises by more than the bound on rounding errors",
-                format!("largest rise {:.1e} of the energy, {}", worst.rise, of_allowed(worst.risen)),
+                format!(
+                    "largest rise {:.1e} of the energy, {}",
+                    worst.rise,
+                    of_allowed(worst.risen)
+                ),
             ),
             Check::that(
                 worst.open <= 1.0,
                 "the balance closes to 1e-12 of the energy, or to the bound on rounding errors",
-                format!("largest residual {:.1e} of the energy, {}", worst.residual, of_allowed(worst.open)),
+                format!(
+                    "largest residual {:.1e} of the energy, {}",
+                    worst.residual,
+                    of_allowed(worst.open)
+                ),
             ),
             Check::that(
                 exceptions as f64 <= RARE * scenes as f64,
@@ -246,12 +302,21 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
     // NaN in cells without a scene.
     let mut values = vec![vec![f64::NAN; CELLS]; CELLS];
     for &[dt, shortest, residual] in scenes {
-        let (Some(column), Some(row)) = (index(DT, dt), index(SHORTEST, shortest)) else { continue };
+        let (Some(column), Some(row)) = (index(DT, dt), index(SHORTEST, shortest)) else {
+            continue;
+        };
         let cell = &mut values[row][column];
         let residual = max_or_nan(residual, ZERO);
-        *cell = if cell.is_nan() { residual } else { max_or_nan(*cell, residual) };
+        *cell = if cell.is_nan() {
+            residual
+        } else {
+            max_or_nan(*cell, residual)
+        };
     }
-    let marked = values.iter().map(|row| row.iter().map(|value| value.is_nan()).collect()).collect();
+    let marked = values
+        .iter()
+        .map(|row| row.iter().map(|value| value.is_nan()).collect())
+        .collect();
     let map = plots::Surface {
         x: plots::Axis::log("time step dt"),
         y: plots::Axis::log("shortest element (dimensionless)"),

@@ -113,18 +113,39 @@ pub struct EnergyAt {
 impl FromFile for EnergyRuns {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let energy = root.section("energy")?;
-        let runs = energy.as_ref().map_or_else(|| cases(root), |section| listed(section, folder))?;
-        Ok(Self { runs, histories: energy.is_some() })
+        let runs = energy
+            .as_ref()
+            .map_or_else(|| cases(root), |section| listed(section, folder))?;
+        Ok(Self {
+            runs,
+            histories: energy.is_some(),
+        })
     }
 }
 
 /// The runs of `[energy]`: every scene, then every random beam, by each scheme in turn.
 fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputError> {
-    section.allow(&["scenes", "schemes", "elements", "map", "dt", "steps", "random", "seed", "tolerance"])?;
+    section.allow(&[
+        "scenes",
+        "schemes",
+        "elements",
+        "map",
+        "dt",
+        "steps",
+        "random",
+        "seed",
+        "tolerance",
+    ])?;
     let names = SCHEMES.map(|scheme| (scheme.name, scheme));
     let scheme = |item: &Field<'_>| item.choice(&names);
-    let schemes = section.list("schemes", "a list of at least one scheme", scheme, |list| !list.is_empty())?;
-    let count = |key: &str| section.get(key).map_or(Ok(0), |field| field.count(0..=usize::MAX));
+    let schemes = section.list("schemes", "a list of at least one scheme", scheme, |list| {
+        !list.is_empty()
+    })?;
+    let count = |key: &str| {
+        section
+            .get(key)
+            .map_or(Ok(0), |field| field.count(0..=usize::MAX))
+    };
     let random = count("random")?;
     if let Some(field) = section.get("random") {
         limits::cases(&field, &[random, schemes.len()])?;
@@ -132,30 +153,64 @@ fn listed(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputE
     let seed = count("seed")? as u64;
     let field = section.require("elements", "a number of elements")?;
     let elements = tables::elements(&field)?;
-    let mesh = tables::checked_mesh(Layout::read(section, &[elements], None)?.mesh(elements), &field)?;
+    let mesh = tables::checked_mesh(
+        Layout::read(section, &[elements], None)?.mesh(elements),
+        &field,
+    )?;
     let (dt, tolerance) = (section.positive("dt")?, section.positive("tolerance")?);
     let steps = section.count("steps", 1..=limits::STEPS)?;
-    let scene = |item: &Field<'_>| Ok(Scene { mesh: mesh.clone(), ..Scene::read(item.file(folder)?)? });
-    let scenes = section.list("scenes", "a list of scene files beside this one", scene, |_| true)?;
-    let settings = Settings { stopping: Stopping::below(SOLVED), ..Settings::default() };
-    let by_scheme = |name: String, is_scene: bool, problem: Problem| {
-        schemes.iter().enumerate().map(move |(k, &scheme)| EnergyRun {
-            name: format!("{name}, {}", scheme.name),
-            // Random beams and further schemes would crowd the figures.
-            is_drawn: k == 0 && is_scene,
-            problem: problem.clone(),
-            stepping: Stepping { scheme, settings, dt, loaded: false },
-            steps,
-            claim: "the energy falls and its balance closes".to_owned(),
-            end: End::Answer,
-            share: Some(tolerance),
-            drift: None,
-            is_bounded: false,
+    let scene = |item: &Field<'_>| {
+        Ok(Scene {
+            mesh: mesh.clone(),
+            ..Scene::read(item.file(folder)?)?
         })
     };
+    let scenes = section.list(
+        "scenes",
+        "a list of scene files beside this one",
+        scene,
+        |_| true,
+    )?;
+    let settings = Settings {
+        stopping: Stopping::below(SOLVED),
+        ..Settings::default()
+    };
+    let by_scheme = |name: String, is_scene: bool, problem: Problem| {
+        schemes
+            .iter()
+            .enumerate()
+            .map(move |(k, &scheme)| EnergyRun {
+                name: format!("{name}, {}", scheme.name),
+                // Random beams and further schemes would crowd the figures.
+                is_drawn: k == 0 && is_scene,
+                problem: problem.clone(),
+                stepping: Stepping {
+                    scheme,
+                    settings,
+                    dt,
+                    loaded: false,
+                },
+                steps,
+                claim: "the energy falls and its balance closes".to_owned(),
+                end: End::Answer,
+                share: Some(tolerance),
+                drift: None,
+                is_bounded: false,
+            })
+    };
     let of_scene = |scene: Scene| by_scheme(scene.name.clone(), true, simulate::problem(&scene));
-    let smooth = |k: u64| by_scheme(format!("random-{k}"), false, super::smooth(&mesh, seed.wrapping_add(k)));
-    Ok(scenes.into_iter().flat_map(of_scene).chain((0..random as u64).flat_map(smooth)).collect())
+    let smooth = |k: u64| {
+        by_scheme(
+            format!("random-{k}"),
+            false,
+            super::smooth(&mesh, seed.wrapping_add(k)),
+        )
+    };
+    Ok(scenes
+        .into_iter()
+        .flat_map(of_scene)
+        .chain((0..random as u64).flat_map(smooth))
+        .collect())
 }
 
 /// The runs of `[[case]]`.
@@ -163,31 +218,60 @@ fn cases(root: &Section<'_>) -> Result<Vec<EnergyRun>, InputError> {
     let mut runs = named_cases(root, case)?;
     let bounded = runs.iter().any(|run| run.drift.is_some());
     // The drift of cases that claim a bound; of all where none does.
-    runs.iter_mut().for_each(|run| run.is_drawn = !run.is_bounded && (run.drift.is_some() || !bounded));
+    runs.iter_mut()
+        .for_each(|run| run.is_drawn = !run.is_bounded && (run.drift.is_some() || !bounded));
     Ok(runs)
 }
 
 fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
-    section.allow(&[&["name", "claim", "ends", "drift", "stability"], &scene::TABLES[..]].concat())?;
+    section.allow(
+        &[
+            &["name", "claim", "ends", "drift", "stability"],
+            &scene::TABLES[..],
+        ]
+        .concat(),
+    )?;
     let scene = Scene::from_tables(section, name.clone())?;
-    let stepping = scene.one_step().map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
+    let stepping = scene
+        .one_step()
+        .map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
     let newton = stepping.settings.solver == Solver::Newton;
     // The balance holds for the exact solution of a step only.
-    let settings =
-        if newton { Settings { stopping: Stopping::below(SOLVED), ..stepping.settings } } else { stepping.settings };
-    let is_bounded = section.get("stability").map_or(Ok(false), |field| field.boolean())?;
+    let settings = if newton {
+        Settings {
+            stopping: Stopping::below(SOLVED),
+            ..stepping.settings
+        }
+    } else {
+        stepping.settings
+    };
+    let is_bounded = section
+        .get("stability")
+        .map_or(Ok(false), |field| field.boolean())?;
     if is_bounded && stability(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
         let allowed = "theta_a = 0, and rho > 0 or beta > -0.7116";
-        return Err(section.refuse("stability", "a beam for which Corollary 3.2 states nothing", allowed));
+        return Err(section.refuse(
+            "stability",
+            "a beam for which Corollary 3.2 states nothing",
+            allowed,
+        ));
     }
     Ok(EnergyRun {
         name,
         is_bounded,
         claim: section.require("claim", "a text")?.text()?.to_owned(),
-        end: section.require("ends", "\"answer\" or an error")?.choice(&End::ALL)?,
-        drift: section.get("drift").map(|field| field.positive()).transpose()?,
+        end: section
+            .require("ends", "\"answer\" or an error")?
+            .choice(&End::ALL)?,
+        drift: section
+            .get("drift")
+            .map(|field| field.positive())
+            .transpose()?,
         share: None,
-        stepping: Stepping { settings, ..stepping },
+        stepping: Stepping {
+            settings,
+            ..stepping
+        },
         steps: scene.steps(),
         is_drawn: false,
         problem: simulate::problem(&scene),
@@ -201,7 +285,8 @@ impl Kind for EnergyRuns {
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
-        let cost = |run: &EnergyRun| run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
+        let cost =
+            |run: &EnergyRun| run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
         let case = |(data, run): (usize, &EnergyRun)| Case::new(run.name.clone(), cost(run), data);
         self.runs.iter().enumerate().map(case).collect()
     }
@@ -211,18 +296,38 @@ impl Kind for EnergyRuns {
     }
 
     fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
-        let found: Vec<(&EnergyRun, &Found)> =
-            ran.iter().filter_map(|ran| Some((&self.runs[ran.case.data], ran.ok()?))).collect();
+        let found: Vec<(&EnergyRun, &Found)> = ran
+            .iter()
+            .filter_map(|ran| Some((&self.runs[ran.case.data], ran.ok()?)))
+            .collect();
         let mut checks = vec![completion(ran, Found::not_finite)];
         checks.extend(found.iter().map(|(run, found)| run.check(found)));
-        let holding = checks.iter().skip(1).filter(|check| check.verdict == Verdict::Pass).count();
+        let holding = checks
+            .iter()
+            .skip(1)
+            .filter(|check| check.verdict == Verdict::Pass)
+            .count();
         let steps: usize = found.iter().map(|(_, found)| found.steps).sum();
-        let Worst { residual, rise, .. } =
-            found.iter().fold(Worst::default(), |worst, (_, found)| worst.max(found.worst));
-        let share = of_allowed(found.iter().map(|(run, found)| run.share_of(found)).fold(0.0, max_or_nan));
-        let headline = format!("largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}");
-        let summary = format!("{holding} of {} runs hold, {steps} steps: {headline}; at most {share}", self.runs.len());
-        let rows: Vec<_> = found.iter().map(|(run, found)| (vec![run.name.clone()], run.readings(found))).collect();
+        let Worst { residual, rise, .. } = found
+            .iter()
+            .fold(Worst::default(), |worst, (_, found)| worst.max(found.worst));
+        let share = of_allowed(
+            found
+                .iter()
+                .map(|(run, found)| run.share_of(found))
+                .fold(0.0, max_or_nan),
+        );
+        let headline = format!(
+            "largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}"
+        );
+        let summary = format!(
+            "{holding} of {} runs hold, {steps} steps: {headline}; at most {share}",
+            self.runs.len()
+        );
+        let rows: Vec<_> = found
+            .iter()
+            .map(|(run, found)| (vec![run.name.clone()], run.readings(found)))
+            .collect();
         let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";
         Outcome {
             headline,
@@ -241,17 +346,43 @@ impl EnergyRun {
         let (simulation, level) = driver.present();
         let mut watch = EnergyWatch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
-        let Energy { kinetic, shear, bending, thermal, kirchhoff, contact, lifting } = energy;
-        let initial_energy = kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs();
-        let start = EnergyAt { step: 0, t: simulation.t(), energy: energy.total(), residual: 0.0, drift: 0.0 };
-        let mut found = Found { initial_energy, samples: vec![start], ..Found::default() };
+        let Energy {
+            kinetic,
+            shear,
+            bending,
+            thermal,
+            kirchhoff,
+            contact,
+            lifting,
+        } = energy;
+        let initial_energy =
+            kinetic + shear + bending + thermal + kirchhoff.abs() + contact + lifting.abs();
+        let start = EnergyAt {
+            step: 0,
+            t: simulation.t(),
+            energy: energy.total(),
+            residual: 0.0,
+            drift: 0.0,
+        };
+        let mut found = Found {
+            initial_energy,
+            samples: vec![start],
+            ..Found::default()
+        };
         let bound = self.bound(energy.total());
         let lengths = simulation.lengths().to_vec();
-        let share = |level: &Level, energy: &Energy| bound.map(|bound| self.size(&lengths, level, energy) / bound);
+        let share = |level: &Level, energy: &Energy| {
+            bound.map(|bound| self.size(&lengths, level, energy) / bound)
+        };
         found.of_bound = share(level, &energy);
         let (every, mut residual) = (self.steps.div_ceil(SAMPLES), 0.0);
         for step in 1..=self.steps {
-            let Step { report, old, new, simulation } = match driver.stepped() {
+            let Step {
+                report,
+                old,
+                new,
+                simulation,
+            } = match driver.stepped() {
                 Ok(step) => step,
                 Err(error) => {
                     found.end = End::of(Some(&error))?;
@@ -262,7 +393,11 @@ impl EnergyRun {
             found.contact_steps += usize::from(new.contact_force != 0.0);
             found.most_iterations = report.iterations.max(found.most_iterations);
             // The scale only grows, so that leaving a level out makes the bounds stricter.
-            let scale = if step % SCALED == 1 { simulation.energy_scale(new) } else { 0.0 };
+            let scale = if step % SCALED == 1 {
+                simulation.energy_scale(new)
+            } else {
+                0.0
+            };
             let balance = simulation.balance(old, new);
             watch.step(&balance, scale, || simulation.rounding(old, new));
             residual = max_or_nan(residual, balance.residual.abs() / initial_energy);
@@ -271,23 +406,50 @@ impl EnergyRun {
                 *of_bound = max_or_nan(*of_bound, reached);
             }
             if step % every == 0 || step == self.steps {
-                let (t, energy, drift) = (simulation.t(), simulation.energy(new).total(), watch.drift);
-                found.samples.push(EnergyAt { step, t, energy, residual, drift });
+                let (t, energy, drift) =
+                    (simulation.t(), simulation.energy(new).total(), watch.drift);
+                found.samples.push(EnergyAt {
+                    step,
+                    t,
+                    energy,
+                    residual,
+                    drift,
+                });
             }
         }
-        Ok(Found { worst: watch.worst, drift: watch.drift, open_term: watch.open_term(), ..found })
+        Ok(Found {
+            worst: watch.worst,
+            drift: watch.drift,
+            open_term: watch.open_term(),
+            ..found
+        })
     }
 
     /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
     fn bound(&self, initial_energy: f64) -> Option<f64> {
-        let Problem { beam, obstacles, .. } = &self.problem;
-        if self.is_bounded { stability(beam, obstacles.as_ref(), initial_energy) } else { None }
+        let Problem {
+            beam, obstacles, ..
+        } = &self.problem;
+        if self.is_bounded {
+            stability(beam, obstacles.as_ref(), initial_energy)
+        } else {
+            None
+        }
     }
 
     /// The left side of (3.12): norms of a level, and its penetration.
     fn size(&self, lengths: &[f64], level: &Level, energy: &Energy) -> f64 {
-        let penetration = self.problem.obstacles.map_or(0.0, |obstacles| 2.0 * obstacles.epsilon * energy.contact);
-        let Energy { kinetic, shear, bending, thermal, .. } = energy;
+        let penetration = self
+            .problem
+            .obstacles
+            .map_or(0.0, |obstacles| 2.0 * obstacles.epsilon * energy.contact);
+        let Energy {
+            kinetic,
+            shear,
+            bending,
+            thermal,
+            ..
+        } = energy;
         2.0 * (kinetic + shear + bending + thermal) + slope_squared(lengths, &level.u) + penetration
     }
 
@@ -301,14 +463,21 @@ impl EnergyRun {
 
     /// The end that is claimed, and the bounds of every step before; a run without a step has nothing to bound.
     fn check(&self, found: &Found) -> Check {
-        let Found { end, steps, worst, drift, .. } = found;
+        let Found {
+            end,
+            steps,
+            worst,
+            drift,
+            ..
+        } = found;
         let ended = *end == self.end && (*end != End::Answer || *steps == self.steps);
         let share = self.share_of(found);
         let drifted = self.drift.is_none_or(|bound| drift.abs() <= bound);
         let mut evidence = format!("{} after {steps} steps", end.name());
         if *steps > 0 {
             let (rise, residual, allowed) = (worst.rise, worst.residual, of_allowed(share));
-            evidence += &format!("; rise {rise:.1e}, residual {residual:.1e} of the energy ({allowed})");
+            evidence +=
+                &format!("; rise {rise:.1e}, residual {residual:.1e} of the energy ({allowed})");
             evidence += &format!("; sum of all residuals {:.1e}", drift.abs());
         }
         let closes = *steps == 0 || share <= 1.0;
@@ -325,7 +494,9 @@ impl EnergyRun {
     }
 
     fn readings(&self, found: &Found) -> Vec<Reading> {
-        let of_steps = |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value)).scientific(1);
+        let of_steps = |name: &str, value: f64| {
+            Reading::new(name, (found.steps > 0).then_some(value)).scientific(1)
+        };
         vec![
             Reading::text("elements", self.problem.mesh.elements().to_string()),
             Reading::text("dt", plain_text(self.stepping.dt)),
@@ -339,7 +510,11 @@ impl EnergyRun {
             of_steps("sum of residuals", found.drift.abs()),
         ]
         .into_iter()
-        .chain(found.of_bound.map(|share| Reading::new("of the bound (3.12)", share).fixed(3)))
+        .chain(
+            found
+                .of_bound
+                .map(|share| Reading::new("of the bound (3.12)", share).fixed(3)),
+        )
         .collect()
     }
 
@@ -353,19 +528,37 @@ impl Found {
     /// A run without a step has no rise.
     fn not_finite(&self) -> Vec<String> {
         let bound = self.of_bound.map(|share| ("left side of (3.12)", share));
-        let numbers =
-            [("initial energy", self.initial_energy), ("sum of residuals", self.drift)].into_iter().chain(bound);
-        let named = self.worst.named().into_iter().filter(|(name, _)| self.steps > 0 || *name != "rise");
+        let numbers = [
+            ("initial energy", self.initial_energy),
+            ("sum of residuals", self.drift),
+        ]
+        .into_iter()
+        .chain(bound);
+        let named = self
+            .worst
+            .named()
+            .into_iter()
+            .filter(|(name, _)| self.steps > 0 || *name != "rise");
         not_finite(numbers.chain(named))
     }
 }
 
 /// The constant c of Corollary 3.2, by the energy E^0 at t = 0 (THEORY.md derives it); `None` where nothing is stated.
 fn stability(beam: &Beam, obstacles: Option<&Obstacles>, initial_energy: f64) -> Option<f64> {
-    let Beam { beta, rho, theta_a, .. } = *beam;
+    let Beam {
+        beta, rho, theta_a, ..
+    } = *beam;
     // Share of ½ (‖u_x - φ‖² + ‖φ_x‖²) that the term of the axial force leaves.
-    let left = if rho > 0.0 { 1.0 } else { 1.0 + beta.min(0.0) / BUCKLING };
-    let constant = if rho > 0.0 && beta > 0.0 { beta * beta / (4.0 * rho) } else { 0.0 };
+    let left = if rho > 0.0 {
+        1.0
+    } else {
+        1.0 + beta.min(0.0) / BUCKLING
+    };
+    let constant = if rho > 0.0 && beta > 0.0 {
+        beta * beta / (4.0 * rho)
+    } else {
+        0.0
+    };
     let epsilon = obstacles.map_or(0.0, |obstacles| obstacles.epsilon);
     let largest = max_or_nan((1.0 + 1.0 / BUCKLING) / left, epsilon);
     (theta_a == 0.0 && left > 0.0).then_some(2.0 * largest * (initial_energy - constant))
@@ -373,13 +566,17 @@ fn stability(beam: &Beam, obstacles: Option<&Obstacles>, initial_energy: f64) ->
 
 impl EnergyRuns {
     fn figures(&self, found: &[(&EnergyRun, &Found)]) -> Vec<Figure> {
-        let drawn: Vec<&(&EnergyRun, &Found)> = found.iter().filter(|(run, _)| run.is_drawn).collect();
+        let drawn: Vec<&(&EnergyRun, &Found)> =
+            found.iter().filter(|(run, _)| run.is_drawn).collect();
         if drawn.is_empty() {
             return vec![];
         }
         let series = |point: fn(&Found, &EnergyAt) -> (f64, f64)| -> Vec<plots::Series> {
             let curve = |(run, found): &&(&EnergyRun, &Found)| {
-                plots::Series::new(run.scene(), found.samples.iter().map(|sample| point(found, sample)))
+                plots::Series::new(
+                    run.scene(),
+                    found.samples.iter().map(|sample| point(found, sample)),
+                )
             };
             drawn.iter().map(curve).collect()
         };
@@ -388,7 +585,13 @@ impl EnergyRuns {
             let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| bound(run)).collect();
             bounds.sort_by(f64::total_cmp);
             bounds.dedup();
-            bounds.into_iter().map(|value| plots::Guide { label: "allowed".to_owned(), value }).collect()
+            bounds
+                .into_iter()
+                .map(|value| plots::Guide {
+                    label: "allowed".to_owned(),
+                    value,
+                })
+                .collect()
         };
         if !self.histories {
             let drifts = not_zero(series(|_, sample| (sample.step as f64, sample.drift.abs())));
@@ -402,19 +605,28 @@ impl EnergyRuns {
         }
         let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
         let energies = series(|found, sample| (sample.t, sample.energy / found.initial_energy));
-        let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies).with_looks(&looks);
+        let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies)
+            .with_looks(&looks);
         // The largest so far: residuals scatter too much for several curves in one figure.
         let residuals = not_zero(series(|_, sample| (sample.t, sample.residual)));
         let y = plots::Axis::log("largest residual up to t / initial energy");
-        let balance = Xy { guides: allowed(|run| run.share), ..plots::history(y, &residuals).with_looks(&looks) };
+        let balance = Xy {
+            guides: allowed(|run| run.share),
+            ..plots::history(y, &residuals).with_looks(&looks)
+        };
         let of_energy = "The energy, in units of its initial size: it never rises.";
         let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
-        vec![Figure::new("energy", of_energy, energy.draw()), Figure::new("balance", caption, balance.draw())]
+        vec![
+            Figure::new("energy", of_energy, energy.draw()),
+            Figure::new("balance", caption, balance.draw()),
+        ]
     }
 }
 
 /// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.
 fn not_zero(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
-    series.iter_mut().for_each(|series| series.points.retain(|(_, value)| *value != 0.0));
+    series
+        .iter_mut()
+        .for_each(|series| series.points.retain(|(_, value)| *value != 0.0));
     series
 }

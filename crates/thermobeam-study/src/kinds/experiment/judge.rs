@@ -48,13 +48,28 @@ impl<'r> OfGroup<'r> {
             Some(Found::Run(run)) => Some(&**run),
             _ => None,
         };
-        let group = || study.experiments.iter().enumerate().filter(|(_, experiment)| belongs(experiment.group));
-        let runs: Vec<_> = group().filter_map(|(k, experiment)| Some((experiment, run(k)?))).collect();
-        Self { complete: runs.len() == group().count() && !runs.is_empty(), runs }
+        let group = || {
+            study
+                .experiments
+                .iter()
+                .enumerate()
+                .filter(|(_, experiment)| belongs(experiment.group))
+        };
+        let runs: Vec<_> = group()
+            .filter_map(|(k, experiment)| Some((experiment, run(k)?)))
+            .collect();
+        Self {
+            complete: runs.len() == group().count() && !runs.is_empty(),
+            runs,
+        }
     }
 
     fn all(&self, holds: impl Fn(&Scene, &Measured) -> bool) -> bool {
-        self.complete && self.runs.iter().all(|(experiment, run)| holds(&experiment.scene, run))
+        self.complete
+            && self
+                .runs
+                .iter()
+                .all(|(experiment, run)| holds(&experiment.scene, run))
     }
 
     fn list(&self, text: impl Fn(&Scene, &Measured) -> String) -> String {
@@ -68,19 +83,46 @@ impl<'r> OfGroup<'r> {
 impl Measured {
     /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
-        let of = |reading: Reading, guard: &str, tolerance: f64| reading.guarded(format!("{name}: {guard}"), tolerance);
-        let ends = |reading: Reading, guard: &str| if bent { of(reading, guard, SMOOTH) } else { reading };
+        let of = |reading: Reading, guard: &str, tolerance: f64| {
+            reading.guarded(format!("{name}: {guard}"), tolerance)
+        };
+        let ends = |reading: Reading, guard: &str| {
+            if bent {
+                of(reading, guard, SMOOTH)
+            } else {
+                reading
+            }
+        };
         let exact = self.end.nearest.map(|nearest| nearest.state.u_tip);
         vec![
-            of(Reading::new("first contact above", self.first_upper).fixed(4), "first_upper", SMOOTH),
-            of(Reading::new("below", self.first_lower).fixed(4), "first_lower", AFTER_BOUNCES),
-            of(Reading::new("frequency of u(1)", self.frequency).fixed(4), "frequency", AFTER_BOUNCES),
-            of(Reading::new("range of φ(1)", self.phi_amplitude).fixed(4), "phi_amplitude", AFTER_BOUNCES),
+            of(
+                Reading::new("first contact above", self.first_upper).fixed(4),
+                "first_upper",
+                SMOOTH,
+            ),
+            of(
+                Reading::new("below", self.first_lower).fixed(4),
+                "first_lower",
+                AFTER_BOUNCES,
+            ),
+            of(
+                Reading::new("frequency of u(1)", self.frequency).fixed(4),
+                "frequency",
+                AFTER_BOUNCES,
+            ),
+            of(
+                Reading::new("range of φ(1)", self.phi_amplitude).fixed(4),
+                "phi_amplitude",
+                AFTER_BOUNCES,
+            ),
             Reading::new("steady by t", self.end.t).fixed(0),
             ends(Reading::new("E at the end", self.energy).fixed(8), "energy"),
             Reading::new("u(1)", self.end.tip[0]).scientific(3),
             Reading::new("φ(1)", self.end.tip[1]).scientific(3),
-            ends(Reading::new("u(1) of the exact state", exact), "exact_u_tip"),
+            ends(
+                Reading::new("u(1) of the exact state", exact),
+                "exact_u_tip",
+            ),
             Reading::new("contact force", self.contact_force),
             Reading::new("largest field", self.largest_field),
             Reading::new("distance to a steady state", self.end.distance()),
@@ -96,29 +138,52 @@ impl AtRest {
             Reading::text("steady states", self.count()),
             Reading::text("stable", self.stable.to_string()),
             Reading::new("u(1) at rest", self.tip[0]).scientific(6),
-            distance.shown(|distance| if self.nearest.is_some() { format!("{distance:.1e}") } else { "-".to_owned() }),
+            distance.shown(|distance| {
+                if self.nearest.is_some() {
+                    format!("{distance:.1e}")
+                } else {
+                    "-".to_owned()
+                }
+            }),
             Reading::new("at rest by t", self.t).fixed(0),
         ]
     }
 }
 
 /// The runs to rest that completed, each with its β.
-pub(super) fn rests<'r>(study: &Experiments, ran: &'r [Ran<usize, Found>]) -> Vec<(f64, &'r AtRest)> {
+pub(super) fn rests<'r>(
+    study: &Experiments,
+    ran: &'r [Ran<usize, Found>],
+) -> Vec<(f64, &'r AtRest)> {
     let rest = |(k, &beta): (usize, &f64)| match found(ran, &(study.experiments.len() + k)) {
         Some(Found::Rest(rest)) => Some((beta, rest)),
         _ => None,
     };
-    study.rest.betas.iter().enumerate().filter_map(rest).collect()
+    study
+        .rest
+        .betas
+        .iter()
+        .enumerate()
+        .filter_map(rest)
+        .collect()
 }
 
-pub(super) fn checks(study: &Experiments, ran: &[Ran<usize, Found>], rests: &[(f64, &AtRest)]) -> Vec<Check> {
+pub(super) fn checks(
+    study: &Experiments,
+    ran: &[Ran<usize, Found>],
+    rests: &[(f64, &AtRest)],
+) -> Vec<Check> {
     let mut checks = vec![completion(ran, |found| {
         readings::not_finite(&match found {
             Found::Run(run) => run.readings("", true),
             Found::Rest(rest) => rest.readings(),
         })
     })];
-    checks.extend(claims(study, ran).into_iter().map(|check| check.stated_by(Origin::Source)));
+    checks.extend(
+        claims(study, ran)
+            .into_iter()
+            .map(|check| check.stated_by(Origin::Source)),
+    );
     checks.extend(counts(rests, rests.len() == study.rest.betas.len()));
     checks
 }
@@ -132,27 +197,43 @@ fn time(t: Option<f64>) -> String {
 fn claims(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Check> {
     let all = OfGroup::of(study, ran, |_| true);
     let first = OfGroup::of(study, ran, |group| group == SectionGroup::First);
-    let increases = all.runs.iter().map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
+    let increases = all
+        .runs
+        .iter()
+        .map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
     let mut checks = vec![Check::that(
         all.all(|_, run| run.largest_increase <= ROUND_OFF),
         "the energy rises in none of the experiments",
-        format!("largest change in a step: {}", increases.collect::<Vec<_>>().join(", ")),
+        format!(
+            "largest change in a step: {}",
+            increases.collect::<Vec<_>>().join(", ")
+        ),
     )];
     checks.extend(ends_straight(&first, REMAINS * study.rate));
     checks.extend(moves(&first));
     // If a run is missing, the check of completion has failed.
-    checks.extend(all.runs.iter().filter_map(|(Experiment { group, scene }, run)| match *group {
-        SectionGroup::First => None,
-        SectionGroup::Second(contact) => Some(comes_to_rest(scene, contact, run)),
-        SectionGroup::Third => Some(ends_bent(scene, run)),
-    }));
+    checks.extend(
+        all.runs
+            .iter()
+            .filter_map(|(Experiment { group, scene }, run)| match *group {
+                SectionGroup::First => None,
+                SectionGroup::Second(contact) => Some(comes_to_rest(scene, contact, run)),
+                SectionGroup::Third => Some(ends_bent(scene, run)),
+            }),
+    );
     checks
 }
 
 /// * `allowed`: upper bound on the remaining energy.
 fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
-    let energies =
-        first.list(|scene, run| format!("{:.9} for {:.9} at t = {:.0}", run.energy, straight_energy(scene), run.end.t));
+    let energies = first.list(|scene, run| {
+        format!(
+            "{:.9} for {:.9} at t = {:.0}",
+            run.energy,
+            straight_energy(scene),
+            run.end.t
+        )
+    });
     [
         Check::that(
             first.all(|scene, run| (run.energy - straight_energy(scene)).abs() <= allowed),
@@ -162,22 +243,51 @@ fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
         Check::that(
             first.all(|_, run| run.largest_field <= ARRIVED),
             "θ_A = 0: the evolution is towards u = φ = θ = 0",
-            format!("largest of the three fields: {}", first.list(|_, run| format!("{:.1e}", run.largest_field))),
+            format!(
+                "largest of the three fields: {}",
+                first.list(|_, run| format!("{:.1e}", run.largest_field))
+            ),
         ),
     ]
 }
 
 /// First contacts, frequency and amplitude; the experiments are in ascending order of β.
 fn moves(first: &OfGroup<'_>) -> [Check; 3] {
-    let early = |scene: &Scene, t: Option<f64>| t.is_some_and(|t| t > 0.0 && t <= BEGINNING * scene.t_end);
-    let contacts = first.list(|_, run| format!("upper {}, lower {}", time(run.first_upper), time(run.first_lower)));
+    let early =
+        |scene: &Scene, t: Option<f64>| t.is_some_and(|t| t > 0.0 && t <= BEGINNING * scene.t_end);
+    let contacts = first.list(|_, run| {
+        format!(
+            "upper {}, lower {}",
+            time(run.first_upper),
+            time(run.first_lower)
+        )
+    });
     let frequency = |run: &Measured| run.frequency.unwrap_or(f64::NAN);
     let several = first.complete && first.runs.len() >= 2;
-    let grows = first.runs.windows(2).all(|pair| frequency(pair[0].1) < frequency(pair[1].1));
-    let frequencies = first.list(|_, run| format!("{:.4} from {} upward crossings", frequency(run), run.crossings));
-    let amplitude = first.runs.first().map_or(f64::NAN, |(_, run)| run.phi_amplitude);
-    let is_largest = first.runs.iter().skip(1).all(|(_, run)| amplitude > run.phi_amplitude);
-    let beta = first.runs.first().map_or(f64::NAN, |(experiment, _)| experiment.scene.beam.beta);
+    let grows = first
+        .runs
+        .windows(2)
+        .all(|pair| frequency(pair[0].1) < frequency(pair[1].1));
+    let frequencies = first.list(|_, run| {
+        format!(
+            "{:.4} from {} upward crossings",
+            frequency(run),
+            run.crossings
+        )
+    });
+    let amplitude = first
+        .runs
+        .first()
+        .map_or(f64::NAN, |(_, run)| run.phi_amplitude);
+    let is_largest = first
+        .runs
+        .iter()
+        .skip(1)
+        .all(|(_, run)| amplitude > run.phi_amplitude);
+    let beta = first
+        .runs
+        .first()
+        .map_or(f64::NAN, |(experiment, _)| experiment.scene.beam.beta);
     let amplitudes = first.list(|_, run| format!("{:.4}", run.phi_amplitude));
     [
         Check::that(
@@ -205,11 +315,18 @@ fn comes_to_rest(scene: &Scene, contact: Phase, run: &Measured) -> Check {
         Phase::Free => run.contact_force == 0.0,
     };
     let Scene { beam, .. } = scene;
-    let place = if contact == Phase::Free { "free of both obstacles" } else { name_of(contact) };
+    let place = if contact == Phase::Free {
+        "free of both obstacles"
+    } else {
+        name_of(contact)
+    };
     let is_there = run.end.contact() == Some(contact);
     Check::that(
         presses && is_there && has_arrived(run),
-        format!("θ_A = {}, β = {}: at the steady state the beam is {place}", beam.theta_a, beam.beta),
+        format!(
+            "θ_A = {}, β = {}: at the steady state the beam is {place}",
+            beam.theta_a, beam.beta
+        ),
         at_rest(run),
     )
 }
@@ -217,7 +334,10 @@ fn comes_to_rest(scene: &Scene, contact: Phase, run: &Measured) -> Check {
 fn ends_bent(scene: &Scene, run: &Measured) -> Check {
     Check::that(
         run.end.tip[0].abs() > ARRIVED && has_arrived(run),
-        format!("β = {}: the stationary solution is not zero", scene.beam.beta),
+        format!(
+            "β = {}: the stationary solution is not zero",
+            scene.beam.beta
+        ),
         format!("{}, one of {} steady states", at_rest(run), run.end.count()),
     )
 }
@@ -229,7 +349,10 @@ fn has_arrived(run: &Measured) -> bool {
 
 fn at_rest(run: &Measured) -> String {
     let ([u, _], [exact, _]) = (run.end.tip, run.end.exact_tip());
-    let force = format!("contact force {:.6}, at t = {:.0}", run.contact_force, run.end.t);
+    let force = format!(
+        "contact force {:.6}, at t = {:.0}",
+        run.contact_force, run.end.t
+    );
     format!("u(1) = {u:.9}, {force}; the exact state has u(1) = {exact:.9}")
 }
 
@@ -239,26 +362,42 @@ fn at_rest(run: &Measured) -> String {
 fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
     let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.tip[0].abs() <= STRAIGHT;
     let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {
-        let within: Vec<_> = rests.iter().filter(|(beta, _)| range[0] < *beta && *beta < range[1]).collect();
+        let within: Vec<_> = rests
+            .iter()
+            .filter(|(beta, _)| range[0] < *beta && *beta < range[1])
+            .collect();
         let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
         let evidence = |(beta, rest): &&(f64, &AtRest)| {
-            format!("β = {beta}: {} of them, at rest u(1) = {:.2e}", rest.count(), rest.tip[0])
+            format!(
+                "β = {beta}: {} of them, at rest u(1) = {:.2e}",
+                rest.count(),
+                rest.tip[0]
+            )
         };
         let each: Vec<String> = within.iter().map(evidence).collect();
-        let evidence = if each.is_empty() { "no β in this range".to_owned() } else { each.join("; ") };
+        let evidence = if each.is_empty() {
+            "no β in this range".to_owned()
+        } else {
+            each.join("; ")
+        };
         Check::that(holds, text, evidence + more)
     };
-    let bent = |rest: &AtRest| rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable();
-    let unique =
-        "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it";
+    let bent = |rest: &AtRest| {
+        rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable()
+    };
+    let unique = "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it";
     let one = "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 < β < -1/2 \
                there is only one, the straight beam";
-    let convex = format!("; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}", -BUCKLING);
-    let several =
-        "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent";
+    let convex = format!(
+        "; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}",
+        -BUCKLING
+    );
+    let several = "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent";
     [
-        claim([AS_PRINTED, f64::INFINITY], alone_and_straight, unique, "").stated_by(Origin::Source),
-        claim([-BUCKLING, AS_PRINTED], alone_and_straight, one, &convex).stated_by(Origin::Correction),
+        claim([AS_PRINTED, f64::INFINITY], alone_and_straight, unique, "")
+            .stated_by(Origin::Source),
+        claim([-BUCKLING, AS_PRINTED], alone_and_straight, one, &convex)
+            .stated_by(Origin::Correction),
         claim([f64::NEG_INFINITY, -BUCKLING], bent, several, ""),
     ]
 }

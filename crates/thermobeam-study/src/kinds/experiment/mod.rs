@@ -98,7 +98,11 @@ impl FromFile for Experiments {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "experiments", "run", "steady"])?;
         let run = root.table("run", &["elements", "dt", "t_max", "window", "rate"])?;
-        let (t_max, window, rate) = (run.positive("t_max")?, run.positive("window")?, run.positive("rate")?);
+        let (t_max, window, rate) = (
+            run.positive("t_max")?,
+            run.positive("window")?,
+            run.positive("rate")?,
+        );
         let field = run.require("t_max", POSITIVE)?;
         let mut experiments = experiments(root, folder)?;
         for Experiment { scene, .. } in &mut experiments {
@@ -106,7 +110,13 @@ impl FromFile for Experiments {
             limits::steps_until(&field, t_max, scene.dt(), limits::STEPS)?;
         }
         let rest = ToRest::read(&root.table("steady", &ToRest::KEYS)?)?;
-        Ok(Self { experiments, t_max, window, rate, rest })
+        Ok(Self {
+            experiments,
+            t_max,
+            window,
+            rate,
+            rest,
+        })
     }
 }
 
@@ -115,20 +125,35 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
     let section = root.table("experiments", &["first", "second", "rests", "third"])?;
     // At least two scenes in ascending order of β, since the claims compare neighbours.
     let ascending = |key: &str| {
-        let fits = |scenes: &[Scene]| scenes.len() >= 2 && scenes.is_sorted_by(|a, b| a.beam.beta < b.beam.beta);
+        let fits = |scenes: &[Scene]| {
+            scenes.len() >= 2 && scenes.is_sorted_by(|a, b| a.beam.beta < b.beam.beta)
+        };
         let allowed = "a list of at least two scene files, beta ascending";
         section.list(key, allowed, |item| listed_scene(item, folder), fits)
     };
     let (first, second) = (ascending("first")?, ascending("second")?);
     // The contact state that is claimed for each beam of the second group.
-    let choices = [("upper", Phase::Upper), ("lower", Phase::Lower), ("free", Phase::Free)];
+    let choices = [
+        ("upper", Phase::Upper),
+        ("lower", Phase::Lower),
+        ("free", Phase::Free),
+    ];
     let allowed = "a list of \"upper\", \"lower\" or \"free\", one for each scene of second";
-    let rests = section.list("rests", allowed, |item| item.choice(&choices), |list| list.len() == second.len())?;
+    let rests = section.list(
+        "rests",
+        allowed,
+        |item| item.choice(&choices),
+        |list| list.len() == second.len(),
+    )?;
     let third = listed_scene(&section.require("third", "a scene file")?, folder)?;
     let one = |(group, scene): (SectionGroup, Scene)| Experiment { group, scene };
     let first = first.into_iter().map(|scene| (SectionGroup::First, scene));
     let second = rests.into_iter().map(SectionGroup::Second).zip(second);
-    Ok(first.chain(second).chain([(SectionGroup::Third, third)]).map(one).collect())
+    Ok(first
+        .chain(second)
+        .chain([(SectionGroup::Third, third)])
+        .map(one)
+        .collect())
 }
 
 /// Another mesh and time step, if `[run]` has them.
@@ -137,9 +162,12 @@ fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
     if elements.is_none() && dt.is_none() {
         return Ok(());
     }
-    let elements = elements.as_ref().map_or(Ok(scene.mesh.elements()), tables::elements)?;
+    let elements = elements
+        .as_ref()
+        .map_or(Ok(scene.mesh.elements()), tables::elements)?;
     let dt = dt.map_or(Ok(scene.dt()), |field| field.positive())?;
-    let mesh = Mesh::uniform(elements).map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
+    let mesh = Mesh::uniform(elements)
+        .map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
     *scene = scene.at(mesh, dt);
     Ok(())
 }
@@ -155,8 +183,15 @@ impl Kind for Experiments {
         let cost = |scene: &Scene| 80.0 / scene.dt() * scene.mesh.elements() as f64;
         let run = |Experiment { scene, .. }: &Experiment| (scene.name.clone(), cost(scene));
         let rest = |beta: &f64| (format!("to rest, beta = {beta}"), self.rest.cost());
-        let cases = self.experiments.iter().map(run).chain(self.rest.betas.iter().map(rest));
-        cases.enumerate().map(|(data, (label, cost))| Case::new(label, cost, data)).collect()
+        let cases = self
+            .experiments
+            .iter()
+            .map(run)
+            .chain(self.rest.betas.iter().map(rest));
+        cases
+            .enumerate()
+            .map(|(data, (label, cost))| Case::new(label, cost, data))
+            .collect()
     }
 
     fn run(&self, &case: &usize) -> Result<Found, CaseFailure> {
@@ -165,7 +200,10 @@ impl Kind for Experiments {
         }
         let count = self.experiments.len();
         // The third experiment is the last.
-        Ok(Found::Rest(self.rest.run(&self.experiments[count - 1].scene, case - count)?))
+        Ok(Found::Rest(
+            self.rest
+                .run(&self.experiments[count - 1].scene, case - count)?,
+        ))
     }
 
     fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
@@ -213,7 +251,12 @@ impl Experiments {
         let window = (self.window / scene.dt()).round().max(1.0) as usize;
         let mut fall = 0.0;
         loop {
-            let Step { old, new, simulation, .. } = driver.stepped()?;
+            let Step {
+                old,
+                new,
+                simulation,
+                ..
+            } = driver.stepped()?;
             // Summed from differences: the round-off of the total would hide a slow fall.
             let change = simulation.energy_change(old, new);
             log.largest_increase = max_or_nan(log.largest_increase, change);
@@ -226,7 +269,10 @@ impl Experiments {
                 fall = 0.0;
             }
             if !(simulation.t() < self.t_max) {
-                return Err(CaseFailure::new(format!("not steady by t = {}", self.t_max)));
+                return Err(CaseFailure::new(format!(
+                    "not steady by t = {}",
+                    self.t_max
+                )));
             }
         }
     }
@@ -245,8 +291,17 @@ struct MotionLog<'a> {
 impl<'a> MotionLog<'a> {
     fn new(scene: &'a Scene, driver: &mut Driver) -> Self {
         let largest_increase = f64::NEG_INFINITY;
-        let frames = figures::Frames { points: scene.mesh.nodes().to_vec(), ..Default::default() };
-        let mut log = Self { scene, motion: vec![], largest_increase, points: vec![], frames };
+        let frames = figures::Frames {
+            points: scene.mesh.nodes().to_vec(),
+            ..Default::default()
+        };
+        let mut log = Self {
+            scene,
+            motion: vec![],
+            largest_increase,
+            points: vec![],
+            frames,
+        };
         let (simulation, level) = driver.present();
         log.add(simulation, level);
         log
@@ -265,16 +320,21 @@ impl<'a> MotionLog<'a> {
             self.frames.u.push(level.u.clone());
         }
         // Beyond the figures' span only slow, smooth motion is left.
-        let stride = ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };
+        let stride =
+            ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };
         if step.is_multiple_of(stride) {
             let (Scene { mesh, beam, .. }, energy) = (self.scene, simulation.energy(level).total());
-            self.points.push(Sample::of(level, t, mesh, beam.theta_a, energy));
+            self.points
+                .push(Sample::of(level, t, mesh, beam.theta_a, energy));
         }
     }
 
     /// When u(1) passes a value between two levels that `passes` accepts, interpolated.
     fn passings(&self, at: f64, passes: impl Fn(f64, f64) -> bool) -> impl Iterator<Item = f64> {
-        let pairs = self.motion.windows(2).map(|pair| [pair[0][1], pair[1][1], pair[1][0]]);
+        let pairs = self
+            .motion
+            .windows(2)
+            .map(|pair| [pair[0][1], pair[1][1], pair[1][0]]);
         let passing = pairs.filter(move |[before, now, _]| passes(*before, *now));
         passing.map(move |[before, now, t]| t - self.scene.dt() * (now - at) / (now - before))
     }
@@ -282,13 +342,26 @@ impl<'a> MotionLog<'a> {
     fn finish(self, simulation: &Simulation, end: &Level) -> Result<Measured, CaseFailure> {
         let values = [&end.u, &end.phi, &end.theta].into_iter().flatten();
         let obstacles = self.scene.obstacles.as_ref();
-        let upper = obstacles.and_then(|of| self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2).next());
-        let lower = obstacles.and_then(|of| self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1).next());
-        let crossings: Vec<f64> = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0).collect();
+        let upper = obstacles.and_then(|of| {
+            self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2)
+                .next()
+        });
+        let lower = obstacles.and_then(|of| {
+            self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1)
+                .next()
+        });
+        let crossings: Vec<f64> = self
+            .passings(0.0, |before, now| before < 0.0 && now >= 0.0)
+            .collect();
         let count = crossings.len();
         // The start is not a step.
-        let largest =
-            |sign: f64| self.motion.iter().skip(1).map(|[_, _, phi]| sign * phi).fold(f64::NEG_INFINITY, max_or_nan);
+        let largest = |sign: f64| {
+            self.motion
+                .iter()
+                .skip(1)
+                .map(|[_, _, phi]| sign * phi)
+                .fold(f64::NEG_INFINITY, max_or_nan)
+        };
         Ok(Measured {
             end: AtRest::of(self.scene, &self.scene.mesh, simulation.t(), end, |_| true)?,
             energy: simulation.energy(end).total(),
@@ -297,7 +370,8 @@ impl<'a> MotionLog<'a> {
             first_upper: upper,
             first_lower: lower,
             crossings: count,
-            frequency: (count >= 2).then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0])),
+            frequency: (count >= 2)
+                .then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0])),
             phi_amplitude: largest(1.0) + largest(-1.0),
             largest_increase: self.largest_increase,
             points: self.points,

@@ -113,10 +113,24 @@ pub struct Found {
 impl FromFile for RandomErrors {
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", ROW.name, "case"])?;
-        let section = root.table(ROW.name, &["scenes", "rough", "refined", "targets", "norm_targets", "seed"])?;
+        let section = root.table(
+            ROW.name,
+            &[
+                "scenes",
+                "rough",
+                "refined",
+                "targets",
+                "norm_targets",
+                "seed",
+            ],
+        )?;
         let positive = |list: &[f64]| !list.is_empty() && list.iter().all(|target| *target > 0.0);
         let targets = |key| section.list(key, "a list of numbers > 0", Field::number, positive);
-        let given = if root.get("case").is_some() { named_cases(root, given)? } else { vec![] };
+        let given = if root.get("case").is_some() {
+            named_cases(root, given)?
+        } else {
+            vec![]
+        };
         Ok(Self {
             scenes: section.count("scenes", usize::from(given.is_empty())..=10_000)?,
             rough: section.count("rough", 0..=10_000)?,
@@ -141,23 +155,34 @@ impl RandomErrors {
         let seed = |first: u64, number: usize| (self.seed << 32) + first + number as u64;
         Ok(match drawn {
             Drawn::Given(number) => (self.given[number].clone(), None),
-            Drawn::Smooth(number) => (random_scene(&mut SplitMix::new(seed(0, number)), number, None)?, None),
+            Drawn::Smooth(number) => (
+                random_scene(&mut SplitMix::new(seed(0, number)), number, None)?,
+                None,
+            ),
             Drawn::Rough(number) => {
                 let mut random = SplitMix::new(seed(1 << 24, number));
                 let feature = Feature::random(&mut random, number);
-                (random_scene(&mut random, number, Some(&feature))?, Some(feature))
+                (
+                    random_scene(&mut random, number, Some(&feature))?,
+                    Some(feature),
+                )
             }
         })
     }
 
     /// Twelve elements of degree 14 or 11, shorter towards x = 1 and towards a feature, and short steps.
     fn independent(&self, scene: &Scene, feature: Option<&Feature>) -> Result<Scene, CaseFailure> {
-        let mut nodes = vec![0.0, 0.125, 0.25, 0.375, 0.5, 0.65, 0.8, 0.9, 0.96, 0.985, 0.995, 0.999, 1.0];
-        let impact = scene.obstacles.map_or(T_END, |obstacles| obstacles.impact_time(scene.beam.zeta));
+        let mut nodes = vec![
+            0.0, 0.125, 0.25, 0.375, 0.5, 0.65, 0.8, 0.9, 0.96, 0.985, 0.995, 0.999, 1.0,
+        ];
+        let impact = scene
+            .obstacles
+            .map_or(T_END, |obstacles| obstacles.impact_time(scene.beam.zeta));
         let mut restart_dt = 1e-3 * impact;
         if let Some(&Feature { x, width, .. }) = feature {
             restart_dt *= 1e-3;
-            let distances = || std::iter::successors(Some(width), |d| Some(3.0 * d)).take_while(|d| *d < 0.1);
+            let distances =
+                || std::iter::successors(Some(width), |d| Some(3.0 * d)).take_while(|d| *d < 0.1);
             // A function may have no value at its jump; a kink is between the innermost nodes, 1e-5 apart.
             let around = distances().flat_map(|d| [x - d, x + d]);
             nodes.retain(|node| *node == 0.0 || *node == 1.0 || (node - x).abs() > 0.03);
@@ -167,19 +192,44 @@ impl RandomErrors {
         }
         let dt = impact.clamp(0.002, 0.004);
         // Three digits more than the targets.
-        let [degree, time_degree] = if self.targets.iter().all(|target| *target >= 1e-4) { [11, 3] } else { [14, 4] };
-        let stepping = Stepping { degree: time_degree, dt, restart_dt, growth: 1.25, ..Stepping::default() };
+        let [degree, time_degree] = if self.targets.iter().all(|target| *target >= 1e-4) {
+            [11, 3]
+        } else {
+            [14, 4]
+        };
+        let stepping = Stepping {
+            degree: time_degree,
+            dt,
+            restart_dt,
+            growth: 1.25,
+            ..Stepping::default()
+        };
         let mesh = Mesh::from_nodes(nodes)?;
-        Ok(Scene { mesh, degree, method: Method::Dg(stepping), ..scene.clone() })
+        Ok(Scene {
+            mesh,
+            degree,
+            method: Method::Dg(stepping),
+            ..scene.clone()
+        })
     }
 
     /// The scene on linear elements, with steps of `midpoint`; both `times` as fine.
     fn linear(scene: &Scene, times: usize) -> Result<Scene, CaseFailure> {
         let [elements, steps] = COARSEST;
         let dt = 1.0 / (steps * times) as f64;
-        let stepping = OneStep { scheme: MIDPOINT, settings: Settings::default(), dt, loaded: false };
+        let stepping = OneStep {
+            scheme: MIDPOINT,
+            settings: Settings::default(),
+            dt,
+            loaded: false,
+        };
         let mesh = Mesh::uniform(elements * times)?;
-        Ok(Scene { mesh, degree: 1, method: Method::OneStep(stepping), ..scene.clone() })
+        Ok(Scene {
+            mesh,
+            degree: 1,
+            method: Method::OneStep(stepping),
+            ..scene.clone()
+        })
     }
 
     /// The run chosen for each target; a refusal is noted.
@@ -190,7 +240,11 @@ impl RandomErrors {
         refused: &mut Vec<String>,
         work: &mut Work<'_>,
     ) -> Vec<(f64, Scene)> {
-        let targets = if quantity == choice::Quantity::Tip { &self.targets } else { &self.norm_targets };
+        let targets = if quantity == choice::Quantity::Tip {
+            &self.targets
+        } else {
+            &self.norm_targets
+        };
         let mut chosen = vec![];
         for &target in targets {
             match choose(scene, quantity, target, work) {
@@ -216,39 +270,68 @@ impl RandomErrors {
         );
         let chosen = self.chosen(&scene, choice::Quantity::Tip, &mut refused, work);
         let in_norm = self.chosen(&scene, choice::Quantity::Norm, &mut refused, work);
-        let points = points(in_norm.iter().map(|(_, chosen)| &chosen.mesh).chain([&exact.mesh]));
-        let is_refined =
-            matches!(drawn, Drawn::Smooth(number) if self.refined > 0 && number.is_multiple_of(self.refined));
+        let points = points(
+            in_norm
+                .iter()
+                .map(|(_, chosen)| &chosen.mesh)
+                .chain([&exact.mesh]),
+        );
+        let is_refined = matches!(drawn, Drawn::Smooth(number) if self.refined > 0 && number.is_multiple_of(self.refined));
         let times: &[usize] = if is_refined { &[1, 4] } else { &[] };
-        let linear = times.iter().map(|times| Self::linear(&scene, *times)).collect::<Result<Vec<Scene>, _>>()?;
+        let linear = times
+            .iter()
+            .map(|times| Self::linear(&scene, *times))
+            .collect::<Result<Vec<Scene>, _>>()?;
         let mut traces = vec![];
-        for run in [&scene].into_iter().chain(chosen.iter().map(|(_, run)| run)).chain(&linear) {
+        for run in [&scene]
+            .into_iter()
+            .chain(chosen.iter().map(|(_, run)| run))
+            .chain(&linear)
+        {
             traces.push(Trace::of(run, &[])?);
         }
         for (_, run) in &in_norm {
             traces.push(Trace::of(run, &points)?);
         }
         let truth = Truth::of(&exact, &traces.iter().collect::<Vec<_>>(), &points)?;
-        let mut found =
-            Found { refused, may_be_refused: feature.is_some(), work: work.spent().work, ..Found::default() };
+        let mut found = Found {
+            refused,
+            may_be_refused: feature.is_some(),
+            work: work.spent().work,
+            ..Found::default()
+        };
         for of in &estimates {
-            found.over_estimate = max_or_nan(found.over_estimate, truth.of_estimate(0, &traces[0], of) / of.total);
+            found.over_estimate = max_or_nan(
+                found.over_estimate,
+                truth.of_estimate(0, &traces[0], of) / of.total,
+            );
         }
         let first_linear = 1 + chosen.len();
         for (k, (target, _)) in (1..).zip(&chosen) {
-            found.over_target = max_or_nan(found.over_target, truth.of_curve(k, &traces[k], 0) / target);
+            found.over_target =
+                max_or_nan(found.over_target, truth.of_curve(k, &traces[k], 0) / target);
         }
         for (k, (target, _)) in (first_linear + linear.len()..).zip(&in_norm) {
-            found.over_norm_target = max_or_nan(found.over_norm_target, truth.of_norm(k, &traces[k], &points) / target);
+            found.over_norm_target = max_or_nan(
+                found.over_norm_target,
+                truth.of_norm(k, &traces[k], &points) / target,
+            );
         }
-        found.linear = is_refined.then(|| [first_linear, first_linear + 1].map(|k| truth.of_curve(k, &traces[k], 0)));
+        found.linear = is_refined
+            .then(|| [first_linear, first_linear + 1].map(|k| truth.of_curve(k, &traces[k], 0)));
         Ok(found)
     }
 
-    fn checks(&self, ran: &[Ran<Drawn, Found>], found: &[(&Ran<Drawn, Found>, &Found)]) -> Vec<Check> {
+    fn checks(
+        &self,
+        ran: &[Ran<Drawn, Found>],
+        found: &[(&Ran<Drawn, Found>, &Found)],
+    ) -> Vec<Check> {
         let [over_estimate, over_target, over_norm_target] = worst(found);
-        let falls: Vec<f64> =
-            found.iter().filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine)).collect();
+        let falls: Vec<f64> = found
+            .iter()
+            .filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine))
+            .collect();
         let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
         let fall = format!("their error falls {FALL} times or more");
         let [refused, rough] = [false, true].map(|is_rough| refusals(found, is_rough));
@@ -257,21 +340,33 @@ impl RandomErrors {
             Check::that(
                 over_estimate <= EXCEEDED && !found.is_empty(),
                 format!("no error of a number exceeds {EXCEEDED} times its estimate"),
-                format!("the largest is {over_estimate:.2} of its estimate, of {} numbers", 8 * found.len()),
+                format!(
+                    "the largest is {over_estimate:.2} of its estimate, of {} numbers",
+                    8 * found.len()
+                ),
             ),
             Check::that(
                 over_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error",
-                format!("the largest is {over_target:.2} of it, of {} runs", self.targets.len() * found.len()),
+                format!(
+                    "the largest is {over_target:.2} of it, of {} runs",
+                    self.targets.len() * found.len()
+                ),
             ),
             Check::that(
                 over_norm_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error in the norm of Theorem 3.4",
                 format!("the largest is {over_norm_target:.2} of it"),
             ),
-            Check::that(refused.is_empty(), "every search of smooth data ends with a run", refused.join("; ")),
             Check::that(
-                rough.iter().all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
+                refused.is_empty(),
+                "every search of smooth data ends with a run",
+                refused.join("; "),
+            ),
+            Check::that(
+                rough
+                    .iter()
+                    .all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
                 "a search of rough data is refused only where no mesh resolves them, or because a finer run contradicts it",
                 format!("{} searches refused: {}", rough.len(), rough.join("; ")),
             ),
@@ -280,21 +375,30 @@ impl RandomErrors {
             checks.push(Check::that(
                 least >= FALL && !falls.is_empty(),
                 format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
-                format!("with four times of both it falls at least {least:.1} times, of {} scenes", falls.len()),
+                format!(
+                    "with four times of both it falls at least {least:.1} times, of {} scenes",
+                    falls.len()
+                ),
             ));
         }
         checks
     }
 
     fn figure(&self, found: &[(&Ran<Drawn, Found>, &Found)]) -> Figure {
-        let mut points: Vec<(f64, f64)> = found.iter().map(|(_, found)| (found.work, found.over_target)).collect();
+        let mut points: Vec<(f64, f64)> = found
+            .iter()
+            .map(|(_, found)| (found.work, found.over_target))
+            .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let work = "work of a scene's searches (unknowns times solves)";
         let series = [plots::Series::new("random scenes", points)];
         let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
-        let caption =
-            "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
-        Figure::new("errors", caption, drawn.titled("Errors of the runs chosen").draw())
+        let caption = "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
+        Figure::new(
+            "errors",
+            caption,
+            drawn.titled("Errors of the runs chosen").draw(),
+        )
     }
 }
 
@@ -303,10 +407,20 @@ impl Kind for RandomErrors {
     type Found = Found;
 
     fn cases(&self) -> Vec<Case<Drawn>> {
-        let smooth = (0..self.scenes).map(|number| (format!("scene {number}"), Drawn::Smooth(number)));
-        let rough = (0..self.rough).map(|number| (format!("rough scene {number}"), Drawn::Rough(number)));
-        let given = self.given.iter().enumerate().map(|(number, scene)| (scene.name.clone(), Drawn::Given(number)));
-        smooth.chain(rough).chain(given).map(|(label, data)| Case::new(label, 3e7, data)).collect()
+        let smooth =
+            (0..self.scenes).map(|number| (format!("scene {number}"), Drawn::Smooth(number)));
+        let rough =
+            (0..self.rough).map(|number| (format!("rough scene {number}"), Drawn::Rough(number)));
+        let given = self
+            .given
+            .iter()
+            .enumerate()
+            .map(|(number, scene)| (scene.name.clone(), Drawn::Given(number)));
+        smooth
+            .chain(rough)
+            .chain(given)
+            .map(|(label, data)| Case::new(label, 3e7, data))
+            .collect()
     }
 
     fn run(&self, &drawn: &Drawn) -> Result<Found, CaseFailure> {
@@ -314,15 +428,26 @@ impl Kind for RandomErrors {
     }
 
     fn judge(&self, ran: &[Ran<Drawn, Found>]) -> Outcome {
-        let found: Vec<(&Ran<Drawn, Found>, &Found)> = ran.iter().filter_map(|ran| Some((ran, ran.ok()?))).collect();
+        let found: Vec<(&Ran<Drawn, Found>, &Found)> = ran
+            .iter()
+            .filter_map(|ran| Some((ran, ran.ok()?)))
+            .collect();
         let [over_estimate, over_target, over_norm_target] = worst(&found);
-        let rows: Vec<_> = found.iter().map(|(ran, found)| (vec![ran.case.label.clone()], found.readings())).collect();
+        let rows: Vec<_> = found
+            .iter()
+            .map(|(ran, found)| (vec![ran.case.label.clone()], found.readings()))
+            .collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
         let most = max_or_nan(over_target, over_norm_target);
-        let errors = format!("{over_estimate:.2} of their estimates and {most:.2} of the target error");
+        let errors =
+            format!("{over_estimate:.2} of their estimates and {most:.2} of the target error");
         let headline = format!("{} scenes: errors at most {errors}", found.len());
         Outcome {
-            tables: vec![readings::table("Errors relative to the estimates and targets", &["scene"], &rows)],
+            tables: vec![readings::table(
+                "Errors relative to the estimates and targets",
+                &["scene"],
+                &rows,
+            )],
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
             headline: headline.clone(),
@@ -346,9 +471,17 @@ impl Found {
 
 /// The largest errors in units of their estimates, of the targets, and of those in the norm.
 fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> [f64; 3] {
-    let of: [fn(&Found) -> f64; 3] =
-        [|found| found.over_estimate, |found| found.over_target, |found| found.over_norm_target];
-    of.map(|of| found.iter().map(|(_, found)| of(found)).fold(0.0, max_or_nan))
+    let of: [fn(&Found) -> f64; 3] = [
+        |found| found.over_estimate,
+        |found| found.over_target,
+        |found| found.over_norm_target,
+    ];
+    of.map(|of| {
+        found
+            .iter()
+            .map(|(_, found)| of(found))
+            .fold(0.0, max_or_nan)
+    })
 }
 
 /// Words of the refusals of rough data.
@@ -356,15 +489,35 @@ const REFUSALS: [&str; 2] = ["do not resolve", "is contradicted by"];
 
 /// Why searches of smooth, or of rough, data were refused.
 fn refusals(found: &[(&Ran<Drawn, Found>, &Found)], is_rough: bool) -> Vec<String> {
-    let of = found.iter().filter(|(_, found)| found.may_be_refused == is_rough);
-    of.flat_map(|(ran, found)| found.refused.iter().map(|reason| format!("{}, {reason}", ran.case.label))).collect()
+    let of = found
+        .iter()
+        .filter(|(_, found)| found.may_be_refused == is_rough);
+    of.flat_map(|(ran, found)| {
+        found
+            .refused
+            .iter()
+            .map(|reason| format!("{}, {reason}", ran.case.label))
+    })
+    .collect()
 }
 
 /// A scene with moderate coefficients, obstacles that the beam hits, and smooth initial data, to one of which a feature is added.
-fn random_scene(random: &mut SplitMix, number: usize, feature: Option<&Feature>) -> Result<Scene, InputError> {
+fn random_scene(
+    random: &mut SplitMix,
+    number: usize,
+    feature: Option<&Feature>,
+) -> Result<Scene, InputError> {
     let mut between = |low: f64, high: f64| random.within([low, high]);
-    let time = ["dt = 0.002", "dt = 0.004\nscheme = \"midpoint\"", "scheme = \"dg\"\ndegree = 1"][number % 3];
-    let mesh = if number % 3 == 2 { "elements = 2\ndegree = 8" } else { "elements = 32" };
+    let time = [
+        "dt = 0.002",
+        "dt = 0.004\nscheme = \"midpoint\"",
+        "scheme = \"dg\"\ndegree = 1",
+    ][number % 3];
+    let mesh = if number % 3 == 2 {
+        "elements = 2\ndegree = 8"
+    } else {
+        "elements = 32"
+    };
     let theta_a = between(-5.0, 5.0);
     let coefficients = format!(
         "[beam]\nzeta = {:?}\na = {:?}\nrho = {:?}\nbeta = {:?}\ntheta_a = {theta_a:?}\n\
@@ -379,8 +532,18 @@ fn random_scene(random: &mut SplitMix, number: usize, feature: Option<&Feature>)
     );
     let fields = [
         ("u", format!("{:?}*x*(x-2)", between(-0.01, 0.01))),
-        ("u_t", format!("{:?}*x + {:?}*x*(x-1)^2", between(-3.0, 3.0), between(5.0, 20.0))),
-        ("theta", format!("{theta_a:?}*(1-x) + {:?}*sin(pi*x)", between(-2.0, 2.0))),
+        (
+            "u_t",
+            format!(
+                "{:?}*x + {:?}*x*(x-1)^2",
+                between(-3.0, 3.0),
+                between(5.0, 20.0)
+            ),
+        ),
+        (
+            "theta",
+            format!("{theta_a:?}*(1-x) + {:?}*sin(pi*x)", between(-2.0, 2.0)),
+        ),
         ("phi", "0*x".to_owned()),
         ("phi_t", "0*x".to_owned()),
     ];
@@ -401,7 +564,13 @@ impl Feature {
     fn random(random: &mut SplitMix, number: usize) -> Self {
         // The scheme of the scene has the period three.
         let kind = number / 3 % 3;
-        let sizes = [("u_t", 30.0), ("phi_t", 10.0), ("theta", 5.0), ("u", 0.02), ("phi", 0.2)];
+        let sizes = [
+            ("u_t", 30.0),
+            ("phi_t", 10.0),
+            ("theta", 5.0),
+            ("u", 0.02),
+            ("phi", 0.2),
+        ];
         let (field, size) = sizes[random.below(if kind == 2 { 3 } else { 5 })];
         let x = random.within([0.1, 0.9]);
         let height = size * random.within([0.2, 1.0]);
@@ -411,7 +580,11 @@ impl Feature {
                 (0.5 * width, format!("exp(-((x-{x:?})/{width:?})^2)"))
             }
             1 => {
-                let kinks = [format!("max(0,x-{x:?})"), format!("min(x,{x:?})"), format!("abs(x-{x:?})")];
+                let kinks = [
+                    format!("max(0,x-{x:?})"),
+                    format!("min(x,{x:?})"),
+                    format!("abs(x-{x:?})"),
+                ];
                 (1e-5, kinks[random.below(3)].clone())
             }
             _ => {
@@ -423,6 +596,11 @@ impl Feature {
                 (1e-7, steps[random.below(3)].clone())
             }
         };
-        Self { field, text: format!("{height:?}*4*x*(1-x)*{shape}"), x, width }
+        Self {
+            field,
+            text: format!("{height:?}*4*x*(1-x)*{shape}"),
+            x,
+            width,
+        }
     }
 }

@@ -26,7 +26,9 @@ pub(super) struct Point {
 
 /// Three Gauss points in each part of the elements that have the nodes of all meshes.
 pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<Point> {
-    let mut nodes: Vec<f64> = meshes.flat_map(|mesh| mesh.nodes().iter().copied()).collect();
+    let mut nodes: Vec<f64> = meshes
+        .flat_map(|mesh| mesh.nodes().iter().copied())
+        .collect();
     nodes.sort_by(f64::total_cmp);
     nodes.dedup();
     let mut points = vec![];
@@ -34,8 +36,15 @@ pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<Point> {
         let half = 0.5 * (x[1] - x[0]) / NORM_PARTS as f64;
         for part in 0..NORM_PARTS {
             let middle = x[0] + half * (2 * part + 1) as f64;
-            for (s, weight) in [(-0.6_f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 9.0)] {
-                points.push(Point { x: middle + half * s, weight: half * weight });
+            for (s, weight) in [
+                (-0.6_f64.sqrt(), 5.0 / 9.0),
+                (0.0, 8.0 / 9.0),
+                (0.6_f64.sqrt(), 5.0 / 9.0),
+            ] {
+                points.push(Point {
+                    x: middle + half * s,
+                    weight: half * weight,
+                });
             }
         }
     }
@@ -43,7 +52,10 @@ pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<Point> {
 }
 
 fn located(motion: &DgMotion, points: &[Point]) -> Vec<dg::Point> {
-    points.iter().map(|point| motion.simulation().space().locate(point.x)).collect()
+    points
+        .iter()
+        .map(|point| motion.simulation().space().locate(point.x))
+        .collect()
 }
 
 /// A run at one time.
@@ -59,7 +71,12 @@ struct State {
 impl State {
     /// * `located`: the points of the norm, if it is wanted.
     fn of_dg(motion: &mut DgMotion, t: f64, located: &[dg::Point]) -> Self {
-        let Sample { u_tip, phi_tip, energy, .. } = motion.at(t);
+        let Sample {
+            u_tip,
+            phi_tip,
+            energy,
+            ..
+        } = motion.at(t);
         let simulation = motion.simulation();
         let mut integrands = vec![];
         if !located.is_empty() {
@@ -71,7 +88,11 @@ impl State {
                 [v, u_x - phi, w, phi_x, theta]
             }));
         }
-        Self { t, numbers: [u_tip, phi_tip, energy], integrands }
+        Self {
+            t,
+            numbers: [u_tip, phi_tip, energy],
+            integrands,
+        }
     }
 }
 
@@ -89,8 +110,18 @@ impl Trace {
             Method::OneStep(_) => {
                 let mut motion = simulate::motion(scene)?;
                 while motion.step(scene.t_end)?.is_some() {
-                    let Sample { t, u_tip, phi_tip, energy, .. } = motion.at(motion.t());
-                    states.push(State { t, numbers: [u_tip, phi_tip, energy], integrands: vec![] });
+                    let Sample {
+                        t,
+                        u_tip,
+                        phi_tip,
+                        energy,
+                        ..
+                    } = motion.at(motion.t());
+                    states.push(State {
+                        t,
+                        numbers: [u_tip, phi_tip, energy],
+                        integrands: vec![],
+                    });
                 }
             }
             Method::Dg(stepping) => {
@@ -99,7 +130,11 @@ impl Trace {
                 while motion.step(scene.t_end)?.is_some() {
                     let (from, to) = (motion.simulation().old_level().t, motion.t());
                     for part in PARTS {
-                        states.push(State::of_dg(&mut motion, (from + part * (to - from)).min(to), &located));
+                        states.push(State::of_dg(
+                            &mut motion,
+                            (from + part * (to - from)).min(to),
+                            &located,
+                        ));
                     }
                 }
             }
@@ -118,7 +153,11 @@ pub(super) struct Truth {
 
 impl Truth {
     /// Runs `scene`, by dG, once for all traces.
-    pub(super) fn of(scene: &Scene, traces: &[&Trace], points: &[Point]) -> Result<Self, CaseFailure> {
+    pub(super) fn of(
+        scene: &Scene,
+        traces: &[&Trace],
+        points: &[Point],
+    ) -> Result<Self, CaseFailure> {
         let mut motion = DgMotion::new(scene, scene.dg_stepping())?;
         let located = located(&motion, points);
         let mut read: Vec<Trace> = traces.iter().map(|_| Trace { states: vec![] }).collect();
@@ -131,31 +170,64 @@ impl Truth {
                     if t > to {
                         break;
                     }
-                    let located = if state.integrands.is_empty() { &[] } else { &located[..] };
-                    read.states.push(State::of_dg(&mut motion, t.max(from), located));
+                    let located = if state.integrands.is_empty() {
+                        &[]
+                    } else {
+                        &located[..]
+                    };
+                    read.states
+                        .push(State::of_dg(&mut motion, t.max(from), located));
                 }
             }
             for part in 1..=EXTREME_PARTS {
                 let t = (from + (to - from) * part as f64 / EXTREME_PARTS as f64).min(to);
-                tips.push((t, motion.simulation().value(Field::U, 1.0, t).unwrap_or(f64::NAN)));
+                tips.push((
+                    t,
+                    motion
+                        .simulation()
+                        .value(Field::U, 1.0, t)
+                        .unwrap_or(f64::NAN),
+                ));
             }
         }
-        let Sample { u_tip, phi_tip, energy, .. } = motion.at(motion.t());
-        let range = [-largest(tips.iter().map(|(t, u)| (*t, -u)).collect()), largest(tips)];
-        Ok(Self { traces: read, range, last: [u_tip, phi_tip, energy] })
+        let Sample {
+            u_tip,
+            phi_tip,
+            energy,
+            ..
+        } = motion.at(motion.t());
+        let range = [
+            -largest(tips.iter().map(|(t, u)| (*t, -u)).collect()),
+            largest(tips),
+        ];
+        Ok(Self {
+            traces: read,
+            range,
+            last: [u_tip, phi_tip, energy],
+        })
     }
 
     /// The largest error of a number of trace k.
     pub(super) fn of_curve(&self, k: usize, trace: &Trace, number: usize) -> f64 {
-        self.worst(k, trace, |own, exact| (own.numbers[number] - exact.numbers[number]).abs())
+        self.worst(k, trace, |own, exact| {
+            (own.numbers[number] - exact.numbers[number]).abs()
+        })
     }
 
     /// The largest error of trace k in the norm of Theorem 3.4.
     pub(super) fn of_norm(&self, k: usize, trace: &Trace, points: &[Point]) -> f64 {
         self.worst(k, trace, |own, exact| {
             let mut square = 0.0;
-            for (point, (own, exact)) in points.iter().zip(own.integrands.iter().zip(&exact.integrands)) {
-                square += point.weight * own.iter().zip(exact).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+            for (point, (own, exact)) in points
+                .iter()
+                .zip(own.integrands.iter().zip(&exact.integrands))
+            {
+                square += point.weight
+                    * own
+                        .iter()
+                        .zip(exact)
+                        .map(|(a, b)| (a - b).powi(2))
+                        .sum::<f64>();
             }
             square.sqrt()
         })
@@ -163,7 +235,10 @@ impl Truth {
 
     /// The error of an estimated number or curve of trace k.
     pub(super) fn of_estimate(&self, k: usize, trace: &Trace, estimate: &Estimate) -> f64 {
-        let number = ["u(1)", "phi(1)", "energy"].iter().position(|name| estimate.name.contains(name)).unwrap_or(0);
+        let number = ["u(1)", "phi(1)", "energy"]
+            .iter()
+            .position(|name| estimate.name.contains(name))
+            .unwrap_or(0);
         match estimate.kind {
             Value::Curve => self.of_curve(k, trace, number),
             Value::Largest => (estimate.value - self.range[1]).abs(),
@@ -177,19 +252,33 @@ impl Truth {
         if exact.len() != trace.states.len() || exact.is_empty() {
             return f64::NAN;
         }
-        trace.states.iter().zip(exact).map(|(own, exact)| distance(own, exact)).fold(0.0, max_or_nan)
+        trace
+            .states
+            .iter()
+            .zip(exact)
+            .map(|(own, exact)| distance(own, exact))
+            .fold(0.0, max_or_nan)
     }
 }
 
 /// The largest value of a curve: that of the parabola through the largest of its points and both neighbours.
 fn largest(curve: Vec<(f64, f64)>) -> f64 {
-    let most = curve.iter().map(|point| point.1).fold(f64::NEG_INFINITY, max_or_nan);
+    let most = curve
+        .iter()
+        .map(|point| point.1)
+        .fold(f64::NEG_INFINITY, max_or_nan);
     let peak = curve.windows(3).find(|points| points[1].1 == most);
-    let Some([(t0, u0), (t1, u1), (t2, u2)]) = peak.and_then(|points| <[_; 3]>::try_from(points).ok()) else {
+    let Some([(t0, u0), (t1, u1), (t2, u2)]) =
+        peak.and_then(|points| <[_; 3]>::try_from(points).ok())
+    else {
         return most;
     };
     let slopes = [(u1 - u0) / (t1 - t0), (u2 - u1) / (t2 - t1)];
     let bend = (slopes[1] - slopes[0]) / (t2 - t0);
     let slope = slopes[0] + bend * (t1 - t0);
-    if bend < 0.0 { u1 - slope * slope / (4.0 * bend) } else { most }
+    if bend < 0.0 {
+        u1 - slope * slope / (4.0 * bend)
+    } else {
+        most
+    }
 }

@@ -40,17 +40,30 @@ fn penetration(run: Option<&ShownImpact>) -> f64 {
 }
 
 impl<'r> Compliance<'r> {
-    fn new(epsilon: f64, ran: &'r [Ran<(f64, RunOf), ShownImpact>], limit: Option<&ShownImpact>) -> Self {
+    fn new(
+        epsilon: f64,
+        ran: &'r [Ran<(f64, RunOf), ShownImpact>],
+        limit: Option<&ShownImpact>,
+    ) -> Self {
         let of = |run: RunOf| found(ran, &(epsilon, run));
         let bouncing = of(RunOf::Bouncing);
         let distance = match (bouncing, limit) {
-            (Some(ShownImpact { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => {
-                tip.iter().zip(&limit.tip).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, max_or_nan)
-            }
+            (Some(ShownImpact { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => tip
+                .iter()
+                .zip(&limit.tip)
+                .map(|(a, b)| (a.1 - b.1).abs())
+                .fold(0.0, max_or_nan),
             _ => f64::NAN,
         };
         let [fixed_point, rest, impact] = [RunOf::FixedPoint, RunOf::Rest, RunOf::Impact].map(of);
-        Self { epsilon, bouncing, fixed_point, rest, impact, distance }
+        Self {
+            epsilon,
+            bouncing,
+            fixed_point,
+            rest,
+            impact,
+            distance,
+        }
     }
 
     fn alpha(&self) -> f64 {
@@ -61,37 +74,71 @@ impl<'r> Compliance<'r> {
     fn forces(&self) -> Vec<Reading> {
         let guarded = |head: &str, run: Option<&ShownImpact>, name: &str| {
             let name = format!("{name}, ε = {:.1e}", self.epsilon);
-            Reading::new(head, penetration(run)).scientific(4).guarded(name, 1e-6)
+            Reading::new(head, penetration(run))
+                .scientific(4)
+                .guarded(name, 1e-6)
         };
         let shown = |head: &str, value: f64| Reading::new(head, value).scientific(4);
-        let force = |head: &str, run: Option<&ShownImpact>| shown(head, number(run, |run| run.force));
+        let force =
+            |head: &str, run: Option<&ShownImpact>| shown(head, number(run, |run| run.force));
         vec![
-            guarded("bouncing: largest penetration", self.bouncing, "largest penetration"),
+            guarded(
+                "bouncing: largest penetration",
+                self.bouncing,
+                "largest penetration",
+            ),
             force("largest force", self.bouncing),
             shown("distance to the rigid limit", self.distance),
             guarded("at rest: penetration", self.rest, "penetration at rest"),
             force("force", self.rest),
-            guarded("impact, resolved: peak penetration", self.impact, "peak penetration"),
+            guarded(
+                "impact, resolved: peak penetration",
+                self.impact,
+                "peak penetration",
+            ),
             force("peak force", self.impact),
         ]
     }
 
     fn solvers(&self) -> Vec<Reading> {
         let (newton, fixed_point) = (self.bouncing, self.fixed_point);
-        let ended = |run: &ShownImpact| run.failed_at.map_or("converges".into(), |t| format!("fails at t = {t:.3}"));
+        let ended = |run: &ShownImpact| {
+            run.failed_at
+                .map_or("converges".into(), |t| format!("fails at t = {t:.3}"))
+        };
         vec![
-            Reading::new("Newton's iterations", newton.and_then(|found| found.mean_iterations)).fixed(3),
-            Reading::new("most in a step", newton.map(|found| found.most_iterations as f64)).fixed(0),
-            Reading::new("fixed point's iterations", fixed_point.and_then(|found| found.mean_iterations)).fixed(2),
+            Reading::new(
+                "Newton's iterations",
+                newton.and_then(|found| found.mean_iterations),
+            )
+            .fixed(3),
+            Reading::new(
+                "most in a step",
+                newton.map(|found| found.most_iterations as f64),
+            )
+            .fixed(0),
+            Reading::new(
+                "fixed point's iterations",
+                fixed_point.and_then(|found| found.mean_iterations),
+            )
+            .fixed(2),
             Reading::new("α", fixed_point.and_then(|found| found.alpha)).fixed(4),
-            Reading::new("contraction", fixed_point.and_then(|found| found.contraction)).fixed(4),
+            Reading::new(
+                "contraction",
+                fixed_point.and_then(|found| found.contraction),
+            )
+            .fixed(4),
             Reading::text("fixed point", fixed_point.map_or("-".to_owned(), ended)),
         ]
     }
 }
 
 fn numbers_not_finite(found: &ShownImpact) -> Vec<String> {
-    let tip = found.tip.iter().map(|(t, u)| t.abs() + u.abs()).fold(0.0, max_or_nan);
+    let tip = found
+        .tip
+        .iter()
+        .map(|(t, u)| t.abs() + u.abs())
+        .fold(0.0, max_or_nan);
     not_finite([
         ("velocity", found.velocity),
         ("force", found.force),
@@ -106,9 +153,16 @@ fn numbers_not_finite(found: &ShownImpact) -> Vec<String> {
 
 pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
     let limit = found(ran, &(study.limit, RunOf::RigidLimit));
-    let all: Vec<Compliance<'_>> = study.epsilons.iter().map(|&epsilon| Compliance::new(epsilon, ran, limit)).collect();
+    let all: Vec<Compliance<'_>> = study
+        .epsilons
+        .iter()
+        .map(|&epsilon| Compliance::new(epsilon, ran, limit))
+        .collect();
     let rates = rates(study, &all);
-    let observed: Vec<String> = rates.iter().map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted))).collect();
+    let observed: Vec<String> = rates
+        .iter()
+        .map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted)))
+        .collect();
     let checks = vec![
         completion(ran, numbers_not_finite),
         peak_as_predicted(study, all.last()),
@@ -117,18 +171,28 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
         contraction_as_predicted(&all),
     ];
     let rows = |readings: fn(&Compliance<'_>) -> Vec<Reading>| -> Vec<(Vec<String>, Vec<Reading>)> {
-        all.iter().map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of))).collect()
+        all.iter()
+            .map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of)))
+            .collect()
     };
     let forces = rows(|of| of.forces());
     let title = "Penetrations and forces as the obstacles become rigid";
     Outcome {
         tables: vec![
             readings::table(title, &["ε"], &forces),
-            readings::table("Solvers of the bouncing beam", &["ε"], &rows(|of| of.solvers())),
+            readings::table(
+                "Solvers of the bouncing beam",
+                &["ε"],
+                &rows(|of| of.solvers()),
+            ),
         ],
         figures: figures(study, &all, limit),
         quantities: readings::guarded(forces.iter().flat_map(|(_, readings)| readings)),
-        ..Outcome::new(format!("orders in ε: {}", observed.join("; ")), rates, checks)
+        ..Outcome::new(
+            format!("orders in ε: {}", observed.join("; ")),
+            rates,
+            checks,
+        )
     }
 }
 
@@ -137,23 +201,45 @@ fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict
     // The predicted α tells whether dt resolves the impact. If a case failed it is NaN, which must not drop a level.
     let averaged = |of: &Compliance<'_>| !(of.alpha() < AVERAGED);
     let stiff = |of: &Compliance<'_>| of.epsilon <= STIFF;
-    let rate = |name: &str, order, belongs: &dyn Fn(&Compliance<'_>) -> bool, error: fn(&Compliance<'_>) -> f64| {
-        let level = |of: &Compliance<'_>| Level { step: of.epsilon, error: error(of) };
+    let rate = |name: &str,
+                order,
+                belongs: &dyn Fn(&Compliance<'_>) -> bool,
+                error: fn(&Compliance<'_>) -> f64| {
+        let level = |of: &Compliance<'_>| Level {
+            step: of.epsilon,
+            error: error(of),
+        };
         let levels: Vec<Level> = all.iter().filter(|of| belongs(of)).map(level).collect();
         (name.to_owned(), study.judge.judge(&levels, order))
     };
     vec![
         rate(LARGEST, 1.0, &averaged, |of| penetration(of.bouncing)),
-        rate("distance to the rigid limit, fixed h and dt", 1.0, &averaged, |of| of.distance),
-        rate("penetration at rest", 1.0, &stiff, |of| penetration(of.rest)),
-        rate("peak penetration of an impact, resolved", 2.0 / 3.0, &stiff, |of| penetration(of.impact)),
+        rate(
+            "distance to the rigid limit, fixed h and dt",
+            1.0,
+            &averaged,
+            |of| of.distance,
+        ),
+        rate("penetration at rest", 1.0, &stiff, |of| {
+            penetration(of.rest)
+        }),
+        rate(
+            "peak penetration of an impact, resolved",
+            2.0 / 3.0,
+            &stiff,
+            |of| penetration(of.impact),
+        ),
     ]
 }
 
 fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check {
     let exact = peak_penetration();
     let (epsilon, impact) = last.map_or((f64::NAN, None), |of| (of.epsilon, of.impact));
-    let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(study.impact.beam.zeta);
+    let time = Obstacles {
+        epsilon,
+        ..Obstacles::default()
+    }
+    .impact_time(study.impact.beam.zeta);
     let measured = penetration(impact) / (number(impact, |found| found.velocity) * time);
     Check::that(
         (measured / exact - 1.0).abs() <= 5e-3,
@@ -162,9 +248,17 @@ fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check
     )
 }
 
-fn newton_does_not_depend_on_epsilon(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Check {
+fn newton_does_not_depend_on_epsilon(
+    study: &RigidStudy,
+    all: &[Compliance<'_>],
+    limit: Option<&ShownImpact>,
+) -> Check {
     let claim = "Newton's iterations do not grow as the obstacles become rigid";
-    let bouncing: Vec<&ShownImpact> = all.iter().filter_map(|of| of.bouncing).chain(limit).collect();
+    let bouncing: Vec<&ShownImpact> = all
+        .iter()
+        .filter_map(|of| of.bouncing)
+        .chain(limit)
+        .collect();
     let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
         return Check::that(false, claim, "no bouncing beam was run to its end");
     };
@@ -173,14 +267,27 @@ fn newton_does_not_depend_on_epsilon(study: &RigidStudy, all: &[Compliance<'_>],
         mean(found) <= 1.1 * mean(softest) && found.most_iterations <= softest.most_iterations + 2
     };
     let (first, last, epsilon) = (mean(softest), mean(limit), study.limit);
-    let means = format!("mean from {first:.3} at the softest to {last:.3} at the stiffest, ε = {epsilon:.0e}");
-    let most = bouncing.iter().map(|found| found.most_iterations).max().unwrap_or(0);
+    let means = format!(
+        "mean from {first:.3} at the softest to {last:.3} at the stiffest, ε = {epsilon:.0e}"
+    );
+    let most = bouncing
+        .iter()
+        .map(|found| found.most_iterations)
+        .max()
+        .unwrap_or(0);
     let evidence = format!("{means}; most in a step: {most}");
-    Check::that(bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds), claim, evidence)
+    Check::that(
+        bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds),
+        claim,
+        evidence,
+    )
 }
 
 fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
-    let runs = || all.iter().filter_map(|of| Some((of, of.fixed_point?.failed_at)));
+    let runs = || {
+        all.iter()
+            .filter_map(|of| Some((of, of.fixed_point?.failed_at)))
+    };
     let as_predicted = |(of, failed_at): (&Compliance<'_>, Option<f64>)| match of.alpha() {
         alpha if alpha < SLOW => failed_at.is_none(),
         alpha if alpha > 1.0 => failed_at.is_some(),
@@ -190,39 +297,66 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
     let last = runs().rfind(|(_, failed_at)| failed_at.is_none());
     let first = runs().find(|(_, failed_at)| failed_at.is_some());
     let name = |run: Option<(&Compliance<'_>, _)>| {
-        run.map_or("none".to_owned(), |(of, _)| format!("ε = {:.1e} (α = {:.3})", of.epsilon, of.alpha()))
+        run.map_or("none".to_owned(), |(of, _)| {
+            format!("ε = {:.1e} (α = {:.3})", of.epsilon, of.alpha())
+        })
     };
     Check::that(
         runs().all(as_predicted) && last.is_some() && first.is_some(),
         "the fixed point converges while α < 1 and fails beyond; Newton's method does every step",
-        format!("last that converges: {}, first that fails: {}", name(last), name(first)),
+        format!(
+            "last that converges: {}, first that fails: {}",
+            name(last),
+            name(first)
+        ),
     )
 }
 
 fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
     let judged = all.iter().filter(|of| (0.01..SLOW).contains(&of.alpha()));
-    let ratios: Vec<f64> = judged.map(|of| number(of.fixed_point, |run| run.contraction) / of.alpha()).collect();
-    let worst = ratios.iter().map(|ratio| (ratio - 1.0).abs()).fold(0.0, max_or_nan);
+    let ratios: Vec<f64> = judged
+        .map(|of| number(of.fixed_point, |run| run.contraction) / of.alpha())
+        .collect();
+    let worst = ratios
+        .iter()
+        .map(|ratio| (ratio - 1.0).abs())
+        .fold(0.0, max_or_nan);
     Check::that(
         !ratios.is_empty() && worst <= 0.1,
         "in contact the fixed point contracts by α = (dt/ε) [A_u⁻¹]_nn, to a tenth",
-        format!("{} compliances with α between 0.01 and {SLOW}, the farthest ratio {worst:.1e} from 1", ratios.len()),
+        format!(
+            "{} compliances with α between 0.01 and {SLOW}, the farthest ratio {worst:.1e} from 1",
+            ratios.len()
+        ),
     )
 }
 
 /// The first figure omits the distance to the rigid limit: on its scale it coincides with the largest penetration.
 fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
     let of_fixed_point = |label: &str, converges: bool| {
-        let runs = all.iter().filter(|of| of.fixed_point.is_some_and(|run| run.failed_at.is_none() == converges));
-        plots::Series::new(label, runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))))
+        let runs = all.iter().filter(|of| {
+            of.fixed_point
+                .is_some_and(|run| run.failed_at.is_none() == converges)
+        });
+        plots::Series::new(
+            label,
+            runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))),
+        )
     };
-    let series = vec![of_fixed_point("converges", true), of_fixed_point("fails", false)];
+    let series = vec![
+        of_fixed_point("converges", true),
+        of_fixed_point("fails", false),
+    ];
     let orders = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
                   order 2/3 where it is resolved.";
     let contracts = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
     vec![
         Figure::new("penetration", orders, penetrations(all)),
-        Figure::new("tip", "Displacement of the free end as the obstacles become rigid.", tip(study, all, limit)),
+        Figure::new(
+            "tip",
+            "Displacement of the free end as the obstacles become rigid.",
+            tip(study, all, limit),
+        ),
         Figure::new("contraction", contracts, contraction(&series)),
     ]
 }
@@ -251,10 +385,22 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
 /// Only the first decades, so that the curves stay distinct.
 fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> String {
     let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
-    let label = |epsilon: f64| decades.iter().find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6);
+    let label = |epsilon: f64| {
+        decades
+            .iter()
+            .find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6)
+    };
     let series = |label: &str, of: &ShownImpact| plots::Series::new(label, of.tip.clone());
     let curve = |of: &Compliance<'_>| Some(series(label(of.epsilon)?.1, of.bouncing?));
     let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
-    let series: Vec<_> = all.iter().filter_map(curve).chain(limit.map(|limit| series("rigid", limit))).collect();
-    Xy { guides: obstacle_lines(study.moving.obstacles), ..plots::history(y, &series) }.draw()
+    let series: Vec<_> = all
+        .iter()
+        .filter_map(curve)
+        .chain(limit.map(|limit| series("rigid", limit)))
+        .collect();
+    Xy {
+        guides: obstacle_lines(study.moving.obstacles),
+        ..plots::history(y, &series)
+    }
+    .draw()
 }

@@ -102,14 +102,20 @@ impl FromFile for RigidStudy {
         root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
         let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
         let judge = Judge::new(tolerance(&obstacles)?);
-        let judge = judge.map_err(|error| obstacles.refuse("tolerance", error.to_string(), "a tolerance"))?;
-        let moving = root.table("moving", &["scene", "elements", "dt", "t_end", "max_iterations"])?;
+        let judge = judge
+            .map_err(|error| obstacles.refuse("tolerance", error.to_string(), "a tolerance"))?;
+        let moving = root.table(
+            "moving",
+            &["scene", "elements", "dt", "t_end", "max_iterations"],
+        )?;
         let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
         let impact = root.table("impact", &["scene", "steps"])?;
         let t_end = moving.positive("t_end")?;
         let allowed = "a list of at least three positive numbers, descending";
         // Descending, so that the last is the smallest.
-        let fits = |list: &[f64]| list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0;
+        let fits = |list: &[f64]| {
+            list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0
+        };
         Ok(Self {
             epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
             limit: obstacles.positive("limit")?,
@@ -129,14 +135,18 @@ impl FromFile for RigidStudy {
 fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Scene, InputError> {
     let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
     let field = section.require("elements", "a whole number >= 1")?;
-    let scene = Scene { t_end: t_end.unwrap_or(scene.t_end), ..scene };
+    let scene = Scene {
+        t_end: t_end.unwrap_or(scene.t_end),
+        ..scene
+    };
     let (dt, of_dt) = (section.positive("dt")?, section.require("dt", "a number")?);
     // The tip of the moving beam is kept at every step.
     limits::steps_until(&of_dt, scene.t_end, dt, limits::RECORDED_STEPS)?;
     if section.get("t_max").is_some() {
         limits::steps_until(&of_dt, section.positive("t_max")?, dt, limits::STEPS)?;
     }
-    let mesh = Mesh::uniform(tables::elements(&field)?).map_err(|error| field.refuse(error.to_string(), "a mesh"))?;
+    let mesh = Mesh::uniform(tables::elements(&field)?)
+        .map_err(|error| field.refuse(error.to_string(), "a mesh"))?;
     Ok(scene.at(mesh, dt))
 }
 
@@ -144,8 +154,12 @@ fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Sce
 fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
     let field = section.require("scene", "a scene file")?;
     let scene = listed_scene(&field, folder)?;
-    let at_tip = |function: &Option<crate::expression::Expression>| function.as_ref().map_or(0.0, |f| f.eval(1.0));
-    let on_the_obstacle = scene.obstacles.is_some_and(|o| at_tip(&scene.initial.u) == o.g2);
+    let at_tip = |function: &Option<crate::expression::Expression>| {
+        function.as_ref().map_or(0.0, |f| f.eval(1.0))
+    };
+    let on_the_obstacle = scene
+        .obstacles
+        .is_some_and(|o| at_tip(&scene.initial.u) == o.g2);
     if on_the_obstacle && at_tip(&scene.initial.u_t) > 0.0 {
         return Ok(scene);
     }
@@ -161,23 +175,44 @@ impl Kind for RigidStudy {
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let case = |run: RunOf, epsilon: f64| {
             let (name, scene, steps) = match run {
-                RunOf::RigidLimit | RunOf::Bouncing => ("bouncing", &self.moving, self.moving.steps() as f64),
-                RunOf::FixedPoint => ("fixed point", &self.moving, 4.0 * self.moving.steps() as f64),
+                RunOf::RigidLimit | RunOf::Bouncing => {
+                    ("bouncing", &self.moving, self.moving.steps() as f64)
+                }
+                RunOf::FixedPoint => (
+                    "fixed point",
+                    &self.moving,
+                    4.0 * self.moving.steps() as f64,
+                ),
                 RunOf::Rest => ("at rest", &self.resting, 200.0 / self.resting.dt()),
                 RunOf::Impact => ("impact", &self.impact, 3.0 * self.steps as f64),
             };
             let cost = steps * scene.mesh.elements() as f64;
             Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, run))
         };
-        let runs = [RunOf::Bouncing, RunOf::FixedPoint, RunOf::Rest, RunOf::Impact];
-        let all = runs.iter().flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));
-        std::iter::once(case(RunOf::RigidLimit, self.limit)).chain(all).collect()
+        let runs = [
+            RunOf::Bouncing,
+            RunOf::FixedPoint,
+            RunOf::Rest,
+            RunOf::Impact,
+        ];
+        let all = runs
+            .iter()
+            .flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));
+        std::iter::once(case(RunOf::RigidLimit, self.limit))
+            .chain(all)
+            .collect()
     }
 
     fn run(&self, &(epsilon, run): &Self::Data) -> Result<ShownImpact, CaseFailure> {
         let with_compliance = |scene: &Scene| {
-            let obstacles = scene.obstacles.map(|obstacles| Obstacles { epsilon, ..obstacles });
-            Scene { obstacles, ..scene.clone() }
+            let obstacles = scene.obstacles.map(|obstacles| Obstacles {
+                epsilon,
+                ..obstacles
+            });
+            Scene {
+                obstacles,
+                ..scene.clone()
+            }
         };
         match run {
             RunOf::RigidLimit | RunOf::Bouncing => newton(&with_compliance(&self.moving), epsilon),
@@ -185,14 +220,29 @@ impl Kind for RigidStudy {
             RunOf::Rest => {
                 let (_, level) = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
                 let force = level.contact_force.abs();
-                Ok(ShownImpact { force: Some(force), penetration: Some(epsilon * force), ..ShownImpact::default() })
+                Ok(ShownImpact {
+                    force: Some(force),
+                    penetration: Some(epsilon * force),
+                    ..ShownImpact::default()
+                })
             }
             RunOf::Impact => {
                 let scene = with_compliance(&self.impact);
-                let time = Obstacles { epsilon, ..Obstacles::default() }.impact_time(scene.beam.zeta);
+                let time = Obstacles {
+                    epsilon,
+                    ..Obstacles::default()
+                }
+                .impact_time(scene.beam.zeta);
                 // The peak is at 1.65 t*.
                 let method = scene.method.with_dt(time / self.steps as f64);
-                newton(&Scene { t_end: 3.0 * time, method, ..scene }, epsilon)
+                newton(
+                    &Scene {
+                        t_end: 3.0 * time,
+                        method,
+                        ..scene
+                    },
+                    epsilon,
+                )
             }
         }
     }
@@ -204,9 +254,13 @@ impl Kind for RigidStudy {
 
 /// A bouncing beam or an impact by Newton's method.
 fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
-    let run = Simulator::new(scene)?.run(Recording::Curve(scene.steps()), &mut |_, _| ()).finished()?;
+    let run = Simulator::new(scene)?
+        .run(Recording::Curve(scene.steps()), &mut |_, _| ())
+        .finished()?;
     let steps = run.history.iter().flat_map(|history| &history.rows).skip(1);
-    let force = steps.map(|row| row.sample.contact_force.abs()).fold(0.0, max_or_nan);
+    let force = steps
+        .map(|row| row.sample.contact_force.abs())
+        .fold(0.0, max_or_nan);
     Ok(ShownImpact {
         force: Some(force),
         penetration: Some(epsilon * force),
@@ -222,23 +276,37 @@ fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
 fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, CaseFailure> {
     let stepping = scene.one_step()?;
     let stopping = stepping.settings.stopping.with_limit(max_iterations);
-    let settings = Settings { solver: Solver::FixedPoint, stopping, ..stepping.settings };
-    let method = Method::OneStep(Stepping { settings, ..stepping });
-    let mut driver = driver(&Scene { method, ..scene.clone() })?;
+    let settings = Settings {
+        solver: Solver::FixedPoint,
+        stopping,
+        ..stepping.settings
+    };
+    let method = Method::OneStep(Stepping {
+        settings,
+        ..stepping
+    });
+    let mut driver = driver(&Scene {
+        method,
+        ..scene.clone()
+    })?;
     let (mut contraction, mut iterations, mut failed_at) = (None, 0, None);
     for _ in 0..scene.steps() {
         match driver.stepped() {
-            Ok(Step { report, old, new, .. }) => {
+            Ok(Step {
+                report, old, new, ..
+            }) => {
                 iterations += report.iterations;
                 // While the tip enters or leaves contact the law is not linear, and two increments show nothing.
                 let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
                 if let Some(found) = report.contraction.filter(|_| in_contact) {
-                    contraction = Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
+                    contraction =
+                        Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
                 }
             }
             Err(RunError::Step(error)) => {
                 contraction = match error.failure {
-                    StepFailure::Diverged { contraction, .. } | StepFailure::IterationLimit { contraction, .. } => {
+                    StepFailure::Diverged { contraction, .. }
+                    | StepFailure::IterationLimit { contraction, .. } => {
                         Some(contraction).filter(|contraction| contraction.is_finite())
                     }
                     _ => None,
@@ -262,7 +330,9 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
 /// The factor for the mean axial force β of a nearly straight beam; infinite if the operator is not definite.
 fn alpha(scene: &Scene, by: &Stepping) -> f64 {
     let case = simulate::problem(scene).case(by.scheme, by.dt);
-    scene.obstacles.map_or(f64::NAN, |_| case.contact_contraction(scene.beam.beta))
+    scene
+        .obstacles
+        .map_or(f64::NAN, |_| case.contact_contraction(scene.beam.beta))
 }
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.
@@ -270,7 +340,9 @@ fn alpha(scene: &Scene, by: &Stepping) -> f64 {
 /// The largest value of `C(ξ) = Σ (-1)^n ξ^(1 + 3n/2) / Γ(2 + 3n/2)`, the inverse transform of `1/(s² + √s)`.
 fn peak_penetration() -> f64 {
     // One smooth maximum at τ = 1.65; a step of 1e-3 misses its height by 1e-7.
-    (0..4000).map(|k| penetration(1e-3 * f64::from(k))).fold(0.0, f64::max)
+    (0..4000)
+        .map(|k| penetration(1e-3 * f64::from(k)))
+        .fold(0.0, f64::max)
 }
 
 /// C(ξ) for 0 <= ξ <= 4, where the terms vanish long before the last.
@@ -304,7 +376,9 @@ mod tests {
         let tau = 1.3_f64;
         let n = 2000;
         let dr = tau.sqrt() / n as f64;
-        let integral: f64 = (0..n).map(|k| dr * penetration(tau - ((k as f64 + 0.5) * dr).powi(2))).sum();
+        let integral: f64 = (0..n)
+            .map(|k| dr * penetration(tau - ((k as f64 + 0.5) * dr).powi(2)))
+            .sum();
         let half_integral = 2.0 / std::f64::consts::PI.sqrt() * integral;
         let slope = (penetration(tau + 1e-5) - penetration(tau - 1e-5)) / 2e-5;
         assert!((slope + half_integral - 1.0).abs() < 1e-6);
@@ -313,9 +387,18 @@ mod tests {
     /// The model does not cover the end of contact: after its peak the force falls like t^(-1/2).
     #[test]
     fn the_penetration_of_the_half_space_has_no_end() {
-        let largest = (0..4000).map(|k| penetration(1.5 + f64::from(k) * 1e-4)).fold(0.0, f64::max);
-        assert!((largest - 0.858).abs() < 1e-3 && (largest - penetration(1.65)).abs() < 1e-4, "{largest}");
-        assert!((penetration(5.0) - 0.182).abs() < 1e-3, "{}", penetration(5.0));
+        let largest = (0..4000)
+            .map(|k| penetration(1.5 + f64::from(k) * 1e-4))
+            .fold(0.0, f64::max);
+        assert!(
+            (largest - 0.858).abs() < 1e-3 && (largest - penetration(1.65)).abs() < 1e-4,
+            "{largest}"
+        );
+        assert!(
+            (penetration(5.0) - 0.182).abs() < 1e-3,
+            "{}",
+            penetration(5.0)
+        );
         assert!((1..50).all(|k| penetration(0.1 * f64::from(k)) > 0.0));
     }
 }

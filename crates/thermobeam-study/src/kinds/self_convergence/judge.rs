@@ -35,28 +35,62 @@ static OBSERVABLES: [Observable; 7] = [
         of: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
     },
     // The energy (3.9).
-    Observable { name: "energy", in_space: 2.0, of: |a, b| distance_of_curves(&a.energies, &b.energies) },
+    Observable {
+        name: "energy",
+        in_space: 2.0,
+        of: |a, b| distance_of_curves(&a.energies, &b.energies),
+    },
     // The largest u(1) over all time levels.
-    Observable { name: "tip-max", in_space: 2.0, of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs() },
+    Observable {
+        name: "tip-max",
+        in_space: 2.0,
+        of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
+    },
     // The largest defect of the energy balance in a step; of a fixed number of iterations it has an order of its own.
-    Observable { name: "balance", in_space: 2.0, of: |a, b| (a.energy_defect - b.energy_defect).abs() },
+    Observable {
+        name: "balance",
+        in_space: 2.0,
+        of: |a, b| (a.energy_defect - b.energy_defect).abs(),
+    },
     // The solutions as functions.
-    Observable { name: "theorem-3.4", in_space: 1.0, of: |coarse, fine| functions(coarse, fine)[0] },
+    Observable {
+        name: "theorem-3.4",
+        in_space: 1.0,
+        of: |coarse, fine| functions(coarse, fine)[0],
+    },
     // The same norm of their values at the nodes of the coarser mesh.
-    Observable { name: "superclose", in_space: 2.0, of: |coarse, fine| functions(coarse, fine)[1] },
+    Observable {
+        name: "superclose",
+        in_space: 2.0,
+        of: |coarse, fine| functions(coarse, fine)[1],
+    },
 ];
 
-const TIP: Observable =
-    Observable { name: "tip", in_space: 2.0, of: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()) };
+const TIP: Observable = Observable {
+    name: "tip",
+    in_space: 2.0,
+    of: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()),
+};
 
 /// The largest over the times compared.
 fn largest(coarse: &Traced, fine: &Traced, of: impl Fn(&Level, &Level) -> f64) -> f64 {
-    coarse.levels.iter().zip(&fine.levels).map(|(coarse, fine)| of(coarse, fine)).fold(0.0, max_or_nan)
+    coarse
+        .levels
+        .iter()
+        .zip(&fine.levels)
+        .map(|(coarse, fine)| of(coarse, fine))
+        .fold(0.0, max_or_nan)
 }
 
 fn functions(coarse: &Traced, fine: &Traced) -> [f64; 2] {
-    let errors = coarse.levels.iter().enumerate().map(|(k, level)| fine.errors_of(level, &coarse.mesh, k));
-    errors.fold([0.0; 2], |[a, b], [c, d]| [max_or_nan(a, c), max_or_nan(b, d)])
+    let errors = coarse
+        .levels
+        .iter()
+        .enumerate()
+        .map(|(k, level)| fine.errors_of(level, &coarse.mesh, k));
+    errors.fold([0.0; 2], |[a, b], [c, d]| {
+        [max_or_nan(a, c), max_or_nan(b, d)]
+    })
 }
 
 fn last(values: &[f64]) -> f64 {
@@ -67,22 +101,32 @@ impl Observable {
     /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
     /// 3.4 are the same, and the balance of solved steps closes to round-off.
     pub(super) fn all(axis: Axis, stopping: Stopping) -> impl Iterator<Item = &'static Self> {
-        OBSERVABLES.iter().filter(move |observable| match observable.name {
-            "superclose" => axis != Axis::Time,
-            "balance" => stopping.tolerance().is_none(),
-            _ => true,
-        })
+        OBSERVABLES
+            .iter()
+            .filter(move |observable| match observable.name {
+                "superclose" => axis != Axis::Time,
+                "balance" => stopping.tolerance().is_none(),
+                _ => true,
+            })
     }
 
     /// The order for a smooth solution in the step that is refined, in which the scheme has the order `in_time`.
     fn order(&self, axis: Axis, in_time: f64) -> f64 {
-        if axis == Axis::Time { in_time } else { in_time.min(self.in_space) }
+        if axis == Axis::Time {
+            in_time
+        } else {
+            in_time.min(self.in_space)
+        }
     }
 
     /// The difference of two runs; NaN where they cannot be compared.
     fn difference(&self, coarse: &Traced, fine: &Traced) -> f64 {
         let is_nested = fine.mesh.elements().is_multiple_of(coarse.mesh.elements());
-        if coarse.levels.len() == fine.levels.len() && is_nested { (self.of)(coarse, fine) } else { f64::NAN }
+        if coarse.levels.len() == fine.levels.len() && is_nested {
+            (self.of)(coarse, fine)
+        } else {
+            f64::NAN
+        }
     }
 }
 
@@ -106,7 +150,10 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Outc
     checks.extend(contact(study, ran));
     let mut tables = vec![values(study, ran)];
     if !shown.is_empty() {
-        tables.insert(0, rate_table("Rates shown, not claimed: not needed for a pass", &shown));
+        tables.insert(
+            0,
+            rate_table("Rates shown, not claimed: not needed for a pass", &shown),
+        );
     }
     Outcome {
         levels: errors,
@@ -118,12 +165,25 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Outc
 }
 
 /// All differences to the reference; the legend marks those without a claim.
-fn to_reference(study: &SelfConvergence, ran: &[Ran<usize, Traced>], claimed: &Rates, shown: &Rates) -> Figure {
+fn to_reference(
+    study: &SelfConvergence,
+    ran: &[Ran<usize, Traced>],
+    claimed: &Rates,
+    shown: &Rates,
+) -> Figure {
     let not_claimed = |name: &str| format!("{name} (not claimed)");
     let mut rates = claimed.to_vec();
-    rates.extend(shown.iter().map(|(name, rate)| (not_claimed(name), rate.clone())));
+    rates.extend(
+        shown
+            .iter()
+            .map(|(name, rate)| (not_claimed(name), rate.clone())),
+    );
     let mut differences = differences(study, ran, READINGS[1], |_| true);
-    for column in differences.columns.iter_mut().filter(|column| shown.iter().any(|(name, _)| *name == column.name)) {
+    for column in differences
+        .columns
+        .iter_mut()
+        .filter(|column| shown.iter().any(|(name, _)| *name == column.name))
+    {
         column.name = not_claimed(&column.name);
     }
     let title = format!("Differences to a run of any order: {}", study.scene.name);
@@ -146,7 +206,11 @@ fn tip(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Figure {
     let curves: Vec<_> = (0..reference).map(curve).collect();
     let title = format!("Tip of {}: distance to the reference", study.scene.name);
     let drawn = plots::history(plots::Axis::log("|u(1, t) - reference|"), &curves).titled(title);
-    Figure::new("tip", "Distance of u(1, t) to the reference on each level.", drawn.draw())
+    Figure::new(
+        "tip",
+        "Distance of u(1, t) to the reference on each level.",
+        drawn.draw(),
+    )
 }
 
 /// Adds errors to those of the same level; the coarsest levels are the first of both.
@@ -167,14 +231,28 @@ fn differences(
     wanted: impl Fn(Option<&Claim>) -> bool,
 ) -> Levels {
     let (reference, is_successive) = (study.levels.len(), reading == READINGS[0]);
-    let count = if is_successive { reference - 1 } else { reference };
+    let count = if is_successive {
+        reference - 1
+    } else {
+        reference
+    };
     let finer = |k: usize| if is_successive { k + 1 } else { reference };
     let column = |(place, observable): (usize, &Observable)| {
         // A norm that is also one of errors has its look wherever it is drawn.
-        let norm = Norm::ALL.iter().position(|norm| norm.name() == observable.name);
-        let claim = study.claims.iter().find(|(of, _)| of.name == observable.name).map(|(_, claim)| claim);
-        let difference = |k: usize| Some(observable.difference(found(ran, k)?, found(ran, finer(k))?));
-        let smooth = Claim::new(observable.order(study.axis, study.order_in_time), SHOWN_TOLERANCE);
+        let norm = Norm::ALL
+            .iter()
+            .position(|norm| norm.name() == observable.name);
+        let claim = study
+            .claims
+            .iter()
+            .find(|(of, _)| of.name == observable.name)
+            .map(|(_, claim)| claim);
+        let difference =
+            |k: usize| Some(observable.difference(found(ran, k)?, found(ran, finer(k))?));
+        let smooth = Claim::new(
+            observable.order(study.axis, study.order_in_time),
+            SHOWN_TOLERANCE,
+        );
         wanted(claim).then(|| ErrorColumn {
             name: format!("{}, {reading}", observable.name),
             errors: (0..count).map(difference).collect(),
@@ -186,7 +264,9 @@ fn differences(
     Levels::new(
         study.axis,
         (0..count).map(refinement),
-        Observable::all(study.axis, study.scene.method.stopping()).enumerate().filter_map(column),
+        Observable::all(study.axis, study.scene.method.stopping())
+            .enumerate()
+            .filter_map(column),
     )
 }
 
@@ -196,15 +276,24 @@ fn found(ran: &[Ran<usize, Traced>], run: usize) -> Option<&Traced> {
 }
 
 fn not_finite(found: &Traced) -> Vec<String> {
-    let range = found.tip_range.iter().any(|tip| !tip.is_finite()).then(|| "the range of u(1)".to_owned());
+    let range = found
+        .tip_range
+        .iter()
+        .any(|tip| !tip.is_finite())
+        .then(|| "the range of u(1)".to_owned());
     let mut samples = found.levels.iter().zip(&found.energies);
     let broken = samples.position(|(level, energy)| !(energy.is_finite() && is_finite(level)));
-    range.into_iter().chain(broken.map(|k| format!("sample {}", k + 1))).collect()
+    range
+        .into_iter()
+        .chain(broken.map(|k| format!("sample {}", k + 1)))
+        .collect()
 }
 
 /// u(1) of a run at sample `k` from 1; NaN where there is none.
 fn tip_at(ran: &[Ran<usize, Traced>], run: usize, k: usize) -> f64 {
-    found(ran, run).and_then(|found| found.levels.get(k - 1)).map_or(f64::NAN, |level| last(&level.u))
+    found(ran, run)
+        .and_then(|found| found.levels.get(k - 1))
+        .map_or(f64::NAN, |level| last(&level.u))
 }
 
 /// Tip displacements of the finest level, what Richardson adds to them, and those of the reference.
@@ -225,31 +314,62 @@ fn values(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Table {
             format!("{:.1e}", (value(finest) - value(reference)).abs()),
         ]
     };
-    let head = ["t", "u(1), finest", "extrapolated", "reference", "error estimated", "against reference"];
-    Table::new("Tip displacement: finest level, extrapolated, reference", head, (1..=study.samples).map(row))
+    let head = [
+        "t",
+        "u(1), finest",
+        "extrapolated",
+        "reference",
+        "error estimated",
+        "against reference",
+    ];
+    Table::new(
+        "Tip displacement: finest level, extrapolated, reference",
+        head,
+        (1..=study.samples).map(row),
+    )
 }
 
 fn contact(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Option<Check> {
     let obstacles = study.scene.obstacles.filter(|_| study.contact)?;
     let [low, high] = found(ran, study.levels.len()).map_or([f64::NAN; 2], |found| found.tip_range);
-    let evidence =
-        format!("u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}", obstacles.g1, obstacles.g2);
-    Some(Check::that(low < obstacles.g1 || high > obstacles.g2, "the tip meets an obstacle", evidence))
+    let evidence = format!(
+        "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
+        obstacles.g1, obstacles.g2
+    );
+    Some(Check::that(
+        low < obstacles.g1 || high > obstacles.g2,
+        "the tip meets an obstacle",
+        evidence,
+    ))
 }
 
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
 fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check {
     let reference = study.levels.len();
     let part = |observable: &Observable| {
-        let (finest, one, other) = (found(ran, reference - 1)?, found(ran, reference)?, found(ran, reference + 1)?);
+        let (finest, one, other) = (
+            found(ran, reference - 1)?,
+            found(ran, reference)?,
+            found(ran, reference + 1)?,
+        );
         Some(observable.difference(one, other) / observable.difference(finest, one))
     };
-    let parts: Vec<(&str, f64)> = study.claims.iter().map(|(of, _)| (of.name, part(of).unwrap_or(f64::NAN))).collect();
+    let parts: Vec<(&str, f64)> = study
+        .claims
+        .iter()
+        .map(|(of, _)| (of.name, part(of).unwrap_or(f64::NAN)))
+        .collect();
     let worst = parts.iter().map(|(_, part)| *part).fold(0.0, max_or_nan);
     Check::that(
         worst <= KNOWN,
-        format!("another discretisation gives the same reference, to {KNOWN:e} of the finest level's error"),
-        parts.iter().map(|(name, part)| format!("{name} {part:.0e}")).collect::<Vec<_>>().join(", "),
+        format!(
+            "another discretisation gives the same reference, to {KNOWN:e} of the finest level's error"
+        ),
+        parts
+            .iter()
+            .map(|(name, part)| format!("{name} {part:.0e}"))
+            .collect::<Vec<_>>()
+            .join(", "),
     )
 }
 
@@ -270,9 +390,8 @@ impl SelfConvergence {
     /// h of a level, or dt where time alone is refined.
     fn step(&self, level: usize) -> f64 {
         match self.axis {
-            Axis::Space | Axis::Both => {
-                resampled(&self.scene.mesh, self.levels[level].0).map_or(f64::NAN, |mesh| mesh.size())
-            }
+            Axis::Space | Axis::Both => resampled(&self.scene.mesh, self.levels[level].0)
+                .map_or(f64::NAN, |mesh| mesh.size()),
             Axis::Time => self.t_end / self.levels[level].1 as f64,
         }
     }

@@ -88,23 +88,33 @@ impl FromFile for SelfConvergence {
         let named = root.table("scene", &["file"])?;
         let file = named.require("file", "the path of a scene, from this file's folder")?;
         let scene = Scene::read(file.file(folder)?)?;
-        let mut stepping =
-            scene.one_step().map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
+        let mut stepping = scene
+            .one_step()
+            .map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
         let keys = ["axis", "elements", "steps", "t_end", "samples", "contact"];
         let section = root.table("refine", &[&keys[..], &tables::STEPPING_KEYS].concat())?;
         let axes = [("time", Axis::Time), ("both", Axis::Both)];
-        let axis = section.require("axis", "\"time\", \"both\"")?.choice(&axes)?;
+        let axis = section
+            .require("axis", "\"time\", \"both\"")?
+            .choice(&axes)?;
         let samples = section.count("samples", 1..=1000)?;
         let (levels, power) = levels(&section, axis, samples)?;
-        let t_end = section.get("t_end").map_or(Ok(scene.t_end), |field| field.positive())?;
+        let t_end = section
+            .get("t_end")
+            .map_or(Ok(scene.t_end), |field| field.positive())?;
         if section.get("scheme").is_some() {
             stepping.scheme = tables::scheme(&section)?;
         }
-        if ["solver", "tolerance", "max_iterations", "iterations"].iter().any(|key| section.get(key).is_some()) {
+        if ["solver", "tolerance", "max_iterations", "iterations"]
+            .iter()
+            .any(|key| section.get(key).is_some())
+        {
             stepping.settings = tables::settings(&section)?;
         }
         let observables = Observable::all(axis, stepping.settings.stopping);
-        let observables: Vec<_> = observables.map(|observable| (observable.name, observable)).collect();
+        let observables: Vec<_> = observables
+            .map(|observable| (observable.name, observable))
+            .collect();
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
         Ok(Self {
             axis,
@@ -115,35 +125,57 @@ impl FromFile for SelfConvergence {
             samples,
             contact: contact(&section, &scene)?,
             claims: claims(root, "quantity", &observables)?,
-            scene: Scene { method: Method::OneStep(stepping), ..scene },
+            scene: Scene {
+                method: Method::OneStep(stepping),
+                ..scene
+            },
         })
     }
 }
 
 fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
-    match section.get("contact").map_or(Ok(false), |field| field.boolean())? {
-        true if scene.obstacles.is_none() => {
-            Err(section.refuse("contact", "true, of a scene without obstacles", "false, or a scene with obstacles"))
-        }
+    match section
+        .get("contact")
+        .map_or(Ok(false), |field| field.boolean())?
+    {
+        true if scene.obstacles.is_none() => Err(section.refuse(
+            "contact",
+            "true, of a scene without obstacles",
+            "false, or a scene with obstacles",
+        )),
         contact => Ok(contact),
     }
 }
 
 /// The levels, coarse to fine, and the power of h that dt is proportional to if both are refined.
-fn levels(section: &Section<'_>, axis: Axis, samples: usize) -> Result<(Vec<(usize, usize)>, f64), InputError> {
+fn levels(
+    section: &Section<'_>,
+    axis: Axis,
+    samples: usize,
+) -> Result<(Vec<(usize, usize)>, f64), InputError> {
     let steps = nested_list(section, "steps", |item| item.count(1..=limits::STEPS))?;
     let (elements, power) = if axis == Axis::Time {
         let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
         (vec![one; steps.len()], 1.0)
     } else {
         let elements = nested_list(section, "elements", tables::elements)?;
-        let ratios = |list: &[usize]| list.windows(2).map(|pair| pair[1] / pair[0]).collect::<Vec<usize>>();
+        let ratios = |list: &[usize]| {
+            list.windows(2)
+                .map(|pair| pair[1] / pair[0])
+                .collect::<Vec<usize>>()
+        };
         let (finer, shorter) = (ratios(&elements), ratios(&steps));
-        let is = |power: &u32| finer.iter().map(|ratio| ratio.pow(*power)).eq(shorter.iter().copied());
+        let is = |power: &u32| {
+            finer
+                .iter()
+                .map(|ratio| ratio.pow(*power))
+                .eq(shorter.iter().copied())
+        };
         let Some(power) = [1, 2].into_iter().find(is) else {
-            let allowed =
-                "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
-            return Err(section.require("steps", allowed)?.refuse_as_written(allowed));
+            let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
+            return Err(section
+                .require("steps", allowed)?
+                .refuse_as_written(allowed));
         };
         (elements, f64::from(power))
     };
@@ -171,10 +203,18 @@ impl Kind for SelfConvergence {
     type Found = Traced;
 
     fn cases(&self) -> Vec<Case<usize>> {
-        let level = |&(n, steps): &(usize, usize)| (Refine::label(n, steps), n as f64 * steps as f64);
-        let reference = |how: &Discretisation| (format!("reference, {}", how.label()), how.cost(self.t_end));
-        let runs = self.levels.iter().map(level).chain(self.references.iter().map(reference));
-        runs.enumerate().map(|(data, (label, cost))| Case::new(label, cost, data)).collect()
+        let level =
+            |&(n, steps): &(usize, usize)| (Refine::label(n, steps), n as f64 * steps as f64);
+        let reference =
+            |how: &Discretisation| (format!("reference, {}", how.label()), how.cost(self.t_end));
+        let runs = self
+            .levels
+            .iter()
+            .map(level)
+            .chain(self.references.iter().map(reference));
+        runs.enumerate()
+            .map(|(data, (label, cost))| Case::new(label, cost, data))
+            .collect()
     }
 
     fn run(&self, &run: &usize) -> Result<Traced, CaseFailure> {
@@ -183,7 +223,10 @@ impl Kind for SelfConvergence {
                 let mesh = resampled(&self.scene.mesh, elements)?;
                 (self.scene.with_steps(mesh.clone(), steps, self.t_end), mesh)
             }
-            None => (self.references[run - self.levels.len()].of(&self.scene, self.t_end)?, self.common_mesh()?),
+            None => (
+                self.references[run - self.levels.len()].of(&self.scene, self.t_end)?,
+                self.common_mesh()?,
+            ),
         };
         Traced::compute(&scene, mesh, self.samples)
     }
@@ -197,6 +240,10 @@ impl SelfConvergence {
     /// The mesh on which levels are compared with the references.
     fn common_mesh(&self) -> Result<Mesh, MeshError> {
         let finest = self.levels.last().map_or(0, |(elements, _)| *elements);
-        if self.axis == Axis::Time { resampled(&self.scene.mesh, finest) } else { fine_mesh(&self.scene, finest) }
+        if self.axis == Axis::Time {
+            resampled(&self.scene.mesh, finest)
+        } else {
+            fine_mesh(&self.scene, finest)
+        }
     }
 }

@@ -27,19 +27,29 @@ impl Map {
         let mut checks = vec![self.complete(rows), in_contact(rows), as_predicted(rows)];
         checks.extend([self.newton_completes(rows), newton_is_quick(rows)]);
         checks.extend(energy(rows));
-        checks.extend(lines.iter().map(|(value, line)| self.check_boundary(*value, line)));
+        checks.extend(
+            lines
+                .iter()
+                .map(|(value, line)| self.check_boundary(*value, line)),
+        );
         let converged = points(rows).filter(|point| point.step.converged).count();
         let completes = points(rows).filter(|point| point.newton_completes).count();
         let ratio = |line: &Boundary| {
             let crossing = line.found.filter(|crossing| crossing.gamma <= ALONE)?;
             Some((crossing.dt / line.predicted.unwrap_or(f64::NAN) - 1.0).abs())
         };
-        let worst = 100.0 * lines.iter().filter_map(|(_, line)| ratio(line)).fold(0.0, max_or_nan);
+        let worst = 100.0
+            * lines
+                .iter()
+                .filter_map(|(_, line)| ratio(line))
+                .fold(0.0, max_or_nan);
         let residual = largest(rows, |newton| newton.worst.residual);
         let boundary = format!("boundary within {worst:.2} % of alpha = 1");
         let residual = format!("residual at most {residual:.1e} of the energy");
         let all = self.points * self.points;
-        let points = format!("{all} points: the fixed point converges at {converged}, Newton's method at {completes}");
+        let points = format!(
+            "{all} points: the fixed point converges at {converged}, Newton's method at {completes}"
+        );
         let summary = format!("{points}; {boundary} where gamma <= {ALONE}; {residual}");
         Outcome {
             headline: format!("{boundary}, {residual}"),
@@ -52,7 +62,11 @@ impl Map {
 
     fn complete(&self, rows: &MapRows<'_>) -> Check {
         let (found, expected) = (points(rows).count(), self.points * self.points);
-        Check::that(found == expected, "both solvers were run at every point", format!("{found} of {expected}"))
+        Check::that(
+            found == expected,
+            "both solvers were run at every point",
+            format!("{found} of {expected}"),
+        )
     }
 
     /// Newton's method must converge wherever its operator is known to be definite.
@@ -62,7 +76,9 @@ impl Map {
             let beam = self.beam(*value);
             for point in *row {
                 failed += usize::from(!point.newton_completes);
-                if BUCKLING * (beam.zeta + 0.5 * point.step.dt) + 0.5 * beam.beta * point.step.dt > 0.0 {
+                if BUCKLING * (beam.zeta + 0.5 * point.step.dt) + 0.5 * beam.beta * point.step.dt
+                    > 0.0
+                {
                     known += 1;
                     wrong += usize::from(!point.newton_completes);
                 }
@@ -71,7 +87,10 @@ impl Map {
         Check::that(
             wrong == 0 && known > 0,
             "Newton's method converges wherever B (zeta + dt/2) + beta dt/2 > 0",
-            format!("fails at {wrong} of {known} such points, and at {} others", failed - wrong),
+            format!(
+                "fails at {wrong} of {known} such points, and at {} others",
+                failed - wrong
+            ),
         )
     }
 
@@ -79,28 +98,53 @@ impl Map {
     fn check_boundary(&self, value: f64, line: &Boundary) -> Check {
         let (name, value) = (self.over.name(), plain_text(value));
         let claim = format!("{name} = {value}: the fixed point fails from alpha = 1 on");
-        let (FixedPointStep { dt, alpha, gamma, .. }, predicted) = match *line {
-            Boundary { found: Some(found), predicted: Some(predicted) } => (found, predicted),
-            Boundary { found: None, predicted: None } => {
+        let (
+            FixedPointStep {
+                dt, alpha, gamma, ..
+            },
+            predicted,
+        ) = match *line {
+            Boundary {
+                found: Some(found),
+                predicted: Some(predicted),
+            } => (found, predicted),
+            Boundary {
+                found: None,
+                predicted: None,
+            } => {
                 let claim = format!("{name} = {value}: no boundary on the map, as predicted");
                 return Check::that(true, claim, "the fixed point behaves alike at both ends");
             }
             Boundary { found, .. } => {
-                let [here, not] = if found.is_some() { ["found", "predicted"] } else { ["predicted", "found"] };
-                return Check::that(false, claim, format!("a boundary is {here} on the map, but none is {not}"));
+                let [here, not] = if found.is_some() {
+                    ["found", "predicted"]
+                } else {
+                    ["predicted", "found"]
+                };
+                return Check::that(
+                    false,
+                    claim,
+                    format!("a boundary is {here} on the map, but none is {not}"),
+                );
             }
         };
         let difference = 100.0 * (dt / predicted - 1.0);
         let [from, expected] = [dt, predicted].map(plain_text);
         let boundary = format!("from dt = {from} on, predicted {expected} ({difference:+.2} %)");
         let evidence = format!("{boundary}; alpha {alpha:.4} there, gamma {gamma:.1e}");
-        Check::that((alpha - 1.0).abs() <= self.agreement + gamma, claim, evidence)
+        Check::that(
+            (alpha - 1.0).abs() <= self.agreement + gamma,
+            claim,
+            evidence,
+        )
     }
 
     fn boundaries(&self, lines: &Lines<'_>) -> Table {
         let row = |(value, line): &(f64, &Boundary)| {
             let Boundary { predicted, found } = **line;
-            let difference = found.zip(predicted).map(|(at, predicted)| 100.0 * (at.dt / predicted - 1.0));
+            let difference = found
+                .zip(predicted)
+                .map(|(at, predicted)| 100.0 * (at.dt / predicted - 1.0));
             let readings = vec![
                 Reading::new("dt where alpha = 1", predicted).scientific(4),
                 Reading::new("dt found", found.map(|at| at.dt)).scientific(4),
@@ -111,7 +155,11 @@ impl Map {
             (vec![plain_text(*value)], readings)
         };
         let title = "Boundary of the fixed point's convergence, by bisection in dt";
-        readings::table(title, &[self.over.name()], &lines.iter().map(row).collect::<Vec<_>>())
+        readings::table(
+            title,
+            &[self.over.name()],
+            &lines.iter().map(row).collect::<Vec<_>>(),
+        )
     }
 
     fn quantities(&self, lines: &Lines<'_>, converged: f64) -> Vec<Quantity> {
@@ -141,13 +189,23 @@ fn largest(rows: &MapRows<'_>, number: impl Fn(&NewtonSteps) -> f64) -> f64 {
 fn in_contact(rows: &MapRows<'_>) -> Check {
     let least = -largest(rows, |newton| -newton.contact_force);
     let holds = least > 0.0 && newton(rows).next().is_some();
-    Check::that(holds, "the first step ends in contact", format!("least contact force {least:.2e}"))
+    Check::that(
+        holds,
+        "the first step ends in contact",
+        format!("least contact force {least:.2e}"),
+    )
 }
 
 /// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
-    for FixedPointStep { alpha, gamma, converged, .. } in points(rows).map(|point| point.step) {
+    for FixedPointStep {
+        alpha,
+        gamma,
+        converged,
+        ..
+    } in points(rows).map(|point| point.step)
+    {
         if alpha < SLOW && gamma < SLOW {
             fast += 1;
             wrong += usize::from(!converged);
@@ -157,8 +215,7 @@ fn as_predicted(rows: &MapRows<'_>) -> Check {
             wrong += usize::from(converged);
         }
     }
-    let claim =
-        "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma";
+    let claim = "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma";
     let points = format!("{fast} points with small factors, {beyond} with a large alpha");
     Check::that(
         wrong == 0 && fast > 0 && beyond > 0,
@@ -169,23 +226,39 @@ fn as_predicted(rows: &MapRows<'_>) -> Check {
 
 fn newton_is_quick(rows: &MapRows<'_>) -> Check {
     let most = newton(rows).map(|newton| newton.iterations).max();
-    let evidence = most.map_or("no step was done".to_owned(), |most| format!("at most {most}"));
+    let evidence = most.map_or("no step was done".to_owned(), |most| {
+        format!("at most {most}")
+    });
     let claim = format!("Newton's method takes at most {MOST} iterations in any step");
     Check::that(most.is_some_and(|most| most <= MOST), claim, evidence)
 }
 
 fn energy(rows: &MapRows<'_>) -> [Check; 2] {
     // A row without a single Newton step shows nothing.
-    let every_row = rows.iter().all(|(_, row)| row.iter().any(|point| point.newton.is_some()));
+    let every_row = rows
+        .iter()
+        .all(|(_, row)| row.iter().any(|point| point.newton.is_some()));
     let check = |claim: &str, number: fn(&NewtonSteps) -> f64, share: fn(&NewtonSteps) -> f64| {
         let share = largest(rows, share);
-        let evidence = format!("{:.1e} of the energy, {}", largest(rows, number), of_allowed(share));
+        let evidence = format!(
+            "{:.1e} of the energy, {}",
+            largest(rows, number),
+            of_allowed(share)
+        );
         Check::that(every_row && share <= 1.0, claim, evidence)
     };
     let closes = "the balance closes to 1e-12 of the energy, or to what rounding errors explain";
     [
-        check("the energy never rises beyond rounding errors", |newton| newton.worst.rise, |newton| newton.worst.risen),
-        check(closes, |newton| newton.worst.residual, |newton| newton.worst.open),
+        check(
+            "the energy never rises beyond rounding errors",
+            |newton| newton.worst.rise,
+            |newton| newton.worst.risen,
+        ),
+        check(
+            closes,
+            |newton| newton.worst.residual,
+            |newton| newton.worst.open,
+        ),
     ]
 }
 
@@ -193,16 +266,30 @@ impl Map {
     /// A map of `value`; where there is none the solver fails, and the map is hatched.
     ///
     /// * `colours`: the axis of the values, the label of the hatched part, boundaries.
-    fn surface(&self, rows: &MapRows<'_>, colours: Surface, value: &dyn Fn(&Point) -> Option<f64>) -> String {
-        let cells: Vec<Vec<_>> = rows.iter().map(|(_, row)| row.iter().map(value).collect()).collect();
+    fn surface(
+        &self,
+        rows: &MapRows<'_>,
+        colours: Surface,
+        value: &dyn Fn(&Point) -> Option<f64>,
+    ) -> String {
+        let cells: Vec<Vec<_>> = rows
+            .iter()
+            .map(|(_, row)| row.iter().map(value).collect())
+            .collect();
         let number = |cell: &Option<f64>| cell.unwrap_or(f64::NAN);
         plots::surface(&Surface {
             x: Axis::log("time step dt"),
             y: self.second_axis(),
             x_values: self.time_steps(),
             y_values: rows.iter().map(|(value, _)| *value).collect(),
-            values: cells.iter().map(|row| row.iter().map(number).collect()).collect(),
-            marked: cells.iter().map(|row| row.iter().map(Option::is_none).collect()).collect(),
+            values: cells
+                .iter()
+                .map(|row| row.iter().map(number).collect())
+                .collect(),
+            marked: cells
+                .iter()
+                .map(|row| row.iter().map(Option::is_none).collect())
+                .collect(),
             ..colours
         })
     }
@@ -218,18 +305,33 @@ impl Map {
             boundaries,
             ..Surface::default()
         };
-        let fixed_point = |z| colours(z, "the fixed point fails", vec![predicted(rows), self.found(lines)]);
+        let fixed_point = |z| {
+            colours(
+                z,
+                "the fixed point fails",
+                vec![predicted(rows), self.found(lines)],
+            )
+        };
         let newton = |z, boundaries| colours(z, "operator not definite", boundaries);
         let step = |point: &Point| point.step.converged.then_some(point.step);
         let steps = |point: &Point, of: fn(&NewtonSteps) -> f64| {
-            point.newton_completes.then(|| point.newton.as_ref().map_or(f64::NAN, of))
+            point
+                .newton_completes
+                .then(|| point.newton.as_ref().map_or(f64::NAN, of))
         };
         vec![
             draw(
                 "contraction",
-                format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
+                format!(
+                    "Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."
+                ),
                 fixed_point(Axis::log("contraction per iteration")),
-                &|point| Some(max_or_nan(step(point)?.contraction.unwrap_or(f64::NAN), FASTEST)),
+                &|point| {
+                    Some(max_or_nan(
+                        step(point)?.contraction.unwrap_or(f64::NAN),
+                        FASTEST,
+                    ))
+                },
             ),
             draw(
                 "iterations",
@@ -240,13 +342,21 @@ impl Map {
             draw(
                 "newton",
                 format!("Most iterations of Newton's method in a step over dt and {over}."),
-                newton(Axis::linear("most Newton iterations in a step"), self.definite()),
+                newton(
+                    Axis::linear("most Newton iterations in a step"),
+                    self.definite(),
+                ),
                 &|point| steps(point, |steps| steps.iterations.max(1) as f64),
             ),
             draw(
                 "balance",
-                format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
-                newton(Axis::log("largest residual / energy"), vec![predicted(rows)]),
+                format!(
+                    "Largest residual of the energy balance in a step of Newton's method over dt and {over}."
+                ),
+                newton(
+                    Axis::log("largest residual / energy"),
+                    vec![predicted(rows)],
+                ),
                 &|point| steps(point, |steps| max_or_nan(steps.worst.residual, EXACT)),
             ),
         ]
@@ -263,9 +373,13 @@ impl Map {
 
     /// The boundaries found, line by line.
     fn found(&self, lines: &Lines<'_>) -> Series {
-        let points = lines.iter().filter_map(|(value, line)| Some((line.found?.dt, *value)));
-        let mut found =
-            Series::new("found by bisection", points.filter(|(_, value)| self.over.is_linear() || *value > 0.0));
+        let points = lines
+            .iter()
+            .filter_map(|(value, line)| Some((line.found?.dt, *value)));
+        let mut found = Series::new(
+            "found by bisection",
+            points.filter(|(_, value)| self.over.is_linear() || *value > 0.0),
+        );
         found.points.sort_by(|a, b| a.1.total_cmp(&b.1));
         found
     }
@@ -279,7 +393,10 @@ impl Map {
         let force = |&dt: &f64| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt));
         let [low, high] = self.range;
         let dts = spaced(self.dt, 400, false);
-        let points = dts.iter().map(force).filter(|(_, beta)| (low..high).contains(beta));
+        let points = dts
+            .iter()
+            .map(force)
+            .filter(|(_, beta)| (low..high).contains(beta));
         vec![Series::new("definite above: β = -B (1 + 2ζ/dt)", points)]
     }
 }
@@ -287,8 +404,14 @@ impl Map {
 /// α = 1, row by row between the two time steps on either side, on logarithmic scales.
 fn predicted(rows: &MapRows<'_>) -> Series {
     let crossing = |(value, row): &(f64, &[Point])| {
-        let finite: Vec<_> = row.iter().map(|point| point.step).filter(|step| step.alpha.is_finite()).collect();
-        let pair = finite.windows(2).find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
+        let finite: Vec<_> = row
+            .iter()
+            .map(|point| point.step)
+            .filter(|step| step.alpha.is_finite())
+            .collect();
+        let pair = finite
+            .windows(2)
+            .find(|pair| pair[0].alpha < 1.0 && pair[1].alpha >= 1.0)?;
         let [below, above] = [pair[0], pair[1]];
         let share = -below.alpha.ln() / (above.alpha / below.alpha).ln();
         Some((below.dt * (above.dt / below.dt).powf(share), *value))

@@ -73,7 +73,10 @@ impl Parameter {
     ];
 
     pub(super) fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(_, parameter)| *parameter == self).map_or("", |(name, _)| name)
+        Self::ALL
+            .iter()
+            .find(|(_, parameter)| *parameter == self)
+            .map_or("", |(name, _)| name)
     }
 
     pub(super) fn is_linear(self) -> bool {
@@ -84,21 +87,40 @@ impl Parameter {
 /// Values from the first to the last of `range`, equally spaced on a linear or logarithmic scale.
 pub(super) fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
     let at = |k: usize| k as f64 / (points - 1) as f64;
-    let value = |s: f64| if linear { low + (high - low) * s } else { low * (high / low).powf(s) };
+    let value = |s: f64| {
+        if linear {
+            low + (high - low) * s
+        } else {
+            low * (high / low).powf(s)
+        }
+    };
     (0..points).map(|k| value(at(k))).collect()
 }
 
 impl Map {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&["over", "dt", "range", "points", "lines", "elements", "steps", "agreement"])?;
-        let over = section.require("over", "a second parameter")?.choice(&Parameter::ALL)?;
+        section.allow(&[
+            "over",
+            "dt",
+            "range",
+            "points",
+            "lines",
+            "elements",
+            "steps",
+            "agreement",
+        ])?;
+        let over = section
+            .require("over", "a second parameter")?
+            .choice(&Parameter::ALL)?;
         let range = interval(section, "range", over.is_linear())?;
         if over == Parameter::Width {
             check_width(&section.require("range", "a range")?, range[0])?;
         }
         let line = |item: &Field<'_>| {
             // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
-            let fits = |value: f64| value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0);
+            let fits = |value: f64| {
+                value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0)
+            };
             let value = item.number_where("a value of the parameter", fits)?;
             if over == Parameter::Width {
                 check_width(item, value)?;
@@ -110,7 +132,9 @@ impl Map {
             dt: interval(section, "dt", false)?,
             range,
             points: section.count("points", 2..=limits::MAP_POINTS)?,
-            lines: section.list("lines", "a list of at least one number", line, |list| !list.is_empty())?,
+            lines: section.list("lines", "a list of at least one number", line, |list| {
+                !list.is_empty()
+            })?,
             elements: tables::elements(&section.require("elements", "a number of elements")?)?,
             steps: section.count("steps", 1..=limits::STEPS)?,
             agreement: section.positive("agreement")?,
@@ -124,7 +148,10 @@ impl Map {
 
     /// The coefficients at a value of the second parameter.
     pub(super) fn beam(&self, value: f64) -> Beam {
-        let mut beam = Beam { theta_a: HEAT, ..Beam::default() };
+        let mut beam = Beam {
+            theta_a: HEAT,
+            ..Beam::default()
+        };
         match self.over {
             Parameter::Beta => beam.beta = value,
             Parameter::Zeta => beam.zeta = value,
@@ -135,7 +162,11 @@ impl Map {
 
     /// The scene at a value of the second parameter.
     fn problem(&self, value: f64) -> Result<Problem, MeshError> {
-        let mut obstacles = Obstacles { g1: -GAP, g2: GAP, ..Obstacles::default() };
+        let mut obstacles = Obstacles {
+            g1: -GAP,
+            g2: GAP,
+            ..Obstacles::default()
+        };
         let mut elements = self.elements;
         match self.over {
             Parameter::Epsilon => obstacles.epsilon = value,
@@ -146,21 +177,42 @@ impl Map {
         let mut initial = Initial::at_rest(&mesh, HEAT);
         initial.u = mesh.nodes().iter().map(|x| GAP * x * (2.0 - x)).collect();
         initial.u_t = mesh.nodes().iter().map(|x| SPEED * x).collect();
-        Ok(Problem { beam: self.beam(value), obstacles: Some(obstacles), mesh, initial })
+        Ok(Problem {
+            beam: self.beam(value),
+            obstacles: Some(obstacles),
+            mesh,
+            initial,
+        })
     }
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let name = self.over.name();
-        let elements = |value: f64| if self.over == Parameter::Width { 1.0 / value } else { self.elements as f64 };
+        let elements = |value: f64| {
+            if self.over == Parameter::Width {
+                1.0 / value
+            } else {
+                self.elements as f64
+            }
+        };
         let row = |value: f64| {
             let cost = (self.points * (ITERATIONS + 4 * self.steps)) as f64 * elements(value);
-            Case::new(format!("{name} = {value:.3e}"), cost, SolverTask::Row(value))
+            Case::new(
+                format!("{name} = {value:.3e}"),
+                cost,
+                SolverTask::Row(value),
+            )
         };
         let line = |&value: &f64| {
             let cost = (2 * HALVINGS * SETTLED) as f64 * elements(value);
-            Case::new(format!("boundary at {name} = {}", plain_text(value)), cost, SolverTask::Boundary(value))
+            Case::new(
+                format!("boundary at {name} = {}", plain_text(value)),
+                cost,
+                SolverTask::Boundary(value),
+            )
         };
-        let rows = spaced(self.range, self.points, self.over.is_linear()).into_iter().map(row);
+        let rows = spaced(self.range, self.points, self.over.is_linear())
+            .into_iter()
+            .map(row);
         rows.chain(self.lines.iter().map(line)).collect()
     }
 }
@@ -168,7 +220,10 @@ impl Map {
 /// The axial force at the start, which hardly changes in the first steps.
 fn axial_force(problem: &Problem) -> f64 {
     let lengths: Vec<f64> = problem.mesh.lengths().collect();
-    problem.beam.axial_force(thermobeam::norms::slope_squared(&lengths, &problem.initial.u))
+    problem.beam.axial_force(thermobeam::norms::slope_squared(
+        &lengths,
+        &problem.initial.u,
+    ))
 }
 
 /// Refuses a mesh width if the mesh does not fit into memory.
@@ -177,13 +232,21 @@ fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
     if elements <= limits::ELEMENTS as f64 {
         return Ok(());
     }
-    let found = format!("{}: the finest mesh would take {}", field.as_written(), limits::memory_of_elements(elements));
+    let found = format!(
+        "{}: the finest mesh would take {}",
+        field.as_written(),
+        limits::memory_of_elements(elements)
+    );
     Err(field.refuse(found, format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64)))
 }
 
 /// Two ascending numbers, positive unless the axis is linear.
 fn interval(section: &Section<'_>, key: &str, linear: bool) -> Result<[f64; 2], InputError> {
-    let allowed = if linear { "two ascending numbers" } else { "two ascending numbers > 0" };
+    let allowed = if linear {
+        "two ascending numbers"
+    } else {
+        "two ascending numbers > 0"
+    };
     let fits = |ends: &[f64]| ends.len() == 2 && increases(ends) && (linear || ends[0] > 0.0);
     let ends = section.list(key, allowed, Field::number, fits)?;
     Ok([ends[0], ends[1]])
@@ -213,12 +276,28 @@ pub struct NewtonSteps {
 
 impl Point {
     pub(super) fn not_finite(&self) -> Vec<String> {
-        let FixedPointStep { alpha, gamma, converged, contraction, .. } = self.step;
+        let FixedPointStep {
+            alpha,
+            gamma,
+            converged,
+            contraction,
+            ..
+        } = self.step;
         let contraction = contraction.filter(|_| converged).unwrap_or(0.0);
         // A predicted factor may be infinite.
-        let [alpha, gamma] = [alpha, gamma].map(|factor| if factor.is_infinite() { 0.0 } else { factor });
-        let mut numbers = vec![("alpha", alpha), ("gamma", gamma), ("the contraction", contraction)];
-        if let Some(NewtonSteps { contact_force, worst, .. }) = self.newton {
+        let [alpha, gamma] =
+            [alpha, gamma].map(|factor| if factor.is_infinite() { 0.0 } else { factor });
+        let mut numbers = vec![
+            ("alpha", alpha),
+            ("gamma", gamma),
+            ("the contraction", contraction),
+        ];
+        if let Some(NewtonSteps {
+            contact_force,
+            worst,
+            ..
+        }) = self.newton
+        {
             numbers.push(("the contact force", contact_force));
             numbers.extend(worst.named());
         }
@@ -233,16 +312,32 @@ impl Map {
         // By Newton's method the most iterations, and the contact force after the first step if it succeeded.
         let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
         let problems = vec![problem.clone(); dts.len()];
-        let runs = watched(problems, &dts, EULER_CRANK_NICOLSON, self.steps, |k, iterations, level| {
-            let (most, contact_force) = &mut seen[k];
-            *most = iterations.max(*most);
-            contact_force.get_or_insert(level.contact_force);
-        })?;
+        let runs = watched(
+            problems,
+            &dts,
+            EULER_CRANK_NICOLSON,
+            self.steps,
+            |k, iterations, level| {
+                let (most, contact_force) = &mut seen[k];
+                *most = iterations.max(*most);
+                contact_force.get_or_insert(level.contact_force);
+            },
+        )?;
         let mut points = Vec::with_capacity(dts.len());
-        for ((Watched { worst, failure }, dt), (iterations, contact_force)) in runs.into_iter().zip(dts).zip(seen) {
+        for ((Watched { worst, failure }, dt), (iterations, contact_force)) in
+            runs.into_iter().zip(dts).zip(seen)
+        {
             let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
-            let newton = contact_force.map(|contact_force| NewtonSteps { iterations, contact_force, worst });
-            points.push(Point { step, newton_completes: failure.is_none(), newton });
+            let newton = contact_force.map(|contact_force| NewtonSteps {
+                iterations,
+                contact_force,
+                worst,
+            });
+            points.push(Point {
+                step,
+                newton_completes: failure.is_none(),
+                newton,
+            });
         }
         Ok(points)
     }
@@ -260,8 +355,16 @@ pub struct Boundary {
 impl Boundary {
     pub(super) fn not_finite(&self) -> Vec<String> {
         let at = |name, of: fn(&FixedPointStep) -> f64| (name, self.found.as_ref().map(of));
-        let found = [at("boundary", |at| at.dt), at("alpha", |at| at.alpha), at("gamma", |at| at.gamma)];
-        not_finite([("predicted boundary", self.predicted)].into_iter().chain(found))
+        let found = [
+            at("boundary", |at| at.dt),
+            at("alpha", |at| at.alpha),
+            at("gamma", |at| at.gamma),
+        ];
+        not_finite(
+            [("predicted boundary", self.predicted)]
+                .into_iter()
+                .chain(found),
+        )
     }
 }
 
@@ -269,11 +372,19 @@ impl Map {
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
         let (problem, [low, high]) = (self.problem(value)?, self.dt);
         let n_value = axial_force(&problem);
-        let alpha_is_below = |limit: f64| bisect(low, high, |dt| Ok(factors(&problem, dt, n_value)[0] < limit));
+        let alpha_is_below = |limit: f64| {
+            bisect(
+                low,
+                high,
+                |dt| Ok(factors(&problem, dt, n_value)[0] < limit),
+            )
+        };
         let predicted = alpha_is_below(1.0)?;
         let far = alpha_is_below(FAR)?.unwrap_or(high);
         let step = |dt| FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS);
-        let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?.map(step).transpose()?;
+        let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?
+            .map(step)
+            .transpose()?;
         Ok(Boundary { predicted, found })
     }
 }
@@ -281,8 +392,11 @@ impl Map {
 /// Whether the increments shrink, however slowly.
 fn contracts(problem: &Problem, dt: f64, n_value: f64) -> Result<bool, CaseFailure> {
     for iterations in SETTLED - CONSECUTIVE..SETTLED {
-        let FixedPointStep { converged, contraction, .. } =
-            FixedPointStep::run(problem, dt, n_value, TOLERANCE, iterations)?;
+        let FixedPointStep {
+            converged,
+            contraction,
+            ..
+        } = FixedPointStep::run(problem, dt, n_value, TOLERANCE, iterations)?;
         if converged || !contraction.is_some_and(|ratio| ratio < 1.0) {
             return Ok(converged);
         }

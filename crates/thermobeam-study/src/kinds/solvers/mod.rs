@@ -98,9 +98,14 @@ impl Found {
                 ("the measured factor", found.measured),
                 ("the deviation", found.deviation),
             ]),
-            Found::Comparison(Agreement { distance, mean_iterations, .. }) => {
-                not_finite([("the distance", *distance), ("the mean number of iterations", *mean_iterations)])
-            }
+            Found::Comparison(Agreement {
+                distance,
+                mean_iterations,
+                ..
+            }) => not_finite([
+                ("the distance", *distance),
+                ("the mean number of iterations", *mean_iterations),
+            ]),
             Found::Row(row) => row.iter().flat_map(Point::not_finite).collect(),
             Found::Boundary(boundary) => boundary.not_finite(),
         }
@@ -112,25 +117,44 @@ impl FromFile for Solvers {
         let parts = ["contraction", "comparison", "map"];
         root.allow(&[&["study"], &parts[..]].concat())?;
         if parts.iter().all(|part| root.get(part).is_none()) {
-            let allowed = format!("at least one table for kind \"{}\": {}", ROW.name, parts.join(", "));
+            let allowed = format!(
+                "at least one table for kind \"{}\": {}",
+                ROW.name,
+                parts.join(", ")
+            );
             return Err(root.missing(parts[0], &allowed));
         }
         Ok(Self {
-            contraction: root.section(parts[0])?.map(|section| parts::Grid::read(&section)).transpose()?,
-            comparison: root.section(parts[1])?.map(|section| parts::Comparison::read(&section, folder)).transpose()?,
-            map: root.section(parts[2])?.map(|section| map::Map::read(&section)).transpose()?,
+            contraction: root
+                .section(parts[0])?
+                .map(|section| parts::Grid::read(&section))
+                .transpose()?,
+            comparison: root
+                .section(parts[1])?
+                .map(|section| parts::Comparison::read(&section, folder))
+                .transpose()?,
+            map: root
+                .section(parts[2])?
+                .map(|section| map::Map::read(&section))
+                .transpose()?,
         })
     }
 }
 
 /// A list of at least one number > 0.
 fn positive_numbers(section: &Section<'_>, key: &str) -> Result<Vec<f64>, InputError> {
-    section.list(key, "a list of at least one number > 0", Field::positive, |list| !list.is_empty())
+    section.list(
+        key,
+        "a list of at least one number > 0",
+        Field::positive,
+        |list| !list.is_empty(),
+    )
 }
 
 /// The part of the study to which a case belongs.
 fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
-    part.as_ref().ok_or_else(|| CaseFailure::new("the study has no such part"))
+    part.as_ref()
+        .ok_or_else(|| CaseFailure::new("the study has no such part"))
 }
 
 impl Kind for Solvers {
@@ -140,13 +164,20 @@ impl Kind for Solvers {
     fn cases(&self) -> Vec<Case<SolverTask>> {
         let contraction = self.contraction.iter().flat_map(parts::Grid::cases);
         let comparison = self.comparison.iter().flat_map(parts::Comparison::cases);
-        contraction.chain(comparison).chain(self.map.iter().flat_map(map::Map::cases)).collect()
+        contraction
+            .chain(comparison)
+            .chain(self.map.iter().flat_map(map::Map::cases))
+            .collect()
     }
 
     fn run(&self, task: &SolverTask) -> Result<Found, CaseFailure> {
         Ok(match *task {
-            SolverTask::Contraction(at) => Found::Contraction(part(&self.contraction)?.measure(at)?),
-            SolverTask::Comparison(tolerance) => Found::Comparison(part(&self.comparison)?.run(tolerance)?),
+            SolverTask::Contraction(at) => {
+                Found::Contraction(part(&self.contraction)?.measure(at)?)
+            }
+            SolverTask::Comparison(tolerance) => {
+                Found::Comparison(part(&self.comparison)?.run(tolerance)?)
+            }
             SolverTask::Row(value) => Found::Row(part(&self.map)?.row(value)?),
             SolverTask::Boundary(value) => Found::Boundary(part(&self.map)?.boundary(value)?),
         })
@@ -155,22 +186,40 @@ impl Kind for Solvers {
     fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
         // A failed case is omitted, and fails the check of completion.
         let (mut factors, mut agreements, mut rows, mut lines) = (vec![], vec![], vec![], vec![]);
-        for (task, found) in ran.iter().filter_map(|ran| Some((ran.case.data, ran.ok()?))) {
+        for (task, found) in ran
+            .iter()
+            .filter_map(|ran| Some((ran.case.data, ran.ok()?)))
+        {
             match (task, found) {
                 (SolverTask::Contraction(at), Found::Contraction(of)) => factors.push((at, of)),
-                (SolverTask::Comparison(tolerance), Found::Comparison(of)) => agreements.push((tolerance, of)),
+                (SolverTask::Comparison(tolerance), Found::Comparison(of)) => {
+                    agreements.push((tolerance, of))
+                }
                 (SolverTask::Row(value), Found::Row(row)) => rows.push((value, &row[..])),
                 (SolverTask::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),
                 _ => {}
             }
         }
-        let contraction = self.contraction.as_ref().map(|grid| parts::judge_contraction(&factors, grid.cases().len()));
-        let comparison = self.comparison.as_ref().map(|_| parts::judge_comparison(&agreements));
+        let contraction = self
+            .contraction
+            .as_ref()
+            .map(|grid| parts::judge_contraction(&factors, grid.cases().len()));
+        let comparison = self
+            .comparison
+            .as_ref()
+            .map(|_| parts::judge_comparison(&agreements));
         let map = self.map.as_ref().map(|map| map.judge(&rows, &lines));
-        let parts: Vec<Outcome> = [contraction, comparison, map].into_iter().flatten().collect();
-        let join = |text: fn(&Outcome) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
+        let parts: Vec<Outcome> = [contraction, comparison, map]
+            .into_iter()
+            .flatten()
+            .collect();
+        let join =
+            |text: fn(&Outcome) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
         let (summary, headline) = (join(|part| &part.summary), join(|part| &part.headline));
-        let mut all = Outcome { headline, ..Outcome::new(summary, vec![], vec![completion(ran, Found::not_finite)]) };
+        let mut all = Outcome {
+            headline,
+            ..Outcome::new(summary, vec![], vec![completion(ran, Found::not_finite)])
+        };
         parts.into_iter().for_each(|part| all.extend(part));
         all
     }
@@ -201,24 +250,58 @@ impl FixedPointStep {
     ///
     /// # Errors
     /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
-    fn run(problem: &Problem, dt: f64, n_value: f64, tolerance: f64, iterations: usize) -> Result<Self, CaseFailure> {
-        let newton =
-            Settings { stopping: Stopping::Converged { tolerance, max_iterations: iterations }, ..Settings::default() };
-        let settings = Settings { solver: Solver::FixedPoint, ..newton };
-        let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt, loaded: false };
+    fn run(
+        problem: &Problem,
+        dt: f64,
+        n_value: f64,
+        tolerance: f64,
+        iterations: usize,
+    ) -> Result<Self, CaseFailure> {
+        let newton = Settings {
+            stopping: Stopping::Converged {
+                tolerance,
+                max_iterations: iterations,
+            },
+            ..Settings::default()
+        };
+        let settings = Settings {
+            solver: Solver::FixedPoint,
+            ..newton
+        };
+        let stepping = Stepping {
+            scheme: EULER_CRANK_NICOLSON,
+            settings,
+            dt,
+            loaded: false,
+        };
         let outcome = Driver::new(problem.clone(), stepping)?.advance(|_, _| ());
         let (iterations, contraction) = match &outcome {
             Ok(report) => (report.iterations, report.contraction),
             Err(RunError::Step(error)) => match error.failure {
-                StepFailure::Diverged { iterations, contraction, .. }
-                | StepFailure::IterationLimit { iterations, contraction, .. } => (iterations, Some(contraction)),
+                StepFailure::Diverged {
+                    iterations,
+                    contraction,
+                    ..
+                }
+                | StepFailure::IterationLimit {
+                    iterations,
+                    contraction,
+                    ..
+                } => (iterations, Some(contraction)),
                 StepFailure::NonFinite { iterations, .. } => (iterations, Some(f64::INFINITY)),
                 _ => (0, Some(f64::INFINITY)),
             },
             Err(other) => return Err(other.clone().into()),
         };
         let [alpha, gamma] = factors(problem, dt, n_value);
-        Ok(Self { dt, alpha, gamma, converged: outcome.is_ok(), iterations, contraction })
+        Ok(Self {
+            dt,
+            alpha,
+            gamma,
+            converged: outcome.is_ok(),
+            iterations,
+            contraction,
+        })
     }
 }
 
@@ -226,5 +309,8 @@ impl FixedPointStep {
 /// operator is not definite.
 fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
     let case = problem.case(EULER_CRANK_NICOLSON, dt);
-    [case.contact_contraction(n_value), case.coupling_contraction(n_value)]
+    [
+        case.contact_contraction(n_value),
+        case.coupling_contraction(n_value),
+    ]
 }

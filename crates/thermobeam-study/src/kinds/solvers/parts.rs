@@ -36,18 +36,31 @@ pub(super) struct Grid {
 impl Grid {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         section.allow(&["elements", "dt", "epsilon", "zeta"])?;
-        let [dt, epsilon, zeta] = ["dt", "epsilon", "zeta"].map(|key| positive_numbers(section, key));
+        let [dt, epsilon, zeta] =
+            ["dt", "epsilon", "zeta"].map(|key| positive_numbers(section, key));
         let (dt, epsilon, zeta) = (dt?, epsilon?, zeta?);
-        limits::cases(&section.require("dt", "a list")?, &[dt.len(), epsilon.len(), zeta.len()])?;
+        limits::cases(
+            &section.require("dt", "a list")?,
+            &[dt.len(), epsilon.len(), zeta.len()],
+        )?;
         let elements = tables::elements(&section.require("elements", "a number of elements")?)?;
-        Ok(Self { elements, dt, epsilon, zeta })
+        Ok(Self {
+            elements,
+            dt,
+            epsilon,
+            zeta,
+        })
     }
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let cost = self.elements as f64 * ITERATIONS as f64;
         let case = |at: [f64; 3]| Case::new(name(at), cost, SolverTask::Contraction(at));
         let of = |zeta: f64, epsilon: f64| self.dt.iter().map(move |&dt| case([dt, epsilon, zeta]));
-        let of_zeta = |&zeta: &f64| self.epsilon.iter().flat_map(move |&epsilon| of(zeta, epsilon));
+        let of_zeta = |&zeta: &f64| {
+            self.epsilon
+                .iter()
+                .flat_map(move |&epsilon| of(zeta, epsilon))
+        };
         self.zeta.iter().flat_map(of_zeta).collect()
     }
 
@@ -55,32 +68,60 @@ impl Grid {
     ///
     /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper obstacle. On a uniform mesh they are,
     /// by (3.7) at rest, `(1 + N) p + g(p)` at the free end in the first equation, and `-p (1, χ_i)` in the second.
-    pub(super) fn measure(&self, [dt, epsilon, zeta]: [f64; 3]) -> Result<Contraction, CaseFailure> {
+    pub(super) fn measure(
+        &self,
+        [dt, epsilon, zeta]: [f64; 3],
+    ) -> Result<Contraction, CaseFailure> {
         let mesh = Mesh::uniform(self.elements)?;
-        let beam = Beam { zeta, ..Beam::default() };
-        let obstacles = Obstacles { epsilon, ..Obstacles::default() };
+        let beam = Beam {
+            zeta,
+            ..Beam::default()
+        };
+        let obstacles = Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        };
         let mut initial = Initial::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
-        let state = Problem { beam, obstacles: Some(obstacles), mesh, initial };
+        let state = Problem {
+            beam,
+            obstacles: Some(obstacles),
+            mesh,
+            initial,
+        };
         let n_value = beam.axial_force(PRESSED * PRESSED);
         let [alpha, gamma] = factors(&state, dt, n_value);
         let case = state.case(EULER_CRANK_NICOLSON, dt);
         let map = case.linearized_iteration(&state.initial.u);
-        let mut map = map.ok_or_else(|| CaseFailure::new("a matrix of (4.2) is not positive definite"))?;
+        let mut map =
+            map.ok_or_else(|| CaseFailure::new("a matrix of (4.2) is not positive definite"))?;
         let radius = spectral_radius(&mut map);
-        let iterations = ((SPAN.ln() / radius.ln().abs()).ceil() as usize).clamp(FEWEST, ITERATIONS);
+        let iterations =
+            ((SPAN.ln() / radius.ln().abs()).ceil() as usize).clamp(FEWEST, ITERATIONS);
         let growth = radius.max(1.0).powi(iterations as i32 + 1);
         let speed = DISTURBANCE / (dt * growth);
         let mut disturbed = state.clone();
         disturbed.initial.u_t = state.mesh.nodes().iter().map(|x| speed * x).collect();
-        let held = Held { problem: disturbed, dt, tip_load: (1.0 + n_value) * PRESSED + obstacles.force(PRESSED) };
-        let [before, one, two] = [iterations - 1, iterations, iterations + 1].map(|count| held.step(count));
+        let held = Held {
+            problem: disturbed,
+            dt,
+            tip_load: (1.0 + n_value) * PRESSED + obstacles.force(PRESSED),
+        };
+        let [before, one, two] =
+            [iterations - 1, iterations, iterations + 1].map(|count| held.step(count));
         let (before, one, two) = (before?, one?, two?);
         let mut expected = one.minus(&before);
         map.apply(&mut expected.v, &mut expected.w);
         let increment = two.minus(&one);
         let deviation = increment.minus(&expected).size() / increment.size();
-        Ok(Contraction { alpha, gamma, radius, iterations: iterations + 1, measured: two.contraction, deviation })
+        Ok(Contraction {
+            alpha,
+            gamma,
+            radius,
+            iterations: iterations + 1,
+            measured: two.contraction,
+            deviation,
+        })
     }
 }
 
@@ -121,8 +162,17 @@ impl Held {
     /// The iterate after this number of iterations.
     fn step(&self, iterations: usize) -> Result<Velocities, CaseFailure> {
         let stopping = Stopping::Iterations(iterations);
-        let settings = Settings { solver: Solver::FixedPoint, stopping, ..Settings::default() };
-        let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings, dt: self.dt, loaded: true };
+        let settings = Settings {
+            solver: Solver::FixedPoint,
+            stopping,
+            ..Settings::default()
+        };
+        let stepping = Stepping {
+            scheme: EULER_CRANK_NICOLSON,
+            settings,
+            dt: self.dt,
+            loaded: true,
+        };
         let mut driver = Driver::new(self.problem.clone(), stepping)?;
         let report = driver.advance(|_, load| {
             let n = load.len() - 1;
@@ -131,19 +181,37 @@ impl Held {
             load[n] = [self.tip_load, 0.5 * moment, 0.0];
         })?;
         let Level { v, w, .. } = driver.level().clone();
-        Ok(Velocities { v, w, contraction: report.contraction.unwrap_or(f64::NAN) })
+        Ok(Velocities {
+            v,
+            w,
+            contraction: report.contraction.unwrap_or(f64::NAN),
+        })
     }
 }
 
 impl Velocities {
     fn minus(&self, other: &Self) -> Self {
-        let difference = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| one - other).collect();
-        Self { v: difference(&self.v, &other.v), w: difference(&self.w, &other.w), contraction: self.contraction }
+        let difference = |one: &[f64], other: &[f64]| {
+            one.iter()
+                .zip(other)
+                .map(|(one, other)| one - other)
+                .collect()
+        };
+        Self {
+            v: difference(&self.v, &other.v),
+            w: difference(&self.w, &other.w),
+            contraction: self.contraction,
+        }
     }
 
     /// Euclidean length.
     fn size(&self) -> f64 {
-        self.v.iter().chain(&self.w).map(|value| value * value).sum::<f64>().sqrt()
+        self.v
+            .iter()
+            .chain(&self.w)
+            .map(|value| value * value)
+            .sum::<f64>()
+            .sqrt()
     }
 }
 
@@ -153,22 +221,54 @@ fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
 
 /// * `found`: the results, each with its (dt, ε, ζ); `all`: the number of points of the grid.
 pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)], all: usize) -> Outcome {
-    let settled: Vec<&Contraction> = found.iter().map(|(_, point)| *point).filter(|point| point.is_settled()).collect();
-    let worst = settled.iter().map(|point| point.error()).fold(0.0, max_or_nan);
-    let deviation = found.iter().map(|(_, point)| point.deviation).fold(0.0, max_or_nan);
-    let linear = found.iter().filter(|(_, point)| point.deviation <= LINEAR).count();
-    let increments =
-        format!("increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points");
-    let factors = format!("the factor is its spectral radius to {:.1} % at {}", 100.0 * worst, settled.len());
+    let settled: Vec<&Contraction> = found
+        .iter()
+        .map(|(_, point)| *point)
+        .filter(|point| point.is_settled())
+        .collect();
+    let worst = settled
+        .iter()
+        .map(|point| point.error())
+        .fold(0.0, max_or_nan);
+    let deviation = found
+        .iter()
+        .map(|(_, point)| point.deviation)
+        .fold(0.0, max_or_nan);
+    let linear = found
+        .iter()
+        .filter(|(_, point)| point.deviation <= LINEAR)
+        .count();
+    let increments = format!(
+        "increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points"
+    );
+    let factors = format!(
+        "the factor is its spectral radius to {:.1} % at {}",
+        100.0 * worst,
+        settled.len()
+    );
     let unsettled = all - settled.len();
-    let left_out = if unsettled == 0 { String::new() } else { format!("; too few iterations for that at {unsettled}") };
+    let left_out = if unsettled == 0 {
+        String::new()
+    } else {
+        format!("; too few iterations for that at {unsettled}")
+    };
     let summary = format!("{increments}; {factors}{left_out}");
     Outcome {
         headline: summary.clone(),
         tables: vec![contraction_table(found)],
         figures: vec![contraction_figure(found)],
-        quantities: found.iter().map(|(at, point)| contraction_quantity(*at, point)).collect(),
-        ..Outcome::new(summary, vec![], found.iter().flat_map(|(at, point)| contraction_checks(*at, point)).collect())
+        quantities: found
+            .iter()
+            .map(|(at, point)| contraction_quantity(*at, point))
+            .collect(),
+        ..Outcome::new(
+            summary,
+            vec![],
+            found
+                .iter()
+                .flat_map(|(at, point)| contraction_checks(*at, point))
+                .collect(),
+        )
     }
 }
 
@@ -185,7 +285,12 @@ impl Contraction {
 
 fn contraction_checks(at: [f64; 3], point: &Contraction) -> Vec<Check> {
     let name = name(at);
-    let Contraction { radius, measured, deviation, .. } = *point;
+    let Contraction {
+        radius,
+        measured,
+        deviation,
+        ..
+    } = *point;
     let mut checks = vec![Check::that(
         deviation <= LINEAR,
         format!("{name}: the last increment is that of the linearised iteration"),
@@ -206,14 +311,29 @@ fn contraction_quantity(at: [f64; 3], point: &Contraction) -> Quantity {
 }
 
 fn contraction_table(found: &[([f64; 3], &Contraction)]) -> Table {
-    let head = ["dt", "epsilon", "zeta", "alpha", "spectral radius", "measured", "iterations"];
-    Table::new("Contraction factor in contact", head, found.iter().map(|(at, point)| contraction_row(*at, point)))
+    let head = [
+        "dt",
+        "epsilon",
+        "zeta",
+        "alpha",
+        "spectral radius",
+        "measured",
+        "iterations",
+    ];
+    Table::new(
+        "Contraction factor in contact",
+        head,
+        found.iter().map(|(at, point)| contraction_row(*at, point)),
+    )
 }
 
 fn contraction_row([dt, epsilon, zeta]: [f64; 3], point: &Contraction) -> Vec<String> {
     let factors = [point.alpha, point.radius, point.measured].map(|factor| format!("{factor:.5}"));
     let at = [format!("{dt:e}"), format!("{epsilon:e}"), zeta.to_string()];
-    at.into_iter().chain(factors).chain([point.iterations.to_string()]).collect()
+    at.into_iter()
+        .chain(factors)
+        .chain([point.iterations.to_string()])
+        .collect()
 }
 
 fn contraction_figure(found: &[([f64; 3], &Contraction)]) -> Figure {
@@ -221,7 +341,10 @@ fn contraction_figure(found: &[([f64; 3], &Contraction)]) -> Figure {
     zetas.dedup();
     let series = zetas.iter().map(|zeta| {
         let of_zeta = found.iter().filter(|([_, _, z], _)| z == zeta);
-        plots::Series::new(format!("ζ = {zeta}"), of_zeta.map(|(_, point)| (point.radius, point.measured)))
+        plots::Series::new(
+            format!("ζ = {zeta}"),
+            of_zeta.map(|(_, point)| (point.radius, point.measured)),
+        )
     });
     let svg = figures::contraction(&series.collect::<Vec<_>>());
     let caption = "Contraction factor of the fixed point in contact: measured over the spectral radius of the linearised \
@@ -262,7 +385,10 @@ impl Comparison {
     pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         section.allow(&["scene", "elements", "steps", "tolerances"])?;
         Ok(Self {
-            scene: Scene::read_one_step(&section.require("scene", "a scene file beside this one")?, folder)?,
+            scene: Scene::read_one_step(
+                &section.require("scene", "a scene file beside this one")?,
+                folder,
+            )?,
             elements: tables::elements(&section.require("elements", "a number of elements")?)?,
             // Each step is a point of a figure.
             steps: section.count("steps", 1..=limits::RECORDED_STEPS)?,
@@ -273,18 +399,33 @@ impl Comparison {
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         // Some four iterations of 60 ns per step and element; the unit of the runner is 25 ns.
         let cost = (self.elements * self.steps) as f64 * 10.0;
-        let case = |&eta: &f64| Case::new(format!("tolerance {eta:e}"), cost, SolverTask::Comparison(eta));
+        let case = |&eta: &f64| {
+            Case::new(
+                format!("tolerance {eta:e}"),
+                cost,
+                SolverTask::Comparison(eta),
+            )
+        };
         self.tolerances.iter().map(case).collect()
     }
 
     /// Steps the scene by both solvers in parallel.
     pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
-        let scene = Scene { mesh: Mesh::uniform(self.elements)?, ..self.scene.clone() };
+        let scene = Scene {
+            mesh: Mesh::uniform(self.elements)?,
+            ..self.scene.clone()
+        };
         let driver = |settings| {
-            let stepping = Stepping { settings, ..scene.one_step()? };
+            let stepping = Stepping {
+                settings,
+                ..scene.one_step()?
+            };
             Driver::new(simulate::problem(&scene), stepping)
         };
-        let mut newton = driver(Settings { stopping: Stopping::below(SOLVED), ..Settings::default() })?;
+        let mut newton = driver(Settings {
+            stopping: Stopping::below(SOLVED),
+            ..Settings::default()
+        })?;
         let mut fixed = driver(Settings {
             solver: Solver::FixedPoint,
             stopping: Stopping::below(tolerance),
@@ -308,7 +449,14 @@ impl Comparison {
             }
         }
         let mean_iterations = total as f64 / self.steps as f64;
-        Ok(Agreement { distance: farthest, mean_iterations, most_iterations, iterations, newton: of_newton, contact })
+        Ok(Agreement {
+            distance: farthest,
+            mean_iterations,
+            most_iterations,
+            iterations,
+            newton: of_newton,
+            contact,
+        })
     }
 }
 
@@ -316,14 +464,40 @@ impl Comparison {
 pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
     let check = |(eta, found): &(f64, &Agreement)| {
         // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the rest.
-        let evidence = format!("{:.2e}, {:.3} of the tolerance", found.distance, found.distance / eta);
-        Check::that(found.distance <= *eta, format!("eta* = {eta:e}: the error is below eta*"), evidence)
+        let evidence = format!(
+            "{:.2e}, {:.3} of the tolerance",
+            found.distance,
+            found.distance / eta
+        );
+        Check::that(
+            found.distance <= *eta,
+            format!("eta* = {eta:e}: the error is below eta*"),
+            evidence,
+        )
     };
-    let row = |(eta, Agreement { distance, mean_iterations, most_iterations, .. }): &(f64, &Agreement)| {
-        [format!("{eta:e}"), format!("{distance:.3e}"), format!("{mean_iterations:.3}"), most_iterations.to_string()]
-            .into()
+    let row = |(
+        eta,
+        Agreement {
+            distance,
+            mean_iterations,
+            most_iterations,
+            ..
+        },
+    ): &(f64, &Agreement)| {
+        [
+            format!("{eta:e}"),
+            format!("{distance:.3e}"),
+            format!("{mean_iterations:.3}"),
+            most_iterations.to_string(),
+        ]
+        .into()
     };
-    let head = ["tolerance", "distance to Newton", "mean iterations", "most iterations"];
+    let head = [
+        "tolerance",
+        "distance to Newton",
+        "mean iterations",
+        "most iterations",
+    ];
     let last = found.last().map(|(_, found)| *found);
     let distance = last.map_or(f64::NAN, |found| found.distance);
     let summary = format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
@@ -337,12 +511,32 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
 }
 
 fn iterations_figure(found: Option<&Agreement>) -> Figure {
-    let curve = |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
+    let curve =
+        |of: fn(&Agreement) -> &Vec<(f64, f64)>| found.map_or(vec![], |found| of(found).clone());
     let fixed_point = plots::Series::new("fixed point", curve(|found| &found.iterations));
-    let series = [fixed_point, plots::Series::new("Newton's method", curve(|found| &found.newton))];
-    let phases = plots::Phases { label: "in contact".to_owned(), intervals: curve(|found| &found.contact) };
-    let shaded = if phases.intervals.is_empty() { "" } else { "; shaded where the tip is in contact" };
-    let caption =
-        format!("Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}.");
-    Figure::new("iterations", caption, Xy { phases, ..plots::iterations(&series) }.draw())
+    let series = [
+        fixed_point,
+        plots::Series::new("Newton's method", curve(|found| &found.newton)),
+    ];
+    let phases = plots::Phases {
+        label: "in contact".to_owned(),
+        intervals: curve(|found| &found.contact),
+    };
+    let shaded = if phases.intervals.is_empty() {
+        ""
+    } else {
+        "; shaded where the tip is in contact"
+    };
+    let caption = format!(
+        "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
+    );
+    Figure::new(
+        "iterations",
+        caption,
+        Xy {
+            phases,
+            ..plots::iterations(&series)
+        }
+        .draw(),
+    )
 }

@@ -40,14 +40,22 @@ pub(super) fn spectral_radius(map: &mut LinearizedIteration) -> f64 {
         projection[(k + 1, k)] = rest;
         basis.push(image / rest);
     }
-    projection.complex_eigenvalues().iter().map(|value| value.re.hypot(value.im)).fold(0.0, max_or_nan)
+    projection
+        .complex_eigenvalues()
+        .iter()
+        .map(|value| value.re.hypot(value.im))
+        .fold(0.0, max_or_nan)
 }
 
 /// The image of (δV, δW) at the free nodes.
 fn apply(map: &mut LinearizedIteration, errors: &DVector<f64>) -> DVector<f64> {
     let n = map.elements();
     let clamped = std::iter::once(&0.0);
-    let mut v: Vec<f64> = clamped.clone().chain(errors.rows(0, n).iter()).copied().collect();
+    let mut v: Vec<f64> = clamped
+        .clone()
+        .chain(errors.rows(0, n).iter())
+        .copied()
+        .collect();
     let mut w: Vec<f64> = clamped.chain(errors.rows(n, n).iter()).copied().collect();
     map.apply(&mut v, &mut w);
     DVector::from_iterator(2 * n, v[1..].iter().chain(&w[1..]).copied())

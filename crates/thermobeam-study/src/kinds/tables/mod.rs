@@ -16,7 +16,11 @@ pub use refine::{Layout, Perturbation, Refine};
 const DERIVATIVES: usize = 2;
 
 /// The table `[exact]`: for each field a sum of products of a function of x and a function of t.
-pub(crate) fn manufactured(root: &Section<'_>, beam: &Beam, t_end: f64) -> Result<Manufactured, InputError> {
+pub(crate) fn manufactured(
+    root: &Section<'_>,
+    beam: &Beam,
+    t_end: f64,
+) -> Result<Manufactured, InputError> {
     let allowed = "a table with at least one of u, phi, theta";
     let section = root.require("exact", allowed)?.section()?;
     section.allow(&["u", "phi", "theta"])?;
@@ -41,32 +45,60 @@ fn products(section: &Section<'_>, key: &str, t_end: f64) -> Result<Vec<Product>
         let section = item.section()?;
         section.allow(&["x", "t"])?;
         let factor = |key: &str, variable: Variable, end: f64| {
-            let field = section.require(key, &format!("a function of {} in quotes", variable.name()))?;
+            let field =
+                section.require(key, &format!("a function of {} in quotes", variable.name()))?;
             Ok::<Factor, InputError>(tables::function(&field, variable, end, DERIVATIVES)?.into())
         };
-        let product = Product { x: factor("x", Variable::X, 1.0)?, t: factor("t", Variable::T, t_end)? };
+        let product = Product {
+            x: factor("x", Variable::X, 1.0)?,
+            t: factor("t", Variable::T, t_end)?,
+        };
         let found = product.x.eval(0.0);
         if key != "theta" && found.abs() > product.x.roundoff(1.0) {
-            return Err(section.refuse("x", format!("{found:?} at x = 0"), "0 at x = 0, the clamped end"));
+            return Err(section.refuse(
+                "x",
+                format!("{found:?} at x = 0"),
+                "0 at x = 0, the clamped end",
+            ));
         }
         Ok(product)
     };
-    section.get(key).map_or(Ok(vec![]), |_| section.list(key, allowed, product, |list| !list.is_empty()))
+    section.get(key).map_or(Ok(vec![]), |_| {
+        section.list(key, allowed, product, |list| !list.is_empty())
+    })
 }
 
 /// θ(x, t) = `expected` at an end of the beam, at some times, up to round-off.
-fn meets(section: &Section<'_>, theta: &[Product], [x, expected]: [f64; 2], t_end: f64) -> Result<(), InputError> {
+fn meets(
+    section: &Section<'_>,
+    theta: &[Product],
+    [x, expected]: [f64; 2],
+    t_end: f64,
+) -> Result<(), InputError> {
     // Unlikely to be a multiple of the period of a study.
     const TIMES: u32 = 7;
     // The error of X is proportional to X and amplified by T, and vice versa.
-    let slack: f64 = theta.iter().map(|p| 2.0 * p.x.roundoff(1.0) * p.t.size(t_end)).sum();
+    let slack: f64 = theta
+        .iter()
+        .map(|p| 2.0 * p.x.roundoff(1.0) * p.t.size(t_end))
+        .sum();
     for time in (0..=TIMES).map(|i| t_end * f64::from(i) / f64::from(TIMES)) {
         // An empty `sum` is -0, which would be shown.
-        let found = theta.iter().fold(0.0, |sum, p| sum + p.x.eval(x) * p.t.eval(time));
+        let found = theta
+            .iter()
+            .fold(0.0, |sum, p| sum + p.x.eval(x) * p.t.eval(time));
         if (found - expected).abs() > slack {
             let found = format!("theta = {found:?} at x = {x}, t = {time:?}");
-            let end = if x == 0.0 { "beam.theta_a at x = 0" } else { "0 at x = 1" };
-            return Err(section.refuse("theta", found, format!("theta = {expected:?}: it must be {end} at all times")));
+            let end = if x == 0.0 {
+                "beam.theta_a at x = 0"
+            } else {
+                "0 at x = 1"
+            };
+            return Err(section.refuse(
+                "theta",
+                found,
+                format!("theta = {expected:?}: it must be {end} at all times"),
+            ));
         }
     }
     Ok(())
@@ -74,17 +106,35 @@ fn meets(section: &Section<'_>, theta: &[Product], [x, expected]: [f64; 2], t_en
 
 /// The norms in words, for `explain`, in the order of [`Norm::ALL`].
 pub const TERMS: [Term; Norm::ALL.len()] = [
-    term(Norm::Velocity, "the L2 norm of the error of the velocity u_t"),
-    term(Norm::Shear, "the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best"),
-    term(Norm::RotationRate, "the L2 norm of the error of the rate of rotation phi_t"),
-    term(Norm::Curvature, "the L2 norm of the error of phi_x: a derivative, so first order in h at best"),
-    term(Norm::Temperature, "the L2 norm of the error of the temperature"),
+    term(
+        Norm::Velocity,
+        "the L2 norm of the error of the velocity u_t",
+    ),
+    term(
+        Norm::Shear,
+        "the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best",
+    ),
+    term(
+        Norm::RotationRate,
+        "the L2 norm of the error of the rate of rotation phi_t",
+    ),
+    term(
+        Norm::Curvature,
+        "the L2 norm of the error of phi_x: a derivative, so first order in h at best",
+    ),
+    term(
+        Norm::Temperature,
+        "the L2 norm of the error of the temperature",
+    ),
     term(
         Norm::Theorem34,
         "the root of the sum of the squares of velocity, shear, rotation-rate, curvature and temperature at the same time: \
          the left-hand side of Theorem 3.4, bounded there by c (h + dt)",
     ),
-    term(Norm::Displacement, "the L2 norm of the error of the displacement u"),
+    term(
+        Norm::Displacement,
+        "the L2 norm of the error of the displacement u",
+    ),
     term(
         Norm::Superclose,
         "as theorem-3.4, but of the distance to the interpolant of the exact solution: Z_n^1/2 of (3.16). The first order of \
@@ -94,7 +144,11 @@ pub const TERMS: [Term; Norm::ALL.len()] = [
 ];
 
 const fn term(norm: Norm, text: &'static str) -> Term {
-    Term { name: norm.name(), what: "a norm; its maximum over all time levels counts", text }
+    Term {
+        name: norm.name(),
+        what: "a norm; its maximum over all time levels counts",
+        text,
+    }
 }
 
 /// All tables `[[expect]]`: the norms and their orders.
@@ -110,19 +164,37 @@ pub(crate) fn claims<T: Copy>(
     key: &str,
     choices: &[(&'static str, T)],
 ) -> Result<Vec<(T, Claim)>, InputError> {
-    let names = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let names = choices
+        .iter()
+        .map(|(name, _)| format!("\"{name}\""))
+        .collect::<Vec<_>>()
+        .join(", ");
     let mut known = vec![];
-    root.tables("expect", &format!(" with {key}, order and tolerance"), |section| {
-        section.allow(&[key, "order", "constant", "tolerance"])?;
-        let field = section.require(key, &names)?;
-        let (of, name) = (field.choice(choices)?, field.text()?);
-        if known.contains(&name) {
-            return Err(section.refuse(key, format!("\"{name}\" a second time"), format!("each {key} once")));
-        }
-        known.push(name);
-        let claim = read_claim(section, "order")?;
-        Ok((of, Claim { tolerance: section.positive("tolerance")?, ..claim }))
-    })
+    root.tables(
+        "expect",
+        &format!(" with {key}, order and tolerance"),
+        |section| {
+            section.allow(&[key, "order", "constant", "tolerance"])?;
+            let field = section.require(key, &names)?;
+            let (of, name) = (field.choice(choices)?, field.text()?);
+            if known.contains(&name) {
+                return Err(section.refuse(
+                    key,
+                    format!("\"{name}\" a second time"),
+                    format!("each {key} once"),
+                ));
+            }
+            known.push(name);
+            let claim = read_claim(section, "order")?;
+            Ok((
+                of,
+                Claim {
+                    tolerance: section.positive("tolerance")?,
+                    ..claim
+                },
+            ))
+        },
+    )
 }
 
 /// Errors in each norm over the levels of a refinement: a column for each norm, with the expected order.
@@ -138,21 +210,38 @@ pub(crate) fn norm_levels<'r>(
     let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
     let column = |norm: Norm| ErrorColumn {
         name: norm.name().to_owned(),
-        errors: ran.clone().map(|(_, errors)| errors.map(|errors| errors[norm])).collect(),
-        claim: expect.iter().find(|(of, _)| *of == norm).map(|(_, claim)| *claim),
+        errors: ran
+            .clone()
+            .map(|(_, errors)| errors.map(|errors| errors[norm]))
+            .collect(),
+        claim: expect
+            .iter()
+            .find(|(of, _)| *of == norm)
+            .map(|(_, claim)| *claim),
         look: norm as usize,
     };
-    Levels::new(refine.axis, ran.clone().map(refinement), Norm::ALL.into_iter().map(column))
+    Levels::new(
+        refine.axis,
+        ran.clone().map(refinement),
+        Norm::ALL.into_iter().map(column),
+    )
 }
 
 /// The table `[control]`: coefficients in which the solver differs from `theory`; without the table they are equal.
-pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coefficients, InputError> {
-    let Some(section) = root.section("control")? else { return Ok(theory) };
+pub(crate) fn control(
+    root: &Section<'_>,
+    theory: Coefficients,
+) -> Result<Coefficients, InputError> {
+    let Some(section) = root.section("control")? else {
+        return Ok(theory);
+    };
     let names: Vec<&str> = Coefficients::names().collect();
     section.allow(&names)?;
     let mut solver = theory;
     for name in names {
-        let Some(field) = section.get(name) else { continue };
+        let Some(field) = section.get(name) else {
+            continue;
+        };
         let value = field.number()?;
         let Some(coefficient) = solver.get_mut(name) else {
             let found = format!("{} without a table [obstacles]", field.as_written());
@@ -166,7 +255,11 @@ pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coeffi
         *coefficient = value;
     }
     if solver == theory {
-        return Err(root.refuse("control", "an empty table", "a table that changes at least one coefficient"));
+        return Err(root.refuse(
+            "control",
+            "an empty table",
+            "a table that changes at least one coefficient",
+        ));
     }
     solver.check(&section)?;
     Ok(solver)
@@ -176,14 +269,24 @@ pub(crate) fn control(root: &Section<'_>, theory: Coefficients) -> Result<Coeffi
 pub fn cost_of_run(scene: &Scene) -> f64 {
     match scene.method {
         Method::OneStep(_) => scene.steps() as f64 * (scene.mesh.elements() as f64 + 4.0),
-        Method::Dg(stepping) => {
-            Discretisation { elements: scene.mesh.elements(), degree: scene.degree, stepping }.cost(scene.t_end)
+        Method::Dg(stepping) => Discretisation {
+            elements: scene.mesh.elements(),
+            degree: scene.degree,
+            stepping,
         }
+        .cost(scene.t_end),
     }
 }
 
 /// The keys of a discretisation.
-pub(crate) const DISCRETISATION_KEYS: [&str; 6] = ["elements", "degree", "time_degree", "dt", "restart_dt", "growth"];
+pub(crate) const DISCRETISATION_KEYS: [&str; 6] = [
+    "elements",
+    "degree",
+    "time_degree",
+    "dt",
+    "restart_dt",
+    "growth",
+];
 
 /// The cost of a solve per unknown, in steps of a one-step scheme.
 const COST: f64 = 30.0;
@@ -216,12 +319,16 @@ impl Discretisation {
 
     /// Its identification in words.
     pub fn label(&self) -> String {
-        format!("{} x p = {}, q = {}", self.elements, self.degree, self.stepping.degree)
+        format!(
+            "{} x p = {}, q = {}",
+            self.elements, self.degree, self.stepping.degree
+        )
     }
 
     /// Cost of a run to t_end, in element-steps of a one-step scheme.
     pub fn cost(&self, t_end: f64) -> f64 {
-        COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end / self.stepping.dt
+        COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end
+            / self.stepping.dt
     }
 
     /// Reads a table that has [`DISCRETISATION_KEYS`], and possibly others, for runs to `t_end`.
@@ -243,8 +350,12 @@ impl Discretisation {
             stepping: DgStepping {
                 degree: time_degree,
                 dt,
-                restart_dt: section.require("restart_dt", &restart)?.number_where(&restart, |h| h > 0.0 && h <= dt)?,
-                growth: section.require("growth", growth)?.number_where(growth, |value| value >= 1.0)?,
+                restart_dt: section
+                    .require("restart_dt", &restart)?
+                    .number_where(&restart, |h| h > 0.0 && h <= dt)?,
+                growth: section
+                    .require("growth", growth)?
+                    .number_where(growth, |value| value >= 1.0)?,
                 ..DgStepping::default()
             },
         })
@@ -264,7 +375,9 @@ pub(crate) fn discretisations(
 ) -> Result<[Discretisation; 2], InputError> {
     let differing = match elements {
         None => "that differ in elements, degree, time_degree and dt".to_owned(),
-        Some(n) => format!("of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"),
+        Some(n) => format!(
+            "of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
+        ),
     };
     let allowed = format!("two tables [[{key}]] {differing}");
     let one = |item: &Field<'_>| {
@@ -274,17 +387,34 @@ pub(crate) fn discretisations(
     };
     let list = root.list(key, &allowed, one, |list| list.len() == 2)?;
     let (one, other) = (list[0], list[1]);
-    let steps =
-        [("time_degree", one.stepping.degree == other.stepping.degree), ("dt", one.stepping.dt == other.stepping.dt)];
-    let space = [("elements", one.elements == other.elements), ("degree", one.degree == other.degree)];
-    let same = if elements.is_some() { steps.to_vec() } else { [space, steps].concat() };
+    let steps = [
+        ("time_degree", one.stepping.degree == other.stepping.degree),
+        ("dt", one.stepping.dt == other.stepping.dt),
+    ];
+    let space = [
+        ("elements", one.elements == other.elements),
+        ("degree", one.degree == other.degree),
+    ];
+    let same = if elements.is_some() {
+        steps.to_vec()
+    } else {
+        [space, steps].concat()
+    };
     if let Some((same, _)) = same.iter().find(|(_, is_same)| *is_same) {
         return Err(root.refuse(key, format!("two with the same {same}"), allowed));
     }
-    match elements.and_then(|n| [one, other].into_iter().find(|how| (how.elements, how.degree) != (n, 1))) {
-        Some(Discretisation { elements, degree, .. }) => {
-            Err(root.refuse(key, format!("{elements} elements of degree {degree}"), allowed))
-        }
+    match elements.and_then(|n| {
+        [one, other]
+            .into_iter()
+            .find(|how| (how.elements, how.degree) != (n, 1))
+    }) {
+        Some(Discretisation {
+            elements, degree, ..
+        }) => Err(root.refuse(
+            key,
+            format!("{elements} elements of degree {degree}"),
+            allowed,
+        )),
         None => Ok([one, other]),
     }
 }

@@ -44,7 +44,10 @@ impl Layout {
         elements: &[usize],
         perturbation: Option<Perturbation>,
     ) -> Result<Self, InputError> {
-        let mut layout = Self { perturbation, map: None };
+        let mut layout = Self {
+            perturbation,
+            map: None,
+        };
         if let Some(field) = section.get("map") {
             layout.map = Some(tables::function(&field, Variable::S, 1.0, 0)?);
             for &elements in elements {
@@ -61,7 +64,9 @@ impl Layout {
     pub fn mesh(&self, elements: usize) -> Result<Mesh, MeshError> {
         Mesh::mapped(elements, |s| {
             let index = (s * elements as f64).round() as usize;
-            let s = self.perturbation.map_or(s, |perturbation| perturbation.displaced(index, elements));
+            let s = self
+                .perturbation
+                .map_or(s, |perturbation| perturbation.displaced(index, elements));
             self.map.as_ref().map_or(s, |map| map.eval(s))
         })
     }
@@ -96,15 +101,24 @@ impl Refine {
     /// The runs as (elements, steps), coarse to fine.
     pub fn cases(&self) -> Vec<(usize, usize)> {
         if self.axis == Axis::Both && !self.grid {
-            return self.elements.iter().copied().zip(self.steps.iter().copied()).collect();
+            return self
+                .elements
+                .iter()
+                .copied()
+                .zip(self.steps.iter().copied())
+                .collect();
         }
         // The list of a fixed axis has one member.
-        self.elements.iter().flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps))).collect()
+        self.elements
+            .iter()
+            .flat_map(|&elements| self.steps.iter().map(move |&steps| (elements, steps)))
+            .collect()
     }
 
     /// The next level, twice as fine in the refined axes.
     pub fn finer(&self, (elements, steps): (usize, usize)) -> (usize, usize) {
-        let [in_space, in_time] = [Axis::Time, Axis::Space].map(|other| 1 + usize::from(self.axis != other));
+        let [in_space, in_time] =
+            [Axis::Time, Axis::Space].map(|other| 1 + usize::from(self.axis != other));
         (in_space * elements, in_time * steps)
     }
 
@@ -120,7 +134,11 @@ impl Refine {
 
     /// A run as a level of refinement.
     pub(crate) fn level(elements: usize, steps: usize, step: f64) -> Refinement {
-        Refinement::new(Self::label(elements, steps), &[("elements", elements), ("steps", steps)], step)
+        Refinement::new(
+            Self::label(elements, steps),
+            &[("elements", elements), ("steps", steps)],
+            step,
+        )
     }
 
     /// The length of a step.
@@ -134,19 +152,41 @@ const BUDGET: f64 = 1e7;
 
 /// The table `[refine]`.
 pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
-    let section = root.require("refine", "a table with axis, elements, steps and t_end")?.section()?;
-    let own = ["axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed", "budget"];
+    let section = root
+        .require("refine", "a table with axis, elements, steps and t_end")?
+        .section()?;
+    let own = [
+        "axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed", "budget",
+    ];
     section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;
     let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
     let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
-    let elements = levels(&section, "elements", axis, axis != Axis::Time, tables::elements)?;
-    let grid = flag(&section, "grid", axis == Axis::Both, "true only where the axis is \"both\"")?;
+    let elements = levels(
+        &section,
+        "elements",
+        axis,
+        axis != Axis::Time,
+        tables::elements,
+    )?;
+    let grid = flag(
+        &section,
+        "grid",
+        axis == Axis::Both,
+        "true only where the axis is \"both\"",
+    )?;
     let node_steps = "a number of elements times time steps > 0";
     let refine = Refine {
         axis,
         budget: until_decided::budget(&section, &["elements", "steps"], grid, BUDGET, node_steps)?,
-        isolate: flag(&section, "isolate", axis != Axis::Both, "false where the axis is \"both\"")?,
-        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| field.count(1..=limits::STEPS))?,
+        isolate: flag(
+            &section,
+            "isolate",
+            axis != Axis::Both,
+            "false where the axis is \"both\"",
+        )?,
+        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| {
+            field.count(1..=limits::STEPS)
+        })?,
         grid,
         t_end: section.positive("t_end")?,
         layout: Layout::read(&section, &elements, perturbation(&section)?)?,
@@ -155,20 +195,42 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
         settings: tables::settings(&section)?,
     };
     if refine.grid {
-        limits::cases(&section.require("elements", "a list")?, &[refine.elements.len(), refine.steps.len()])?;
+        limits::cases(
+            &section.require("elements", "a list")?,
+            &[refine.elements.len(), refine.steps.len()],
+        )?;
     }
     if axis == Axis::Both && !refine.grid && refine.elements.len() != refine.steps.len() {
-        let found = format!("{} numbers of steps for {} of elements", refine.steps.len(), refine.elements.len());
-        return Err(section.refuse("steps", found, "lists of the same length, or grid = true for all combinations"));
+        let found = format!(
+            "{} numbers of steps for {} of elements",
+            refine.steps.len(),
+            refine.elements.len()
+        );
+        return Err(section.refuse(
+            "steps",
+            found,
+            "lists of the same length, or grid = true for all combinations",
+        ));
     }
     Ok(refine)
 }
 
 /// A key that may be true only if `possible`.
-fn flag(section: &Section<'_>, key: &str, possible: bool, allowed: &str) -> Result<bool, InputError> {
-    let Some(field) = section.get(key) else { return Ok(false) };
+fn flag(
+    section: &Section<'_>,
+    key: &str,
+    possible: bool,
+    allowed: &str,
+) -> Result<bool, InputError> {
+    let Some(field) = section.get(key) else {
+        return Ok(false);
+    };
     let value = field.boolean()?;
-    if value && !possible { Err(field.refuse_as_written(allowed)) } else { Ok(value) }
+    if value && !possible {
+        Err(field.refuse_as_written(allowed))
+    } else {
+        Ok(value)
+    }
 }
 
 /// An increasing list if the key is refined, otherwise one number.
@@ -179,27 +241,45 @@ fn levels(
     refined: bool,
     read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
 ) -> Result<Vec<usize>, InputError> {
-    let what =
-        if refined { "a list of increasing whole numbers >= 1, or \"auto\"" } else { "a single whole number >= 1" };
+    let what = if refined {
+        "a list of increasing whole numbers >= 1, or \"auto\""
+    } else {
+        "a single whole number >= 1"
+    };
     let allowed = format!("{what}, because axis = \"{}\"", axis.name());
     let field = section.require(key, &allowed)?;
     if refined && until_decided::is_auto(&field) {
         return Ok(until_decided::FIRST.into());
     }
     if !refined {
-        let single = if field.is_list() { Err(field.refuse_as_written(allowed)) } else { read(&field) };
+        let single = if field.is_list() {
+            Err(field.refuse_as_written(allowed))
+        } else {
+            read(&field)
+        };
         return Ok(vec![single?]);
     }
-    section.sequence((key, &allowed, 1), read, ("a whole number >", |before, level| level > before))
+    section.sequence(
+        (key, &allowed, 1),
+        read,
+        ("a whole number >", |before, level| level > before),
+    )
 }
 
 fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {
     let (seed, perturb) = (section.get("seed"), section.get("perturb"));
     if let (Some(seed), None) = (&seed, &perturb) {
-        return Err(seed.refuse(format!("{} without perturb", seed.as_written()), "perturb beside it"));
+        return Err(seed.refuse(
+            format!("{} without perturb", seed.as_written()),
+            "perturb beside it",
+        ));
     }
-    let Some(field) = perturb else { return Ok(None) };
-    let amount = field.number_where("a number >= 0 and < 1", |amount| (0.0..1.0).contains(&amount))?;
+    let Some(field) = perturb else {
+        return Ok(None);
+    };
+    let amount = field.number_where("a number >= 0 and < 1", |amount| {
+        (0.0..1.0).contains(&amount)
+    })?;
     let seed = seed.map_or(Ok(0), |seed| seed.count(0..=usize::MAX))? as u64;
     Ok(Some(Perturbation { amount, seed }))
 }

@@ -56,13 +56,22 @@ pub struct Vibrated {
 
 impl FromFile for Vibration {
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "beam", "mode", "heat", "refine", "control", "expect"])?;
+        root.allow(&[
+            "study", "beam", "mode", "heat", "refine", "control", "expect",
+        ])?;
         let theory = linear_beam(root)?;
         let refine = refine(root)?;
         bounded(root, &refine)?;
         let (modes, heat) = (modes(root, &refine)?, heat(root, &refine)?);
         let solver = control(root, theory)?;
-        Ok(Self { theory, solver, modes, heat, refine, expect: expectations(root)? })
+        Ok(Self {
+            theory,
+            solver,
+            modes,
+            heat,
+            refine,
+            expect: expectations(root)?,
+        })
     }
 }
 
@@ -70,10 +79,18 @@ impl FromFile for Vibration {
 fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
     let theory = Coefficients::read(root)?;
     let beam = theory.beam;
-    for (key, value) in [("a", beam.a), ("rho", beam.rho), ("beta", beam.beta), ("theta_a", beam.theta_a)] {
+    for (key, value) in [
+        ("a", beam.a),
+        ("rho", beam.rho),
+        ("beta", beam.beta),
+        ("theta_a", beam.theta_a),
+    ] {
         if value != 0.0 {
-            let allowed = "0, written out: damped modes are exact for a = rho = beta = theta_a = 0 only";
-            let section = root.require("beam", "a table with zeta, a = 0 and rho = 0")?.section()?;
+            let allowed =
+                "0, written out: damped modes are exact for a = rho = beta = theta_a = 0 only";
+            let section = root
+                .require("beam", "a table with zeta, a = 0 and rho = 0")?
+                .section()?;
             return Err(section.refuse(key, format!("{value:?}"), allowed));
         }
     }
@@ -83,20 +100,40 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
 /// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds the modes of a mesh.
 fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     let section = root.require("refine", "a table")?.section()?;
-    let (steps, elements) = (section.require("steps", "a number")?, section.require("elements", "a number")?);
+    let (steps, elements) = (
+        section.require("steps", "a number")?,
+        section.require("elements", "a number")?,
+    );
     if refine.budget.is_some() {
-        let auto = if refine.axis == Axis::Time { &steps } else { &elements };
+        let auto = if refine.axis == Axis::Time {
+            &steps
+        } else {
+            &elements
+        };
         return Err(auto.refuse_as_written("a list: a study of vibrations adds no levels"));
     }
     for &level in &refine.steps {
-        limits::steps_until(&steps, refine.t_end, refine.dt(level), limits::RECORDED_STEPS)?;
+        limits::steps_until(
+            &steps,
+            refine.t_end,
+            refine.dt(level),
+            limits::RECORDED_STEPS,
+        )?;
     }
-    if refine.isolates(Axis::Time) { limits::dense(&elements, refine.elements[0]) } else { Ok(()) }
+    if refine.isolates(Axis::Time) {
+        limits::dense(&elements, refine.elements[0])
+    } else {
+        Ok(())
+    }
 }
 
 /// The indices of modes: a study that starts from the modes of its mesh has only `of_mesh` of them.
 fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
-    1..=if refine.isolates(Axis::Time) { of_mesh.min(limits::MODES) } else { limits::MODES }
+    1..=if refine.isolates(Axis::Time) {
+        of_mesh.min(limits::MODES)
+    } else {
+        limits::MODES
+    }
 }
 
 fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, InputError> {
@@ -118,11 +155,20 @@ fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputE
         let section = item.section()?;
         section.allow(&["index", "amplitude"])?;
         let allowed = "a finite number other than 0";
-        let k = section.count("index", indices(refine, refine.elements[0].saturating_sub(1).max(1)))?;
-        Ok((k, section.require("amplitude", allowed)?.number_where(allowed, |value| value != 0.0)?))
+        let k = section.count(
+            "index",
+            indices(refine, refine.elements[0].saturating_sub(1).max(1)),
+        )?;
+        Ok((
+            k,
+            section
+                .require("amplitude", allowed)?
+                .number_where(allowed, |value| value != 0.0)?,
+        ))
     };
     let allowed = "tables [[heat]] with index and amplitude";
-    root.get("heat").map_or(Ok(vec![]), |_| root.list("heat", allowed, read, |_| true))
+    root.get("heat")
+        .map_or(Ok(vec![]), |_| root.list("heat", allowed, read, |_| true))
 }
 
 impl Kind for Vibration {
@@ -131,19 +177,29 @@ impl Kind for Vibration {
     type Found = Vibrated;
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        let case = |(n, steps)| Case::new(Refine::label(n, steps), n as f64 * steps as f64, (n, steps));
+        let case =
+            |(n, steps)| Case::new(Refine::label(n, steps), n as f64 * steps as f64, (n, steps));
         self.refine.cases().into_iter().map(case).collect()
     }
 
     /// Compares the solver with the exact motion.
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
-        let Refine { scheme, settings, .. } = self.refine;
+        let Refine {
+            scheme, settings, ..
+        } = self.refine;
         let (dt, mesh) = (self.refine.dt(steps), self.refine.layout.mesh(elements)?);
         let of_mesh = self.refine.isolates(Axis::Time);
-        let modes = if of_mesh { Modes::of_mesh(self, &mesh)? } else { Modes::of_beam(self)? };
+        let modes = if of_mesh {
+            Modes::of_mesh(self, &mesh)?
+        } else {
+            Modes::of_beam(self)?
+        };
         let formulas = formulas_of(scheme)?;
         let by = self.refine.isolates(Axis::Space).then_some(formulas);
-        let (mut reference, mut closed) = (modes.moved(by, dt), of_mesh.then(|| modes.moved(Some(formulas), dt)));
+        let (mut reference, mut closed) = (
+            modes.moved(by, dt),
+            of_mesh.then(|| modes.moved(Some(formulas), dt)),
+        );
         let mut factors = Factors::default();
         reference(0, &mut factors);
         let Coefficients { beam, obstacles } = self.solver;
@@ -151,8 +207,21 @@ impl Kind for Vibration {
         let initial = nodal.initial(&mesh, &factors, self.theory.beam.theta_a, beam.theta_a);
         let mut meter = ErrorMeter::new(&modes.exact, &mesh, of_mesh);
         meter.lift(&mesh, beam.theta_a);
-        let problem = Problem { beam, obstacles, mesh: Mesh::clone(&mesh), initial };
-        let mut driver = Driver::new(problem, Stepping { scheme, settings, dt, loaded: false })?;
+        let problem = Problem {
+            beam,
+            obstacles,
+            mesh: Mesh::clone(&mesh),
+            initial,
+        };
+        let mut driver = Driver::new(
+            problem,
+            Stepping {
+                scheme,
+                settings,
+                dt,
+                loaded: false,
+            },
+        )?;
         let zero = Level::new(elements + 1);
         let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
         let mut tip = vec![(0.0, driver.level().u[elements])];
@@ -168,23 +237,42 @@ impl Kind for Vibration {
             errors = errors.max(&meter.measure(new, &factors));
             tip.push((n as f64 * dt, new.u[elements]));
         }
-        Ok(Vibrated { errors, closed_form: closed.map(|_| deviation / size), tip })
+        Ok(Vibrated {
+            errors,
+            closed_form: closed.map(|_| deviation / size),
+            tip,
+        })
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Outcome {
-        let mut checks = vec![completion(ran, |Vibrated { errors, closed_form, .. }| {
-            let norms = errors.iter().map(|(norm, error)| (norm.name(), Some(error)));
-            not_finite(norms.chain([("closed form", *closed_form)]))
-        })];
+        let mut checks = vec![completion(
+            ran,
+            |Vibrated {
+                 errors,
+                 closed_form,
+                 ..
+             }| {
+                let norms = errors
+                    .iter()
+                    .map(|(norm, error)| (norm.name(), Some(error)));
+                not_finite(norms.chain([("closed form", *closed_form)]))
+            },
+        )];
         if self.refine.isolates(Axis::Time) {
             checks.push(closed_form(ran));
         }
         // Over dt if only time is refined, otherwise over h.
         let step = |elements: usize, steps: usize| match self.refine.axis {
             Axis::Time => self.refine.dt(steps),
-            Axis::Space | Axis::Both => self.refine.layout.mesh(elements).map_or(f64::NAN, |mesh| mesh.size()),
+            Axis::Space | Axis::Both => self
+                .refine
+                .layout
+                .mesh(elements)
+                .map_or(f64::NAN, |mesh| mesh.size()),
         };
-        let errors = ran.iter().map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
+        let errors = ran
+            .iter()
+            .map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
         let levels = norm_levels(&self.refine, &self.expect, step, errors);
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
         let title = Some("Damped vibration, no source term");
@@ -192,13 +280,20 @@ impl Kind for Vibration {
         if self.refine.axis == Axis::Both {
             outcome.figures.extend(self.tip_figure(ran));
         }
-        Outcome { tables: vec![self.modes_table()], ..outcome }
+        Outcome {
+            tables: vec![self.modes_table()],
+            ..outcome
+        }
     }
 }
 
 /// If time is isolated, the exact result of the solver is known.
 fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
-    let deviation = |ran: &Ran<_, Vibrated>| ran.ok().and_then(|found| found.closed_form).unwrap_or(f64::NAN);
+    let deviation = |ran: &Ran<_, Vibrated>| {
+        ran.ok()
+            .and_then(|found| found.closed_form)
+            .unwrap_or(f64::NAN)
+    };
     let worst = ran.iter().map(deviation).fold(0.0, max_or_nan);
     Check::that(
         worst <= CLOSED_FORM && !ran.is_empty(),
@@ -212,11 +307,29 @@ impl Vibration {
         let row = |&(index, start): &(usize, [f64; 2])| {
             let omega = Mode::new(index).omega();
             let damping = 0.5 * self.theory.beam.zeta * omega;
-            let motion = if damping < 1.0 { "underdamped" } else { "overdamped" };
-            let mode = [(index + 1).to_string(), format!("{omega:.11}"), format!("{damping:.4}"), motion.to_owned()];
-            mode.into_iter().chain(start.map(|value| value.to_string())).collect()
+            let motion = if damping < 1.0 {
+                "underdamped"
+            } else {
+                "overdamped"
+            };
+            let mode = [
+                (index + 1).to_string(),
+                format!("{omega:.11}"),
+                format!("{damping:.4}"),
+                motion.to_owned(),
+            ];
+            mode.into_iter()
+                .chain(start.map(|value| value.to_string()))
+                .collect()
         };
-        let head = ["mode", "ω", "ζω/2", "motion", "u(1) at t = 0", "u_t(1) at t = 0"];
+        let head = [
+            "mode",
+            "ω",
+            "ζω/2",
+            "motion",
+            "u(1) at t = 0",
+            "u_t(1) at t = 0",
+        ];
         Table::new("Modes superposed", head, self.modes.iter().map(row))
     }
 
@@ -224,12 +337,19 @@ impl Vibration {
     fn tip_figure(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Option<Figure> {
         let (first, last) = (ran.first()?, ran.last()?);
         let (coarsest, finest, modes) = (first.ok()?, last.ok()?, Modes::of_beam(self).ok()?);
-        let exact = plots::Series::new("exact", finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))));
-        let of_level = |level: &Ran<_, _>, found: &Vibrated| plots::Series::new(&level.case.label, found.tip.clone());
+        let exact = plots::Series::new(
+            "exact",
+            finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))),
+        );
+        let of_level = |level: &Ran<_, _>, found: &Vibrated| {
+            plots::Series::new(&level.case.label, found.tip.clone())
+        };
         let [coarsest, finest] = [of_level(first, coarsest), of_level(last, finest)];
         let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
-        let caption = "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        let figure = plots::history(y, &[exact, coarsest, finest]).titled("Tip of the vibrating beam");
+        let caption =
+            "Tip displacement over time: exact, and on the coarsest and the finest level.";
+        let figure =
+            plots::history(y, &[exact, coarsest, finest]).titled("Tip of the vibrating beam");
         Some(Figure::new("tip", caption, figure.draw()))
     }
 }

@@ -46,14 +46,21 @@ pub(super) struct Modes {
 impl Modes {
     /// The exact modes.
     pub(super) fn of_beam(study: &Vibration) -> Result<Self, CaseFailure> {
-        let mut modes = Self { zeta: study.theory.beam.zeta, ..Self::default() };
+        let mut modes = Self {
+            zeta: study.theory.beam.zeta,
+            ..Self::default()
+        };
         for &(index, start) in &study.modes {
             free_vibration::add_mode(&mut modes.exact, index, modes.zeta, start)?;
-            modes.vibrations.push((Mode::new(index).omega().powi(2), start));
+            modes
+                .vibrations
+                .push((Mode::new(index).omega().powi(2), start));
         }
         for &(k, amplitude) in &study.heat {
             free_vibration::add_temperature(&mut modes.exact, k, amplitude);
-            modes.temperatures.push(((k as f64 * PI).powi(2), amplitude));
+            modes
+                .temperatures
+                .push(((k as f64 * PI).powi(2), amplitude));
         }
         Ok(modes)
     }
@@ -61,21 +68,37 @@ impl Modes {
     /// The modes of the mesh itself: P1 functions that oscillate at their own frequencies.
     pub(super) fn of_mesh(study: &Vibration, mesh: &Mesh) -> Result<Self, CaseFailure> {
         let none = || CaseFailure::new("the mesh has no modes");
-        let mut modes = Self { zeta: study.theory.beam.zeta, ..Self::default() };
+        let mut modes = Self {
+            zeta: study.theory.beam.zeta,
+            ..Self::default()
+        };
         let vibrations = vibrations(mesh).ok_or_else(none)?;
         for &(index, start) in &study.modes {
             let (square, [u, phi]) = vibrations.get(index).cloned().ok_or_else(none)?;
             let t = free_vibration::damped(square.sqrt(), modes.zeta, start)?;
-            modes.exact.u.push(Product { x: piecewise_linear(mesh, u), t: t.clone() });
-            modes.exact.phi.push(Product { x: piecewise_linear(mesh, phi), t });
+            modes.exact.u.push(Product {
+                x: piecewise_linear(mesh, u),
+                t: t.clone(),
+            });
+            modes.exact.phi.push(Product {
+                x: piecewise_linear(mesh, phi),
+                t,
+            });
             modes.vibrations.push((square, start));
         }
-        let temperatures = if study.heat.is_empty() { Some(vec![]) } else { temperatures(mesh) };
+        let temperatures = if study.heat.is_empty() {
+            Some(vec![])
+        } else {
+            temperatures(mesh)
+        };
         let temperatures = temperatures.ok_or_else(none)?;
         for &(k, amplitude) in &study.heat {
             let (square, theta) = temperatures.get(k - 1).cloned().ok_or_else(none)?;
             let t = free_vibration::decay(square, amplitude);
-            modes.exact.theta.push(Product { x: piecewise_linear(mesh, theta), t });
+            modes.exact.theta.push(Product {
+                x: piecewise_linear(mesh, theta),
+                t,
+            });
             modes.temperatures.push((square, amplitude));
         }
         Ok(modes)
@@ -83,10 +106,17 @@ impl Modes {
 
     /// Sets the time factors to those at a time level: exactly, or by a time scheme, one level after the other. All
     /// schemes treat the temperature by Crank-Nicolson.
-    pub(super) fn moved(&self, by: Option<SchemeFormulas>, dt: f64) -> impl FnMut(usize, &mut Factors) {
-        let (mut level, mut states): (usize, Vec<[f64; 2]>) = (0, self.vibrations.iter().map(|(_, at)| *at).collect());
+    pub(super) fn moved(
+        &self,
+        by: Option<SchemeFormulas>,
+        dt: f64,
+    ) -> impl FnMut(usize, &mut Factors) {
+        let (mut level, mut states): (usize, Vec<[f64; 2]>) =
+            (0, self.vibrations.iter().map(|(_, at)| *at).collect());
         move |n, factors| {
-            let Some(scheme) = by else { return factors.at(&self.exact, n as f64 * dt) };
+            let Some(scheme) = by else {
+                return factors.at(&self.exact, n as f64 * dt);
+            };
             for _ in level..n {
                 for (state, (square, _)) in states.iter_mut().zip(&self.vibrations) {
                     *state = scheme_step(scheme, *square, self.zeta, dt, *state);
@@ -104,13 +134,22 @@ impl Modes {
                 start * ((1.0 - half) / (1.0 + half)).powi(n as i32)
             };
             factors.theta.value.clear();
-            factors.theta.value.extend(self.temperatures.iter().map(temperature));
+            factors
+                .theta
+                .value
+                .extend(self.temperatures.iter().map(temperature));
         }
     }
 }
 
 /// Position and velocity of a vibration after a step by a scheme.
-fn scheme_step(scheme: SchemeFormulas, omega_squared: f64, zeta: f64, dt: f64, [q, v]: [f64; 2]) -> [f64; 2] {
+fn scheme_step(
+    scheme: SchemeFormulas,
+    omega_squared: f64,
+    zeta: f64,
+    dt: f64,
+    [q, v]: [f64; 2],
+) -> [f64; 2] {
     let kappa = scheme.inertia() / dt;
     let carrying = (kappa * v - omega_squared * q) / (kappa + omega_squared * (zeta + 0.5 * dt));
     [q + dt * carrying, v + scheme.inertia() * (carrying - v)]
@@ -122,8 +161,8 @@ fn scheme_step(scheme: SchemeFormulas, omega_squared: f64, zeta: f64, dt: f64, [
 /// shares nothing with the solver's sweeps.
 fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
     let n = mesh.elements();
-    let [mass, stiffness, coupling] =
-        [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| dense(&matrix).view((1, 1), (n, n)).into_owned());
+    let [mass, stiffness, coupling] = [mass(mesh), stiffness(mesh), coupling(mesh)]
+        .map(|matrix| dense(&matrix).view((1, 1), (n, n)).into_owned());
     let (mut a, mut b) = (DMatrix::zeros(2 * n, 2 * n), DMatrix::zeros(2 * n, 2 * n));
     a.view_mut((0, 0), (n, n)).copy_from(&stiffness);
     a.view_mut((n, n), (n, n)).copy_from(&(stiffness + &mass));
@@ -132,7 +171,11 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
     b.view_mut((0, 0), (n, n)).copy_from(&mass);
     b.view_mut((n, n), (n, n)).copy_from(&mass);
     let mode = |(square, x): (f64, DVector<f64>)| {
-        let field = |from: usize| std::iter::once(0.0).chain((from..from + n).map(|i| x[i] / x[n - 1])).collect();
+        let field = |from: usize| {
+            std::iter::once(0.0)
+                .chain((from..from + n).map(|i| x[i] / x[n - 1]))
+                .collect()
+        };
         (square, [field(0), field(n)])
     };
     Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
@@ -141,12 +184,25 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
 /// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first: κ² and nodal values, scaled to a largest value of 1.
 fn temperatures(mesh: &Mesh) -> Option<Vec<(f64, Vec<f64>)>> {
     let n = mesh.elements();
-    let [a, b] = [stiffness(mesh), mass(mesh)].map(|matrix| dense(&matrix).view((1, 1), (n - 1, n - 1)).into_owned());
+    let [a, b] = [stiffness(mesh), mass(mesh)]
+        .map(|matrix| dense(&matrix).view((1, 1), (n - 1, n - 1)).into_owned());
     let mode = |(square, x): (f64, DVector<f64>)| {
-        let larger = |largest: f64, value: &f64| if value.abs() > largest.abs() { *value } else { largest };
+        let larger = |largest: f64, value: &f64| {
+            if value.abs() > largest.abs() {
+                *value
+            } else {
+                largest
+            }
+        };
         let largest = x.iter().fold(0.0, larger);
         let inner = x.iter().map(|value| value / largest);
-        (square, std::iter::once(0.0).chain(inner).chain(std::iter::once(0.0)).collect())
+        (
+            square,
+            std::iter::once(0.0)
+                .chain(inner)
+                .chain(std::iter::once(0.0))
+                .collect(),
+        )
     };
     Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
 }
@@ -170,7 +226,9 @@ fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f6
     let mut order: Vec<usize> = (0..a.nrows()).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
     let pair = |index: usize| {
-        let x = factor.transpose().solve_upper_triangular(&eigen.eigenvectors.column(index).clone_owned())?;
+        let x = factor
+            .transpose()
+            .solve_upper_triangular(&eigen.eigenvectors.column(index).clone_owned())?;
         // Rayleigh quotient: its error is the square of the eigenvector's.
         Some(((a * &x).dot(&x) / (b * &x).dot(&x), x))
     };
@@ -191,22 +249,33 @@ mod tests {
             let error = |steps: usize| {
                 let dt = 2.0 / steps as f64;
                 let [value, slope, _] = factor.derivatives(steps as f64 * dt);
-                let [q, v] = (0..steps).fold(start, |state, _| scheme_step(formulas, 1.7, 0.2, dt, state));
+                let [q, v] =
+                    (0..steps).fold(start, |state, _| scheme_step(formulas, 1.7, 0.2, dt, state));
                 (value - q).hypot(slope - v)
             };
             let rate = (error(500) / error(1000)).log2();
-            assert!((rate - scheme.order).abs() < 0.01, "{}: {rate}", scheme.name);
+            assert!(
+                (rate - scheme.order).abs() < 0.01,
+                "{}: {rate}",
+                scheme.name
+            );
         }
     }
 
     #[test]
     fn frequencies_are_those_of_the_bisection_on_any_mesh() {
-        for mesh in [Mesh::uniform(12), Mesh::mapped(9, |s| 0.4 * s + 0.6 * s * s)] {
+        for mesh in [
+            Mesh::uniform(12),
+            Mesh::mapped(9, |s| 0.4 * s + 0.6 * s * s),
+        ] {
             let mesh = mesh.expect("a mesh");
             let modes = vibrations(&mesh).expect("a positive mass");
             let expected = discrete_frequencies(&mesh, 1, modes.len()).expect("all of them");
             for ((square, _), expected) in modes.iter().zip(expected) {
-                assert!((square.sqrt() - expected).abs() < 1e-11 * expected.max(1.0), "{expected}");
+                assert!(
+                    (square.sqrt() - expected).abs() < 1e-11 * expected.max(1.0),
+                    "{expected}"
+                );
             }
         }
     }

@@ -48,12 +48,23 @@ impl MethodRow {
             CostBy::Law(Err(_)) => none,
             CostBy::Law(Ok(law)) => [law.cost(error), law.cost(error) * self.solves_per_step()],
             CostBy::Diagonal => {
-                let along = |p: &GridPoint| [p.node_steps * p.error / error, p.node_solves * p.error / error];
-                self.points.iter().map(along).reduce(cheaper).unwrap_or(none)
+                let along = |p: &GridPoint| {
+                    [
+                        p.node_steps * p.error / error,
+                        p.node_solves * p.error / error,
+                    ]
+                };
+                self.points
+                    .iter()
+                    .map(along)
+                    .reduce(cheaper)
+                    .unwrap_or(none)
             }
             CostBy::Runs => {
                 let good = self.points.iter().filter(|point| point.error <= error);
-                good.map(|point| [point.node_steps, point.node_solves]).reduce(cheaper).unwrap_or(none)
+                good.map(|point| [point.node_steps, point.node_solves])
+                    .reduce(cheaper)
+                    .unwrap_or(none)
             }
         }
     }
@@ -69,36 +80,67 @@ impl MethodRow {
 
     /// Solves per step of the finest run, which convert node-steps to node-solves.
     fn solves_per_step(&self) -> f64 {
-        self.points.last().map_or(f64::NAN, |point| point.node_solves / point.node_steps)
+        self.points
+            .last()
+            .map_or(f64::NAN, |point| point.node_solves / point.node_steps)
     }
 }
 
 pub(super) fn judge(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Outcome {
     let rows = rows(study, ran);
     let mut checks = vec![completion(ran, |runs| {
-        readings::not_finite(&runs.iter().flat_map(|run| found(study, run)).collect::<Vec<_>>())
+        readings::not_finite(
+            &runs
+                .iter()
+                .flat_map(|run| found(study, run))
+                .collect::<Vec<_>>(),
+        )
     })];
     checks.extend(rows.iter().flat_map(|row| check_law(row, study.misfit)));
-    let claims = study.advantages.iter().map(|claim| (claim, check_advantage(claim, &rows)));
-    let (ratios, advantages): (Vec<_>, Vec<Check>) =
-        claims.map(|(claim, (ratio, check))| ((claim, ratio), check)).unzip();
-    let headline = advantages.first().map_or_else(String::new, |check| check.evidence.clone());
-    let summary = advantages.first().map_or_else(String::new, |check| format!("{}: {headline}", check.claim));
+    let claims = study
+        .advantages
+        .iter()
+        .map(|claim| (claim, check_advantage(claim, &rows)));
+    let (ratios, advantages): (Vec<_>, Vec<Check>) = claims
+        .map(|(claim, (ratio, check))| ((claim, ratio), check))
+        .unzip();
+    let headline = advantages
+        .first()
+        .map_or_else(String::new, |check| check.evidence.clone());
+    let summary = advantages
+        .first()
+        .map_or_else(String::new, |check| format!("{}: {headline}", check.claim));
     checks.extend(advantages);
-    let mut outcome = Outcome { headline, ..Outcome::new(summary, vec![], checks) };
+    let mut outcome = Outcome {
+        headline,
+        ..Outcome::new(summary, vec![], checks)
+    };
     let quantities = study.quantities().iter();
-    outcome.tables = quantities.clone().map(|&quantity| winners(quantity, &rows)).collect();
-    outcome.tables.extend([laws(&rows), runs(study, ran)].into_iter().filter(|table| !table.rows.is_empty()));
-    outcome.figures = quantities.map(|&quantity| figure(quantity, &rows)).collect();
+    outcome.tables = quantities
+        .clone()
+        .map(|&quantity| winners(quantity, &rows))
+        .collect();
+    outcome.tables.extend(
+        [laws(&rows), runs(study, ran)]
+            .into_iter()
+            .filter(|table| !table.rows.is_empty()),
+    );
+    outcome.figures = quantities
+        .map(|&quantity| figure(quantity, &rows))
+        .collect();
     outcome.quantities = guarded(&rows, &ratios);
     outcome
 }
 
 /// The measured errors and the counted cost of a run.
 fn found(study: &WorkPrecision, Measurement { errors, spent }: &Measurement) -> Vec<Reading> {
-    let error = |&quantity: &ErrorMeasure| Reading::new(quantity.name(), errors[quantity as usize]).scientific(2);
-    let cost =
-        [Reading::new("node-steps", spent.node_steps), Reading::new("node-solves", spent.node_solves).scientific(2)];
+    let error = |&quantity: &ErrorMeasure| {
+        Reading::new(quantity.name(), errors[quantity as usize]).scientific(2)
+    };
+    let cost = [
+        Reading::new("node-steps", spent.node_steps),
+        Reading::new("node-solves", spent.node_solves).scientific(2),
+    ];
     study.quantities().iter().map(error).chain(cost).collect()
 }
 
@@ -114,16 +156,31 @@ fn points(
         let (h, dts) = match case.data {
             Runs::OnMesh(of, _, elements) if of == *method => {
                 let dt = |steps: &usize| study.family.t_end / *steps as f64;
-                (1.0 / elements as f64, study.steps_on(elements).iter().map(dt).collect())
+                (
+                    1.0 / elements as f64,
+                    study.steps_on(elements).iter().map(dt).collect(),
+                )
             }
             Runs::Dg(degrees) if method.one_step.is_none() => (f64::NAN, vec![degrees.dt]),
             _ => continue,
         };
         for (k, dt) in dts.into_iter().enumerate() {
             let run = found.as_ref().ok().and_then(|runs| runs.get(k));
-            let numbers = |run: &Measurement| [run.errors[quantity], run.spent.node_steps, run.spent.node_solves];
+            let numbers = |run: &Measurement| {
+                [
+                    run.errors[quantity],
+                    run.spent.node_steps,
+                    run.spent.node_solves,
+                ]
+            };
             let [error, node_steps, node_solves] = run.map_or([f64::NAN; 3], numbers);
-            points.push(GridPoint { h, dt, error, node_steps, node_solves });
+            points.push(GridPoint {
+                h,
+                dt,
+                error,
+                node_steps,
+                node_solves,
+            });
         }
     }
     points
@@ -137,7 +194,8 @@ fn rows(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Vec<Metho
             (None, _) => [const { CostBy::Runs }; 3],
             (Some(_), Some(_)) => [const { CostBy::Diagonal }; 3],
             (Some(scheme), None) => {
-                let fit = |points: &[GridPoint]| CostLaw::fit(points, study.family.t_end, scheme.runs());
+                let fit =
+                    |points: &[GridPoint]| CostLaw::fit(points, study.family.t_end, scheme.runs());
                 let [full, superclose, tip] = &points;
                 let close = fit(superclose);
                 let law = match &close {
@@ -148,7 +206,12 @@ fn rows(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Vec<Metho
             }
         };
         let of_quantity = ErrorMeasure::ALL.into_iter().zip(points).zip(costs);
-        rows.extend(of_quantity.map(|((quantity, points), cost)| MethodRow { method, quantity, points, cost }));
+        rows.extend(of_quantity.map(|((quantity, points), cost)| MethodRow {
+            method,
+            quantity,
+            points,
+            cost,
+        }));
     }
     rows.retain(|row| study.quantities().contains(&row.quantity));
     rows.sort_by_key(|row| row.quantity as usize);
@@ -162,11 +225,22 @@ fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
         CostBy::Law(Err(reason)) => return vec![Check::that(false, claim, reason)],
         CostBy::Runs => return vec![],
         CostBy::Diagonal => {
-            let falls: Vec<f64> = row.points.windows(2).map(|two| two[0].error / two[1].error).collect();
+            let falls: Vec<f64> = row
+                .points
+                .windows(2)
+                .map(|two| two[0].error / two[1].error)
+                .collect();
             return vec![Check::that(
                 !falls.is_empty() && falls.iter().all(|fall| (FALL[0]..=FALL[1]).contains(fall)),
-                format!("{}'s error falls fourfold with twice the elements and steps", row.method.name),
-                falls.iter().map(|fall| format!("{fall:.2}")).collect::<Vec<_>>().join(", "),
+                format!(
+                    "{}'s error falls fourfold with twice the elements and steps",
+                    row.method.name
+                ),
+                falls
+                    .iter()
+                    .map(|fall| format!("{fall:.2}"))
+                    .collect::<Vec<_>>()
+                    .join(", "),
             )];
         }
     };
@@ -174,19 +248,34 @@ fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
     let undercut = law.undercut(&row.points);
     let allowed = (UNDERCUT * misfit * law.exponent()).exp();
     vec![
-        Check::that(rms <= misfit, claim, format!("misfit {rms:.4}, at most {misfit}")),
+        Check::that(
+            rms <= misfit,
+            claim,
+            format!("misfit {rms:.4}, at most {misfit}"),
+        ),
         Check::that(
             undercut <= allowed,
             format!("{}: no run is cheaper than the best path", row.name()),
-            format!("cost on the best path over cost of a run with that error: {undercut:.2}, at most {allowed:.2}"),
+            format!(
+                "cost on the best path over cost of a run with that error: {undercut:.2}, at most {allowed:.2}"
+            ),
         ),
     ]
 }
 
 /// The ratio of the costs, and whether it reaches the claim.
 fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
-    let Advantage { quantity, error, of, over, times } = *claim;
-    let find = |method: NamedMethod| rows.iter().find(|row| row.quantity == quantity && row.method == method);
+    let Advantage {
+        quantity,
+        error,
+        of,
+        over,
+        times,
+    } = *claim;
+    let find = |method: NamedMethod| {
+        rows.iter()
+            .find(|row| row.quantity == quantity && row.method == method)
+    };
     let cost = |method| find(method).map_or(f64::NAN, |row| row.cost(error)[claim.unit()]);
     let note = |method| match find(method) {
         Some(row) if !row.is_extrapolated(error) => "",
@@ -197,8 +286,17 @@ fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
     let unit = ["node-steps", "node-solves"][claim.unit()];
     let check = Check::that(
         ratio >= times && ratio.is_finite(),
-        format!("{} {error:e}: {} is at least {times} times cheaper than {}", quantity.name(), of.name, over.name),
-        format!("{ratio:.0} times cheaper: {cheap:.2e} {unit}{} against {dear:.2e}{}", note(of), note(over)),
+        format!(
+            "{} {error:e}: {} is at least {times} times cheaper than {}",
+            quantity.name(),
+            of.name,
+            over.name
+        ),
+        format!(
+            "{ratio:.0} times cheaper: {cheap:.2e} {unit}{} against {dear:.2e}{}",
+            note(of),
+            note(over)
+        ),
     );
     (ratio, check)
 }
@@ -209,10 +307,16 @@ fn winners(quantity: ErrorMeasure, rows: &[MethodRow]) -> Table {
         let cell = |row: &&MethodRow| match row.cost(error) {
             [_, solves] if solves.is_nan() => "-".to_owned(),
             [steps, solves] => {
-                format!("{steps:.2e} / {solves:.2e}{}", if row.is_extrapolated(error) { "*" } else { "" })
+                format!(
+                    "{steps:.2e} / {solves:.2e}{}",
+                    if row.is_extrapolated(error) { "*" } else { "" }
+                )
             }
         };
-        let mut solves: Vec<_> = of_quantity.iter().map(|row| (row.cost(error)[1], row.method.name)).collect();
+        let mut solves: Vec<_> = of_quantity
+            .iter()
+            .map(|row| (row.cost(error)[1], row.method.name))
+            .collect();
         solves.retain(|(cost, _)| cost.is_finite());
         solves.sort_by(|a, b| a.0.total_cmp(&b.0));
         let cheapest = solves.first().map_or("-", |(_, name)| name).to_owned();
@@ -220,20 +324,36 @@ fn winners(quantity: ErrorMeasure, rows: &[MethodRow]) -> Table {
             [first, second, ..] => format!("{:.1}", second.0 / first.0),
             _ => "-".to_owned(),
         };
-        [format!("{error:e}")].into_iter().chain(of_quantity.iter().map(cell)).chain([cheapest, ahead]).collect()
+        [format!("{error:e}")]
+            .into_iter()
+            .chain(of_quantity.iter().map(cell))
+            .chain([cheapest, ahead])
+            .collect()
     };
     let names = of_quantity.iter().map(|row| row.method.name);
-    let cells = "node-steps / node-solves on the best path, of dg by the cheapest run; * extrapolated";
-    let head = ["error"].into_iter().chain(names).chain(["cheapest", "ahead of the next"]);
-    Table::new(format!("Cost of an error in {}: {cells}", quantity.name()), head, TARGETS.iter().map(line))
+    let cells =
+        "node-steps / node-solves on the best path, of dg by the cheapest run; * extrapolated";
+    let head = ["error"]
+        .into_iter()
+        .chain(names)
+        .chain(["cheapest", "ahead of the next"]);
+    Table::new(
+        format!("Cost of an error in {}: {cells}", quantity.name()),
+        head,
+        TARGETS.iter().map(line),
+    )
 }
 
 fn laws(rows: &[MethodRow]) -> Table {
     let line = |row: &MethodRow| {
-        let CostBy::Law(law) = &row.cost else { return None };
+        let CostBy::Law(law) = &row.cost else {
+            return None;
+        };
         let number = |name, of: fn(&CostLaw) -> f64| Reading::new(name, law.as_ref().ok().map(of));
         let path = law.as_ref().map(|law| law.best(1e-4));
-        let path = path.map_or_else(Clone::clone, |[h, dt]| format!("h = {h:.2e}, dt = {dt:.2e}"));
+        let path = path.map_or_else(Clone::clone, |[h, dt]| {
+            format!("h = {h:.2e}, dt = {dt:.2e}")
+        });
         let cells = vec![
             number("C_h", |law| law.fit.c_h).scientific(3),
             number("p", |law| law.fit.p).fixed(3),
@@ -244,41 +364,96 @@ fn laws(rows: &[MethodRow]) -> Table {
             Reading::text("best path at E = 1e-4", path),
             Reading::new("solves a step", row.solves_per_step()).fixed(2),
         ];
-        Some((vec![row.quantity.name().to_owned(), row.method.name.to_owned()], cells))
+        Some((
+            vec![row.quantity.name().to_owned(), row.method.name.to_owned()],
+            cells,
+        ))
     };
     let title = "Laws e^2 = (C_h h^p)^2 + (C_t dt^q)^2 fitted to all runs; dt is that of the coarse run of richardson";
-    readings::table(title, &["error", "method"], &rows.iter().filter_map(line).collect::<Vec<_>>())
+    readings::table(
+        title,
+        &["error", "method"],
+        &rows.iter().filter_map(line).collect::<Vec<_>>(),
+    )
 }
 
 /// The runs without a fitted law.
 fn runs(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Table {
-    let single = ran.iter().filter(|ran| study.diagonal.is_some() || matches!(ran.case.data, Runs::Dg(_)));
+    let single = ran
+        .iter()
+        .filter(|ran| study.diagonal.is_some() || matches!(ran.case.data, Runs::Dg(_)));
     let line = |ran: &Ran<Runs, Vec<Measurement>>| {
         let run = ran.ok().and_then(|runs| runs.first());
-        (vec![ran.case.label.clone()], run.map_or(vec![], |run| found(study, run)))
+        (
+            vec![ran.case.label.clone()],
+            run.map_or(vec![], |run| found(study, run)),
+        )
     };
-    readings::table("Largest errors over time, and counted work", &["run"], &single.map(line).collect::<Vec<_>>())
+    readings::table(
+        "Largest errors over time, and counted work",
+        &["run"],
+        &single.map(line).collect::<Vec<_>>(),
+    )
 }
 
 fn figure(quantity: ErrorMeasure, rows: &[MethodRow]) -> Figure {
     let of_quantity = rows.iter().filter(|row| row.quantity == quantity);
-    let costs = |row: &MethodRow| front(row.points.iter().map(|point| (point.node_solves, point.error)));
-    let series: Vec<_> = of_quantity.map(|row| plots::Series::new(row.method.name, costs(row))).collect();
-    let (cost, error) = ("cost: elements × linear solves", format!("error, {}", quantity.name()));
+    let costs = |row: &MethodRow| {
+        front(
+            row.points
+                .iter()
+                .map(|point| (point.node_solves, point.error)),
+        )
+    };
+    let series: Vec<_> = of_quantity
+        .map(|row| plots::Series::new(row.method.name, costs(row)))
+        .collect();
+    let (cost, error) = (
+        "cost: elements × linear solves",
+        format!("error, {}", quantity.name()),
+    );
     let drawn = plots::work_precision(cost, error, &series);
-    let runs = "in elements times linear solves: for each method the runs that no other run of it beats.";
-    Figure::new(quantity.name(), format!("Error ({}) over cost, {runs}", quantity.name()), drawn.draw())
+    let runs =
+        "in elements times linear solves: for each method the runs that no other run of it beats.";
+    Figure::new(
+        quantity.name(),
+        format!("Error ({}) over cost, {runs}", quantity.name()),
+        drawn.draw(),
+    )
 }
 
 /// Costs by the laws, and the ratios claimed for dG.
 fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
     let laws = rows.iter().filter(|row| matches!(row.cost, CostBy::Law(_)));
-    let laws = laws
-        .map(|row| Quantity::new(format!("node-steps for 1e-4, {}", row.name()), row.cost(1e-4)[0], COST_TOLERANCE));
-    let of_dg = ratios.iter().filter(|(claim, ratio)| claim.unit() == 1 && ratio.is_finite());
-    laws.chain(of_dg.map(|(Advantage { quantity, error, of, over, .. }, ratio)| {
-        let name = format!("times cheaper, {} {error:e}, {} over {}", quantity.name(), of.name, over.name);
-        Quantity::new(name, *ratio, RATIO_TOLERANCE)
-    }))
+    let laws = laws.map(|row| {
+        Quantity::new(
+            format!("node-steps for 1e-4, {}", row.name()),
+            row.cost(1e-4)[0],
+            COST_TOLERANCE,
+        )
+    });
+    let of_dg = ratios
+        .iter()
+        .filter(|(claim, ratio)| claim.unit() == 1 && ratio.is_finite());
+    laws.chain(of_dg.map(
+        |(
+            Advantage {
+                quantity,
+                error,
+                of,
+                over,
+                ..
+            },
+            ratio,
+        )| {
+            let name = format!(
+                "times cheaper, {} {error:e}, {} over {}",
+                quantity.name(),
+                of.name,
+                over.name
+            );
+            Quantity::new(name, *ratio, RATIO_TOLERANCE)
+        },
+    ))
     .collect()
 }

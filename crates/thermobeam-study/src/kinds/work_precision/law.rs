@@ -55,7 +55,13 @@ impl CostLaw {
     /// # Errors
     /// A message if no law can be fitted: errors that are not finite, rates that are not positive.
     pub(super) fn fit(points: &[GridPoint], t_end: f64, runs: f64) -> Result<Self, String> {
-        Self { fit: fit_surface(points)?, t_end, runs, reach: 0.0 }.over(points)
+        Self {
+            fit: fit_surface(points)?,
+            t_end,
+            runs,
+            reach: 0.0,
+        }
+        .over(points)
     }
 
     /// The law of errors in the norm of Theorem 3.4, from the law of the distances to the interpolant in the same runs.
@@ -67,15 +73,25 @@ impl CostLaw {
         distances: &[GridPoint],
         law: &Self,
     ) -> Result<Self, String> {
-        let finest = points.iter().map(|point| point.dt).fold(f64::INFINITY, f64::min);
-        let of_finest = points.iter().zip(distances).filter(|(point, _)| point.dt == finest);
+        let finest = points
+            .iter()
+            .map(|point| point.dt)
+            .fold(f64::INFINITY, f64::min);
+        let of_finest = points
+            .iter()
+            .zip(distances)
+            .filter(|(point, _)| point.dt == finest);
         let level = |(e, s): (&GridPoint, &GridPoint)| fit::Level {
             step: e.h,
             error: ((e.error - s.error) * (e.error + s.error)).sqrt(),
         };
-        let line =
-            fit_line(&of_finest.map(level).collect::<Vec<_>>()).ok_or("no line through the interpolation errors")?;
-        let fit = SurfaceFit { p: line.slope, c_h: line.intercept.exp(), ..law.fit.clone() };
+        let line = fit_line(&of_finest.map(level).collect::<Vec<_>>())
+            .ok_or("no line through the interpolation errors")?;
+        let fit = SurfaceFit {
+            p: line.slope,
+            c_h: line.intercept.exp(),
+            ..law.fit.clone()
+        };
         Self { fit, ..law.clone() }.over(points)
     }
 
@@ -83,11 +99,16 @@ impl CostLaw {
     fn over(mut self, points: &[GridPoint]) -> Result<Self, String> {
         let SurfaceFit { p, q, .. } = self.fit;
         if !(p > 0.0 && q > 0.0) {
-            return Err(format!("the errors do not fall: rates {p:.3} in space, {q:.3} in time"));
+            return Err(format!(
+                "the errors do not fall: rates {p:.3} in space, {q:.3} in time"
+            ));
         }
         let square = |p: &GridPoint| (self.error(p.h, p.dt) / p.error).ln().powi(2);
         self.fit.rms = (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt();
-        self.reach = points.iter().map(|p| p.error).fold(f64::INFINITY, min_or_nan);
+        self.reach = points
+            .iter()
+            .map(|p| p.error)
+            .fold(f64::INFINITY, min_or_nan);
         Ok(self)
     }
 
@@ -99,7 +120,10 @@ impl CostLaw {
     pub(super) fn best(&self, error: f64) -> [f64; 2] {
         let SurfaceFit { p, q, c_h, c_t, .. } = self.fit;
         let share = |weight: f64| error * (weight / (p + q)).sqrt();
-        [(share(q) / c_h).powf(1.0 / p), (share(p) / c_t).powf(1.0 / q)]
+        [
+            (share(q) / c_h).powf(1.0 / p),
+            (share(p) / c_t).powf(1.0 / q),
+        ]
     }
 
     /// Node-steps of that run.
@@ -163,17 +187,27 @@ pub fn fit_surface(points: &[GridPoint]) -> Result<SurfaceFit, String> {
     let unusable = |point: &GridPoint| ![point.h, point.dt, point.error].into_iter().all(usable);
     if let Some(index) = points.iter().position(unusable) {
         let point = points[index];
-        return Err(format!("point {index}: h, dt and the error must be positive and finite, found {point:?}"));
+        return Err(format!(
+            "point {index}: h, dt and the error must be positive and finite, found {point:?}"
+        ));
     }
     let surface = minimize(points)?;
     let jacobian = surface.jacobian_matrix();
     let normal: Matrix4<f64> = jacobian.transpose() * &jacobian;
     let [a, p, b, q] = surface.parameters.into();
-    let determined = normal.cholesky().is_some_and(|normal| normal.inverse().iter().all(|value| value.is_finite()));
+    let determined = normal
+        .cholesky()
+        .is_some_and(|normal| normal.inverse().iter().all(|value| value.is_finite()));
     if !determined || !surface.parameters.iter().all(|value| value.is_finite()) {
         return Err("the grid does not determine all of C_h, p, C_t, q".to_owned());
     }
-    Ok(SurfaceFit { p, q, c_h: a.exp(), c_t: b.exp(), rms: surface.rms() })
+    Ok(SurfaceFit {
+        p,
+        q,
+        c_h: a.exp(),
+        c_t: b.exp(),
+        rms: surface.rms(),
+    })
 }
 
 /// Best of the minima found from orders 1 and 2 on either axis: a single start may exchange the two contributions.
@@ -184,7 +218,10 @@ fn minimize(points: &[GridPoint]) -> Result<Surface<'_>, String> {
         let (surface, report) = LevenbergMarquardt::new().minimize(Surface::start(points, p, q));
         // At a perfect fit only round-off remains, which the library does not count as success.
         let done = report.termination.was_successful()
-            || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
+            || matches!(
+                report.termination,
+                TerminationReason::NoImprovementPossible(_)
+            );
         if !done || !surface.rss().is_finite() {
             complaint = report.termination;
         } else if best.as_ref().is_none_or(|best| surface.rss() < best.rss()) {
@@ -209,7 +246,12 @@ impl<'a> Surface<'a> {
             points.iter().map(|point| value(point).ln()).sum::<f64>() / points.len() as f64
         };
         let share = mean(|point| point.error) - 2.0_f64.ln() / 2.0;
-        let parameters = Vector4::new(share - p * mean(|point| point.h), p, share - q * mean(|point| point.dt), q);
+        let parameters = Vector4::new(
+            share - p * mean(|point| point.h),
+            p,
+            share - q * mean(|point| point.dt),
+            q,
+        );
         Self { points, parameters }
     }
 
@@ -227,7 +269,10 @@ impl<'a> Surface<'a> {
     }
 
     fn rss(&self) -> f64 {
-        self.points.iter().map(|point| self.residual(point).powi(2)).sum()
+        self.points
+            .iter()
+            .map(|point| self.residual(point).powi(2))
+            .sum()
     }
 
     fn rms(&self) -> f64 {
@@ -240,7 +285,10 @@ impl<'a> Surface<'a> {
             let w = 1.0 / (1.0 + (2.0 * (b - a)).exp());
             [w, w * point.h.ln(), 1.0 - w, (1.0 - w) * point.dt.ln()]
         };
-        OMatrix::<f64, Dyn, U4>::from_row_iterator(self.points.len(), self.points.iter().flat_map(row))
+        OMatrix::<f64, Dyn, U4>::from_row_iterator(
+            self.points.len(),
+            self.points.iter().flat_map(row),
+        )
     }
 }
 
@@ -258,7 +306,10 @@ impl LeastSquaresProblem<f64, Dyn, U4> for Surface<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        Some(DVector::from_iterator(self.points.len(), self.points.iter().map(|point| self.residual(point))))
+        Some(DVector::from_iterator(
+            self.points.len(),
+            self.points.iter().map(|point| self.residual(point)),
+        ))
     }
 
     fn jacobian(&self) -> Option<OMatrix<f64, Dyn, U4>> {
@@ -275,7 +326,13 @@ mod tests {
         for elements in [8.0, 16.0, 32.0, 64.0] {
             for steps in [10.0, 20.0, 40.0, 80.0] {
                 let (h, dt, node_steps) = (1.0 / elements, 2.0 / steps, elements * steps);
-                points.push(GridPoint { h, dt, error: error(h, dt), node_steps, node_solves: node_steps });
+                points.push(GridPoint {
+                    h,
+                    dt,
+                    error: error(h, dt),
+                    node_steps,
+                    node_solves: node_steps,
+                });
             }
         }
         points
@@ -306,9 +363,21 @@ mod tests {
 
     #[test]
     fn the_front_leaves_out_what_is_beaten() {
-        let point = |node_steps, error| GridPoint { error, node_steps, ..GridPoint::default() };
-        let points = [point(4.0, 0.1), point(1.0, 0.5), point(2.0, 0.7), point(3.0, f64::NAN)];
-        assert_eq!(front(points.iter().map(|p| (p.node_steps, p.error))), vec![(1.0, 0.5), (4.0, 0.1)]);
+        let point = |node_steps, error| GridPoint {
+            error,
+            node_steps,
+            ..GridPoint::default()
+        };
+        let points = [
+            point(4.0, 0.1),
+            point(1.0, 0.5),
+            point(2.0, 0.7),
+            point(3.0, f64::NAN),
+        ];
+        assert_eq!(
+            front(points.iter().map(|p| (p.node_steps, p.error))),
+            vec![(1.0, 0.5), (4.0, 0.1)]
+        );
     }
 
     /// A few scattered points have several minima, and the best starting point varies.
@@ -318,21 +387,44 @@ mod tests {
         for seed in [19, 66, 97, 185, 195_u64] {
             let mut state = seed * 7919 + 1;
             let mut next = || {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
                 (state >> 11) as f64 / (1_u64 << 53) as f64
             };
-            let (p, q, ratio) = (0.5 + 2.0 * next(), 0.5 + 2.0 * next(), (4.0 * next() - 2.0).exp());
+            let (p, q, ratio) = (
+                0.5 + 2.0 * next(),
+                0.5 + 2.0 * next(),
+                (4.0 * next() - 2.0).exp(),
+            );
             let mut point = || {
                 let (h, dt) = (0.5 * (-3.0 * next()).exp(), 0.5 * (-3.0 * next()).exp());
                 let error = h.powf(p).hypot(ratio * dt.powf(q)) * (0.1 * next()).exp();
-                GridPoint { h, dt, error, ..GridPoint::default() }
+                GridPoint {
+                    h,
+                    dt,
+                    error,
+                    ..GridPoint::default()
+                }
             };
             let points: Vec<GridPoint> = (0..5 + seed % 6).map(|_| point()).collect();
-            let from = |(p, q)| LevenbergMarquardt::new().minimize(Surface::start(&points, p, q)).0.rss();
+            let from = |(p, q)| {
+                LevenbergMarquardt::new()
+                    .minimize(Surface::start(&points, p, q))
+                    .0
+                    .rss()
+            };
             let minima = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0), (2.0, 2.0)].map(from);
             let lowest = minima.iter().copied().fold(f64::INFINITY, f64::min);
-            assert!(minima.iter().any(|rss| *rss > 1.2 * lowest), "seed {seed} has one minimum: {minima:?}");
-            assert_eq!(minimize(&points).expect("regular").rss(), lowest, "seed {seed}");
+            assert!(
+                minima.iter().any(|rss| *rss > 1.2 * lowest),
+                "seed {seed} has one minimum: {minima:?}"
+            );
+            assert_eq!(
+                minimize(&points).expect("regular").rss(),
+                lowest,
+                "seed {seed}"
+            );
             winners.extend(minima.iter().position(|rss| *rss == lowest));
         }
         assert!(winners.len() > 1, "{winners:?}");

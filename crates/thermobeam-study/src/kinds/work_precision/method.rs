@@ -31,17 +31,42 @@ pub struct OneStep {
     pub extrapolated: bool,
 }
 
-const fn row(name: &'static str, scheme: Scheme, solver: Solver, extrapolated: bool) -> NamedMethod {
-    NamedMethod { name, one_step: Some(OneStep { scheme, solver, extrapolated }) }
+const fn row(
+    name: &'static str,
+    scheme: Scheme,
+    solver: Solver,
+    extrapolated: bool,
+) -> NamedMethod {
+    NamedMethod {
+        name,
+        one_step: Some(OneStep {
+            scheme,
+            solver,
+            extrapolated,
+        }),
+    }
 }
 
 /// All methods; a new one-step method is a row.
 pub const METHODS: [NamedMethod; 5] = [
-    row("fixed-point", EULER_CRANK_NICOLSON, Solver::FixedPoint, false),
-    row("euler-crank-nicolson", EULER_CRANK_NICOLSON, Solver::Newton, false),
+    row(
+        "fixed-point",
+        EULER_CRANK_NICOLSON,
+        Solver::FixedPoint,
+        false,
+    ),
+    row(
+        "euler-crank-nicolson",
+        EULER_CRANK_NICOLSON,
+        Solver::Newton,
+        false,
+    ),
     row("richardson", EULER_CRANK_NICOLSON, Solver::Newton, true),
     row("midpoint", MIDPOINT, Solver::Newton, false),
-    NamedMethod { name: "dg", one_step: None },
+    NamedMethod {
+        name: "dg",
+        one_step: None,
+    },
 ];
 
 /// A run: largest errors over the times of observation, and its cost.
@@ -83,11 +108,18 @@ impl OneStep {
     ) -> Result<Measurement, CaseFailure> {
         let settings = Settings {
             solver: self.solver,
-            stopping: Stopping::Converged { tolerance, max_iterations: 1000 },
+            stopping: Stopping::Converged {
+                tolerance,
+                max_iterations: 1000,
+            },
             ..Settings::default()
         };
         let mut run = on.start(self.scheme, settings, steps)?;
-        let mut half = if self.extrapolated { Some(on.start(self.scheme, settings, 2 * steps)?) } else { None };
+        let mut half = if self.extrapolated {
+            Some(on.start(self.scheme, settings, 2 * steps)?)
+        } else {
+            None
+        };
         let mut errors = [0.0_f64; 3];
         for index in 0..observations {
             advance(&mut run, steps / observations)?;
@@ -110,7 +142,11 @@ impl OneStep {
 pub(super) const GRADED: [f64; 3] = [0.0, 0.9, 1.0];
 
 /// The default reference.
-pub(super) const REFERENCE: Degrees = Degrees { p: 26, q: 5, dt: 0.0021 };
+pub(super) const REFERENCE: Degrees = Degrees {
+    p: 26,
+    q: 5,
+    dt: 0.0021,
+};
 
 /// Ratio of the first step to the largest.
 const RESTART: f64 = 0.05;
@@ -157,7 +193,13 @@ impl Degrees {
             ..dg::Stepping::default()
         };
         let mut motion = family.dg(Mesh::from_nodes(nodes.to_vec())?, p, stepping)?;
-        let time = |k: usize| if k == times { family.t_end } else { family.t_end * k as f64 / times as f64 };
+        let time = |k: usize| {
+            if k == times {
+                family.t_end
+            } else {
+                family.t_end * k as f64 / times as f64
+            }
+        };
         let (mut level, mut shown) = (motion.simulation().level().clone(), 0);
         while motion.step(family.t_end)?.is_some() {
             let simulation = motion.simulation();
@@ -170,6 +212,10 @@ impl Degrees {
         let (stages, work) = ((q + 1) as f64, simulation.work());
         let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
         let weight = simulation.space().blocks() as f64 * stages * stages;
-        Ok(Spent { node_steps: weight * work.steps as f64, node_solves: weight * solves, seconds })
+        Ok(Spent {
+            node_steps: weight * work.steps as f64,
+            node_solves: weight * solves,
+            seconds,
+        })
     }
 }

@@ -97,7 +97,12 @@ enum Yardstick {
     /// The exact solution.
     Exact,
     /// A scene by two discretisations of any order, and their largest allowed distance in the norm of Theorem 3.4.
-    Agreed { scene: Box<Scene>, by: Box<[Discretisation; 2]>, agreement: f64, computed: Computed<Traced> },
+    Agreed {
+        scene: Box<Scene>,
+        by: Box<[Discretisation; 2]>,
+        agreement: f64,
+        computed: Computed<Traced>,
+    },
     /// u(1, t) at the times of observation, by dG.
     Tip(Computed<Vec<f64>>),
 }
@@ -114,12 +119,20 @@ pub enum Runs {
 impl WorkPrecision {
     /// Equidistant times at which the error is measured.
     fn observations(&self) -> usize {
-        if self.diagonal.is_some() { OBSERVED } else { self.steps[0] }
+        if self.diagonal.is_some() {
+            OBSERVED
+        } else {
+            self.steps[0]
+        }
     }
 
     /// The measured quantities.
     pub fn quantities(&self) -> &'static [ErrorMeasure] {
-        if self.diagonal.is_some() { &[ErrorMeasure::Tip] } else { &ErrorMeasure::ALL }
+        if self.diagonal.is_some() {
+            &[ErrorMeasure::Tip]
+        } else {
+            &ErrorMeasure::ALL
+        }
     }
 
     pub(crate) fn methods(&self) -> impl Iterator<Item = NamedMethod> {
@@ -131,7 +144,12 @@ impl WorkPrecision {
 
     /// Steps of the runs on a mesh.
     pub(crate) fn steps_on(&self, elements: usize) -> &[usize] {
-        match self.elements.iter().position(|&n| n == elements).filter(|_| self.diagonal.is_some()) {
+        match self
+            .elements
+            .iter()
+            .position(|&n| n == elements)
+            .filter(|_| self.diagonal.is_some())
+        {
             Some(place) => &self.steps[place..=place],
             None => &self.steps,
         }
@@ -140,30 +158,50 @@ impl WorkPrecision {
     pub(crate) fn runs(&self) -> impl Iterator<Item = Runs> {
         self.methods().flat_map(|method| -> Vec<Runs> {
             match method.one_step {
-                Some(scheme) => self.elements.iter().map(|&n| Runs::OnMesh(method, scheme, n)).collect(),
+                Some(scheme) => self
+                    .elements
+                    .iter()
+                    .map(|&n| Runs::OnMesh(method, scheme, n))
+                    .collect(),
                 None => self.dg.iter().copied().map(Runs::Dg).collect(),
             }
         })
     }
 
-    fn agreed(&self, scene: &Scene, by: &[Discretisation; 2], agreement: f64) -> Result<Traced, CaseFailure> {
+    fn agreed(
+        &self,
+        scene: &Scene,
+        by: &[Discretisation; 2],
+        agreement: f64,
+    ) -> Result<Traced, CaseFailure> {
         let finest = self.elements.last().copied().unwrap_or(1);
         let run = |how: &Discretisation| {
-            Traced::compute(&how.of(scene, self.family.t_end)?, fine_mesh(scene, finest)?, self.observations())
+            Traced::compute(
+                &how.of(scene, self.family.t_end)?,
+                fine_mesh(scene, finest)?,
+                self.observations(),
+            )
         };
         let (one, other) = (run(&by[0])?, run(&by[1])?);
         let apart = one.distance(&other);
         if apart <= agreement {
             return Ok(one);
         }
-        Err(CaseFailure::new(format!("the two references are {apart:.1e} apart, allowed {agreement:e}")))
+        Err(CaseFailure::new(format!(
+            "the two references are {apart:.1e} apart, allowed {agreement:e}"
+        )))
     }
 
     fn exact_tip(&self) -> Result<Vec<f64>, CaseFailure> {
         let mut tip = vec![];
-        REFERENCE.run(&self.family, &GRADED, self.observations(), &mut |space, level, _| {
-            tip.extend(nodal(space, level, &[1.0]).u);
-        })?;
+        REFERENCE.run(
+            &self.family,
+            &GRADED,
+            self.observations(),
+            &mut |space, level, _| {
+                tip.extend(nodal(space, level, &[1.0]).u);
+            },
+        )?;
         Ok(tip)
     }
 
@@ -171,10 +209,18 @@ impl WorkPrecision {
     fn evaluator(&self, on: &OnMesh<'_>) -> Result<Evaluator<'_>, CaseFailure> {
         let reference = match &self.answer {
             Yardstick::Tip(computed) => {
-                let tip = computed.get_or_init(|| self.exact_tip()).as_ref().map_err(Clone::clone)?;
+                let tip = computed
+                    .get_or_init(|| self.exact_tip())
+                    .as_ref()
+                    .map_err(Clone::clone)?;
                 return Ok(Evaluator::of_tip(tip));
             }
-            Yardstick::Agreed { scene, by, agreement, computed } => {
+            Yardstick::Agreed {
+                scene,
+                by,
+                agreement,
+                computed,
+            } => {
                 let computed = computed.get_or_init(|| self.agreed(scene, by, *agreement));
                 Some(computed.as_ref().map_err(Clone::clone)?)
             }
@@ -189,18 +235,25 @@ impl WorkPrecision {
             Runs::OnMesh(_, scheme, elements) => {
                 let on = self.family.on(elements)?;
                 let mut evaluator = self.evaluator(&on)?;
-                let mut run = |&steps: &usize| scheme.run(&on, &mut evaluator, [steps, times], self.tolerance);
+                let mut run = |&steps: &usize| {
+                    scheme.run(&on, &mut evaluator, [steps, times], self.tolerance)
+                };
                 self.steps_on(elements).iter().map(&mut run).collect()
             }
             Runs::Dg(degrees) => {
                 let finest = self.elements.last().copied().unwrap_or(1);
-                let on = self.family.on(if self.diagonal.is_some() { 1 } else { FINER * finest })?;
-                let (mut evaluator, mut errors) = (self.evaluator(&on)?, [0.0; 3]);
-                let spent = degrees.run(&self.family, &GRADED, times, &mut |space, level, index| {
-                    let level_on = nodal(space, level, on.mesh().nodes());
-                    let [_, nodal, tip] = evaluator.measure(&level_on, index, level.t);
-                    errors = worst(errors, [nodal, nodal, tip]);
+                let on = self.family.on(if self.diagonal.is_some() {
+                    1
+                } else {
+                    FINER * finest
                 })?;
+                let (mut evaluator, mut errors) = (self.evaluator(&on)?, [0.0; 3]);
+                let spent =
+                    degrees.run(&self.family, &GRADED, times, &mut |space, level, index| {
+                        let level_on = nodal(space, level, on.mesh().nodes());
+                        let [_, nodal, tip] = evaluator.measure(&level_on, index, level.t);
+                        errors = worst(errors, [nodal, nodal, tip]);
+                    })?;
                 Ok(vec![Measurement { errors, spent }])
             }
         }
@@ -222,7 +275,11 @@ impl Kind for WorkPrecision {
             Runs::OnMesh(method, scheme, elements) => {
                 let steps: usize = self.steps_on(elements).iter().sum();
                 // The fixed point needs several iterations where Newton's method needs one pass.
-                let passes = if scheme.solver == Solver::FixedPoint { 8.0 } else { 1.0 };
+                let passes = if scheme.solver == Solver::FixedPoint {
+                    8.0
+                } else {
+                    1.0
+                };
                 let cost = (elements * steps) as f64 * scheme.runs() * passes;
                 Case::new(format!("{}, n = {elements}", method.name), cost, data)
             }

@@ -13,7 +13,10 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
 }
 
 fn series(label: &str, points: Vec<(f64, f64)>) -> Series {
-    Series { label: label.into(), points }
+    Series {
+        label: label.into(),
+        points,
+    }
 }
 
 fn tip(t: f64) -> f64 {
@@ -24,7 +27,9 @@ fn tip(t: f64) -> f64 {
 pub(crate) fn contraction_factors() -> Vec<Series> {
     let dt = |k: i32| 10f64.powf(-4.0 + 0.25 * f64::from(k));
     let alpha = |eps: f64, k: i32| dt(k).powf(1.5) / (eps * 0.1_f64.sqrt());
-    let family = |eps: f64, ks: std::ops::Range<i32>| ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k))).collect();
+    let family = |eps: f64, ks: std::ops::Range<i32>| {
+        ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k))).collect()
+    };
     vec![
         series("ε = 10⁻²", family(1e-2, 0..9)),
         series("ε = 10⁻³", family(1e-3, 0..7)),
@@ -34,7 +39,11 @@ pub(crate) fn contraction_factors() -> Vec<Series> {
 
 pub(crate) fn equilibria() -> String {
     let beta = |k: i32| -1.4 + 0.01 * f64::from(k);
-    let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| Branch { label: label.into(), points, stable };
+    let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| Branch {
+        label: label.into(),
+        points,
+        stable,
+    };
     let pitchfork = |sign: f64| {
         (0..69)
             .map(|k| (beta(k), sign * 0.6 * (-0.7116 - beta(k)).max(0.0).sqrt()))
@@ -45,23 +54,51 @@ pub(crate) fn equilibria() -> String {
         branch("free", true, (69..140).map(|k| (beta(k), 0.0)).collect()),
         branch("free", false, (0..70).map(|k| (beta(k), 0.0)).collect()),
         branch("free", true, pitchfork(1.0)),
-        branch("upper contact", true, (0..66).map(|k| (beta(k), 0.1 + 1e-5)).collect()),
-        branch("lower contact", true, (0..68).map(|k| (beta(k), -0.05)).collect()),
+        branch(
+            "upper contact",
+            true,
+            (0..66).map(|k| (beta(k), 0.1 + 1e-5)).collect(),
+        ),
+        branch(
+            "lower contact",
+            true,
+            (0..68).map(|k| (beta(k), -0.05)).collect(),
+        ),
     ];
-    let obstacles = vec![Guide { label: "g₁".into(), value: -0.05 }, Guide { label: "g₂".into(), value: 0.1 }];
-    let ends = series("end of a simulation", vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)]);
+    let obstacles = vec![
+        Guide {
+            label: "g₁".into(),
+            value: -0.05,
+        },
+        Guide {
+            label: "g₂".into(),
+            value: 0.1,
+        },
+    ];
+    let ends = series(
+        "end of a simulation",
+        vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)],
+    );
     bifurcation(&branches, obstacles, &ends)
 }
 
 pub(crate) fn motion() -> Animation {
     let times: Vec<f64> = (0..60).map(|n| 3.0 * f64::from(n) / 59.0).collect();
     let nodes: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
-    let shape =
-        |t: f64, x: f64| tip(t) * x * x * (3.0 - x) / 2.0 + 0.012 * (4.71 * x).sin() * (16.0 * t).sin() * (1.0 - x);
-    let u = times.iter().map(|&t| nodes.iter().map(|&x| shape(t, x)).collect()).collect();
+    let shape = |t: f64, x: f64| {
+        tip(t) * x * x * (3.0 - x) / 2.0 + 0.012 * (4.71 * x).sin() * (16.0 * t).sin() * (1.0 - x)
+    };
+    let u = times
+        .iter()
+        .map(|&t| nodes.iter().map(|&x| shape(t, x)).collect())
+        .collect();
     Animation {
         title: Some("A beam between two obstacles".into()),
-        frames: Frames { u, times, points: nodes },
+        frames: Frames {
+            u,
+            times,
+            points: nodes,
+        },
         obstacles: Some((-0.01, 0.1)),
         seconds: 10.0,
     }

@@ -88,17 +88,4 @@ mod tests {
         ];
         assert!(files.iter().all(|file| reports.join(file).is_file()));
     }
-
-    #[test]
-    fn the_example_is_short() {
-        let program = include_str!("heat_equation.rs")
-            .split("\n#[cfg(test)]")
-            .next()
-            .unwrap();
-        assert!(
-            program.lines().count() <= 40,
-            "{} lines",
-            program.lines().count()
-        );
-    }
 }

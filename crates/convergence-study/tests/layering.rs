@@ -41,12 +41,13 @@ const ORDER: [&str; 11] = [
 const BELOW: [&str; 2] = ["text", "judge"];
 
 /// Libraries that only some modules may use.
-const LIBRARIES: [(&str, &[&str]); 12] = [
+const LIBRARIES: [(&str, &[&str]); 13] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("console", &["cli"]),
     ("ctrlc", &["cli"]),
     ("indicatif", &["cli"]),
+    ("manufacture", &["cli"]),
     ("nix", &["program"]),
     ("toml", &["input"]),
     ("plotters", &["plots"]),
@@ -57,9 +58,10 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 7] = [
+const CRATES: [(&str, &[&str]); 8] = [
     ("convergence-judge", &[]),
-    ("convergence-study", &["convergence-judge"]),
+    ("manufacture", &[]),
+    ("convergence-study", &["convergence-judge", "manufacture"]),
     ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["thermobeam"]),

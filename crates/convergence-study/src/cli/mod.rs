@@ -1,4 +1,4 @@
-//! The command line: `new`, `verify`, `study`, `list`, `rates`, `compare`, `report`, `explain`, `completions`, for any project.
+//! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`, `explain`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
 //! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
@@ -10,6 +10,7 @@ pub mod explain;
 pub mod flags;
 mod github;
 mod list;
+mod manufacture;
 mod new;
 mod rates;
 mod report;
@@ -43,6 +44,7 @@ pub enum Command {
     Compare(compare::Arguments),
     Report(report::Arguments),
     New(new::Arguments),
+    Manufacture(manufacture::Arguments),
     /// Print completions for a shell
     ///
     /// A shell completes a program of that name on the PATH, not an alias such as cargo's. For bash: source <(PROGRAM completions bash)
@@ -60,8 +62,9 @@ pub enum Command {
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 9] = [
+pub const COMMANDS: [&str; 10] = [
     "new",
+    "manufacture",
     "verify",
     "study",
     "list",
@@ -88,6 +91,7 @@ impl Command {
             Self::Compare(arguments) => compare::run(arguments),
             Self::Report(arguments) => report::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
+            Self::Manufacture(arguments) => manufacture::run(arguments),
             Self::Completions { shell } => complete(whole, project, *shell),
             Self::Guard { mark } => serve(mark),
         }

@@ -1,0 +1,231 @@
+//! `manufacture FILE`: sources and data for a chosen exact solution, checked, emitted, compared.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use manufacture::{Check, Comparison, Finding, Language, Manufacture, Sampling};
+use serde_json::{Value, json};
+
+use super::exit::{Outcome, Unusable};
+use super::flags::Flags;
+use super::screen::{self, Format};
+use crate::judge::verdict::Verdict;
+use crate::store::atomic;
+use crate::store::json as text_of;
+
+/// Version of the formats of this command.
+const SCHEMA: u32 = 1;
+
+/// Derive and check source terms and data for a chosen exact solution, and write them in a language
+///
+/// Without further options: the check. Its notes say what a test with this solution would not notice. Exit status 1 if the check
+/// fails, or if a foreign source differs; then no file is written.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The file with coordinates, exact solution, equations and data
+    file: PathBuf,
+    /// Write files in these languages to the folder of --out: c, fortran, python, ufl, octave, rust
+    #[arg(long, value_name = "LANGUAGE", value_delimiter = ',', value_parser = language)]
+    language: Vec<Language>,
+    /// Print the values at the points of a table: coordinates, time and optionally the face, under a header
+    #[arg(long, value_name = "POINTS", conflicts_with_all = ["language", "against"])]
+    at: Option<PathBuf>,
+    /// Compare with the source that a command computes, and say what is wrong with it
+    ///
+    /// The command reads a line of names and then a point a line; it prints a line of numbers for each point, under a line of
+    /// names if there are several quantities.
+    #[arg(long, value_name = "COMMAND", conflicts_with = "language")]
+    against: Option<String>,
+    /// The face whose data the command computes
+    #[arg(long, value_name = "FACE", requires = "against")]
+    on: Option<String>,
+    /// The same seed draws the same points
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Random points of each part of the domain
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(2..))]
+    points: u64,
+    /// Notes fail, too
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+fn language(text: &str) -> Result<Language, String> {
+    let known = Language::ALL.iter().find(|known| known.0 == text);
+    let names = Language::ALL.map(|known| known.0).join(", ");
+    known
+        .map(|known| known.1)
+        .ok_or(format!("expected one of {names}"))
+}
+
+/// Reads the file, and does what is requested of it.
+///
+/// # Errors
+/// A file, a table or a command that cannot be used.
+pub(super) fn run(arguments: &Arguments) -> Outcome {
+    let manufacture = Manufacture::read(&arguments.file)?;
+    let sampling = Sampling {
+        seed: arguments.seed,
+        points: arguments.points as usize,
+        is_strict: arguments.strict,
+    };
+    if let Some(table) = &arguments.at {
+        return values(&manufacture, table);
+    }
+    if let Some(command) = &arguments.against {
+        let comparisons = manufacture.against(command, arguments.on.as_deref(), &sampling)?;
+        return compared(arguments, &manufacture, &comparisons);
+    }
+    let mut check = manufacture.check(&sampling)?;
+    let folder = temporary(&arguments.language)?;
+    for language in &arguments.language {
+        let findings = manufacture.check_emitted(*language, &folder, &sampling)?;
+        check.add(findings, arguments.strict);
+    }
+    if !arguments.language.is_empty() {
+        fs::remove_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
+    }
+    let verdict = verdict(check.verdict == "pass");
+    let wrote = if verdict.is_pass() {
+        write(arguments, &manufacture)?
+    } else {
+        vec![]
+    };
+    let object = json!({
+        "schema": SCHEMA,
+        "verdict": check.verdict,
+        "name": manufacture.name(),
+        "check": check,
+        "wrote": wrote,
+    });
+    let whole = || report(&check, &wrote);
+    let words = arguments.flags.words(verdict, &sentence(&check), whole);
+    print(arguments, &object, &words)?;
+    Ok(verdict)
+}
+
+fn verdict(passes: bool) -> Verdict {
+    if passes { Verdict::Pass } else { Verdict::Fail }
+}
+
+/// A folder of this process for the files that are built.
+fn temporary(languages: &[Language]) -> Result<PathBuf, Unusable> {
+    let folder = std::env::temp_dir().join(format!("manufacture-{}", std::process::id()));
+    if !languages.is_empty() {
+        fs::create_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
+    }
+    Ok(folder)
+}
+
+fn values(manufacture: &Manufacture, table: &Path) -> Outcome {
+    let text = fs::read_to_string(table).map_err(|error| Unusable::file(table, &error))?;
+    let values = manufacture.at(&text, &table.display().to_string())?;
+    screen::print(&text_of(&values)?)?;
+    Ok(Verdict::Pass)
+}
+
+fn print(arguments: &Arguments, object: &Value, words: &str) -> Result<(), Unusable> {
+    match arguments.flags.format {
+        Format::Json => screen::print(&text_of(object)?)?,
+        Format::Text => screen::print(words)?,
+    }
+    Ok(())
+}
+
+/// Writes the files of all languages, and the study file.
+fn write(arguments: &Arguments, manufacture: &Manufacture) -> Result<Vec<String>, Unusable> {
+    let folder = arguments.flags.out.clone().unwrap_or_default();
+    let mut files = vec![];
+    for language in &arguments.language {
+        files.extend(manufacture.emit(*language));
+    }
+    if !files.is_empty() {
+        files.extend(manufacture.study());
+    }
+    if let (Some(folder), false) = (&arguments.flags.out, files.is_empty()) {
+        atomic::prepare_folder(folder)?;
+    }
+    let mut wrote = vec![];
+    for file in files {
+        let path = folder.join(&file.name);
+        atomic::write(&path, file.text)?;
+        wrote.push(path.display().to_string());
+    }
+    Ok(wrote)
+}
+
+fn sentence(check: &Check) -> String {
+    let failures = check
+        .findings
+        .iter()
+        .filter(|finding| finding.fails)
+        .count();
+    let notes = check.findings.len() - failures;
+    format!("{failures} failure(s), {notes} note(s)")
+}
+
+/// The shares of all terms, the findings, and the verdict.
+fn report(check: &Check, wrote: &[String]) -> String {
+    let row = |share: &manufacture::Share| {
+        vec![
+            share.equation.clone(),
+            format!("{:.4}", share.share),
+            share.term.clone(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = check.shares.iter().map(row).collect();
+    let mut text = screen::table(&["equation", "share", "term"], &rows);
+    text.push('\n');
+    for Finding {
+        code,
+        key,
+        text: what,
+        fails,
+        ..
+    } in &check.findings
+    {
+        let kind = if *fails { "failure" } else { "note" };
+        text += &format!("{kind}: {key}: {code}: {what}\n");
+    }
+    for file in wrote {
+        text += &format!("wrote {file}\n");
+    }
+    let verdict = verdict(check.verdict == "pass");
+    text + &format!("{}: {}\n", screen::verdict(verdict), sentence(check))
+}
+
+fn compared(
+    arguments: &Arguments,
+    manufacture: &Manufacture,
+    comparisons: &[Comparison],
+) -> Outcome {
+    let verdict = verdict(
+        comparisons
+            .iter()
+            .all(|comparison| comparison.cause == "equal"),
+    );
+    let object = json!({
+        "schema": SCHEMA,
+        "verdict": verdict.name(),
+        "name": manufacture.name(),
+        "against": comparisons,
+    });
+    let line = |comparison: &Comparison| format!("{}\n", comparison.sentence);
+    let whole = || {
+        let lines: String = comparisons.iter().map(line).collect();
+        format!(
+            "{lines}{}: a cause is what fits, not a proof\n",
+            screen::verdict(verdict)
+        )
+    };
+    let differing = comparisons
+        .iter()
+        .filter(|comparison| comparison.cause != "equal")
+        .count();
+    let sentence = format!("{differing} of {} quantities differ", comparisons.len());
+    let words = arguments.flags.words(verdict, &sentence, whole);
+    print(arguments, &object, &words)?;
+    Ok(verdict)
+}

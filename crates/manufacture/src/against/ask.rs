@@ -1,0 +1,229 @@
+//! Questions to another program: points on its standard input, values on its standard output.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+use std::thread;
+
+use crate::language::names::did_you_mean;
+use crate::problem::InputError;
+
+/// A quantity as the other program computes it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Answer {
+    pub(crate) name: String,
+    pub(crate) values: Vec<f64>,
+    /// One unit of the last digit that is printed, for each value; 0 if all digits are.
+    pub(crate) units: Vec<f64>,
+}
+
+/// The words of a command; quotes hold blanks together.
+pub(crate) fn words(command: &str) -> Vec<String> {
+    let mut words = vec![];
+    let mut word: Option<String> = None;
+    let mut quote: Option<char> = None;
+    for c in command.chars() {
+        if quote == Some(c) {
+            quote = None;
+        } else if quote.is_none() && (c == '"' || c == '\'') {
+            quote = Some(c);
+            word.get_or_insert_default();
+        } else if quote.is_none() && c.is_whitespace() {
+            words.extend(word.take());
+        } else {
+            word.get_or_insert_default().push(c);
+        }
+    }
+    words.extend(word);
+    words
+}
+
+/// Points as lines under a line of names.
+pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
+    let mut text = names.join(" ") + "\n";
+    for point in points {
+        for (place, x) in point.iter().enumerate() {
+            let separator = if place > 0 { " " } else { "" };
+            let _ = write!(text, "{separator}{x:.16e}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Runs a command on a question, and returns what it prints.
+///
+/// # Errors
+/// It cannot be started, or it fails.
+pub(crate) fn run(command: &[String], question: String) -> Result<String, InputError> {
+    let name = command.join(" ");
+    let failed = |problem: String| InputError::whole(&name, problem);
+    let (program, arguments) = command
+        .split_first()
+        .ok_or_else(|| failed("expected a command, found none".to_owned()))?;
+    let mut child = Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .map_err(|error| failed(error.to_string()))?;
+    let input = child.stdin.take();
+    // A program that answers while it reads would block if one thread wrote and read in turn.
+    let writer = thread::spawn(move || {
+        // A program that ends early has not read everything: its answer is what counts.
+        input.map(|mut input| input.write_all(question.as_bytes()))
+    });
+    let output = child
+        .wait_with_output()
+        .map_err(|error| failed(error.to_string()))?;
+    let _ = writer.join();
+    if !output.status.success() {
+        return Err(failed(format!(
+            "expected exit status 0, found {}",
+            output.status
+        )));
+    }
+    String::from_utf8(output.stdout)
+        .map_err(|_| failed("expected text, found other bytes".to_owned()))
+}
+
+/// Reads an answer about so many points.
+///
+/// * `known`: the names of the components; a line of names is needed if there are several.
+///
+/// # Errors
+/// A missing line, a number that is none, an unknown name: with the line.
+pub(crate) fn read(
+    text: &str,
+    command: &str,
+    known: &[String],
+    points: usize,
+) -> Result<Vec<Answer>, InputError> {
+    let at_line = |line: usize, problem: String| InputError {
+        line,
+        ..InputError::whole(command, problem)
+    };
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .filter(|line| !line.1.trim().is_empty())
+        .peekable();
+    let separators = |c: char| c == ',' || c.is_whitespace();
+    let cells = |line: &'_ str| -> Vec<String> {
+        line.split(separators)
+            .filter(|cell| !cell.is_empty())
+            .map(str::to_owned)
+            .collect()
+    };
+    let mut names: Vec<String> = known.to_vec();
+    let first = lines.peek().map(|line| cells(line.1));
+    let is_head = first.is_some_and(|first| first.iter().any(|cell| cell.parse::<f64>().is_err()));
+    if is_head {
+        if let Some((line, head)) = lines.next() {
+            names = cells(head);
+            if let Some(name) = names.iter().find(|name| !known.contains(name)) {
+                let near = did_you_mean(name, known.iter().map(String::as_str));
+                let known = known.join(" ");
+                let problem = format!("unknown name `{name}`{near}; expected some of {known}");
+                return Err(at_line(line + 1, problem));
+            }
+        }
+    } else if known.len() != 1 {
+        let known = known.join(" ");
+        let problem = format!("expected a first line of names, some of {known}");
+        return Err(at_line(1, problem));
+    }
+    let mut columns: Vec<Vec<String>> = vec![vec![]; names.len()];
+    let mut last = 0;
+    for (line, row) in lines {
+        last = line + 1;
+        let row = cells(row);
+        if row.len() != names.len() {
+            let problem = format!("expected {} numbers, found {}", names.len(), row.len());
+            return Err(at_line(last, problem));
+        }
+        for (column, cell) in columns.iter_mut().zip(row) {
+            if !cell.parse::<f64>().is_ok_and(f64::is_finite) {
+                return Err(at_line(
+                    last,
+                    format!("expected a finite number, found `{cell}`"),
+                ));
+            }
+            column.push(cell);
+        }
+    }
+    let found = columns.first().map_or(0, Vec::len);
+    if found != points {
+        let problem = format!("expected {points} lines of numbers, found {found}");
+        return Err(at_line(last + 1, problem));
+    }
+    let answer = |(name, cells): (String, Vec<String>)| Answer {
+        values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
+        units: units(&cells),
+        name,
+    };
+    Ok(names.into_iter().zip(columns).map(answer).collect())
+}
+
+/// The digits of a printed number: how many are significant, and how many follow the point.
+struct Digits {
+    significant: i32,
+    decimals: i32,
+    has_exponent: bool,
+}
+
+fn digits(cell: &str) -> Digits {
+    let (mantissa, exponent) = match cell.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+        None => (cell, None),
+    };
+    let all: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    Digits {
+        significant: all.trim_start_matches('0').len() as i32,
+        decimals: mantissa
+            .split_once('.')
+            .map_or(0, |parts| parts.1.len() as i32),
+        has_exponent: exponent.is_some(),
+    }
+}
+
+/// A column with fewer different values is not evidence of rounded printing.
+const LEAST_VALUES: usize = 10;
+
+/// Numbers with more digits are printed in full.
+const MOST_DIGITS: i32 = 14;
+
+/// One unit of the last printed digit of each number of a column.
+///
+/// Programs print a fixed number of decimals, or a number of significant digits without trailing zeros: the largest
+/// number of digits in the column is how exactly it is printed.
+fn units(cells: &[String]) -> Vec<f64> {
+    let all: Vec<Digits> = cells.iter().map(|cell| digits(cell)).collect();
+    let significant = all
+        .iter()
+        .map(|digits| digits.significant)
+        .max()
+        .unwrap_or(0);
+    let different: std::collections::BTreeSet<&String> = cells.iter().collect();
+    let is_whole = all
+        .iter()
+        .all(|digits| digits.decimals == 0 && !digits.has_exponent);
+    if significant > MOST_DIGITS || different.len() < LEAST_VALUES || is_whole {
+        return vec![0.0; cells.len()];
+    }
+    let first = all.first().map_or(0, |digits| digits.decimals);
+    let is_fixed = all
+        .iter()
+        .all(|digits| digits.decimals == first && !digits.has_exponent);
+    let unit = |cell: &String| {
+        let value = cell.parse::<f64>().unwrap_or(0.0).abs();
+        if is_fixed {
+            10_f64.powi(-first)
+        } else if value == 0.0 {
+            0.0
+        } else {
+            10_f64.powi(value.log10().floor() as i32 - significant + 1)
+        }
+    };
+    cells.iter().map(unit).collect()
+}

@@ -1,0 +1,108 @@
+//! A source, or data of a face, that another program computes: is it the right one, and if not, what is wrong with it?
+
+pub(crate) mod ask;
+mod causes;
+mod right;
+mod sentence;
+
+use serde::Serialize;
+
+use crate::derive::{Part, Role};
+use crate::language::names::did_you_mean;
+use crate::model::{Model, Rows};
+use crate::problem::InputError;
+use crate::sample::Sampler;
+
+pub(crate) use right::Right;
+
+/// What was found out about a quantity of another program.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The component, such as `v_x`.
+    pub quantity: String,
+    /// The largest absolute difference from the right value.
+    pub difference: f64,
+    /// The first cause that explains all points.
+    pub cause: &'static str,
+    /// The terms, the component or the parameter that the cause is about.
+    pub terms: Vec<String>,
+    /// A factor for each term, or the number that the cause is about.
+    pub factors: Vec<f64>,
+    /// Other terms that fit as well, with their factors.
+    pub alternatives: Vec<String>,
+    /// In words.
+    pub sentence: String,
+}
+
+/// The points of a comparison, and what the other program is told about them.
+pub(crate) struct Questions {
+    pub(crate) part: Part,
+    pub(crate) points: Vec<Vec<f64>>,
+    pub(crate) text: String,
+}
+
+/// Points of the domain or, with its name, of a face: there with the components of the normal.
+pub(crate) fn questions(
+    model: &Model,
+    face: Option<&str>,
+    seed: u64,
+    count: usize,
+) -> Result<Questions, InputError> {
+    let problem = &model.problem;
+    let part = match face {
+        None => Part::Interior,
+        Some(name) => match problem.faces.iter().position(|face| face.name == name) {
+            Some(index) => Part::Face(index),
+            None => {
+                let known: Vec<&str> = problem
+                    .faces
+                    .iter()
+                    .map(|face| face.name.as_str())
+                    .collect();
+                let near = did_you_mean(name, known.iter().copied());
+                let known = known.join(" ");
+                let text = format!("unknown face `{name}`{near}; expected one of {known}");
+                return Err(InputError::whole(&problem.file, text));
+            }
+        },
+    };
+    let points = Sampler::new(model, seed).points(part, count)?;
+    let mut names: Vec<String> = problem
+        .variables()
+        .iter()
+        .map(|v| (*v).to_owned())
+        .collect();
+    let mut rows = points.clone();
+    let normal = model.part(part).iter().find(|q| q.role == Role::Normal);
+    if let Some(normal) = normal {
+        names.extend(problem.axes().iter().map(|axis| format!("n_{axis}")));
+        let normals = Rows::new(&model.graph, std::iter::once(&normal.tensor));
+        for row in &mut rows {
+            let normal = normals.at(row).tensors.remove(0);
+            row.extend(normal.iter().map(|v| v.value));
+        }
+    }
+    Ok(Questions {
+        part,
+        text: ask::question(&names, &rows),
+        points,
+    })
+}
+
+/// Compares the answers of a command with the right values.
+pub(crate) fn compare(
+    model: &Model,
+    command: &str,
+    face: Option<&str>,
+    seed: u64,
+    count: usize,
+) -> Result<Vec<Comparison>, InputError> {
+    let questions = questions(model, face, seed, count)?;
+    let right = Right::new(model, &questions);
+    let text = ask::run(&ask::words(command), questions.text.clone())?;
+    let answers = ask::read(&text, command, &right.names(), questions.points.len())?;
+    Ok(answers
+        .iter()
+        .map(|answer| causes::explain(&right, answer))
+        .collect())
+}

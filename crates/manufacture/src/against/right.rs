@@ -1,0 +1,172 @@
+//! The right values, and what they would be after a mistake.
+
+use super::Questions;
+use super::ask::Answer;
+use crate::arithmetic::NodeId;
+use crate::arithmetic::tape::Measured;
+use crate::derive::{Part, Quantity, Role, Slip, Tensor, components};
+use crate::fit::Column;
+use crate::model::{Model, Rows};
+
+/// A source or a datum at all points.
+pub(crate) struct RightQuantity<'m> {
+    pub(crate) quantity: &'m Quantity<NodeId>,
+    pub(crate) components: Vec<String>,
+    /// For each point, all components.
+    pub(crate) values: Vec<Vec<Measured>>,
+    /// For each term, for each point, all components.
+    pub(crate) terms: Vec<Vec<Vec<Measured>>>,
+}
+
+/// All sources, or all data of a face.
+pub(crate) struct Right<'m> {
+    pub(crate) model: &'m Model,
+    pub(crate) part: Part,
+    pub(crate) points: Vec<Vec<f64>>,
+    pub(crate) quantities: Vec<RightQuantity<'m>>,
+}
+
+/// A component of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub(crate) quantity: usize,
+    pub(crate) component: usize,
+}
+
+impl<'m> Right<'m> {
+    pub(crate) fn new(model: &'m Model, questions: &Questions) -> Self {
+        let role = if questions.part == Part::Interior {
+            Role::Source
+        } else {
+            Role::Datum
+        };
+        let points = questions.points.clone();
+        let quantities = model.part(questions.part).iter().filter(|q| q.role == role);
+        let quantities = quantities.map(|quantity| RightQuantity {
+            components: components(&model.problem, &quantity.name, &quantity.tensor.shape),
+            values: at(model, &quantity.tensor, &points),
+            terms: quantity
+                .terms
+                .iter()
+                .map(|term| at(model, &term.1, &points))
+                .collect(),
+            quantity,
+        });
+        Self {
+            part: questions.part,
+            quantities: quantities.collect(),
+            model,
+            points,
+        }
+    }
+
+    /// The names of all components.
+    pub(crate) fn names(&self) -> Vec<String> {
+        self.quantities
+            .iter()
+            .flat_map(|q| q.components.clone())
+            .collect()
+    }
+
+    pub(crate) fn places(&self) -> Vec<Place> {
+        let mut places = vec![];
+        for (quantity, right) in self.quantities.iter().enumerate() {
+            places.extend((0..right.components.len()).map(|component| Place {
+                quantity,
+                component,
+            }));
+        }
+        places
+    }
+
+    pub(crate) fn name(&self, place: Place) -> &str {
+        &self.quantities[place.quantity].components[place.component]
+    }
+
+    pub(crate) fn place_of(&self, answer: &Answer) -> Option<Place> {
+        self.places()
+            .into_iter()
+            .find(|place| self.name(*place) == answer.name)
+    }
+
+    pub(crate) fn values(&self, place: Place) -> Vec<Measured> {
+        let values = &self.quantities[place.quantity].values;
+        values
+            .iter()
+            .map(|values| values[place.component])
+            .collect()
+    }
+
+    pub(crate) fn terms(&self, place: Place) -> Vec<Column> {
+        let terms = &self.quantities[place.quantity].terms;
+        let column = |term: &Vec<Vec<Measured>>| {
+            let values = term.iter().map(|values| values[place.component]);
+            // What rounding leaves of a zero is no column to fit with.
+            values
+                .map(|v| {
+                    if v.value.abs() <= crate::check::SAME * v.size {
+                        0.0
+                    } else {
+                        v.value
+                    }
+                })
+                .collect()
+        };
+        terms.iter().map(column).collect()
+    }
+
+    /// The component with a slip made throughout; `None` if there is no room for it.
+    pub(crate) fn with_slip(&self, place: Place, slip: Slip) -> Option<Column> {
+        let name = &self.quantities[place.quantity].quantity.name;
+        let sources = &self.model.slips.iter().find(|entry| entry.0 == slip)?.1;
+        let source = sources.iter().find(|source| source.name == *name)?;
+        if self.part != Part::Interior {
+            return None;
+        }
+        let values = at(self.model, &source.tensor, &self.points);
+        Some(
+            values
+                .iter()
+                .map(|values| values[place.component].value)
+                .collect(),
+        )
+    }
+
+    /// The component at other points.
+    pub(crate) fn at_points(&self, place: Place, points: &[Vec<f64>]) -> Column {
+        let tensor = &self.quantities[place.quantity].quantity.tensor;
+        let values = at(self.model, tensor, points);
+        values
+            .iter()
+            .map(|values| values[place.component].value)
+            .collect()
+    }
+
+    /// The component with a parameter changed, at these points.
+    pub(crate) fn with_parameter(
+        &self,
+        place: Place,
+        parameter: usize,
+        value: f64,
+        points: &[Vec<f64>],
+    ) -> Option<Column> {
+        let parameters = self
+            .model
+            .problem
+            .parameter_values(Some((parameter, value)))
+            .ok()?;
+        let tensor = &self.quantities[place.quantity].quantity.tensor;
+        let rows = Rows::new(&self.model.graph, std::iter::once(tensor));
+        let value =
+            |point: &Vec<f64>| rows.with(point, &parameters).tensors[0][place.component].value;
+        Some(points.iter().map(value).collect())
+    }
+}
+
+fn at(model: &Model, tensor: &Tensor<NodeId>, points: &[Vec<f64>]) -> Vec<Vec<Measured>> {
+    let rows = Rows::new(&model.graph, std::iter::once(tensor));
+    points
+        .iter()
+        .map(|point| rows.at(point).tensors.remove(0))
+        .collect()
+}

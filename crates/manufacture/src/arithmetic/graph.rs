@@ -1,0 +1,465 @@
+//! The graph of expressions: each node is stored once, 0, 1 and numbers are folded when a node is made, and each kind of
+//! node has one rule for its derivative.
+
+use std::collections::HashMap;
+
+use super::Algebra;
+use super::quadrature::{self, POINTS};
+use super::tape::Tape;
+use crate::language::names::Function;
+use crate::language::tree::{Binary, Comparison};
+
+/// A node's place in its graph. Operands come before what is made of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct NodeId(pub(crate) u32);
+
+/// An operation on nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Node {
+    /// By its bits, so that equal numbers are one node.
+    Number(u64),
+    Variable(usize),
+    Parameter(usize),
+    Negate(NodeId),
+    Binary(Binary, [NodeId; 2]),
+    Call(Function, NodeId),
+    /// The comparison of the first two; where it holds the third, else the fourth.
+    Choose(Comparison, [NodeId; 4]),
+    /// Over the interval of a variable, cut into panels.
+    Integral {
+        body: NodeId,
+        variable: usize,
+        panels: usize,
+    },
+}
+
+impl Node {
+    /// The nodes that its value is made of at the same point.
+    pub(crate) fn operands(&self) -> &[NodeId] {
+        match self {
+            Node::Negate(operand) | Node::Call(_, operand) => std::slice::from_ref(operand),
+            Node::Binary(_, operands) => operands,
+            Node::Choose(_, operands) => operands,
+            _ => &[],
+        }
+    }
+}
+
+/// A node is made of parameters, so its value is not known before they are.
+const PARAMETERS: u8 = 1 << 7;
+
+/// All expressions of a file.
+#[derive(Debug, Default)]
+pub(crate) struct Graph {
+    nodes: Vec<Node>,
+    places: HashMap<Node, NodeId>,
+    derivatives: HashMap<(NodeId, usize), NodeId>,
+    /// A bit for each variable that a node depends on, and [`PARAMETERS`].
+    depends: Vec<u8>,
+    /// The interval of each variable.
+    pub(crate) intervals: Vec<[f64; 2]>,
+    /// The values of the parameters in the file.
+    pub(crate) parameters: Vec<f64>,
+}
+
+impl Graph {
+    pub(crate) fn new(intervals: Vec<[f64; 2]>, parameters: Vec<f64>) -> Self {
+        Self {
+            intervals,
+            parameters,
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    pub(crate) fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// Whether it changes with the variable.
+    pub(crate) fn depends_on(&self, id: NodeId, variable: usize) -> bool {
+        self.depends[id.0 as usize] & (1 << variable) != 0
+    }
+
+    /// Its value, if it is a number.
+    pub(crate) fn constant(&self, id: NodeId) -> Option<f64> {
+        match self.node(id) {
+            Node::Number(bits) => Some(f64::from_bits(*bits)),
+            _ => None,
+        }
+    }
+
+    fn store(&mut self, node: Node) -> NodeId {
+        if let Some(place) = self.places.get(&node) {
+            return *place;
+        }
+        let depends = match node {
+            Node::Variable(index) => 1 << index,
+            Node::Parameter(_) => PARAMETERS,
+            Node::Integral { body, variable, .. } => {
+                self.depends[body.0 as usize] & !(1 << variable)
+            }
+            _ => node
+                .operands()
+                .iter()
+                .fold(0, |all, id| all | self.depends[id.0 as usize]),
+        };
+        let place = NodeId(self.nodes.len() as u32);
+        self.nodes.push(node);
+        self.depends.push(depends);
+        self.places.insert(node, place);
+        place
+    }
+
+    /// A binary operation whose value is simpler than a new node; `None` if there is none.
+    fn folded(&mut self, operator: Binary, left: NodeId, right: NodeId) -> Option<NodeId> {
+        let a = self.constant(left);
+        let b = self.constant(right);
+        if let (Some(a), Some(b)) = (a, b) {
+            return Some(self.number(operate(operator, a, b)));
+        }
+        match (operator, a, b) {
+            (Binary::Add, Some(0.0), _) => Some(right),
+            (Binary::Add | Binary::Subtract, _, Some(0.0)) => Some(left),
+            (Binary::Multiply, Some(0.0), _) | (Binary::Divide, Some(0.0), _) => {
+                Some(self.number(0.0))
+            }
+            (Binary::Multiply, _, Some(0.0)) => Some(self.number(0.0)),
+            (Binary::Multiply, Some(1.0), _) => Some(right),
+            (Binary::Multiply | Binary::Divide | Binary::Power, _, Some(1.0)) => Some(left),
+            (Binary::Power, _, Some(0.0)) => Some(self.number(1.0)),
+            (Binary::Power, _, Some(0.5)) => Some(self.call(Function::Sqrt, &left)),
+            (Binary::Subtract, Some(0.0), _) | (Binary::Multiply, Some(-1.0), _) => {
+                Some(self.opposite(right))
+            }
+            (Binary::Multiply | Binary::Divide, _, Some(-1.0)) => Some(self.opposite(left)),
+            _ => self.signs(operator, left, right),
+        }
+    }
+
+    fn opposite(&mut self, of: NodeId) -> NodeId {
+        match *self.node(of) {
+            Node::Negate(inner) => inner,
+            Node::Number(bits) => self.number(-f64::from_bits(bits)),
+            _ => self.store(Node::Negate(of)),
+        }
+    }
+
+    /// A sign of an operand moves outwards, so that derivatives of -q and q share their nodes.
+    fn signs(&mut self, operator: Binary, left: NodeId, right: NodeId) -> Option<NodeId> {
+        match (operator, *self.node(left), *self.node(right)) {
+            (Binary::Add, _, Node::Negate(right)) => {
+                Some(self.binary(Binary::Subtract, &left, &right))
+            }
+            (Binary::Subtract, _, Node::Negate(right)) => {
+                Some(self.binary(Binary::Add, &left, &right))
+            }
+            (Binary::Multiply | Binary::Divide, Node::Negate(left), _) => {
+                let inner = self.binary(operator, &left, &right);
+                Some(self.opposite(inner))
+            }
+            (Binary::Multiply | Binary::Divide, _, Node::Negate(right)) => {
+                let inner = self.binary(operator, &left, &right);
+                Some(self.opposite(inner))
+            }
+            _ => None,
+        }
+    }
+
+    fn product(&mut self, left: NodeId, right: NodeId) -> NodeId {
+        self.binary(Binary::Multiply, &left, &right)
+    }
+
+    fn derive(&mut self, of: NodeId, by: usize) -> NodeId {
+        match *self.node(of) {
+            Node::Number(_) | Node::Parameter(_) => self.number(0.0),
+            Node::Variable(index) => self.number(f64::from(u8::from(index == by))),
+            Node::Negate(inner) => {
+                let slope = self.derivative(&inner, by);
+                self.opposite(slope)
+            }
+            Node::Binary(operator, operands) => self.derive_binary(of, operator, operands, by),
+            Node::Call(function, argument) => {
+                let outer = self.slope(of, function, argument);
+                let inner = self.derivative(&argument, by);
+                self.product(outer, inner)
+            }
+            Node::Choose(comparison, [left, right, then, otherwise]) => {
+                let then = self.derivative(&then, by);
+                let otherwise = self.derivative(&otherwise, by);
+                self.choose(comparison, [&left, &right], &then, &otherwise)
+            }
+            Node::Integral { body, variable, .. } => {
+                let slope = self.derivative(&body, by);
+                // A slope that is not integrated accurately becomes NaN, which the check reports as singular.
+                self.integral(&slope, variable)
+                    .unwrap_or_else(|_| self.number(f64::NAN))
+            }
+        }
+    }
+
+    fn derive_binary(
+        &mut self,
+        of: NodeId,
+        operator: Binary,
+        operands: [NodeId; 2],
+        by: usize,
+    ) -> NodeId {
+        let [left, right] = operands;
+        let [by_left, by_right] = operands.map(|operand| self.derivative(&operand, by));
+        match operator {
+            Binary::Add | Binary::Subtract => self.binary(operator, &by_left, &by_right),
+            Binary::Multiply => {
+                let first = self.product(by_left, right);
+                let second = self.product(left, by_right);
+                self.binary(Binary::Add, &first, &second)
+            }
+            // (a / b)' = (a' - (a / b) b') / b
+            Binary::Divide => {
+                let second = self.product(of, by_right);
+                let above = self.binary(Binary::Subtract, &by_left, &second);
+                self.binary(Binary::Divide, &above, &right)
+            }
+            // (a^b)' = b a^(b-1) a' + a^b ln(a) b'
+            Binary::Power => {
+                let one = self.number(1.0);
+                let less = self.binary(Binary::Subtract, &right, &one);
+                let power = self.binary(Binary::Power, &left, &less);
+                let slope = self.product(right, power);
+                let first = self.product(slope, by_left);
+                if self.constant(by_right) == Some(0.0) {
+                    return first;
+                }
+                let logarithm = self.call(Function::Ln, &left);
+                let growth = self.product(of, logarithm);
+                let second = self.product(growth, by_right);
+                self.binary(Binary::Add, &first, &second)
+            }
+        }
+    }
+
+    /// The derivative of a function at its argument; `of` is its value.
+    fn slope(&mut self, of: NodeId, function: Function, argument: NodeId) -> NodeId {
+        let one = self.number(1.0);
+        let two = self.number(2.0);
+        match function {
+            Function::Sin => self.call(Function::Cos, &argument),
+            Function::Cos => {
+                let sine = self.call(Function::Sin, &argument);
+                self.opposite(sine)
+            }
+            Function::Tan | Function::Tanh => {
+                let square = self.binary(Binary::Power, &of, &two);
+                let is_tan = function == Function::Tan;
+                let sign = if is_tan {
+                    Binary::Add
+                } else {
+                    Binary::Subtract
+                };
+                self.binary(sign, &one, &square)
+            }
+            Function::Asin | Function::Acos => {
+                let square = self.binary(Binary::Power, &argument, &two);
+                let rest = self.binary(Binary::Subtract, &one, &square);
+                let root = self.call(Function::Sqrt, &rest);
+                let slope = self.binary(Binary::Divide, &one, &root);
+                if function == Function::Asin {
+                    slope
+                } else {
+                    self.opposite(slope)
+                }
+            }
+            Function::Atan => {
+                let square = self.binary(Binary::Power, &argument, &two);
+                let sum = self.binary(Binary::Add, &one, &square);
+                self.binary(Binary::Divide, &one, &sum)
+            }
+            Function::Sinh => self.call(Function::Cosh, &argument),
+            Function::Cosh => self.call(Function::Sinh, &argument),
+            Function::Exp => of,
+            Function::Ln => self.binary(Binary::Divide, &one, &argument),
+            Function::Log10 => {
+                let scale = self.number(std::f64::consts::LN_10);
+                let below = self.product(argument, scale);
+                self.binary(Binary::Divide, &one, &below)
+            }
+            Function::Sqrt => {
+                let half = self.number(0.5);
+                self.binary(Binary::Divide, &half, &of)
+            }
+            Function::Abs
+            | Function::Min
+            | Function::Max
+            | Function::Heaviside
+            | Function::Where => self.number(f64::NAN),
+        }
+    }
+}
+
+/// The value of a binary operation.
+pub(crate) fn operate(operator: Binary, left: f64, right: f64) -> f64 {
+    match operator {
+        Binary::Add => left + right,
+        Binary::Subtract => left - right,
+        Binary::Multiply => left * right,
+        Binary::Divide => left / right,
+        Binary::Power => left.powf(right),
+    }
+}
+
+/// The value of a smooth function.
+pub(crate) fn apply(function: Function, x: f64) -> f64 {
+    match function {
+        Function::Sin => x.sin(),
+        Function::Cos => x.cos(),
+        Function::Tan => x.tan(),
+        Function::Asin => x.asin(),
+        Function::Acos => x.acos(),
+        Function::Atan => x.atan(),
+        Function::Sinh => x.sinh(),
+        Function::Cosh => x.cosh(),
+        Function::Tanh => x.tanh(),
+        Function::Exp => x.exp(),
+        Function::Ln => x.ln(),
+        Function::Log10 => x.log10(),
+        Function::Sqrt => x.sqrt(),
+        // These are made of choices.
+        Function::Abs | Function::Min | Function::Max | Function::Heaviside | Function::Where => {
+            f64::NAN
+        }
+    }
+}
+
+/// Panels of an integral are halved up to this number.
+const MOST_PANELS: usize = 128;
+
+/// Two levels agree if they differ by less than this times the size of the integral.
+const AGREEMENT: f64 = 4.0 * f64::EPSILON;
+
+impl Algebra for Graph {
+    type Number = NodeId;
+
+    fn number(&mut self, value: f64) -> NodeId {
+        // One zero: -0 and 0 are the same node.
+        let value = if value == 0.0 { 0.0 } else { value };
+        self.store(Node::Number(value.to_bits()))
+    }
+
+    fn variable(&mut self, index: usize) -> NodeId {
+        self.store(Node::Variable(index))
+    }
+
+    fn parameter(&mut self, index: usize) -> NodeId {
+        self.store(Node::Parameter(index))
+    }
+
+    fn binary(&mut self, operator: Binary, left: &NodeId, right: &NodeId) -> NodeId {
+        match self.folded(operator, *left, *right) {
+            Some(folded) => folded,
+            None => self.store(Node::Binary(operator, [*left, *right])),
+        }
+    }
+
+    fn call(&mut self, function: Function, argument: &NodeId) -> NodeId {
+        match self.constant(*argument) {
+            Some(value) => self.number(apply(function, value)),
+            None => self.store(Node::Call(function, *argument)),
+        }
+    }
+
+    fn choose(
+        &mut self,
+        comparison: Comparison,
+        compared: [&NodeId; 2],
+        then: &NodeId,
+        otherwise: &NodeId,
+    ) -> NodeId {
+        let [left, right] = compared.map(|id| *id);
+        if then == otherwise {
+            return *then;
+        }
+        if let (Some(a), Some(b)) = (self.constant(left), self.constant(right)) {
+            let is_true = comparison.holds(a, b);
+            return if is_true { *then } else { *otherwise };
+        }
+        self.store(Node::Choose(comparison, [left, right, *then, *otherwise]))
+    }
+
+    fn derivative(&mut self, of: &NodeId, variable: usize) -> NodeId {
+        if !self.depends_on(*of, variable) {
+            return self.number(0.0);
+        }
+        if let Some(known) = self.derivatives.get(&(*of, variable)) {
+            return *known;
+        }
+        let derivative = self.derive(*of, variable);
+        self.derivatives.insert((*of, variable), derivative);
+        derivative
+    }
+
+    fn integral(&mut self, body: &NodeId, variable: usize) -> Result<NodeId, String> {
+        let [low, high] = self.intervals[variable];
+        if !self.depends_on(*body, variable) {
+            let length = self.number(high - low);
+            return Ok(self.product(length, *body));
+        }
+        let rule = quadrature::gauss(POINTS);
+        let tape = Tape::new(self, &[*body]);
+        let mut panels = 1;
+        loop {
+            let difference = self.worst_difference(&tape, variable, panels, &rule);
+            if difference <= AGREEMENT {
+                let body = *body;
+                return Ok(self.store(Node::Integral {
+                    body,
+                    variable,
+                    panels,
+                }));
+            }
+            panels *= 2;
+            if panels > MOST_PANELS {
+                return Err(format!(
+                    "the integral differs by {difference:.1e} of its size between {} and {panels} panels of {POINTS} points; \
+                     expected a function that is smooth on the whole interval",
+                    panels / 2
+                ));
+            }
+        }
+    }
+
+    fn is_zero(&self, number: &NodeId) -> bool {
+        self.constant(*number) == Some(0.0)
+    }
+
+    fn nodes(&self) -> usize {
+        self.len()
+    }
+}
+
+impl Graph {
+    /// The largest relative change of an integral by halving its panels, over a few points of the other variables.
+    fn worst_difference(
+        &self,
+        tape: &Tape<'_>,
+        variable: usize,
+        panels: usize,
+        rule: &[[f64; 2]],
+    ) -> f64 {
+        let mut worst = 0.0_f64;
+        for share in [0.03, 0.29, 0.61, 0.97] {
+            let between = |[low, high]: &[f64; 2]| low + share * (high - low);
+            let mut point: Vec<f64> = self.intervals.iter().map(between).collect();
+            let coarse = tape.integrate(&mut point, variable, panels, rule);
+            let fine = tape.integrate(&mut point, variable, 2 * panels, rule);
+            let difference = (coarse.value - fine.value).abs() / fine.size.max(f64::MIN_POSITIVE);
+            // A value that is not finite is reported where the function is used.
+            if difference.is_finite() {
+                worst = worst.max(difference);
+            }
+        }
+        worst
+    }
+}

@@ -1,0 +1,69 @@
+//! Arithmetics that expressions are computed in: a graph with symbolic derivatives, Taylor jets at a point, and the number
+//! of derivatives that a jet needs.
+
+mod depth;
+pub(crate) mod graph;
+pub(crate) mod jet;
+pub(crate) mod quadrature;
+pub(crate) mod tape;
+
+use crate::language::names::Function;
+use crate::language::tree::{Binary, Comparison};
+
+pub(crate) use depth::Depth;
+pub(crate) use graph::{Graph, Node, NodeId};
+
+/// Numbers that have derivatives. The rules for indices are generic in it.
+pub(crate) trait Algebra {
+    /// A scalar function of the coordinates and time.
+    type Number: Clone;
+
+    fn number(&mut self, value: f64) -> Self::Number;
+    /// A coordinate, or time, by its place.
+    fn variable(&mut self, index: usize) -> Self::Number;
+    fn parameter(&mut self, index: usize) -> Self::Number;
+    fn binary(
+        &mut self,
+        operator: Binary,
+        left: &Self::Number,
+        right: &Self::Number,
+    ) -> Self::Number;
+    /// A smooth function of one argument.
+    fn call(&mut self, function: Function, argument: &Self::Number) -> Self::Number;
+    /// `then` where the comparison holds.
+    fn choose(
+        &mut self,
+        comparison: Comparison,
+        compared: [&Self::Number; 2],
+        then: &Self::Number,
+        otherwise: &Self::Number,
+    ) -> Self::Number;
+    /// The partial derivative by a variable.
+    fn derivative(&mut self, of: &Self::Number, variable: usize) -> Self::Number;
+    /// Points and weights of the integral over a variable, for an arithmetic at a point.
+    fn rule(&self, _variable: usize) -> Option<Vec<[f64; 2]>> {
+        None
+    }
+    /// Moves the point along a variable, and returns where it was.
+    fn move_to(&mut self, _variable: usize, _to: f64) -> f64 {
+        0.0
+    }
+    /// The integral of `body` over a variable; in an arithmetic at a point, one of its summands.
+    ///
+    /// # Errors
+    /// In words: the integrand is not integrated accurately.
+    fn integral(&mut self, body: &Self::Number, variable: usize) -> Result<Self::Number, String>;
+    /// Whether it is zero wherever it is evaluated, as far as the arithmetic knows.
+    fn is_zero(&self, _number: &Self::Number) -> bool {
+        false
+    }
+    /// The number of nodes that exist; 0 in an arithmetic without.
+    fn nodes(&self) -> usize {
+        0
+    }
+
+    fn negate(&mut self, operand: &Self::Number) -> Self::Number {
+        let zero = self.number(0.0);
+        self.binary(Binary::Subtract, &zero, operand)
+    }
+}

@@ -1,0 +1,237 @@
+//! Evaluation of nodes of a graph at points.
+
+use super::graph::{Graph, Node, NodeId, apply, operate};
+use super::quadrature::{self, POINTS};
+use crate::language::names::Function;
+use crate::language::tree::Binary;
+
+/// A value, and its size: the sum of the absolute values of the summands, at every sum.
+///
+/// A sum may cancel to zero; what rounding leaves of it is still small against its size. The size of f(a) is
+/// `|f'(a)|` times the size of a, or `|f(a)|` if that is larger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Measured {
+    pub(crate) value: f64,
+    pub(crate) size: f64,
+}
+
+/// The integral of a node over a variable, as a tape of its own.
+#[derive(Debug)]
+struct Inner<'g> {
+    body: Tape<'g>,
+    variable: usize,
+    panels: usize,
+}
+
+/// The nodes that some roots are made of, in the order of evaluation.
+#[derive(Debug)]
+pub(crate) struct Tape<'g> {
+    graph: &'g Graph,
+    steps: Vec<NodeId>,
+    /// For each node of the graph its place among the steps.
+    places: Vec<u32>,
+    roots: Vec<NodeId>,
+    /// By their place among the steps.
+    integrals: Vec<(usize, Inner<'g>)>,
+    rule: Vec<[f64; 2]>,
+}
+
+/// The values of the roots of a tape at a point.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Evaluated {
+    pub(crate) roots: Vec<Measured>,
+    /// What is compared at each switch, as a difference: its sign tells the side.
+    pub(crate) switches: Vec<f64>,
+}
+
+impl<'g> Tape<'g> {
+    pub(crate) fn new(graph: &'g Graph, roots: &[NodeId]) -> Self {
+        let steps = needed(graph, roots);
+        let mut places = vec![u32::MAX; steps.last().map_or(0, |last| last.0 as usize + 1)];
+        for (place, id) in steps.iter().enumerate() {
+            places[id.0 as usize] = place as u32;
+        }
+        let integral = |(place, id): (usize, &NodeId)| match *graph.node(*id) {
+            Node::Integral {
+                body,
+                variable,
+                panels,
+            } => Some((
+                place,
+                Inner {
+                    body: Tape::new(graph, &[body]),
+                    variable,
+                    panels,
+                },
+            )),
+            _ => None,
+        };
+        let integrals = steps.iter().enumerate().filter_map(integral).collect();
+        Self {
+            graph,
+            places,
+            roots: roots.to_vec(),
+            integrals,
+            rule: quadrature::gauss(POINTS),
+            steps,
+        }
+    }
+
+    /// The roots at a point, with the parameters of the file.
+    pub(crate) fn at(&self, point: &[f64]) -> Evaluated {
+        self.with(point, &self.graph.parameters)
+    }
+
+    /// The roots at a point.
+    pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> Evaluated {
+        let mut values: Vec<Measured> = Vec::with_capacity(self.steps.len());
+        let mut switches = vec![];
+        let mut integrals = self.integrals.iter();
+        for id in &self.steps {
+            let of = |id: &NodeId| values[self.places[id.0 as usize] as usize];
+            let value = match self.graph.node(*id) {
+                Node::Number(bits) => exactly(f64::from_bits(*bits)),
+                Node::Variable(index) => exactly(point[*index]),
+                Node::Parameter(index) => exactly(parameters[*index]),
+                Node::Negate(operand) => Measured {
+                    value: -of(operand).value,
+                    ..of(operand)
+                },
+                Node::Binary(operator, [left, right]) => binary(*operator, of(left), of(right)),
+                Node::Call(function, argument) => call(*function, of(argument)),
+                Node::Choose(comparison, [left, right, then, otherwise]) => {
+                    let [left, right] = [of(left).value, of(right).value];
+                    switches.push(left - right);
+                    let is_true = comparison.holds(left, right);
+                    // A comparison with NaN holds for no side.
+                    if (left - right).is_nan() {
+                        exactly(f64::NAN)
+                    } else {
+                        of(if is_true { then } else { otherwise })
+                    }
+                }
+                Node::Integral { .. } => {
+                    integrals.next().map_or(exactly(f64::NAN), |(_, inner)| {
+                        let mut point = point.to_vec();
+                        let Inner {
+                            body,
+                            variable,
+                            panels,
+                        } = inner;
+                        body.integral_with(&mut point, *variable, *panels, &self.rule, parameters)
+                    })
+                }
+            };
+            values.push(value);
+        }
+        let root = |id: &NodeId| values[self.places[id.0 as usize] as usize];
+        Evaluated {
+            roots: self.roots.iter().map(root).collect(),
+            switches,
+        }
+    }
+
+    /// The integral of the first root over a variable.
+    pub(crate) fn integrate(
+        &self,
+        point: &mut [f64],
+        variable: usize,
+        panels: usize,
+        rule: &[[f64; 2]],
+    ) -> Measured {
+        self.integral_with(point, variable, panels, rule, &self.graph.parameters)
+    }
+
+    fn integral_with(
+        &self,
+        point: &mut [f64],
+        variable: usize,
+        panels: usize,
+        rule: &[[f64; 2]],
+        parameters: &[f64],
+    ) -> Measured {
+        let mut total = exactly(0.0);
+        for [x, weight] in quadrature::panels(self.graph.intervals[variable], panels, rule) {
+            point[variable] = x;
+            let part = self.with(point, parameters).roots[0];
+            total.value += weight * part.value;
+            total.size += weight * part.size;
+        }
+        total
+    }
+}
+
+/// The nodes below the roots, in increasing order.
+pub(crate) fn needed(graph: &Graph, roots: &[NodeId]) -> Vec<NodeId> {
+    let last = roots.iter().max().map_or(0, |last| last.0 as usize + 1);
+    let mut is_needed = vec![false; last];
+    for root in roots {
+        is_needed[root.0 as usize] = true;
+    }
+    for place in (0..last).rev() {
+        if is_needed[place] {
+            for operand in graph.node(NodeId(place as u32)).operands() {
+                is_needed[operand.0 as usize] = true;
+            }
+        }
+    }
+    let places = (0..last).filter(|place| is_needed[*place]);
+    places.map(|place| NodeId(place as u32)).collect()
+}
+
+fn exactly(value: f64) -> Measured {
+    Measured {
+        value,
+        size: value.abs(),
+    }
+}
+
+fn binary(operator: Binary, left: Measured, right: Measured) -> Measured {
+    let value = operate(operator, left.value, right.value);
+    let size = match operator {
+        Binary::Add | Binary::Subtract => left.size + right.size,
+        Binary::Multiply => left.size * right.size,
+        Binary::Divide => {
+            let below = right.value.abs();
+            left.size / below * (right.size / below).max(1.0)
+        }
+        Binary::Power if right.value >= 1.0 => left.size.powf(right.value),
+        Binary::Power => value.abs() * (left.size / left.value.abs()).max(1.0),
+    };
+    Measured {
+        value,
+        size: finite(size, value),
+    }
+}
+
+/// A size that overflows, or is 0/0, says nothing: the value itself is taken.
+fn finite(size: f64, value: f64) -> f64 {
+    if size.is_finite() {
+        size.max(value.abs())
+    } else {
+        value.abs()
+    }
+}
+
+fn call(function: Function, argument: Measured) -> Measured {
+    let x = argument.value;
+    let value = apply(function, x);
+    let slope = match function {
+        Function::Sin => x.cos(),
+        Function::Cos => x.sin(),
+        Function::Tan => 1.0 + value * value,
+        Function::Asin | Function::Acos => 1.0 / (1.0 - x * x).sqrt(),
+        Function::Atan => 1.0 / (1.0 + x * x),
+        Function::Sinh => x.cosh(),
+        Function::Cosh => x.sinh(),
+        Function::Tanh => 1.0 - value * value,
+        Function::Exp => value,
+        Function::Ln | Function::Log10 => 1.0 / x,
+        Function::Sqrt => 0.5 / value,
+        _ => 0.0,
+    };
+    Measured {
+        value,
+        size: finite(slope.abs() * argument.size, value),
+    }
+}

@@ -1,0 +1,178 @@
+//! Values at points that a table gives.
+
+use serde_json::{Map, Value, json};
+
+use crate::arithmetic::NodeId;
+use crate::arithmetic::tape::Measured;
+use crate::derive::{Part, Quantity, Role, components};
+use crate::language::names::did_you_mean;
+use crate::model::{Model, Rows};
+use crate::problem::InputError;
+
+/// Points, and of each the face that it is on.
+struct Table {
+    points: Vec<Vec<f64>>,
+    faces: Vec<String>,
+}
+
+/// Reads a header with the coordinates, time and optionally `face`, then a point for each line.
+fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
+    let variables = model.problem.variables();
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .filter(|line| !line.1.trim().is_empty());
+    let at_line = |line: usize, problem: String| InputError {
+        line: line + 1,
+        ..InputError::whole(file, problem)
+    };
+    let Some((first, header)) = lines.next() else {
+        return Err(InputError::whole(
+            file,
+            "expected a header, found an empty table",
+        ));
+    };
+    let head: Vec<&str> = header.split(',').map(str::trim).collect();
+    for name in &head {
+        let known = variables.iter().copied().chain(["face"]);
+        if !known.clone().any(|variable| variable == *name) {
+            let near = did_you_mean(name, known.clone());
+            let known: Vec<&str> = known.collect();
+            let known = known.join(" ");
+            let problem = format!("unknown column `{name}`{near}; expected {known}");
+            return Err(at_line(first, problem));
+        }
+    }
+    let mut places = vec![];
+    for variable in &variables {
+        let place = head.iter().position(|name| name == variable);
+        let missing = || {
+            at_line(
+                first,
+                format!("expected the column `{variable}`, found none"),
+            )
+        };
+        places.push(place.ok_or_else(missing)?);
+    }
+    let face = head.iter().position(|name| *name == "face");
+    let mut table = Table {
+        points: vec![],
+        faces: vec![],
+    };
+    for (line, row) in lines {
+        let cells: Vec<&str> = row.split(',').map(str::trim).collect();
+        if cells.len() != head.len() {
+            let problem = format!("expected {} columns, found {}", head.len(), cells.len());
+            return Err(at_line(line, problem));
+        }
+        let mut point = vec![];
+        for place in &places {
+            let value = cells[*place]
+                .parse::<f64>()
+                .ok()
+                .filter(|value| value.is_finite());
+            let problem = || {
+                at_line(
+                    line,
+                    format!("expected a number, found `{}`", cells[*place]),
+                )
+            };
+            point.push(value.ok_or_else(problem)?);
+        }
+        let name = face.map_or("", |place| cells[place]);
+        let mut known = model.problem.faces.iter();
+        if !name.is_empty() && !known.any(|face| face.name == name) {
+            let known = model.problem.faces.iter().map(|face| face.name.as_str());
+            let near = did_you_mean(name, known);
+            return Err(at_line(line, format!("unknown face `{name}`{near}")));
+        }
+        table.points.push(point);
+        table.faces.push(name.to_owned());
+    }
+    Ok(table)
+}
+
+/// The values of quantities as columns under the names of their components.
+struct Columns {
+    values: Map<String, Value>,
+    sizes: Map<String, Value>,
+}
+
+impl Columns {
+    fn of(model: &Model, quantities: &[&Quantity<NodeId>], points: &[Option<Vec<f64>>]) -> Self {
+        let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        let at = |point: &Option<Vec<f64>>| point.as_ref().map(|point| rows.at(point).tensors);
+        let values: Vec<_> = points.iter().map(at).collect();
+        let mut columns = Self {
+            values: Map::new(),
+            sizes: Map::new(),
+        };
+        for (index, quantity) in quantities.iter().enumerate() {
+            let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
+            for (place, name) in names.into_iter().enumerate() {
+                let column = |part: fn(&Measured) -> f64| -> Value {
+                    let cell = |row: &Option<Vec<Vec<Measured>>>| {
+                        row.as_ref().map(|row| part(&row[index][place]))
+                    };
+                    values.iter().map(|row| json!(cell(row))).collect()
+                };
+                columns.values.insert(name.clone(), column(|v| v.value));
+                columns.sizes.insert(name, column(|v| v.size));
+            }
+        }
+        columns
+    }
+}
+
+/// The values of all quantities at the points of a table, as one JSON object.
+pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, InputError> {
+    let table = read(model, text, file)?;
+    let points: Vec<Option<Vec<f64>>> = table.points.iter().cloned().map(Some).collect();
+    let of = |role: Role, part: Part| -> Vec<&Quantity<NodeId>> {
+        model.part(part).iter().filter(|q| q.role == role).collect()
+    };
+    let exact = Columns::of(model, &of(Role::Exact, Part::Interior), &points);
+    let sources = of(Role::Source, Part::Interior);
+    let source = Columns::of(model, &sources, &points);
+    let mut terms = Map::new();
+    for quantity in sources {
+        for (label, tensor) in &quantity.terms {
+            let term = Quantity {
+                tensor: tensor.clone(),
+                terms: vec![],
+                ..quantity.clone()
+            };
+            for (component, column) in Columns::of(model, &[&term], &points).values {
+                let entry = terms.entry(component).or_insert_with(|| json!({}));
+                entry[label.as_str()] = column;
+            }
+        }
+    }
+    let mut boundary = Map::new();
+    for (index, face) in model.problem.faces.iter().enumerate() {
+        let on_face = table.points.iter().zip(&table.faces);
+        let on_face = on_face.map(|(point, name)| (*name == face.name).then(|| point.clone()));
+        let data = of(Role::Datum, Part::Face(index));
+        let columns = Columns::of(model, &data, &on_face.collect::<Vec<_>>());
+        boundary.insert(face.name.clone(), Value::Object(columns.values));
+    }
+    let first = |point: &Vec<f64>| {
+        let mut point = point.clone();
+        if let (Some(first), Some(time)) = (model.problem.first_time(), point.last_mut()) {
+            *time = first;
+        }
+        Some(point)
+    };
+    let first: Vec<_> = table.points.iter().map(first).collect();
+    let initial = Columns::of(model, &of(Role::Initial, Part::Initial), &first);
+    Ok(json!({
+        "schema": 1,
+        "name": model.problem.name,
+        "exact": exact.values,
+        "sources": source.values,
+        "terms": terms,
+        "boundary": boundary,
+        "initial": initial.values,
+        "size": {"sources": source.sizes},
+    }))
+}

@@ -1,0 +1,184 @@
+//! What a test with this solution would not notice, apart from terms and symmetries.
+
+use super::{Finding, Sampled, finding, is_same, is_zero};
+use crate::arithmetic::{Graph, Node, NodeId};
+use crate::derive::{Part, Role, Slip};
+use crate::language::tree::Binary;
+use crate::model::{Model, Rows};
+use crate::problem::InputError;
+use crate::sample::Sampler;
+
+pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings = slips(model, sampled);
+    for (index, quantity) in sampled.quantities.iter().enumerate() {
+        let key = &quantity.key;
+        match quantity.role {
+            Role::Source if sampled.over(index).all(|entry| is_zero(entry.1)) => {
+                let text = "the source is zero: only boundary and initial data drive the test";
+                findings.push(finding("source-zero", key, text.to_owned(), None));
+            }
+            Role::Exact => {
+                if let Some(degree) = polynomial(model, &quantity.tensor.parts) {
+                    let text = format!(
+                        "a polynomial of degree {degree} in space: elements of that degree reproduce it, the error is round-off"
+                    );
+                    findings.push(finding("polynomial", key, text, Some(f64::from(degree))));
+                }
+            }
+            _ => (),
+        }
+        if matches!(quantity.role, Role::Source | Role::Exact) {
+            findings.extend(kink(model, sampled, index));
+        }
+    }
+    findings
+}
+
+/// A switch inside the domain, which is on one side at some points and on the other at others.
+fn kink(model: &Model, sampled: &Sampled<'_>, index: usize) -> Option<Finding> {
+    let quantity = &sampled.quantities[index];
+    let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
+    let mut sides: Vec<[bool; 2]> = vec![];
+    for point in &sampled.points {
+        let switches = rows.at(point).switches;
+        sides.resize(switches.len(), [false; 2]);
+        for (side, switch) in sides.iter_mut().zip(switches) {
+            side[usize::from(switch > 0.0)] = true;
+        }
+    }
+    let inside = sides.iter().filter(|side| **side == [true; 2]).count();
+    let text = format!(
+        "{inside} switch(es) of abs, min, max, where or heaviside inside the domain: derivatives are taken on each side, \
+         and a jump of a flux there is no source"
+    );
+    (inside > 0).then(|| finding("kink", &quantity.key, text, Some(inside as f64)))
+}
+
+/// Slips that change an expression but not its value.
+fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = vec![];
+    for (slip, sources) in &model.slips {
+        let rows = Rows::new(&model.graph, sources.iter().map(|source| &source.tensor));
+        let values: Vec<_> = sampled
+            .points
+            .iter()
+            .map(|point| rows.at(point).tensors)
+            .collect();
+        for (place, source) in sources.iter().enumerate() {
+            let is_source = |q: &crate::derive::Quantity<NodeId>| {
+                q.role == Role::Source && q.name == source.name
+            };
+            let Some(index) = sampled.quantities.iter().position(is_source) else {
+                continue;
+            };
+            if sampled.quantities[index].tensor == source.tensor {
+                continue;
+            }
+            let right = sampled.over(index).map(|entry| entry.1);
+            let is_invisible = right.zip(&values).all(|(right, values)| {
+                right.iter().zip(&values[place]).all(|(a, b)| is_same(a, b))
+            });
+            if is_invisible && *slip != Slip::None {
+                let text = format!("{}: the source {} is the same", slip.cause(), slip.words());
+                findings.push(finding("slip-invisible", &source.key, text, None));
+            }
+        }
+    }
+    findings
+}
+
+/// The degree in space, if all components are polynomials as they are written.
+fn polynomial(model: &Model, parts: &[NodeId]) -> Option<u32> {
+    let coordinates = model.problem.coordinates.len();
+    let degrees = parts
+        .iter()
+        .map(|part| degree(&model.graph, *part, coordinates));
+    degrees.collect::<Option<Vec<u32>>>()?.into_iter().max()
+}
+
+fn degree(graph: &Graph, id: NodeId, coordinates: usize) -> Option<u32> {
+    if !(0..coordinates).any(|coordinate| graph.depends_on(id, coordinate)) {
+        return Some(0);
+    }
+    let of = |id: &NodeId| degree(graph, *id, coordinates);
+    match graph.node(id) {
+        Node::Variable(_) => Some(1),
+        Node::Negate(operand) => of(operand),
+        Node::Binary(operator, [left, right]) => match operator {
+            Binary::Add | Binary::Subtract => Some(of(left)?.max(of(right)?)),
+            Binary::Multiply => Some(of(left)? + of(right)?),
+            Binary::Divide => (of(right)? == 0).then_some(of(left)?),
+            Binary::Power => {
+                let exponent = graph.constant(*right)?;
+                let is_whole = exponent.fract() == 0.0 && (0.0..100.0).contains(&exponent);
+                is_whole.then_some(of(left)? * exponent as u32)
+            }
+        },
+        _ => None,
+    }
+}
+
+/// Data that are zero on their face.
+pub(super) fn data(sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings = vec![];
+    for (index, quantity) in sampled.quantities.iter().enumerate() {
+        let is_datum = quantity.role == Role::Datum;
+        // A value that must be zero says so in the file.
+        let has_condition = index > 0 && sampled.quantities[index - 1].role == Role::Condition;
+        if is_datum && !has_condition && sampled.over(index).all(|entry| is_zero(entry.1)) {
+            let text = "zero on its face: a term that is lost there would not be noticed";
+            findings.push(finding("data-zero", &quantity.key, text.to_owned(), None));
+        }
+    }
+    findings
+}
+
+/// Values required on a face that contradict the initial data at the first time.
+pub(super) fn initial_mismatch(
+    model: &Model,
+    sampler: &mut Sampler<'_>,
+) -> Result<Vec<Finding>, InputError> {
+    let Some(first) = model.problem.first_time() else {
+        return Ok(vec![]);
+    };
+    let mut findings = vec![];
+    for (index, face) in model.problem.faces.iter().enumerate() {
+        let conditions = face.data.iter().filter(|datum| datum.condition.is_some());
+        let is_initial = |datum: &&crate::problem::Datum| {
+            let mut initial = model.problem.initial.iter();
+            initial.any(|initial| initial.name == datum.name)
+        };
+        if conditions.filter(is_initial).count() == 0 {
+            continue;
+        }
+        let mut points = sampler.points(Part::Face(index), 100)?;
+        for point in &mut points {
+            if let Some(time) = point.last_mut() {
+                *time = first;
+            }
+        }
+        let sampled = Sampled::new(model, Part::Face(index), points);
+        for (place, quantity) in sampled.quantities.iter().enumerate() {
+            let has_initial = model
+                .problem
+                .initial
+                .iter()
+                .any(|known| known.name == quantity.name);
+            if quantity.role != Role::Condition || !has_initial {
+                continue;
+            }
+            let mut pairs = sampled.over(place).zip(sampled.over(place + 1));
+            let differs = pairs.any(|(expected, found)| {
+                expected.1.iter().zip(found.1).any(|(a, b)| !is_same(a, b))
+            });
+            if differs {
+                let text = format!(
+                    "at the first time its `is` contradicts initial.{}",
+                    quantity.name
+                );
+                findings.push(finding("initial-mismatch", &quantity.key, text, None));
+            }
+        }
+    }
+    Ok(findings)
+}

@@ -1,0 +1,309 @@
+//! The check: what is right, what is wrong, and what a test with this solution would not notice.
+
+mod blindness;
+pub(crate) mod emitted;
+mod second_way;
+mod symmetry;
+mod terms;
+
+use serde::Serialize;
+
+use crate::arithmetic::NodeId;
+use crate::arithmetic::tape::Measured;
+use crate::derive::{Part, Quantity, Role, components};
+use crate::model::{Model, Rows};
+use crate::problem::InputError;
+use crate::sample::Sampler;
+
+/// Values that should be equal may differ by this times their size: derivatives of high order lose digits by rounding.
+pub(crate) const SAME: f64 = 1e4 * f64::EPSILON;
+
+/// A condition may be missed by this times the size.
+const CONDITION: f64 = 1e-12;
+
+/// Something that the check found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// A word for programs.
+    pub code: &'static str,
+    /// The path of a key of the file.
+    #[serde(rename = "where")]
+    pub key: String,
+    /// In words.
+    pub text: String,
+    /// The number that the finding is about.
+    pub value: Option<f64>,
+    /// It fails the check; otherwise it is a note.
+    #[serde(skip)]
+    pub fails: bool,
+}
+
+/// How much each term of an equation contributes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Share {
+    /// The equation.
+    pub equation: String,
+    /// The term.
+    pub term: String,
+    /// Its root mean square over that of the largest term of the equation.
+    pub share: f64,
+}
+
+/// The result of a check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Check {
+    /// `pass` or `fail`.
+    pub verdict: &'static str,
+    /// What was found, failures first.
+    pub findings: Vec<Finding>,
+    /// The shares of all terms.
+    pub shares: Vec<Share>,
+}
+
+impl Check {
+    /// Adds findings, and takes them into account in the verdict; with `is_strict` notes fail, too.
+    pub fn add(&mut self, findings: Vec<Finding>, is_strict: bool) {
+        self.findings.extend(findings);
+        self.findings.sort_by_key(|finding| !finding.fails);
+        let is_failure = |finding: &Finding| finding.fails || is_strict;
+        let fails = self.findings.iter().any(is_failure);
+        self.verdict = if fails { "fail" } else { "pass" };
+    }
+}
+
+/// The quantities of a part at its points.
+pub(crate) struct Sampled<'m> {
+    pub(crate) part: Part,
+    pub(crate) quantities: &'m [Quantity<NodeId>],
+    pub(crate) points: Vec<Vec<f64>>,
+    /// For each point, for each quantity, its components.
+    pub(crate) values: Vec<Vec<Vec<Measured>>>,
+}
+
+impl<'m> Sampled<'m> {
+    pub(crate) fn new(model: &'m Model, part: Part, points: Vec<Vec<f64>>) -> Self {
+        let quantities = model.part(part);
+        let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        Self {
+            part,
+            quantities,
+            values: points.iter().map(|point| rows.at(point).tensors).collect(),
+            points,
+        }
+    }
+
+    /// The values of a quantity over the points.
+    pub(crate) fn over(&self, index: usize) -> impl Iterator<Item = (&[f64], &[Measured])> {
+        let points = self.points.iter().zip(&self.values);
+        points.map(move |(point, values)| (point.as_slice(), values[index].as_slice()))
+    }
+}
+
+/// Whether it is zero but for rounding.
+pub(crate) fn is_zero(values: &[Measured]) -> bool {
+    values.iter().all(|v| v.value.abs() <= SAME * v.size)
+}
+
+/// Whether two values are equal but for rounding.
+pub(crate) fn is_same(a: &Measured, b: &Measured) -> bool {
+    (a.value - b.value).abs() <= SAME * a.size.max(b.size)
+}
+
+/// Checks a model at so many points of each part.
+pub(crate) fn check(
+    model: &Model,
+    seed: u64,
+    points: usize,
+    is_strict: bool,
+) -> Result<Check, InputError> {
+    let mut sampler = Sampler::new(model, seed);
+    let mut findings = vec![];
+    let mut shares = vec![];
+    for (part, quantities) in &model.parts {
+        // Data that depend on nothing need no more points than others: one rule for all.
+        let sampled = Sampled::new(model, *part, sampler.points(*part, points)?);
+        debug_assert_eq!(sampled.quantities.len(), quantities.len());
+        let singular = singular(model, &sampled);
+        let is_regular = singular.is_empty();
+        findings.extend(singular);
+        if is_regular {
+            findings.extend(second_way::compare(model, &sampled)?);
+            findings.extend(conditions(model, &sampled));
+            if *part == Part::Interior {
+                findings.extend(required(model, &sampler, &sampled));
+                findings.extend(blindness::interior(model, &sampled));
+                findings.extend(symmetry::symmetric(model, &sampled));
+                let terms = terms::of_equations(model, &sampled);
+                findings.extend(terms.findings);
+                shares = terms.shares;
+            } else {
+                findings.extend(blindness::data(&sampled));
+            }
+        }
+    }
+    findings.extend(blindness::initial_mismatch(model, &mut sampler)?);
+    let mut check = Check {
+        verdict: "pass",
+        findings: vec![],
+        shares,
+    };
+    check.add(findings, is_strict);
+    Ok(check)
+}
+
+/// A point in words: `x = 0.25, t = 1`.
+pub(crate) fn place(model: &Model, point: &[f64]) -> String {
+    let names = model.problem.variables();
+    let entries: Vec<String> = names
+        .iter()
+        .zip(point)
+        .map(|(name, value)| format!("{name} = {value:.6}"))
+        .collect();
+    entries.join(", ")
+}
+
+pub(crate) fn finding(code: &'static str, key: &str, text: String, value: Option<f64>) -> Finding {
+    let fails = matches!(
+        code,
+        "second-way" | "emitted" | "condition-violated" | "not-positive" | "not-zero" | "singular"
+    );
+    Finding {
+        code,
+        key: key.to_owned(),
+        text,
+        value,
+        fails,
+    }
+}
+
+fn singular(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings = vec![];
+    for (index, quantity) in sampled.quantities.iter().enumerate() {
+        let bad = |entry: &(&[f64], &[Measured])| entry.1.iter().any(|v| !v.value.is_finite());
+        if let Some((point, values)) = sampled.over(index).find(bad) {
+            let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
+            let mut pairs = names.iter().zip(values);
+            let Some((name, value)) = pairs.find(|pair| !pair.1.value.is_finite()) else {
+                continue;
+            };
+            let what = role_words(quantity.role);
+            let at = place(model, point);
+            let text = format!("{what} {name} is {} at {at}", value.value);
+            findings.push(finding("singular", &quantity.key, text, None));
+        }
+    }
+    findings
+}
+
+pub(crate) fn role_words(role: Role) -> &'static str {
+    match role {
+        Role::Exact => "the exact",
+        Role::Gradient => "the gradient of",
+        Role::Source => "the source",
+        Role::Positive | Role::Zero => "the required",
+        Role::Level => "the level",
+        Role::Normal => "the normal of",
+        Role::Datum => "the datum",
+        Role::Condition | Role::InitialCondition => "the value required of",
+        Role::Initial => "the initial",
+    }
+}
+
+/// Data that differ from the values that they must have.
+fn conditions(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings = vec![];
+    for (index, expected) in sampled.quantities.iter().enumerate() {
+        if !matches!(expected.role, Role::Condition | Role::InitialCondition) {
+            continue;
+        }
+        // The datum follows its condition.
+        let mut worst: Option<(f64, &[f64])> = None;
+        for ((point, expected), (_, found)) in sampled.over(index).zip(sampled.over(index + 1)) {
+            for (expected, found) in expected.iter().zip(found) {
+                let difference = (expected.value - found.value).abs();
+                let size = expected.size + found.size;
+                let is_worse = worst.is_none_or(|worst| difference > worst.0);
+                if difference > CONDITION * size && is_worse {
+                    worst = Some((difference, point));
+                }
+            }
+        }
+        if let Some((difference, point)) = worst {
+            let at = place(model, point);
+            let text = format!("differs from its `is` by {difference:.3e} at {at}");
+            findings.push(finding(
+                "condition-violated",
+                &expected.key,
+                text,
+                Some(difference),
+            ));
+        }
+    }
+    findings
+}
+
+/// What [require] demands.
+fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings = vec![];
+    let samples = sampled.points.len();
+    for (index, quantity) in sampled.quantities.iter().enumerate() {
+        let name = &quantity.name;
+        if quantity.role == Role::Zero {
+            let bad = |entry: &(&[f64], &[Measured])| !is_zero(entry.1);
+            if let Some((point, values)) = sampled.over(index).find(bad) {
+                let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
+                let at = place(model, point);
+                let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
+                findings.push(finding("not-zero", &quantity.key, text, Some(value)));
+            }
+        }
+        if quantity.role == Role::Positive {
+            let lowest = sampled
+                .over(index)
+                .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
+            let Some((point, _)) = lowest else { continue };
+            let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
+            let (value, point) = descend(model, sampler, &rows, point);
+            if !(value > 0.0) {
+                let at = place(model, &point);
+                let text = format!(
+                    "`{name}` is {value:.3e} at {at}; required to be positive (on {samples} samples)"
+                );
+                findings.push(finding("not-positive", &quantity.key, text, Some(value)));
+            }
+        }
+    }
+    findings
+}
+
+/// The lowest value near a point, by steps along the axes that are halved when none goes down.
+fn descend(
+    model: &Model,
+    sampler: &Sampler<'_>,
+    rows: &Rows<'_>,
+    start: &[f64],
+) -> (f64, Vec<f64>) {
+    const SMALLEST_STEP: f64 = 1e-7;
+    let mut point = start.to_vec();
+    let mut value = rows.at(&point).tensors[0][0].value;
+    let mut step = 0.1;
+    while step > SMALLEST_STEP {
+        let mut is_lower = false;
+        for (axis, [low, high]) in model.problem.intervals.iter().enumerate() {
+            for sign in [-1.0, 1.0] {
+                let mut next = point.clone();
+                next[axis] = (next[axis] + sign * step * (high - low)).clamp(*low, *high);
+                let found = rows.at(&next).tensors[0][0].value;
+                if found < value && sampler.is_in_domain(&next) {
+                    value = found;
+                    point = next;
+                    is_lower = true;
+                }
+            }
+        }
+        if !is_lower {
+            step *= 0.5;
+        }
+    }
+    (value, point)
+}

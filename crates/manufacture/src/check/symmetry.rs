@@ -1,0 +1,110 @@
+//! Fields that are unchanged or reversed by a reflection, an exchange or a shift: superconvergence for free.
+
+use super::{Finding, Sampled, finding, is_same};
+use crate::arithmetic::tape::Measured;
+use crate::derive::Role;
+use crate::model::{Model, Rows};
+
+/// A map of the box onto itself.
+#[derive(Debug, Clone, Copy)]
+enum Map {
+    Reflect(usize),
+    Exchange(usize, usize),
+    /// By half the interval, from its end to its beginning.
+    Shift(usize),
+}
+
+impl Map {
+    fn all(model: &Model) -> Vec<Map> {
+        let count = model.problem.coordinates.len();
+        let intervals = &model.problem.intervals;
+        let mut maps = vec![];
+        for first in 0..count {
+            maps.push(Map::Reflect(first));
+            maps.push(Map::Shift(first));
+            for second in first + 1..count {
+                if intervals[first] == intervals[second] {
+                    maps.push(Map::Exchange(first, second));
+                }
+            }
+        }
+        maps
+    }
+
+    fn apply(self, point: &[f64], intervals: &[[f64; 2]]) -> Vec<f64> {
+        let mut image = point.to_vec();
+        match self {
+            Map::Reflect(axis) => {
+                image[axis] = intervals[axis][0] + intervals[axis][1] - point[axis];
+            }
+            Map::Exchange(first, second) => image.swap(first, second),
+            Map::Shift(axis) => {
+                let [low, high] = intervals[axis];
+                let half = 0.5 * (high - low);
+                let is_upper = point[axis] >= low + half;
+                image[axis] += if is_upper { -half } else { half };
+            }
+        }
+        image
+    }
+
+    /// The coordinates that change.
+    fn axes(self) -> Vec<usize> {
+        match self {
+            Map::Reflect(axis) | Map::Shift(axis) => vec![axis],
+            Map::Exchange(first, second) => vec![first, second],
+        }
+    }
+
+    fn words(self, names: &[String]) -> String {
+        match self {
+            Map::Reflect(axis) => format!("reflecting {}", names[axis]),
+            Map::Exchange(first, second) => {
+                format!("exchanging {} and {}", names[first], names[second])
+            }
+            Map::Shift(axis) => format!("shifting {} by half its interval", names[axis]),
+        }
+    }
+}
+
+/// Whether a component is the same at all points and images, or reversed at all.
+fn is_unchanged(pairs: &[(Vec<Measured>, Vec<Measured>)], component: usize) -> bool {
+    let mut pairs_of = pairs.iter().map(|(a, b)| (a[component], b[component]));
+    let reversed = |v: &Measured| Measured {
+        value: -v.value,
+        ..*v
+    };
+    pairs_of.clone().all(|(a, b)| is_same(&a, &b))
+        || pairs_of.all(|(a, b)| is_same(&a, &reversed(&b)))
+}
+
+pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let mut findings = vec![];
+    let fields = sampled.quantities.iter().enumerate();
+    for (index, field) in fields.filter(|entry| entry.1.role == Role::Exact) {
+        let rows = Rows::new(&model.graph, std::iter::once(&field.tensor));
+        for map in Map::all(model) {
+            let depends = |axis: &usize| {
+                let mut parts = field.tensor.parts.iter();
+                parts.any(|part| model.graph.depends_on(*part, *axis))
+            };
+            if !map.axes().iter().all(depends) {
+                continue;
+            }
+            let image = |entry: (&[f64], &[Measured])| {
+                let image = map.apply(entry.0, &model.problem.intervals);
+                (entry.1.to_vec(), rows.at(&image).tensors.remove(0))
+            };
+            let pairs: Vec<_> = sampled.over(index).map(image).collect();
+            let mut components = 0..field.tensor.parts.len();
+            if components.all(|component| is_unchanged(&pairs, component)) {
+                let map = map.words(&model.problem.coordinates);
+                let text = format!(
+                    "unchanged or reversed by {map}: errors may cancel, and a mistake with that symmetry is not noticed"
+                );
+                findings.push(finding("symmetric", &field.key, text, None));
+            }
+        }
+    }
+    findings
+}

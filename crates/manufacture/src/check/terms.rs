@@ -1,0 +1,129 @@
+//! The terms of an equation: their shares, and which of them cannot be told apart.
+
+use super::{Finding, Sampled, Share, finding, is_zero};
+use crate::derive::Role;
+use crate::fit::{self, Column};
+use crate::model::{Model, Rows};
+
+/// A term below this share of the largest term at every point would not be missed.
+const SMALL: f64 = 0.01;
+
+/// A residual below this share of a column means that it depends on the others.
+const DEPENDENT: f64 = 1e-10;
+
+pub(super) struct Terms {
+    pub(super) findings: Vec<Finding>,
+    pub(super) shares: Vec<Share>,
+}
+
+pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> Terms {
+    let mut terms = Terms {
+        findings: vec![],
+        shares: vec![],
+    };
+    let sources = sampled.quantities.iter().filter(|q| q.role == Role::Source);
+    for source in sources {
+        let labels: Vec<&str> = source.terms.iter().map(|term| term.0.as_str()).collect();
+        let rows = Rows::new(&model.graph, source.terms.iter().map(|term| &term.1));
+        let values: Vec<_> = sampled
+            .points
+            .iter()
+            .map(|point| rows.at(point).tensors)
+            .collect();
+        let is_absent = |term: usize| values.iter().all(|point| is_zero(&point[term]));
+        let column = |term: usize| -> Column {
+            if is_absent(term) {
+                return vec![0.0; values.len() * source.tensor.parts.len()];
+            }
+            let parts = values.iter().flat_map(|point| &point[term]);
+            parts.map(|v| v.value).collect()
+        };
+        let columns: Vec<Column> = (0..labels.len()).map(column).collect();
+        let norms: Vec<f64> = columns.iter().map(|column| fit::norm(column)).collect();
+        let largest = norms.iter().copied().fold(0.0, f64::max);
+        for (term, label) in labels.iter().enumerate() {
+            let share = if largest > 0.0 {
+                norms[term] / largest
+            } else {
+                0.0
+            };
+            terms.shares.push(Share {
+                equation: source.name.clone(),
+                term: (*label).to_owned(),
+                share,
+            });
+            if norms[term] == 0.0 {
+                let text = format!("`{label}` is zero: losing it would not be noticed");
+                terms
+                    .findings
+                    .push(finding("term-absent", &source.key, text, Some(0.0)));
+            } else if is_small(&columns, term, source.tensor.parts.len()) {
+                let text = format!(
+                    "`{label}` is less than 1 % of the largest term everywhere: losing it would hardly be noticed"
+                );
+                terms
+                    .findings
+                    .push(finding("term-small", &source.key, text, Some(share)));
+            }
+        }
+        terms
+            .findings
+            .extend(dependent(&source.key, &labels, &columns));
+    }
+    terms
+}
+
+/// Whether a term is small against the largest one at every point.
+fn is_small(columns: &[Column], term: usize, components: usize) -> bool {
+    let length = |column: &Column, point: usize| fit::norm(&column[point..point + components]);
+    let points = (0..columns[term].len()).step_by(components);
+    points.into_iter().all(|point| {
+        let largest = columns
+            .iter()
+            .map(|column| length(column, point))
+            .fold(0.0, f64::max);
+        length(&columns[term], point) < SMALL * largest
+    })
+}
+
+/// Pairs with a constant ratio, then terms that are sums of several others.
+fn dependent(key: &str, labels: &[&str], columns: &[Column]) -> Vec<Finding> {
+    let mut findings = vec![];
+    let present: Vec<usize> = (0..columns.len())
+        .filter(|i| fit::norm(&columns[*i]) > 0.0)
+        .collect();
+    let mut independent: Vec<usize> = vec![];
+    for term in present {
+        let pair = independent.iter().find_map(|other| {
+            let fitted = fit::least_squares(&[&columns[*other]], &columns[term]);
+            let share = fitted.residual / fit::norm(&columns[term]);
+            (share <= DEPENDENT).then(|| (*other, fitted.factors[0]))
+        });
+        if let Some((other, ratio)) = pair {
+            let text = format!(
+                "`{}` is {ratio:.6} times `{}`: a mistake in one cannot be told from a mistake in the other",
+                labels[term], labels[other]
+            );
+            findings.push(finding("terms-proportional", key, text, Some(ratio)));
+            continue;
+        }
+        let others: Vec<&Column> = independent.iter().map(|other| &columns[*other]).collect();
+        let fitted = fit::least_squares(&others, &columns[term]);
+        if !others.is_empty() && fitted.residual <= DEPENDENT * fit::norm(&columns[term]) {
+            let used = independent.iter().zip(&fitted.factors);
+            let used = used.filter(|entry| entry.1.abs() > DEPENDENT);
+            let names: Vec<String> = used
+                .map(|entry| format!("`{}`", labels[*entry.0]))
+                .collect();
+            let text = format!(
+                "`{}` is a combination of {}: mistakes in them cannot be told apart",
+                labels[term],
+                names.join(", ")
+            );
+            findings.push(finding("terms-proportional", key, text, None));
+            continue;
+        }
+        independent.push(term);
+    }
+    findings
+}

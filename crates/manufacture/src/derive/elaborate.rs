@@ -1,0 +1,454 @@
+//! From trees to tensors, in any arithmetic; shapes are checked here.
+
+use std::collections::HashMap;
+
+use super::Slip;
+use super::space::Space;
+use super::tensor::{self, Tensor, combine, scale};
+use crate::arithmetic::Algebra;
+use crate::language::names::{CONSTANTS, Callee, Function, Operator, did_you_mean};
+use crate::language::tree::{Binary, Comparison, Kind, Tree, callee_name};
+use crate::problem::{Expression, InputError, Problem, Value};
+
+/// A file whose graph has more nodes is refused.
+const MOST_NODES: usize = 200_000;
+
+/// Evaluates the expressions of a file in an arithmetic.
+pub(crate) struct Elaborator<'p, A: Algebra> {
+    pub(crate) problem: &'p Problem,
+    pub(crate) algebra: A,
+    pub(crate) space: Space,
+    pub(super) slip: Slip,
+    /// How often the slip has changed something.
+    pub(super) slips: usize,
+    /// On a face: the outward unit normal.
+    pub(super) normal: Option<Tensor<A::Number>>,
+    pub(super) known: HashMap<String, Tensor<A::Number>>,
+    /// Definitions that are being evaluated.
+    open: Vec<String>,
+}
+
+pub(super) type Elaborated<A> = Result<Tensor<<A as Algebra>::Number>, InputError>;
+
+impl<'p, A: Algebra> Elaborator<'p, A> {
+    pub(crate) fn new(problem: &'p Problem, algebra: A, slip: Slip) -> Self {
+        Self {
+            space: Space {
+                system: problem.system,
+                components: problem.axes().len(),
+            },
+            problem,
+            algebra,
+            slip,
+            slips: 0,
+            normal: None,
+            known: HashMap::new(),
+            open: vec![],
+        }
+    }
+
+    /// Forgets the values of definitions.
+    pub(super) fn forget(&mut self) {
+        self.known.clear();
+    }
+
+    pub(crate) fn expression(&mut self, expression: &Expression) -> Elaborated<A> {
+        self.tree(&expression.tree, expression)
+    }
+
+    pub(crate) fn value(&mut self, value: &Value) -> Elaborated<A> {
+        match value {
+            Value::One(expression) => self.expression(expression),
+            Value::List(place, parts) => {
+                let parts: Result<Vec<_>, _> = parts.iter().map(|part| self.value(part)).collect();
+                let stacked = stack(parts?);
+                stacked.map_err(|problem| place.error(problem))
+            }
+        }
+    }
+
+    pub(super) fn tree(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
+        match &tree.kind {
+            Kind::Number(value, _) => Ok(Tensor::scalar(self.algebra.number(*value))),
+            Kind::Name(name) => self.name(name, tree, within),
+            Kind::Bracket(inner) => self.tree(inner, within),
+            Kind::Negate(operand) => {
+                let operand = self.tree(operand, within)?;
+                let parts = operand.parts.iter();
+                Ok(Tensor {
+                    parts: parts.map(|part| self.algebra.negate(part)).collect(),
+                    shape: operand.shape.clone(),
+                })
+            }
+            Kind::Binary(operator, operands) => {
+                let left = self.tree(&operands[0], within)?;
+                let right = self.tree(&operands[1], within)?;
+                self.binary(*operator, &left, &right)
+                    .map_err(|problem| refused(within, tree, problem))
+            }
+            Kind::Call(callee, parts) => {
+                let value = self.call(*callee, parts, tree, within)?;
+                if self.algebra.nodes() > MOST_NODES {
+                    let problem =
+                        format!("expected at most {MOST_NODES} nodes of the graph, found more");
+                    return Err(refused(within, tree, problem));
+                }
+                Ok(value)
+            }
+            Kind::List(parts) => {
+                let parts: Result<Vec<_>, _> =
+                    parts.iter().map(|part| self.tree(part, within)).collect();
+                stack(parts?).map_err(|problem| refused(within, tree, problem))
+            }
+            Kind::Index(of, indices) => self.index(of, indices, within),
+            Kind::Compare(..) => {
+                let problem = "expected a comparison only as the first argument of `where`";
+                Err(refused(within, tree, problem))
+            }
+        }
+    }
+
+    fn name(&mut self, name: &str, tree: &Tree, within: &Expression) -> Elaborated<A> {
+        let problem = self.problem;
+        if let Some(index) = problem.variables().iter().position(|known| *known == name) {
+            return Ok(Tensor::scalar(self.algebra.variable(index)));
+        }
+        if let Some(index) = problem
+            .parameters
+            .iter()
+            .position(|known| known.name == name)
+        {
+            return Ok(Tensor::scalar(self.algebra.parameter(index)));
+        }
+        if let Some((_, value)) = CONSTANTS.iter().find(|known| known.0 == name) {
+            return Ok(Tensor::scalar(self.algebra.number(*value)));
+        }
+        if let Some(definition) = problem.definitions.get(name) {
+            return self.defined(name, &definition.value, tree, within);
+        }
+        match name {
+            "identity" => Ok(self.identity()),
+            "n" => match &self.normal {
+                Some(normal) if self.open.is_empty() => Ok(normal.clone()),
+                _ => Err(refused(
+                    within,
+                    tree,
+                    "`n` is the unit normal; expected it in [boundary] only",
+                )),
+            },
+            _ => Err(self.unknown(name, tree, within)),
+        }
+    }
+
+    fn unknown(&self, name: &str, tree: &Tree, within: &Expression) -> InputError {
+        let problem = self.problem;
+        let parameters = problem.parameters.iter().map(|known| known.name.as_str());
+        let known: Vec<&str> = problem
+            .variables()
+            .into_iter()
+            .chain(parameters)
+            .chain(problem.definitions.keys().map(String::as_str))
+            .collect();
+        let near = did_you_mean(name, known.iter().copied());
+        let known = known.join(" ");
+        let problem = format!("unknown name `{name}`{near}; expected one of {known}");
+        refused(within, tree, problem)
+    }
+
+    fn defined(
+        &mut self,
+        name: &str,
+        value: &Value,
+        tree: &Tree,
+        within: &Expression,
+    ) -> Elaborated<A> {
+        if let Some(first) = self.open.iter().position(|open| open == name) {
+            let mut circle = self.open[first..].to_vec();
+            circle.push(name.to_owned());
+            let problem = format!("a circle: {}", circle.join(" -> "));
+            return Err(refused(within, tree, problem));
+        }
+        self.definition(name, value)
+    }
+
+    /// The value of a name, which is evaluated once.
+    pub(super) fn definition(&mut self, name: &str, value: &Value) -> Elaborated<A> {
+        if let Some(known) = self.known.get(name) {
+            return Ok(known.clone());
+        }
+        self.open.push(name.to_owned());
+        let value = self.value(value)?;
+        self.open.pop();
+        self.known.insert(name.to_owned(), value.clone());
+        Ok(value)
+    }
+
+    fn identity(&mut self) -> Tensor<A::Number> {
+        let rows = self.space.components;
+        let mut parts = vec![];
+        for i in 0..rows {
+            for j in 0..rows {
+                parts.push(self.algebra.number(f64::from(u8::from(i == j))));
+            }
+        }
+        Tensor {
+            shape: vec![rows, rows],
+            parts,
+        }
+    }
+
+    pub(super) fn binary(
+        &mut self,
+        operator: Binary,
+        left: &Tensor<A::Number>,
+        right: &Tensor<A::Number>,
+    ) -> Result<Tensor<A::Number>, String> {
+        let algebra = &mut self.algebra;
+        let shapes = || [left.words(), right.words()];
+        let [is_left_scalar, is_right_scalar] = [left, right].map(|side| side.rank() == 0);
+        match operator {
+            Binary::Add | Binary::Subtract if left.shape == right.shape => {
+                Ok(combine(algebra, operator, left, right))
+            }
+            Binary::Multiply if is_right_scalar => {
+                Ok(scale(algebra, operator, left, &right.parts[0]))
+            }
+            Binary::Multiply if is_left_scalar => {
+                let parts = right.parts.iter();
+                Ok(Tensor {
+                    parts: parts
+                        .map(|part| algebra.binary(operator, &left.parts[0], part))
+                        .collect(),
+                    shape: right.shape.clone(),
+                })
+            }
+            Binary::Divide if is_right_scalar => {
+                Ok(scale(algebra, operator, left, &right.parts[0]))
+            }
+            Binary::Power if is_left_scalar && is_right_scalar => {
+                let power = algebra.binary(operator, &left.parts[0], &right.parts[0]);
+                Ok(Tensor::scalar(power))
+            }
+            Binary::Add | Binary::Subtract => {
+                let [left, right] = shapes();
+                let sign = if operator == Binary::Add {
+                    "plus"
+                } else {
+                    "minus"
+                };
+                Err(format!("{left} {sign} {right}; expected equal shapes"))
+            }
+            Binary::Multiply => {
+                let [left, right] = shapes();
+                Err(format!(
+                    "{left} times {right}; expected a scalar on one side, or dot, inner, outer, cross"
+                ))
+            }
+            Binary::Divide => {
+                let [left, right] = shapes();
+                Err(format!(
+                    "{left} divided by {right}; expected a scalar below"
+                ))
+            }
+            Binary::Power => {
+                let [left, right] = shapes();
+                Err(format!("{left} to the power of {right}; expected scalars"))
+            }
+        }
+    }
+
+    fn call(
+        &mut self,
+        callee: Callee,
+        parts: &[Tree],
+        tree: &Tree,
+        within: &Expression,
+    ) -> Elaborated<A> {
+        match callee {
+            Callee::Function(function) => self.function(function, parts, tree, within),
+            Callee::Operator(operator) => self.operator(operator, parts, tree, within),
+        }
+    }
+
+    fn function(
+        &mut self,
+        function: Function,
+        parts: &[Tree],
+        tree: &Tree,
+        within: &Expression,
+    ) -> Elaborated<A> {
+        if function == Function::Where {
+            return self.piecewise(parts, tree, within);
+        }
+        let mut numbers = vec![];
+        for part in parts {
+            numbers.push(self.scalar(part, within)?);
+        }
+        let zero = self.algebra.number(0.0);
+        let algebra = &mut self.algebra;
+        let value = match (function, numbers.as_slice()) {
+            (Function::Abs, [a]) => {
+                let opposite = algebra.negate(a);
+                algebra.choose(Comparison::Less, [a, &zero], &opposite, a)
+            }
+            (Function::Min, [a, b]) => algebra.choose(Comparison::LessOrEqual, [a, b], a, b),
+            (Function::Max, [a, b]) => algebra.choose(Comparison::GreaterOrEqual, [a, b], a, b),
+            (Function::Heaviside, [a]) => {
+                let one = algebra.number(1.0);
+                algebra.choose(Comparison::GreaterOrEqual, [a, &zero], &one, &zero)
+            }
+            (_, [a, ..]) => algebra.call(function, a),
+            (_, []) => zero,
+        };
+        Ok(Tensor::scalar(value))
+    }
+
+    /// A scalar part of an expression.
+    fn scalar(&mut self, tree: &Tree, within: &Expression) -> Result<A::Number, InputError> {
+        let value = self.tree(tree, within)?;
+        match value.parts.as_slice() {
+            [part] if value.rank() == 0 => Ok(part.clone()),
+            _ => {
+                let problem = format!("expected a scalar, found {}", value.words());
+                Err(refused(within, tree, problem))
+            }
+        }
+    }
+
+    fn piecewise(&mut self, parts: &[Tree], tree: &Tree, within: &Expression) -> Elaborated<A> {
+        let [condition, then, otherwise] = parts else {
+            return Err(refused(within, tree, "expected three arguments"));
+        };
+        let Kind::Compare(comparison, operands) = &condition.kind else {
+            return Err(refused(within, condition, "expected a comparison"));
+        };
+        let left = self.scalar(&operands[0], within)?;
+        let right = self.scalar(&operands[1], within)?;
+        let then = self.tree(then, within)?;
+        let otherwise = self.tree(otherwise, within)?;
+        if then.shape != otherwise.shape {
+            let [then, otherwise] = [then.words(), otherwise.words()];
+            let problem = format!("{then} or {otherwise}; expected equal shapes");
+            return Err(refused(within, tree, problem));
+        }
+        let pairs = then.parts.iter().zip(&otherwise.parts);
+        let choose = |(then, otherwise)| {
+            self.algebra
+                .choose(*comparison, [&left, &right], then, otherwise)
+        };
+        Ok(Tensor {
+            parts: pairs.map(choose).collect(),
+            shape: then.shape.clone(),
+        })
+    }
+
+    fn index(&mut self, of: &Tree, indices: &[Tree], within: &Expression) -> Elaborated<A> {
+        let tensor = self.tree(of, within)?;
+        if indices.len() != tensor.rank() {
+            let problem = format!(
+                "{} has {} indices, found {}",
+                tensor.words(),
+                tensor.rank(),
+                indices.len()
+            );
+            return Err(refused(within, of, problem));
+        }
+        let mut place = 0;
+        for (index, length) in indices.iter().zip(&tensor.shape) {
+            place = place * length + self.place(index, *length, within)?;
+        }
+        Ok(Tensor::scalar(tensor.parts[place].clone()))
+    }
+
+    /// The place of a component: by number from 1, or by coordinate.
+    fn place(&self, index: &Tree, length: usize, within: &Expression) -> Result<usize, InputError> {
+        let axes = self.problem.axes();
+        let place = match &index.kind {
+            Kind::Number(value, _) if value.fract() == 0.0 && *value >= 1.0 => {
+                Some(*value as usize - 1)
+            }
+            Kind::Name(name) if axes.len() == length => axes.iter().position(|axis| axis == name),
+            _ => None,
+        };
+        place.filter(|place| *place < length).ok_or_else(|| {
+            let names = if axes.len() == length {
+                format!(", or one of {}", axes.join(" "))
+            } else {
+                String::new()
+            };
+            let problem = format!("expected a number from 1 to {length}{names}, found {index}");
+            refused(within, index, problem)
+        })
+    }
+
+    /// The place of a variable that an argument names.
+    pub(super) fn variable(&self, tree: &Tree, within: &Expression) -> Result<usize, InputError> {
+        let known = self.problem.variables();
+        if let Kind::Name(name) = &tree.kind
+            && let Some(place) = known.iter().position(|variable| variable == name)
+        {
+            return Ok(place);
+        }
+        let problem = format!("expected one of {}, found {tree}", known.join(" "));
+        Err(refused(within, tree, problem))
+    }
+
+    pub(super) fn operand_error(
+        &self,
+        operator: Operator,
+        expected: &str,
+        operands: &[Tensor<A::Number>],
+        tree: &Tree,
+        within: &Expression,
+    ) -> InputError {
+        let name = callee_name(Callee::Operator(operator));
+        let words: Vec<String> = operands.iter().map(Tensor::words).collect();
+        let found = words.join(" and ");
+        refused(
+            within,
+            tree,
+            format!("`{name}` of {found}; expected {expected}"),
+        )
+    }
+}
+
+/// An error in a part of an expression; the part is named unless it is all of the text.
+pub(super) fn refused(within: &Expression, tree: &Tree, problem: impl Into<String>) -> InputError {
+    let problem = problem.into();
+    let part = tree.to_string();
+    let is_call = matches!(tree.kind, Kind::Binary(..) | Kind::Call(..));
+    let problem = if is_call && part.len() <= 60 {
+        format!("`{part}`: {problem}")
+    } else {
+        problem
+    };
+    within.place.error_at(&within.text, tree.at, problem)
+}
+
+/// Tensors of one shape as the rows of another.
+fn stack<N: Clone>(rows: Vec<Tensor<N>>) -> Result<Tensor<N>, String> {
+    let first = rows[0].shape.clone();
+    if let Some(other) = rows.iter().find(|row| row.shape != first) {
+        let [first, other] = [rows[0].words(), other.words()];
+        return Err(format!(
+            "{first} beside {other}; expected rows of one shape"
+        ));
+    }
+    let mut shape = vec![rows.len()];
+    shape.extend(first);
+    let parts = rows.into_iter().flat_map(|row| row.parts).collect();
+    Ok(Tensor { shape, parts })
+}
+
+/// The determinant or the inverse, of up to three rows.
+pub(super) fn matrix<A: Algebra>(
+    algebra: &mut A,
+    operator: Operator,
+    tensor: &Tensor<A::Number>,
+) -> Option<Tensor<A::Number>> {
+    let rows = tensor.square().filter(|rows| (1..=3).contains(rows))?;
+    Some(match operator {
+        Operator::Determinant => Tensor::scalar(tensor::determinant(algebra, tensor, rows)),
+        _ => tensor::inverse(algebra, tensor, rows),
+    })
+}

@@ -1,0 +1,311 @@
+//! The quantities of a file: exact values, sources, data, in any arithmetic.
+
+mod elaborate;
+mod integrals;
+mod operators;
+mod space;
+pub(crate) mod tensor;
+
+use crate::arithmetic::Algebra;
+use crate::language::tree::Binary;
+use crate::problem::{Datum, InputError, Problem, Surface};
+
+pub(crate) use elaborate::Elaborator;
+pub(crate) use tensor::Tensor;
+
+/// A mistake that is made throughout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Slip {
+    None,
+    /// Coefficients are not differentiated inside a `div` or `d`.
+    ProductRule,
+    TransposedGradient,
+    /// `sym(A)` is A.
+    PlainSymmetric,
+    /// `sym(A)` is A/2.
+    HalfSymmetric,
+    /// `transpose(A)` is A.
+    PlainTranspose,
+}
+
+impl Slip {
+    pub(crate) const ALL: [Slip; 5] = [
+        Slip::ProductRule,
+        Slip::TransposedGradient,
+        Slip::PlainSymmetric,
+        Slip::HalfSymmetric,
+        Slip::PlainTranspose,
+    ];
+
+    /// The name of the cause.
+    pub(crate) fn cause(self) -> &'static str {
+        match self {
+            Slip::None => "equal",
+            Slip::ProductRule => "product-rule",
+            Slip::TransposedGradient => "transposed-gradient",
+            Slip::PlainSymmetric | Slip::HalfSymmetric | Slip::PlainTranspose => {
+                "missing-transpose"
+            }
+        }
+    }
+
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Slip::None => "as written",
+            Slip::ProductRule => "without the derivative of a coefficient that varies",
+            Slip::TransposedGradient => "with each gradient of a vector transposed",
+            Slip::PlainSymmetric => "with A in place of sym(A)",
+            Slip::HalfSymmetric => "with A/2 in place of sym(A)",
+            Slip::PlainTranspose => "with A in place of transpose(A)",
+        }
+    }
+}
+
+/// What a quantity is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    Exact,
+    Gradient,
+    Source,
+    Positive,
+    Zero,
+    /// Negative inside the domain.
+    Level,
+    Normal,
+    Datum,
+    /// The value that the datum of that name must have.
+    Condition,
+    Initial,
+    InitialCondition,
+}
+
+/// A quantity of the file.
+#[derive(Debug, Clone)]
+pub(crate) struct Quantity<N> {
+    pub(crate) role: Role,
+    pub(crate) name: String,
+    /// The path of its key.
+    pub(crate) key: String,
+    pub(crate) tensor: Tensor<N>,
+    /// Of a source: the label and value of each term.
+    pub(crate) terms: Vec<(String, Tensor<N>)>,
+}
+
+/// The parts of the domain that quantities belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    Interior,
+    /// By its place among the faces.
+    Face(usize),
+    Initial,
+}
+
+impl Part {
+    pub(crate) fn all(problem: &Problem) -> Vec<Part> {
+        let faces = (0..problem.faces.len()).map(Part::Face);
+        let initial = (!problem.initial.is_empty()).then_some(Part::Initial);
+        std::iter::once(Part::Interior)
+            .chain(faces)
+            .chain(initial)
+            .collect()
+    }
+}
+
+/// The names of the components: `T`, `v_x`, `sigma_xy`; numbers if the length is not that of a vector of the space.
+pub(crate) fn components(problem: &Problem, name: &str, shape: &[usize]) -> Vec<String> {
+    let axes = problem.axes();
+    let mut names = vec![String::new()];
+    for length in shape {
+        let index = |place: usize| match axes.get(place) {
+            Some(axis) if *length == axes.len() => axis.clone(),
+            _ => (place + 1).to_string(),
+        };
+        names = names
+            .iter()
+            .flat_map(|before| (0..*length).map(move |place| format!("{before}{}", index(place))))
+            .collect();
+    }
+    if shape.is_empty() {
+        return vec![name.to_owned()];
+    }
+    names
+        .iter()
+        .map(|indices| format!("{name}_{indices}"))
+        .collect()
+}
+
+impl<A: Algebra> Elaborator<'_, A> {
+    /// All quantities of a part.
+    pub(crate) fn part(&mut self, part: Part) -> Result<Vec<Quantity<A::Number>>, InputError> {
+        match part {
+            Part::Interior => self.interior(),
+            Part::Face(index) => self.face(index),
+            Part::Initial => {
+                let initial = &self.problem.initial;
+                self.data(initial, "initial", [Role::Initial, Role::InitialCondition])
+            }
+        }
+    }
+
+    fn interior(&mut self) -> Result<Vec<Quantity<A::Number>>, InputError> {
+        let mut quantities = vec![];
+        let problem = self.problem;
+        for (name, definition) in &problem.definitions {
+            let tensor = self.definition(name, &definition.value)?;
+            if !definition.is_exact {
+                continue;
+            }
+            let key = format!("exact.{name}");
+            if !self.space.refuses(&tensor) {
+                let gradient = self.space.gradient(&mut self.algebra, &tensor);
+                quantities.push(quantity(Role::Gradient, name, &key, gradient));
+            }
+            quantities.push(quantity(Role::Exact, name, &key, tensor));
+        }
+        quantities.extend(self.sources()?);
+        let required = [
+            (Role::Positive, &problem.positive),
+            (Role::Zero, &problem.zero),
+        ];
+        for (role, expressions) in required {
+            for expression in expressions {
+                let tensor = self.expression(expression)?;
+                if role == Role::Positive && tensor.rank() > 0 {
+                    let problem = format!("expected a scalar, found {}", tensor.words());
+                    return Err(expression.place.error(problem));
+                }
+                let key = &expression.place.key;
+                quantities.push(quantity(role, &expression.text, key, tensor));
+            }
+        }
+        for face in &problem.faces {
+            if let Surface::Level(expression) = &face.surface {
+                let tensor = self.expression(expression)?;
+                if tensor.rank() > 0 {
+                    let problem = format!("expected a scalar, found {}", tensor.words());
+                    return Err(expression.place.error(problem));
+                }
+                quantities.push(quantity(Role::Level, &face.name, &face.place.key, tensor));
+            }
+        }
+        Ok(quantities)
+    }
+
+    /// The sources alone, with their terms; with a slip those that have room for it.
+    pub(crate) fn sources(&mut self) -> Result<Vec<Quantity<A::Number>>, InputError> {
+        let mut sources = vec![];
+        for equation in &self.problem.equations {
+            if self.slip != Slip::None {
+                // Definitions are evaluated anew, so that a slip in them counts for each equation.
+                self.forget();
+            }
+            let before = self.slips;
+            let mut terms: Vec<(String, Tensor<A::Number>)> = vec![];
+            let mut total: Option<Tensor<A::Number>> = None;
+            for term in &equation.terms {
+                let mut tensor = self.expression(&term.expression)?;
+                if term.is_negative {
+                    let minus = self.algebra.number(-1.0);
+                    tensor = tensor::scale(&mut self.algebra, Binary::Multiply, &tensor, &minus);
+                }
+                let sum = match &total {
+                    None => Ok(tensor.clone()),
+                    Some(total) if term.is_negative => {
+                        // The sign is in the term: the message is about the term as written.
+                        self.binary(Binary::Add, total, &tensor)
+                            .map_err(|problem| problem.replace(" plus ", " minus "))
+                    }
+                    Some(total) => self.binary(Binary::Add, total, &tensor),
+                };
+                let label = &term.label;
+                total = Some(sum.map_err(|problem| {
+                    let expression = &term.expression;
+                    let problem = format!("`{label}`: {problem}");
+                    expression
+                        .place
+                        .error_at(&expression.text, expression.tree.at, problem)
+                })?);
+                terms.push((label.clone(), tensor));
+            }
+            let Some(tensor) = total else { continue };
+            if self.slip != Slip::None && self.slips == before {
+                continue;
+            }
+            if tensor.rank() > 1 {
+                let problem = format!("expected a scalar or a vector, found {}", tensor.words());
+                return Err(equation.place.error(problem));
+            }
+            let key = format!("equations.{}", equation.name);
+            sources.push(Quantity {
+                terms,
+                ..quantity(Role::Source, &equation.name, &key, tensor)
+            });
+        }
+        Ok(sources)
+    }
+
+    fn face(&mut self, index: usize) -> Result<Vec<Quantity<A::Number>>, InputError> {
+        let face = &self.problem.faces[index];
+        let normal = match &face.surface {
+            Surface::Level(expression) => {
+                let level = self.expression(expression)?;
+                self.space.normal(&mut self.algebra, &level)
+            }
+            Surface::Side {
+                coordinate,
+                is_upper,
+            } => {
+                let axes = self.problem.axes();
+                let name = &self.problem.coordinates[*coordinate];
+                let sign = if *is_upper { 1.0 } else { -1.0 };
+                let part = |axis: &String| if axis == name { sign } else { 0.0 };
+                let parts = axes.iter().map(|axis| self.algebra.number(part(axis)));
+                Tensor::vector(parts.collect())
+            }
+        };
+        let key = format!("boundary.{}", face.name);
+        let mut quantities = vec![quantity(Role::Normal, &face.name, &key, normal.clone())];
+        self.normal = Some(normal);
+        let data = self.data(&face.data, &key, [Role::Datum, Role::Condition]);
+        self.normal = None;
+        quantities.extend(data?);
+        Ok(quantities)
+    }
+
+    fn data(
+        &mut self,
+        data: &[Datum],
+        path: &str,
+        [role, condition_role]: [Role; 2],
+    ) -> Result<Vec<Quantity<A::Number>>, InputError> {
+        let mut quantities = vec![];
+        for datum in data {
+            let key = format!("{path}.{}", datum.name);
+            let tensor = self.value(&datum.value)?;
+            if let Some(condition) = &datum.condition {
+                let expected = self.value(condition)?;
+                if expected.shape != tensor.shape {
+                    let problem = format!(
+                        "`of` is {}, `is` is {}; expected equal shapes",
+                        tensor.words(),
+                        expected.words()
+                    );
+                    return Err(condition.place().error(problem));
+                }
+                quantities.push(quantity(condition_role, &datum.name, &key, expected));
+            }
+            quantities.push(quantity(role, &datum.name, &key, tensor));
+        }
+        Ok(quantities)
+    }
+}
+
+fn quantity<N>(role: Role, name: &str, key: &str, tensor: Tensor<N>) -> Quantity<N> {
+    Quantity {
+        role,
+        name: name.to_owned(),
+        key: key.to_owned(),
+        tensor,
+        terms: vec![],
+    }
+}

@@ -1,0 +1,142 @@
+//! Functions in the user's language.
+
+mod answer;
+mod dialect;
+mod functions;
+mod lower;
+mod runtime;
+mod study;
+mod write;
+
+use std::path::Path;
+
+use crate::model::Model;
+
+use functions::functions;
+
+/// A language that functions are emitted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// C99, which C++ reads, too.
+    C,
+    /// Fortran 2008.
+    Fortran,
+    /// Python with NumPy.
+    Python,
+    /// The form language of FEniCSx and Firedrake.
+    Ufl,
+    /// Octave and MATLAB.
+    Octave,
+    /// Rust.
+    Rust,
+}
+
+impl Language {
+    /// The languages by name.
+    pub const ALL: [(&'static str, Language); 6] = [
+        ("c", Language::C),
+        ("fortran", Language::Fortran),
+        ("python", Language::Python),
+        ("ufl", Language::Ufl),
+        ("octave", Language::Octave),
+        ("rust", Language::Rust),
+    ];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        let mut all = Self::ALL.iter();
+        all.find(|known| known.1 == self)
+            .map_or("", |known| known.0)
+    }
+
+    /// The commands that make the answering program of a file in a folder, the last of which runs it; none for UFL.
+    pub(crate) fn commands(self, name: &str, folder: &Path) -> Vec<Vec<String>> {
+        let file = |file: String| folder.join(file).display().to_string();
+        let answer = |ending: &str| file(format!("{name}_answer.{ending}"));
+        let program = file(format!("{name}_answer_{}", self.name()));
+        let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+        let modules = folder.display().to_string();
+        match self {
+            Language::C => {
+                let library = file(format!("{name}.c"));
+                let build = [
+                    "cc",
+                    "-std=c99",
+                    "-O2",
+                    "-o",
+                    &program,
+                    &library,
+                    &answer("c"),
+                    "-lm",
+                ];
+                vec![words(&build), words(&[&program])]
+            }
+            Language::Fortran => {
+                let library = file(format!("{name}.f90"));
+                let build = [
+                    "gfortran",
+                    "-std=f2008",
+                    "-O2",
+                    "-J",
+                    &modules,
+                    "-o",
+                    &program,
+                    &library,
+                    &answer("f90"),
+                ];
+                vec![words(&build), words(&[&program])]
+            }
+            Language::Python => vec![words(&["python3", "-B", &answer("py")])],
+            Language::Octave => vec![words(&[
+                "octave",
+                "--quiet",
+                "--no-history",
+                "--path",
+                &modules,
+                &answer("m"),
+            ])],
+            Language::Rust => {
+                let build = [
+                    "rustc",
+                    "--edition",
+                    "2021",
+                    "-O",
+                    "-o",
+                    &program,
+                    &answer("rs"),
+                ];
+                vec![words(&build), words(&[&program])]
+            }
+            Language::Ufl => vec![],
+        }
+    }
+}
+
+/// A file to be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EmittedFile {
+    /// Its name, without a folder.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// The files of a model in a language.
+pub(crate) fn emit(model: &Model, language: Language) -> Vec<EmittedFile> {
+    let functions = functions(model, language);
+    let mut files = write::library(model, language, &functions);
+    files.extend(answer::program(model, language, &functions));
+    files
+}
+
+/// The study file, if the file has `[study]`.
+pub(crate) fn study(model: &Model) -> Option<EmittedFile> {
+    study::study(model)
+}
+
+/// A text with `@KEY@` replaced.
+fn fill(template: &str, values: &[(&str, &str)]) -> String {
+    let replace =
+        |text: String, (key, value): &(&str, &str)| text.replace(&format!("@{key}@"), value);
+    values.iter().fold(template.to_owned(), replace)
+}

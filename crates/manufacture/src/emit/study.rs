@@ -1,0 +1,29 @@
+//! The study file beside the emitted files.
+
+use std::fmt::Write;
+
+use super::EmittedFile;
+use crate::model::Model;
+
+pub(super) fn study(model: &Model) -> Option<EmittedFile> {
+    let problem = &model.problem;
+    let study = problem.study.as_ref()?;
+    let id = problem.name.to_lowercase().replace('_', "-");
+    let orders = study
+        .orders
+        .iter()
+        .map(|(error, order)| format!("{error}: {order}"));
+    let claim = orders.collect::<Vec<_>>().join(", ");
+    let mut text = format!(
+        "[study]\nid = \"{id}\"\nclaim = \"orders of the errors against the manufactured solution: {claim}\"\n\
+         kind = \"program\"\n\n[program]\ncommand = {:?}\n\n[refine]\nn = {:?}\n",
+        study.command, study.n
+    );
+    for (error, order) in &study.orders {
+        let _ = write!(text, "\n[[expect]]\nerror = {error:?}\norder = {order}\n");
+    }
+    Some(EmittedFile {
+        name: format!("{}.study.toml", problem.name),
+        text,
+    })
+}

@@ -1,0 +1,23 @@
+program @NAME@_answer
+    use @NAME@
+    implicit none
+    integer, parameter :: double = kind(1.0d0)
+    character(4096) :: text, face
+    real(double) :: p(@V@), x(@D@), t
+    integer :: status
+    call get_command_argument(1, face)
+    read(*, '(a)', iostat=status) text
+    select case (trim(face))
+@NAMES@    case default
+        stop 2
+    end select
+    t = 0
+    do
+        read(*, '(a)', iostat=status) text
+        if (status /= 0) exit
+        read(text, *) p
+        x = p(1:@D@)
+@TIME@        select case (trim(face))
+@CALLS@        end select
+    end do
+end program @NAME@_answer

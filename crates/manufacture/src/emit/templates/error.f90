@@ -1,0 +1,12 @@
+pure function error_@F@_@NORM@(x, weights@T@, values) &
+    result(out)
+    real(dp), intent(in) :: x(:, :), weights(:)@TIME@, values(@COLONS@:)
+    real(dp) :: out
+    integer :: k
+    out = 0.0_dp
+    do k = 1, size(weights)
+        @ADD@
+    end do
+    out = @ROOT@
+end function error_@F@_@NORM@
+

@@ -1,0 +1,88 @@
+//! Least squares with a few columns.
+
+/// A function at the points.
+pub(crate) type Column = Vec<f64>;
+
+/// What fits best.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Fitted {
+    /// One for each column.
+    pub(crate) factors: Vec<f64>,
+    /// The norm of what is left.
+    pub(crate) residual: f64,
+}
+
+/// The Euclidean norm, without overflow.
+pub(crate) fn norm(column: &[f64]) -> f64 {
+    let largest = column
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let sum: f64 = column.iter().map(|value| (value / largest).powi(2)).sum();
+    largest * sum.sqrt()
+}
+
+fn inner(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn subtract(from: &mut [f64], times: f64, column: &[f64]) {
+    for (value, other) in from.iter_mut().zip(column) {
+        *value -= times * other;
+    }
+}
+
+/// Columns below this share of their norm after orthogonalisation depend on those before.
+const DEPENDENT: f64 = 1e-12;
+
+/// The combination of columns that is closest to the target, by Gram-Schmidt, twice against loss of orthogonality.
+///
+/// A column that depends on those before it has the factor 0.
+pub(crate) fn least_squares(columns: &[&Column], target: &[f64]) -> Fitted {
+    let count = columns.len();
+    let mut basis: Vec<Column> = vec![];
+    // triangle[j][i]: the part of column j along basis vector i.
+    let mut triangle: Vec<Vec<f64>> = vec![];
+    for column in columns {
+        let mut rest = (*column).clone();
+        let mut parts = vec![0.0; count];
+        for _ in 0..2 {
+            for (i, direction) in basis.iter().enumerate() {
+                let part = inner(direction, &rest);
+                parts[i] += part;
+                subtract(&mut rest, part, direction);
+            }
+        }
+        let length = norm(&rest);
+        let is_independent = length > DEPENDENT * norm(column);
+        parts[basis.len()] = if is_independent { length } else { 0.0 };
+        let scale = if is_independent { 1.0 / length } else { 0.0 };
+        basis.push(rest.iter().map(|value| value * scale).collect());
+        triangle.push(parts);
+    }
+    let mut rest = target.to_vec();
+    let mut sides = vec![0.0; count];
+    for _ in 0..2 {
+        for (i, direction) in basis.iter().enumerate() {
+            let part = inner(direction, &rest);
+            sides[i] += part;
+            subtract(&mut rest, part, direction);
+        }
+    }
+    let mut factors = vec![0.0; count];
+    for i in (0..count).rev() {
+        let known: f64 = (i + 1..count).map(|j| triangle[j][i] * factors[j]).sum();
+        let pivot = triangle[i][i];
+        factors[i] = if pivot == 0.0 {
+            0.0
+        } else {
+            (sides[i] - known) / pivot
+        };
+    }
+    Fitted {
+        factors,
+        residual: norm(&rest),
+    }
+}

@@ -1,0 +1,136 @@
+//! The names of the language, and suggestions for misspelt ones.
+
+use strsim::osa_distance;
+
+/// A function of numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Log10,
+    Sqrt,
+    Abs,
+    Min,
+    Max,
+    Heaviside,
+    Where,
+}
+
+/// An operator on tensors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Operator {
+    Derivative,
+    TimeDerivative,
+    Gradient,
+    Divergence,
+    Laplacian,
+    Curl,
+    Dot,
+    Inner,
+    Outer,
+    Cross,
+    Transpose,
+    Symmetric,
+    Skew,
+    Trace,
+    Determinant,
+    Inverse,
+    Integral,
+}
+
+/// What is called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Callee {
+    Function(Function),
+    Operator(Operator),
+}
+
+/// Everything that can be called: its name, and its smallest and largest number of arguments.
+pub const CALLEES: [(&str, Callee, usize, usize); 35] = [
+    ("sin", Callee::Function(Function::Sin), 1, 1),
+    ("cos", Callee::Function(Function::Cos), 1, 1),
+    ("tan", Callee::Function(Function::Tan), 1, 1),
+    ("asin", Callee::Function(Function::Asin), 1, 1),
+    ("acos", Callee::Function(Function::Acos), 1, 1),
+    ("atan", Callee::Function(Function::Atan), 1, 1),
+    ("sinh", Callee::Function(Function::Sinh), 1, 1),
+    ("cosh", Callee::Function(Function::Cosh), 1, 1),
+    ("tanh", Callee::Function(Function::Tanh), 1, 1),
+    ("exp", Callee::Function(Function::Exp), 1, 1),
+    ("ln", Callee::Function(Function::Ln), 1, 1),
+    ("log10", Callee::Function(Function::Log10), 1, 1),
+    ("sqrt", Callee::Function(Function::Sqrt), 1, 1),
+    ("abs", Callee::Function(Function::Abs), 1, 1),
+    ("min", Callee::Function(Function::Min), 2, 2),
+    ("max", Callee::Function(Function::Max), 2, 2),
+    ("heaviside", Callee::Function(Function::Heaviside), 1, 1),
+    ("where", Callee::Function(Function::Where), 3, 3),
+    ("d", Callee::Operator(Operator::Derivative), 2, 9),
+    ("dt", Callee::Operator(Operator::TimeDerivative), 1, 1),
+    ("grad", Callee::Operator(Operator::Gradient), 1, 1),
+    ("div", Callee::Operator(Operator::Divergence), 1, 1),
+    ("laplacian", Callee::Operator(Operator::Laplacian), 1, 1),
+    ("curl", Callee::Operator(Operator::Curl), 1, 1),
+    ("dot", Callee::Operator(Operator::Dot), 2, 2),
+    ("inner", Callee::Operator(Operator::Inner), 2, 2),
+    ("outer", Callee::Operator(Operator::Outer), 2, 2),
+    ("cross", Callee::Operator(Operator::Cross), 2, 2),
+    ("transpose", Callee::Operator(Operator::Transpose), 1, 1),
+    ("sym", Callee::Operator(Operator::Symmetric), 1, 1),
+    ("skew", Callee::Operator(Operator::Skew), 1, 1),
+    ("trace", Callee::Operator(Operator::Trace), 1, 1),
+    ("det", Callee::Operator(Operator::Determinant), 1, 1),
+    ("inv", Callee::Operator(Operator::Inverse), 1, 1),
+    ("integral", Callee::Operator(Operator::Integral), 2, 2),
+];
+
+/// The constants by name.
+pub const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
+
+/// Names that have a meaning in every file: callees, constants, the normal and the unit tensor.
+pub(crate) fn reserved() -> impl Iterator<Item = &'static str> {
+    let callees = CALLEES.iter().map(|callee| callee.0);
+    callees
+        .chain(CONSTANTS.iter().map(|constant| constant.0))
+        .chain(["n", "identity"])
+}
+
+/// The part of a message about an unknown name that suggests a known one; empty without a suggestion.
+pub fn did_you_mean<'c>(name: &str, known: impl IntoIterator<Item = &'c str>) -> String {
+    nearest(name, known).map_or(String::new(), |near| format!(", did you mean `{near}`?"))
+}
+
+/// The candidate closest to `name`; `None` if none is close enough to be a typing error.
+///
+/// The distance counts insertions, deletions, replacements and swaps of neighbours, ignoring case. It must be at most a
+/// third of the length of `name`, or 1, and less than the length of the candidate.
+pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    // The computation of the distance takes time proportional to the product of both lengths.
+    const LONGEST: usize = 40;
+    let length = name.chars().take(LONGEST + 1).count();
+    if length > LONGEST {
+        return None;
+    }
+    let name = name.to_lowercase();
+    let allowed = (length / 3).max(1);
+    candidates
+        .into_iter()
+        .map(|candidate| (osa_distance(&name, &candidate.to_lowercase()), candidate))
+        .filter(|&(distance, candidate)| {
+            distance <= allowed && distance < candidate.chars().count()
+        })
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, candidate)| candidate)
+}

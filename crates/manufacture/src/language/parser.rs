@@ -1,0 +1,333 @@
+//! Parser from text to syntax tree, by precedence climbing.
+
+use super::error::SyntaxError;
+use super::names::{CALLEES, Callee, Function, did_you_mean};
+use super::token::{Token, TokenKind, next_token};
+use super::tree::{Binary, Comparison, Kind, Tree};
+
+/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds their stack.
+pub const MAX_DEPTH: usize = 256;
+
+/// Precedence of a sign: above a product, below a power.
+const SIGN: u8 = 5;
+
+/// The tokens allowed after an operand.
+const AFTER_OPERAND: &str = "one of the operators + - * / ^ or the end";
+
+/// Parses all of `text`.
+///
+/// # Errors
+/// [`SyntaxError`] with the position of the first error.
+pub fn parse(text: &str) -> Result<Tree, SyntaxError> {
+    let mut parser = Parser {
+        text,
+        token: next_token(text, 0),
+        depth: 0,
+    };
+    let tree = parser.expression(0)?;
+    match parser.token.kind {
+        TokenKind::End => Ok(tree.tree),
+        TokenKind::Symbol(')') => Err(parser.unexpected("the end, because no bracket is open")),
+        TokenKind::Symbol('<' | '>') | TokenKind::OrEqual(_) => {
+            Err(parser.unexpected("a comparison only as the first argument of `where`"))
+        }
+        _ => Err(parser.unexpected(AFTER_OPERAND)),
+    }
+}
+
+/// A tree and the depth below it.
+struct Deep {
+    tree: Tree,
+    depth: usize,
+}
+
+/// Parts between brackets, and the depth of the deepest.
+struct Parts {
+    trees: Vec<Tree>,
+    depth: usize,
+}
+
+struct Parser<'s> {
+    text: &'s str,
+    /// The next token.
+    token: Token,
+    /// Number of nested calls of [`Parser::expression`].
+    depth: usize,
+}
+
+impl Parser<'_> {
+    /// Parses operands joined by operators whose precedence is at least `minimum`.
+    fn expression(&mut self, minimum: u8) -> Result<Deep, SyntaxError> {
+        self.depth += 1;
+        self.limit(self.depth, self.token.start)?;
+        let mut left = self.operand()?;
+        while let Some((operator, binds, binds_right)) = infix(self.token.kind) {
+            if binds < minimum {
+                break;
+            }
+            let at = self.advance().start;
+            let right = self.expression(binds_right)?;
+            let depth = left.depth.max(right.depth);
+            let operands = Box::new([left.tree, right.tree]);
+            left = self.grow(at, depth, Kind::Binary(operator, operands))?;
+        }
+        self.depth -= 1;
+        Ok(left)
+    }
+
+    /// Parses an operand with its indices.
+    fn operand(&mut self) -> Result<Deep, SyntaxError> {
+        let mut operand = self.primary()?;
+        while self.token.kind == TokenKind::Symbol('[') {
+            let opened = self.advance().start;
+            let indices = self.parts(opened, ']', false)?;
+            let depth = operand.depth.max(indices.depth);
+            let kind = Kind::Index(Box::new(operand.tree), indices.trees);
+            operand = self.grow(opened, depth, kind)?;
+        }
+        Ok(operand)
+    }
+
+    /// Parses a number, a name, a call, a list, or an expression in brackets, with or without a sign.
+    fn primary(&mut self) -> Result<Deep, SyntaxError> {
+        let token = self.token;
+        let at = token.start;
+        match token.kind {
+            TokenKind::Number(value) => {
+                self.advance();
+                if !value.is_finite() {
+                    let found = shorten(self.slice(token));
+                    let most = f64::MAX;
+                    let problem = format!("expected a number of at most {most:e}, found {found}");
+                    return Err(self.error(at, problem));
+                }
+                let kind = Kind::Number(value, self.slice(token).to_owned());
+                self.grow(at, 0, kind)
+            }
+            TokenKind::Name => {
+                self.advance();
+                self.name(token)
+            }
+            TokenKind::Symbol('(') => {
+                self.advance();
+                let inner = self.expression(0)?;
+                self.close(at, ')')?;
+                // A bracket adds nothing to the depth: it is one call of `expression` already.
+                Ok(Deep {
+                    tree: Tree {
+                        kind: Kind::Bracket(Box::new(inner.tree)),
+                        at,
+                    },
+                    depth: inner.depth,
+                })
+            }
+            TokenKind::Symbol('[') => {
+                self.advance();
+                let parts = self.parts(at, ']', false)?;
+                self.grow(at, parts.depth, Kind::List(parts.trees))
+            }
+            TokenKind::Symbol('-') => {
+                self.advance();
+                let operand = self.expression(SIGN)?;
+                self.grow(at, operand.depth, Kind::Negate(Box::new(operand.tree)))
+            }
+            TokenKind::Symbol('+') => {
+                self.advance();
+                self.expression(SIGN)
+            }
+            _ => Err(self.unexpected("a number, a name, a function, `(` or `[`")),
+        }
+    }
+
+    /// Parses a name, or a call if a function or an operator has the name `token`.
+    fn name(&mut self, token: Token) -> Result<Deep, SyntaxError> {
+        let name = self.slice(token).to_owned();
+        let callee = CALLEES.iter().find(|known| known.0 == name);
+        let is_called = self.token.kind == TokenKind::Symbol('(');
+        let Some(&(name, callee, least, most)) = callee else {
+            if is_called {
+                let near = did_you_mean(&name, CALLEES.iter().map(|known| known.0));
+                let name = shorten(&name);
+                let problem =
+                    format!("unknown function `{name}`{near}; a product is written with its *");
+                return Err(self.error(token.start, problem));
+            }
+            return self.grow(token.start, 0, Kind::Name(name));
+        };
+        if !is_called {
+            return Err(self.unexpected(&format!("`(` after the function `{name}`")));
+        }
+        let opened = self.advance().start;
+        let has_condition = callee == Callee::Function(Function::Where);
+        let parts = self.parts(opened, ')', has_condition)?;
+        let count = parts.trees.len();
+        if !(least..=most).contains(&count) {
+            let expected = if least == most {
+                least.to_string()
+            } else {
+                format!("{least} to {most}")
+            };
+            let problem = format!("`{name}`: expected {expected} argument(s), found {count}");
+            return Err(self.error(token.start, problem));
+        }
+        self.grow(token.start, parts.depth, Kind::Call(callee, parts.trees))
+    }
+
+    /// Parses expressions with commas between them, and the bracket that closes the one at byte `opened`.
+    fn parts(
+        &mut self,
+        opened: usize,
+        closing: char,
+        has_condition: bool,
+    ) -> Result<Parts, SyntaxError> {
+        let first = if has_condition {
+            self.condition()?
+        } else {
+            self.expression(0)?
+        };
+        let mut depth = first.depth;
+        let mut trees = vec![first.tree];
+        while self.token.kind == TokenKind::Symbol(',') {
+            self.advance();
+            let next = self.expression(0)?;
+            depth = depth.max(next.depth);
+            trees.push(next.tree);
+        }
+        self.close(opened, closing)?;
+        Ok(Parts { trees, depth })
+    }
+
+    /// Parses two expressions with a comparison between them.
+    fn condition(&mut self) -> Result<Deep, SyntaxError> {
+        let left = self.expression(0)?;
+        let comparison = match self.token.kind {
+            TokenKind::Symbol('<') => Comparison::Less,
+            TokenKind::Symbol('>') => Comparison::Greater,
+            TokenKind::OrEqual('<') => Comparison::LessOrEqual,
+            TokenKind::OrEqual(_) => Comparison::GreaterOrEqual,
+            _ => return Err(self.unexpected("one of < <= > >= in the condition of `where`")),
+        };
+        let at = self.advance().start;
+        let right = self.expression(0)?;
+        let depth = left.depth.max(right.depth);
+        let operands = Box::new([left.tree, right.tree]);
+        self.grow(at, depth, Kind::Compare(comparison, operands))
+    }
+
+    /// Consumes the bracket that closes the one at byte `opened`.
+    fn close(&mut self, opened: usize, closing: char) -> Result<(), SyntaxError> {
+        match self.token.kind {
+            TokenKind::Symbol(symbol) if symbol == closing => {
+                self.advance();
+                Ok(())
+            }
+            TokenKind::Symbol(',') => {
+                Err(self.unexpected("an operator or `)`: no function is being called"))
+            }
+            TokenKind::Symbol('<' | '>') | TokenKind::OrEqual(_) => {
+                Err(self.unexpected("a comparison only as the first argument of `where`"))
+            }
+            _ => {
+                let found = self.found();
+                let problem = format!(
+                    "expected an operator or `{closing}` for the bracket at byte {opened}, found {found}{}",
+                    self.hint(true)
+                );
+                Err(self.error(self.token.start, problem))
+            }
+        }
+    }
+
+    /// The tree of `kind`, whose subtrees have at most the depth `below`.
+    fn grow(&self, at: usize, below: usize, kind: Kind) -> Result<Deep, SyntaxError> {
+        let depth = below + 1;
+        self.limit(depth, at)?;
+        Ok(Deep {
+            tree: Tree { kind, at },
+            depth,
+        })
+    }
+
+    fn limit(&self, depth: usize, at: usize) -> Result<(), SyntaxError> {
+        if depth <= MAX_DEPTH {
+            return Ok(());
+        }
+        let problem = format!(
+            "expected at most {MAX_DEPTH} nested operations, found more: split long sums by brackets"
+        );
+        Err(self.error(at, problem))
+    }
+
+    fn advance(&mut self) -> Token {
+        let following = next_token(self.text, self.token.end);
+        std::mem::replace(&mut self.token, following)
+    }
+
+    fn slice(&self, token: Token) -> &str {
+        &self.text[token.start..token.end]
+    }
+
+    /// The next token, in words.
+    fn found(&self) -> String {
+        match self.token.kind {
+            TokenKind::End if self.text.trim().is_empty() => "an empty text".to_owned(),
+            TokenKind::End => "the end".to_owned(),
+            _ => format!("`{}`", shorten(self.slice(self.token))),
+        }
+    }
+
+    /// A remedy that begins with `; `, or nothing.
+    fn hint(&self, is_after_operand: bool) -> &'static str {
+        let starts_operand = matches!(
+            self.token.kind,
+            TokenKind::Number(_) | TokenKind::Name | TokenKind::Symbol('(')
+        );
+        match self.slice(self.token) {
+            "**" => "; a power is written ^",
+            "−" | "–" => "; a minus is written -",
+            "π" => "; write pi",
+            "×" | "·" | "⋅" => "; a product is written *",
+            _ if is_after_operand && starts_operand => "; a product needs its *",
+            _ => "",
+        }
+    }
+
+    fn unexpected(&self, expected: &str) -> SyntaxError {
+        let hint = self.hint(expected == AFTER_OPERAND);
+        let problem = format!("expected {expected}, found {}{hint}", self.found());
+        self.error(self.token.start, problem)
+    }
+
+    fn error(&self, offset: usize, problem: String) -> SyntaxError {
+        SyntaxError {
+            text: self.text.to_owned(),
+            offset,
+            problem,
+        }
+    }
+}
+
+/// An operator, its precedence, and the lowest precedence in its right operand.
+fn infix(kind: TokenKind) -> Option<(Binary, u8, u8)> {
+    let TokenKind::Symbol(symbol) = kind else {
+        return None;
+    };
+    match symbol {
+        '+' => Some((Binary::Add, 1, 2)),
+        '-' => Some((Binary::Subtract, 1, 2)),
+        '*' => Some((Binary::Multiply, 3, 4)),
+        '/' => Some((Binary::Divide, 3, 4)),
+        // Right-associative: the right operand may contain another power.
+        '^' => Some((Binary::Power, 7, 7)),
+        _ => None,
+    }
+}
+
+/// At most 24 characters of a token.
+fn shorten(text: &str) -> String {
+    const LONGEST: usize = 24;
+    match text.char_indices().nth(LONGEST) {
+        Some((cut, _)) => format!("{}...", &text[..cut]),
+        None => text.escape_debug().to_string(),
+    }
+}

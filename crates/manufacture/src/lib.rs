@@ -1,0 +1,133 @@
+//! Source terms and data for a chosen exact solution of differential equations.
+pub mod against;
+mod arithmetic;
+mod at;
+pub mod check;
+mod derive;
+pub mod emit;
+mod fit;
+pub mod language;
+mod model;
+mod problem;
+mod sample;
+
+use std::path::Path;
+
+pub use against::Comparison;
+pub use check::{Check, Finding, Share};
+pub use emit::{EmittedFile, Language};
+pub use problem::InputError;
+
+/// A file, read and derived.
+#[derive(Debug)]
+pub struct Manufacture {
+    model: model::Model,
+}
+
+/// How the points of a check are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sampling {
+    /// The same seed draws the same points.
+    pub seed: u64,
+    /// Points of each part of the domain.
+    pub points: usize,
+    /// Notes fail, too.
+    pub is_strict: bool,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            points: 1000,
+            is_strict: false,
+        }
+    }
+}
+
+impl Manufacture {
+    /// Reads a text; `file` is its name in messages.
+    ///
+    /// # Errors
+    /// [`InputError`] with the place, what was found and what is expected.
+    pub fn parse(text: &str, file: &str) -> Result<Self, InputError> {
+        let problem = problem::Problem::parse(text, file)?;
+        Ok(Self {
+            model: model::Model::new(problem)?,
+        })
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`InputError`].
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| InputError::whole(&file, error.to_string()))?;
+        Self::parse(&text, &file)
+    }
+
+    /// The name that everything emitted begins with.
+    pub fn name(&self) -> &str {
+        &self.model.problem.name
+    }
+
+    /// Checks everything at random points.
+    ///
+    /// # Errors
+    /// A domain or a face without points.
+    pub fn check(&self, sampling: &Sampling) -> Result<Check, InputError> {
+        check::check(
+            &self.model,
+            sampling.seed,
+            sampling.points,
+            sampling.is_strict,
+        )
+    }
+
+    /// The files of a language: the library, and the program that answers questions about points.
+    pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
+        emit::emit(&self.model, language)
+    }
+
+    /// The study file, if the file has `[study]`.
+    pub fn study(&self) -> Option<EmittedFile> {
+        emit::study(&self.model)
+    }
+
+    /// Builds and runs the files of a language in a folder, which is for temporary files, and compares their values.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn check_emitted(
+        &self,
+        language: Language,
+        folder: &Path,
+        sampling: &Sampling,
+    ) -> Result<Vec<Finding>, InputError> {
+        let Sampling { seed, points, .. } = *sampling;
+        check::emitted::emitted(&self.model, language, folder, seed, points)
+    }
+
+    /// Values at the points of a table with a header: coordinates, time, and optionally `face`.
+    ///
+    /// # Errors
+    /// A table that cannot be used, with the line.
+    pub fn at(&self, table: &str, file: &str) -> Result<serde_json::Value, InputError> {
+        at::values(&self.model, table, file)
+    }
+
+    /// Compares sources, or the data of a face, with those that a command computes, and explains the differences.
+    ///
+    /// # Errors
+    /// A command that fails, or whose answer cannot be used.
+    pub fn against(
+        &self,
+        command: &str,
+        face: Option<&str>,
+        sampling: &Sampling,
+    ) -> Result<Vec<Comparison>, InputError> {
+        against::compare(&self.model, command, face, sampling.seed, sampling.points)
+    }
+}

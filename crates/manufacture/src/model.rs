@@ -1,0 +1,157 @@
+//! A file with all its quantities as nodes of one graph, and as jets at points.
+
+use std::rc::Rc;
+
+use crate::arithmetic::graph::NodeId;
+use crate::arithmetic::jet::{Jet, Jets, Monomials};
+use crate::arithmetic::quadrature::{self, POINTS};
+use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::{Depth, Graph, Node};
+use crate::derive::{Elaborator, Part, Quantity, Role, Slip};
+use crate::problem::{InputError, Problem};
+
+/// A file, derived.
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) problem: Problem,
+    pub(crate) graph: Graph,
+    pub(crate) parts: Vec<(Part, Vec<Quantity<NodeId>>)>,
+    /// The sources with a slip made throughout.
+    pub(crate) slips: Vec<(Slip, Vec<Quantity<NodeId>>)>,
+    /// The largest number of derivatives one inside the other.
+    order: usize,
+    /// The largest number of panels of an integral.
+    panels: usize,
+}
+
+impl Model {
+    pub(crate) fn new(problem: Problem) -> Result<Self, InputError> {
+        let parameters = problem.parameter_values(None)?;
+        let graph = Graph::new(problem.intervals.clone(), parameters);
+        let mut elaborator = Elaborator::new(&problem, graph, Slip::None);
+        let mut parts = vec![];
+        for part in Part::all(&problem) {
+            parts.push((part, elaborator.part(part)?));
+        }
+        let mut graph = elaborator.algebra;
+        let mut slips = vec![];
+        for slip in Slip::ALL {
+            let mut elaborator = Elaborator::new(&problem, graph, slip);
+            slips.push((slip, elaborator.sources()?));
+            graph = elaborator.algebra;
+        }
+        let mut depth = Elaborator::new(&problem, Depth, Slip::None);
+        let mut order = 0;
+        for part in Part::all(&problem) {
+            for quantity in depth.part(part)? {
+                order = quantity.tensor.parts.into_iter().fold(order, usize::max);
+            }
+        }
+        let panels = |place: usize| match graph.node(NodeId(place as u32)) {
+            Node::Integral { panels, .. } => *panels,
+            _ => 1,
+        };
+        let panels = (0..graph.len()).map(panels).max().unwrap_or(1);
+        Ok(Self {
+            parts,
+            slips,
+            order,
+            panels,
+            graph,
+            problem,
+        })
+    }
+
+    pub(crate) fn part(&self, part: Part) -> &[Quantity<NodeId>] {
+        let entry = self.parts.iter().find(|entry| entry.0 == part);
+        entry.map_or(&[], |entry| &entry.1)
+    }
+
+    pub(crate) fn of_role(&self, role: Role) -> impl Iterator<Item = &Quantity<NodeId>> {
+        let all = self.parts.iter().flat_map(|entry| &entry.1);
+        all.filter(move |quantity| quantity.role == role)
+    }
+
+    /// The jets of a part at points, one after the other.
+    pub(crate) fn jets(&self) -> JetsAt<'_> {
+        let variables = self.problem.intervals.len();
+        let rule = quadrature::gauss(POINTS);
+        let over = |interval: &[f64; 2]| quadrature::panels(*interval, self.panels, &rule);
+        JetsAt {
+            model: self,
+            monomials: Rc::new(Monomials::new(variables, self.order)),
+            rules: Rc::new(self.graph.intervals.iter().map(over).collect()),
+            parameters: Rc::new(self.graph.parameters.clone()),
+        }
+    }
+}
+
+/// What all jets have in common.
+pub(crate) struct JetsAt<'m> {
+    model: &'m Model,
+    monomials: Rc<Monomials>,
+    rules: Rc<Vec<Vec<[f64; 2]>>>,
+    parameters: Rc<Vec<f64>>,
+}
+
+impl JetsAt<'_> {
+    /// The quantities of a part at a point, from the expressions as written.
+    pub(crate) fn at(&self, part: Part, point: &[f64]) -> Result<Vec<Quantity<Jet>>, InputError> {
+        let jets = Jets {
+            monomials: Rc::clone(&self.monomials),
+            point: point.to_vec(),
+            parameters: Rc::clone(&self.parameters),
+            rules: Rc::clone(&self.rules),
+        };
+        Elaborator::new(&self.model.problem, jets, Slip::None).part(part)
+    }
+}
+
+/// The values of tensors at a point: of each all components.
+pub(crate) struct Rows<'m> {
+    tape: Tape<'m>,
+    /// Where the components of each tensor begin.
+    starts: Vec<usize>,
+}
+
+impl<'m> Rows<'m> {
+    pub(crate) fn new<'t>(
+        graph: &'m Graph,
+        tensors: impl Iterator<Item = &'t crate::derive::Tensor<NodeId>>,
+    ) -> Self {
+        let mut roots = vec![];
+        let mut starts = vec![0];
+        for tensor in tensors {
+            roots.extend(&tensor.parts);
+            starts.push(roots.len());
+        }
+        Self {
+            tape: Tape::new(graph, &roots),
+            starts,
+        }
+    }
+
+    pub(crate) fn at(&self, point: &[f64]) -> RowsAt {
+        let evaluated = self.tape.at(point);
+        self.cut(evaluated.roots, evaluated.switches)
+    }
+
+    pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> RowsAt {
+        let evaluated = self.tape.with(point, parameters);
+        self.cut(evaluated.roots, evaluated.switches)
+    }
+
+    fn cut(&self, roots: Vec<Measured>, switches: Vec<f64>) -> RowsAt {
+        let ends = self.starts.windows(2);
+        RowsAt {
+            tensors: ends.map(|ends| roots[ends[0]..ends[1]].to_vec()).collect(),
+            switches,
+        }
+    }
+}
+
+/// [`Rows`] at a point.
+pub(crate) struct RowsAt {
+    pub(crate) tensors: Vec<Vec<Measured>>,
+    pub(crate) switches: Vec<f64>,
+}

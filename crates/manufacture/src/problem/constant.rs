@@ -1,0 +1,59 @@
+//! Expressions of numbers and parameters: their values without any graph.
+
+use super::{Expression, InputError};
+use crate::arithmetic::graph::{apply, operate};
+use crate::language::names::{CONSTANTS, Callee, Function, did_you_mean};
+use crate::language::tree::{Kind, Tree};
+
+/// The value of an expression of numbers and these names.
+pub(crate) fn constant(expression: &Expression, known: &[(&str, f64)]) -> Result<f64, InputError> {
+    let value = evaluate(&expression.tree, expression, known)?;
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let problem = format!("found {value}; expected a finite number");
+    Err(expression.place.error_at(&expression.text, 0, problem))
+}
+
+fn evaluate(
+    tree: &Tree,
+    expression: &Expression,
+    known: &[(&str, f64)],
+) -> Result<f64, InputError> {
+    let value = |tree: &Tree| evaluate(tree, expression, known);
+    let refused = |problem: String| {
+        Err(expression
+            .place
+            .error_at(&expression.text, tree.at, problem))
+    };
+    match &tree.kind {
+        Kind::Number(number, _) => Ok(*number),
+        Kind::Name(name) => {
+            let mut names = known.iter().chain(&CONSTANTS);
+            match names.find(|entry| entry.0 == name) {
+                Some(entry) => Ok(entry.1),
+                None => {
+                    let near = did_you_mean(name, known.iter().map(|entry| entry.0));
+                    refused(format!(
+                        "unknown name `{name}`{near}; expected numbers and parameters"
+                    ))
+                }
+            }
+        }
+        Kind::Negate(operand) => Ok(-value(operand)?),
+        Kind::Bracket(inner) => value(inner),
+        Kind::Binary(operator, operands) => Ok(operate(
+            *operator,
+            value(&operands[0])?,
+            value(&operands[1])?,
+        )),
+        Kind::Call(Callee::Function(function), parts) => match (function, parts.as_slice()) {
+            (Function::Min, [a, b]) => Ok(value(a)?.min(value(b)?)),
+            (Function::Max, [a, b]) => Ok(value(a)?.max(value(b)?)),
+            (Function::Abs, [a]) => Ok(value(a)?.abs()),
+            (_, [a]) => Ok(apply(*function, value(a)?)),
+            _ => refused("expected numbers, parameters and functions of one number".to_owned()),
+        },
+        _ => refused("expected an expression of numbers and parameters".to_owned()),
+    }
+}

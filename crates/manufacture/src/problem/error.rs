@@ -1,0 +1,85 @@
+//! A file that cannot be used.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::language::excerpt;
+
+/// A file, or another input, that cannot be used: where, what was found and what is expected.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub struct InputError {
+    /// The file, as given.
+    pub file: String,
+    /// The line of the value, from 1; 0 for the whole file.
+    pub line: usize,
+    /// The path of the key, such as `define.k`; empty for the whole file.
+    pub key: String,
+    /// What is wrong.
+    pub problem: String,
+    /// The text with a caret below the error, if it is in an expression.
+    pub excerpt: Option<String>,
+}
+
+impl InputError {
+    /// An error about an input as a whole.
+    pub fn whole(file: &str, problem: impl Into<String>) -> Self {
+        Self {
+            file: file.to_owned(),
+            line: 0,
+            key: String::new(),
+            problem: problem.into(),
+            excerpt: None,
+        }
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        if self.line > 0 {
+            write!(f, ":{}", self.line)?;
+        }
+        if !self.key.is_empty() {
+            write!(f, ": {}", self.key)?;
+        }
+        write!(f, ": {}", self.problem)?;
+        match &self.excerpt {
+            Some(excerpt) => write!(f, "\n{excerpt}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A place in the file: whose value, and in which line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub(crate) file: String,
+    pub(crate) line: usize,
+    pub(crate) key: String,
+}
+
+impl Place {
+    pub(crate) fn error(&self, problem: impl Into<String>) -> InputError {
+        InputError {
+            file: self.file.clone(),
+            line: self.line,
+            key: self.key.clone(),
+            problem: problem.into(),
+            excerpt: None,
+        }
+    }
+
+    /// An error at a byte of the value's text.
+    pub(crate) fn error_at(
+        &self,
+        text: &str,
+        offset: usize,
+        problem: impl Into<String>,
+    ) -> InputError {
+        InputError {
+            excerpt: Some(excerpt(text, offset)),
+            ..self.error(problem)
+        }
+    }
+}

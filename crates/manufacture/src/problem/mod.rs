@@ -1,0 +1,243 @@
+//! What a file says: names, domain, solution, equations, data.
+
+mod canonical;
+mod constant;
+mod error;
+mod reader;
+mod sections;
+
+use std::collections::BTreeMap;
+
+use crate::language::tree::Tree;
+
+pub(crate) use constant::constant;
+pub use error::InputError;
+pub(crate) use error::Place;
+
+/// A text of the file, parsed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Expression {
+    pub(crate) place: Place,
+    pub(crate) text: String,
+    pub(crate) tree: Tree,
+}
+
+/// A scalar, or a vector, or rows of a tensor.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    One(Expression),
+    List(Place, Vec<Value>),
+}
+
+/// The coordinate systems.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum System {
+    Cartesian,
+    Polar,
+    Axisymmetric,
+    Cylindrical,
+}
+
+impl System {
+    pub(crate) const ALL: [(&'static str, System); 4] = [
+        ("cartesian", System::Cartesian),
+        ("polar", System::Polar),
+        ("axisymmetric", System::Axisymmetric),
+        ("cylindrical", System::Cylindrical),
+    ];
+}
+
+/// A number with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Parameter {
+    pub(crate) name: String,
+    pub(crate) expression: Expression,
+}
+
+/// What a name of `[exact]` or `[define]` stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Definition {
+    pub(crate) value: Value,
+    pub(crate) is_exact: bool,
+}
+
+/// A summand of an equation.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Term {
+    pub(crate) label: String,
+    pub(crate) is_negative: bool,
+    /// The text that the tree belongs to.
+    pub(crate) expression: Expression,
+}
+
+/// A left side.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Equation {
+    pub(crate) name: String,
+    pub(crate) place: Place,
+    pub(crate) terms: Vec<Term>,
+}
+
+/// Where data are given.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Surface {
+    /// A side of the box: the coordinate, and whether at its upper end.
+    Side { coordinate: usize, is_upper: bool },
+    /// Where a function is zero that is negative inside.
+    Level(Expression),
+}
+
+/// A quantity whose values are given on a face, or must have given values there.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Datum {
+    pub(crate) name: String,
+    pub(crate) value: Value,
+    pub(crate) condition: Option<Value>,
+}
+
+/// A part of the boundary.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Face {
+    pub(crate) name: String,
+    pub(crate) place: Place,
+    pub(crate) surface: Surface,
+    pub(crate) data: Vec<Datum>,
+}
+
+/// A norm of an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Norm {
+    L1,
+    L2,
+    Linf,
+    H1,
+}
+
+impl Norm {
+    pub(crate) const ALL: [(&'static str, Norm); 4] = [
+        ("L1", Norm::L1),
+        ("L2", Norm::L2),
+        ("Linf", Norm::Linf),
+        ("H1", Norm::H1),
+    ];
+
+    pub(crate) fn name(self) -> &'static str {
+        Self::ALL
+            .iter()
+            .find(|known| known.1 == self)
+            .map_or("", |known| known.0)
+    }
+}
+
+/// The study that is written beside the emitted files.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Study {
+    pub(crate) command: Vec<String>,
+    pub(crate) n: Vec<i64>,
+    /// Name of an error, and its order as written.
+    pub(crate) orders: Vec<(String, String)>,
+}
+
+/// A file, read and checked by itself; shapes are checked when it is derived.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Problem {
+    pub(crate) file: String,
+    pub(crate) text: String,
+    pub(crate) name: String,
+    pub(crate) coordinates: Vec<String>,
+    pub(crate) time: Option<String>,
+    pub(crate) system: System,
+    /// Of each coordinate, then of time.
+    pub(crate) intervals: Vec<[f64; 2]>,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) definitions: BTreeMap<String, Definition>,
+    pub(crate) equations: Vec<Equation>,
+    pub(crate) faces: Vec<Face>,
+    pub(crate) initial: Vec<Datum>,
+    pub(crate) positive: Vec<Expression>,
+    pub(crate) zero: Vec<Expression>,
+    pub(crate) norms: Vec<(String, Vec<Norm>)>,
+    pub(crate) study: Option<Study>,
+}
+
+impl Problem {
+    /// The names of the components of a vector.
+    pub(crate) fn axes(&self) -> Vec<String> {
+        let mut axes = self.coordinates.clone();
+        if self.system == System::Axisymmetric {
+            axes.insert(1, "theta".to_owned());
+        }
+        axes
+    }
+
+    /// The coordinates, then time.
+    pub(crate) fn variables(&self) -> Vec<&str> {
+        let time = self.time.iter();
+        self.coordinates
+            .iter()
+            .chain(time)
+            .map(String::as_str)
+            .collect()
+    }
+
+    /// The values of the parameters, with one of them replaced; those that depend on it follow.
+    pub(crate) fn parameter_values(
+        &self,
+        replaced: Option<(usize, f64)>,
+    ) -> Result<Vec<f64>, InputError> {
+        let mut values: Vec<Option<f64>> = vec![None; self.parameters.len()];
+        if let Some((index, value)) = replaced {
+            values[index] = Some(value);
+        }
+        for index in 0..values.len() {
+            self.parameter(index, &mut values, &mut vec![])?;
+        }
+        Ok(values.into_iter().flatten().collect())
+    }
+
+    fn parameter(
+        &self,
+        index: usize,
+        values: &mut Vec<Option<f64>>,
+        open: &mut Vec<usize>,
+    ) -> Result<f64, InputError> {
+        if let Some(value) = values[index] {
+            return Ok(value);
+        }
+        let Parameter { expression, .. } = &self.parameters[index];
+        if open.contains(&index) {
+            let names = open.iter().chain([&index]);
+            let names: Vec<&str> = names.map(|i| self.parameters[*i].name.as_str()).collect();
+            let circle = names.join(" -> ");
+            let place = &self.parameters[open[0]].expression.place;
+            return Err(place.error(format!("a circle: {circle}")));
+        }
+        open.push(index);
+        for (other, parameter) in self.parameters.iter().enumerate() {
+            if mentions(&expression.tree, &parameter.name) {
+                self.parameter(other, values, open)?;
+            }
+        }
+        open.pop();
+        let names = self.parameters.iter().zip(values.iter());
+        let known: Vec<(&str, f64)> = names
+            .filter_map(|(parameter, value)| Some((parameter.name.as_str(), (*value)?)))
+            .collect();
+        let value = constant(expression, &known)?;
+        values[index] = Some(value);
+        Ok(value)
+    }
+
+    /// The interval of time, if there is time.
+    pub(crate) fn first_time(&self) -> Option<f64> {
+        self.time.as_ref()?;
+        self.intervals.last().map(|interval| interval[0])
+    }
+}
+
+/// Whether a name occurs in a tree.
+pub(crate) fn mentions(tree: &Tree, name: &str) -> bool {
+    use crate::language::tree::Kind;
+    matches!(&tree.kind, Kind::Name(known) if known == name)
+        || tree.children().iter().any(|child| mentions(child, name))
+}

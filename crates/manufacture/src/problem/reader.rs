@@ -1,0 +1,243 @@
+//! Values of a TOML file with their places.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::{Expression, InputError, Place, Value};
+use crate::language::names::did_you_mean;
+use crate::language::parse;
+
+/// A table of the file with the path of its keys.
+pub(super) struct Section<'t> {
+    pub(super) path: String,
+    table: &'t DeTable<'t>,
+    reader: &'t Reader<'t>,
+    line: usize,
+}
+
+/// A value of the file with its place.
+pub(super) struct Field<'t> {
+    pub(super) name: String,
+    pub(super) place: Place,
+    value: &'t DeValue<'t>,
+    /// The value as written.
+    written: &'t str,
+    reader: &'t Reader<'t>,
+}
+
+/// The text of the file and its name.
+pub(super) struct Reader<'t> {
+    pub(super) file: &'t str,
+    pub(super) text: &'t str,
+}
+
+impl<'t> Reader<'t> {
+    pub(super) fn line(&self, offset: usize) -> usize {
+        let offset = offset.min(self.text.len());
+        self.text.as_bytes()[..offset]
+            .iter()
+            .filter(|byte| **byte == b'\n')
+            .count()
+            + 1
+    }
+
+    pub(super) fn parse(&self) -> Result<Spanned<DeTable<'t>>, InputError> {
+        DeTable::parse(self.text).map_err(|error| InputError {
+            line: error.span().map_or(0, |span| self.line(span.start)),
+            ..InputError::whole(self.file, error.message())
+        })
+    }
+
+    pub(super) fn whole(&'t self, table: &'t DeTable<'t>) -> Section<'t> {
+        Section {
+            path: String::new(),
+            table,
+            reader: self,
+            line: 0,
+        }
+    }
+
+    fn field(&'t self, path: &str, name: &str, value: &'t Spanned<DeValue<'t>>) -> Field<'t> {
+        let span = value.span();
+        Field {
+            name: name.to_owned(),
+            place: Place {
+                file: self.file.to_owned(),
+                line: self.line(span.start),
+                key: joined(path, name),
+            },
+            value: value.get_ref(),
+            written: &self.text[span],
+            reader: self,
+        }
+    }
+}
+
+fn joined(path: &str, name: &str) -> String {
+    if path.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{path}.{name}")
+    }
+}
+
+impl<'t> Section<'t> {
+    pub(super) fn place(&self) -> Place {
+        Place {
+            file: self.reader.file.to_owned(),
+            line: self.line,
+            key: self.path.clone(),
+        }
+    }
+
+    /// The keys in alphabetical order: no result depends on their order in the file.
+    pub(super) fn fields(&self) -> Vec<Field<'t>> {
+        let mut fields: Vec<Field<'t>> = self
+            .table
+            .iter()
+            .map(|(key, value)| self.reader.field(&self.path, key.get_ref(), value))
+            .collect();
+        fields.sort_by(|a, b| a.name.cmp(&b.name));
+        fields
+    }
+
+    /// The keys in the order of the file, which is that of the terms of an equation.
+    pub(super) fn fields_as_written(&self) -> Vec<Field<'t>> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        entries
+            .into_iter()
+            .map(|(key, value)| self.reader.field(&self.path, key.get_ref(), value))
+            .collect()
+    }
+
+    pub(super) fn field(&self, name: &str) -> Option<Field<'t>> {
+        let value = self.table.get(name)?;
+        Some(self.reader.field(&self.path, name, value))
+    }
+
+    pub(super) fn needed(&self, name: &str) -> Result<Field<'t>, InputError> {
+        let missing = || {
+            self.place()
+                .error(format!("expected the key `{name}`, found none"))
+        };
+        self.field(name).ok_or_else(missing)
+    }
+
+    pub(super) fn section(&self, name: &str) -> Result<Option<Section<'t>>, InputError> {
+        self.field(name).map(|field| field.section()).transpose()
+    }
+
+    /// Refuses keys other than these.
+    pub(super) fn only(&self, known: &[&str]) -> Result<(), InputError> {
+        for (key, _) in self.table.iter() {
+            let name: &str = key.get_ref();
+            if !known.contains(&name) {
+                let near = did_you_mean(name, known.iter().copied());
+                let known = known.join(" ");
+                let place = Place {
+                    line: self.reader.line(key.span().start),
+                    key: joined(&self.path, name),
+                    ..self.place()
+                };
+                let problem = format!("unknown key `{name}`{near}; expected one of {known}");
+                return Err(place.error(problem));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<'t> Field<'t> {
+    fn expected(&self, what: &str) -> InputError {
+        let written: String = self.written.chars().take(40).collect();
+        self.place
+            .error(format!("expected {what}, found {written}"))
+    }
+
+    pub(super) fn is_table(&self) -> bool {
+        matches!(self.value, DeValue::Table(_))
+    }
+
+    pub(super) fn section(&self) -> Result<Section<'t>, InputError> {
+        match self.value {
+            DeValue::Table(table) => Ok(Section {
+                path: self.place.key.clone(),
+                table,
+                reader: self.reader,
+                line: self.place.line,
+            }),
+            _ => Err(self.expected("a table")),
+        }
+    }
+
+    pub(super) fn string(&self) -> Result<String, InputError> {
+        match self.value {
+            DeValue::String(text) => Ok(text.to_string()),
+            _ => Err(self.expected("a text")),
+        }
+    }
+
+    pub(super) fn integer(&self) -> Result<i64, InputError> {
+        match self.value {
+            DeValue::Integer(_) => self
+                .written
+                .parse()
+                .map_err(|_| self.expected("an integer")),
+            _ => Err(self.expected("an integer")),
+        }
+    }
+
+    /// The number as written.
+    pub(super) fn number(&self) -> Result<String, InputError> {
+        match self.value {
+            DeValue::Integer(_) | DeValue::Float(_) => Ok(self.written.to_owned()),
+            _ => Err(self.expected("a number")),
+        }
+    }
+
+    pub(super) fn list(&self) -> Result<Vec<Field<'t>>, InputError> {
+        match self.value {
+            DeValue::Array(values) => {
+                let item = |value| Field {
+                    place: Place {
+                        line: self.reader.line(Spanned::span(value).start),
+                        ..self.place.clone()
+                    },
+                    ..self.reader.field("", &self.name, value)
+                };
+                Ok(values.iter().map(item).collect())
+            }
+            _ => Err(self.expected("a list")),
+        }
+    }
+
+    /// A text, or a number, as an expression.
+    pub(super) fn expression(&self) -> Result<Expression, InputError> {
+        let text = match self.value {
+            DeValue::String(text) => text.to_string(),
+            DeValue::Integer(_) | DeValue::Float(_) => self.written.to_owned(),
+            _ => return Err(self.expected("an expression as a text, or a number")),
+        };
+        let tree = parse(&text)
+            .map_err(|error| self.place.error_at(&text, error.offset, error.problem))?;
+        Ok(Expression {
+            place: self.place.clone(),
+            text,
+            tree,
+        })
+    }
+
+    /// An expression, or a list of them, or a list of lists.
+    pub(super) fn value(&self) -> Result<Value, InputError> {
+        if !matches!(self.value, DeValue::Array(_)) {
+            return Ok(Value::One(self.expression()?));
+        }
+        let parts: Result<Vec<Value>, _> = self.list()?.iter().map(Field::value).collect();
+        let parts = parts?;
+        if parts.is_empty() {
+            return Err(self.expected("at least one component"));
+        }
+        Ok(Value::List(self.place.clone(), parts))
+    }
+}

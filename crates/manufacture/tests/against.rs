@@ -1,0 +1,240 @@
+//! Foreign sources with one mistake each: the cause that is named.
+
+use std::fs;
+
+use manufacture::{Comparison, Sampling};
+
+use crate::files::read;
+
+/// Reaction and diffusion with a coefficient that varies.
+const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\ny = [0, 1]\nt = [0, 1]\n\
+[parameters]\na = 1.7\n[exact]\nu = \"1 + sin(a*x)*exp(-t)*(1 + y^2)\"\nv = [\"sin(x + 2*y)\", \"x*cos(y)\"]\n[define]\nk = \"1 + 0.5*x\"\n\
+[equations.u]\nstorage = \"dt(u)\"\ndiffusion = \"-div(k*grad(u))\"\nreaction = \"u^2\"\n[equations]\nv = \"dot(grad(v), v) - div(sym(grad(v)))\"\n\
+[boundary.x_max]\nflux = \"-k*dot(grad(u), n)\"\n";
+
+/// What is said of a program that computes `u` in Python from the terms S (storage), D (diffusion), R (reaction).
+fn of(expression: &str, on: Option<&str>, columns: &str) -> Vec<Comparison> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("foreign.py");
+    let program = format!(
+        "import sys\nfrom math import *\nsys.stdin.readline()\nprint('{columns}')\n\
+         def u(x, y, t, a=1.7):\n    return 1 + sin(a*x)*exp(-t)*(1 + y*y)\n\
+         def S(x, y, t, a=1.7):\n    return -sin(a*x)*exp(-t)*(1 + y*y)\n\
+         def L(x, y, t, a=1.7):\n    return exp(-t)*(-a*a*sin(a*x)*(1 + y*y) + 2*sin(a*x))\n\
+         def G(x, y, t, a=1.7):\n    return a*cos(a*x)*exp(-t)*(1 + y*y)\n\
+         def D(x, y, t, a=1.7):\n    return -(1 + 0.5*x)*L(x, y, t, a) - 0.5*G(x, y, t, a)\n\
+         def R(x, y, t, a=1.7):\n    return u(x, y, t, a)**2\n\
+         def V(x, y):\n    s, c = sin(x + 2*y), cos(x + 2*y)\n    v = [s, x*cos(y)]\n    g = [[c, 2*c], [cos(y), -x*sin(y)]]\n    \
+         return v, g, [0.5*(-2*s - 4*s - sin(y)), 0.5*(-2*s - 2*x*cos(y))]\n\
+         for line in sys.stdin:\n    p = [float(word) for word in line.split()]\n    x, y, t = p[:3]\n    {expression}\n"
+    );
+    fs::write(&path, program).unwrap();
+    let sampling = Sampling {
+        points: 100,
+        ..Sampling::default()
+    };
+    let command = format!("python3 '{}'", path.display());
+    read(FILE).against(&command, on, &sampling).unwrap()
+}
+
+#[track_caller]
+fn named(expression: &str, cause: &str, terms: &[&str], factors: &[f64]) {
+    let comparisons = of(&format!("print(repr({expression}))"), None, "u");
+    let Comparison {
+        cause: found,
+        terms: names,
+        factors: numbers,
+        sentence,
+        ..
+    } = &comparisons[0];
+    assert_eq!(
+        (*found, names.as_slice()),
+        (
+            cause,
+            terms
+                .iter()
+                .map(|t| (*t).to_owned())
+                .collect::<Vec<_>>()
+                .as_slice()
+        ),
+        "{sentence}"
+    );
+    assert_eq!(numbers.len(), factors.len(), "{sentence}");
+    for (number, factor) in numbers.iter().zip(factors) {
+        assert!(
+            (number - factor).abs() <= 1e-8 * factor.abs().max(1.0),
+            "{sentence}"
+        );
+    }
+}
+
+#[test]
+fn each_cause_is_named() {
+    named("S(x,y,t) + D(x,y,t) + R(x,y,t)", "equal", &[], &[]);
+    named(
+        "-(S(x,y,t) + D(x,y,t) + R(x,y,t))",
+        "sign-of-source",
+        &[],
+        &[],
+    );
+    named(
+        "S(x,y,t) + D(x,y,t) + R(x,y,t) + 1",
+        "constant",
+        &[],
+        &[1.0],
+    );
+    named(
+        "3*(S(x,y,t) + D(x,y,t) + R(x,y,t))",
+        "factor-of-source",
+        &[],
+        &[3.0],
+    );
+    named(
+        "S(x,y,t) - D(x,y,t) + R(x,y,t)",
+        "sign-of-term",
+        &["diffusion"],
+        &[-1.0],
+    );
+    named(
+        "S(x,y,t) - D(x,y,t) - R(x,y,t)",
+        "sign-of-term",
+        &["diffusion", "reaction"],
+        &[-1.0, -1.0],
+    );
+    named(
+        "S(x,y,t) + R(x,y,t)",
+        "missing-term",
+        &["diffusion"],
+        &[0.0],
+    );
+    named(
+        "S(x,y,t) + D(x,y,t) + 0.5*R(x,y,t)",
+        "factor-of-term",
+        &["reaction"],
+        &[0.5],
+    );
+    named(
+        "S(x,y,t) + 2*D(x,y,t) + 0.5*R(x,y,t)",
+        "factor-of-term",
+        &["diffusion", "reaction"],
+        &[2.0, 0.5],
+    );
+    named(
+        "S(x,y,t) - (1 + 0.5*x)*L(x,y,t) + R(x,y,t)",
+        "product-rule",
+        &["without the derivative of a coefficient that varies"],
+        &[],
+    );
+    named("S(x,y,0) + D(x,y,0) + R(x,y,0)", "time", &[], &[0.0]);
+    named(
+        "S(y,x,t) + D(y,x,t) + R(y,x,t)",
+        "coordinates",
+        &["x", "y"],
+        &[],
+    );
+    named(
+        "S(x,y,t,2) + D(x,y,t,2) + R(x,y,t,2)",
+        "parameter",
+        &["a"],
+        &[2.0],
+    );
+    named("S(x,y,t) + D(x,y,t) + R(x,y,t)**1.1", "none", &[], &[]);
+}
+
+#[test]
+fn vectors_are_explained_by_component() {
+    let causes = |expression: &str| -> Vec<&'static str> {
+        let text = format!("v, g, s = V(x, y); {expression}");
+        of(&text, None, "v_y v_x")
+            .iter()
+            .map(|comparison| comparison.cause)
+            .collect()
+    };
+    let right =
+        "f = [g[i][0]*v[0] + g[i][1]*v[1] - s[i] for i in (0, 1)]; print(repr(f[1]), repr(f[0]))";
+    assert_eq!(causes(right), ["equal", "equal"]);
+    let transposed =
+        "f = [g[0][i]*v[0] + g[1][i]*v[1] - s[i] for i in (0, 1)]; print(repr(f[1]), repr(f[0]))";
+    assert_eq!(
+        causes(transposed),
+        ["transposed-gradient", "transposed-gradient"]
+    );
+    assert_eq!(
+        causes(&right.replace("repr(f[1]), repr(f[0])", "repr(f[0]), repr(f[1])")),
+        ["components", "components"]
+    );
+    let plain = "w = [-sin(x + 2*y)*5, -x*cos(y)]; f = [g[i][0]*v[0] + g[i][1]*v[1] - w[i] for i in (0, 1)]; print(repr(f[1]), repr(f[0]))";
+    assert_eq!(causes(plain), ["missing-transpose", "missing-transpose"]);
+}
+
+#[test]
+fn data_of_a_face_have_their_normal() {
+    let flux = |sign: &str| {
+        of(
+            &format!("print(repr({sign}(1 + 0.5*x)*G(x, y, t)*p[3]))"),
+            Some("x_max"),
+            "flux",
+        )
+        .remove(0)
+        .cause
+    };
+    assert_eq!(flux("-"), "equal");
+    assert_eq!(flux(""), "normal");
+}
+
+#[test]
+fn values_with_few_digits_are_right_within_them() {
+    let printed = |format: &str| {
+        of(
+            &format!("print('{format}' % (S(x,y,t) + D(x,y,t) + R(x,y,t)))"),
+            None,
+            "u",
+        )
+        .remove(0)
+    };
+    for format in ["%.17g", "%.6g", "%.3f", "%.5e"] {
+        assert_eq!(printed(format).cause, "equal", "{format}");
+    }
+    // Five digits do not hide a mistake in the third.
+    let comparison = of(
+        "print('%.5g' % (S(x,y,t) + 1.01*D(x,y,t) + R(x,y,t)))",
+        None,
+        "u",
+    )
+    .remove(0);
+    assert_ne!(comparison.cause, "equal");
+}
+
+#[test]
+fn answers_that_cannot_be_used_are_refused_with_the_line() {
+    let refused = |program: &str| {
+        read(FILE)
+            .against(
+                program,
+                None,
+                &Sampling {
+                    points: 5,
+                    ..Sampling::default()
+                },
+            )
+            .unwrap_err()
+            .to_string()
+    };
+    assert!(
+        refused("sh -c 'cat > /dev/null; echo u; echo 1'")
+            .contains("expected 5 lines of numbers, found 1")
+    );
+    assert!(
+        refused("sh -c 'cat > /dev/null; echo w; echo 1'")
+            .contains(":1: unknown name `w`; expected some of u v_x v_y")
+    );
+    assert!(
+        refused("sh -c 'cat > /dev/null; echo u; echo 1; echo nan'")
+            .contains(":3: expected a finite number, found `nan`")
+    );
+    assert!(
+        refused("sh -c 'cat > /dev/null; echo 1 2'").contains("expected a first line of names")
+    );
+    assert!(refused("sh -c 'exit 3'").contains("exit status: 3"));
+    assert!(refused("no-such-program").contains("No such file"));
+}

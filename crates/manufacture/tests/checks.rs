@@ -1,0 +1,287 @@
+//! The check: each code has a file that brings it forth, and a sound file that does not.
+
+use manufacture::Sampling;
+
+use crate::files::{HEAT, check, found, plane, read};
+
+/// The file has a finding with this code at this key.
+#[track_caller]
+fn finds(text: &str, code: &str, key: &str, fails: bool) {
+    let check = check(text);
+    let findings = found(&check, code);
+    assert!(
+        findings.iter().any(|finding| finding.key == key),
+        "{code} {key}: {check:#?}"
+    );
+    assert!(findings.iter().all(|finding| finding.fails == fails));
+    assert_eq!(
+        check.verdict == "fail",
+        check.findings.iter().any(|finding| finding.fails)
+    );
+}
+
+#[track_caller]
+fn does_not_find(text: &str, code: &str) {
+    let check = check(text);
+    assert!(found(&check, code).is_empty(), "{code}: {check:#?}");
+}
+
+#[test]
+fn a_sound_file_passes_and_the_shares_of_its_terms_are_known() {
+    let check = check(HEAT);
+    assert_eq!(check.verdict, "pass", "{check:#?}");
+    let shares: Vec<&str> = check
+        .shares
+        .iter()
+        .map(|share| share.term.as_str())
+        .collect();
+    assert_eq!(shares, ["storage", "conduction"]);
+    assert_eq!(check.shares[1].share, 1.0);
+    assert!(check.shares[0].share > 0.02 && check.shares[0].share < 0.2);
+}
+
+#[test]
+fn strict_checks_fail_by_notes() {
+    let sampling = Sampling {
+        points: 50,
+        is_strict: true,
+        ..Sampling::default()
+    };
+    let check = read(HEAT).check(&sampling).unwrap();
+    assert_eq!(check.verdict, "fail");
+    assert!(check.findings.iter().all(|finding| !finding.fails));
+}
+
+#[test]
+fn conditions_are_held() {
+    let file = |is: &str| {
+        format!(
+            "{}[boundary.x_min]\nu = {{ of = \"u\", is = \"{is}\" }}\n",
+            plane("u = \"(x - 0.2)*sin(y)\"", "", "a = \"laplacian(u)\"")
+        )
+    };
+    does_not_find(&file("0"), "condition-violated");
+    finds(&file("1"), "condition-violated", "boundary.x_min.u", true);
+    finds(
+        &file("1e-9"),
+        "condition-violated",
+        "boundary.x_min.u",
+        true,
+    );
+}
+
+#[test]
+fn requirements_are_held() {
+    let file = |requirement: &str| {
+        format!(
+            "{}[require]\n{requirement}\n",
+            plane(
+                "u = \"x - 0.19 + sin(y)\"\nv = [\"y\", \"x\"]",
+                "",
+                "a = \"laplacian(u)\""
+            )
+        )
+    };
+    does_not_find(&file("positive = [\"u\"]"), "not-positive");
+    // The lowest sample is positive, the corner is not.
+    finds(
+        &file("positive = [\"u - 0.306\"]"),
+        "not-positive",
+        "require.positive",
+        true,
+    );
+    does_not_find(&file("zero = [\"div(v)\"]"), "not-zero");
+    finds(
+        &file("zero = [\"grad(v)\"]"),
+        "not-zero",
+        "require.zero",
+        true,
+    );
+}
+
+#[test]
+fn values_that_are_not_finite_are_singular() {
+    finds(
+        &plane("u = \"sqrt(x - 0.5)\"", "", "a = \"u\""),
+        "singular",
+        "exact.u",
+        true,
+    );
+    finds(
+        &plane("u = \"x\"", "", "a = \"ln(u - 0.5)\""),
+        "singular",
+        "equations.a",
+        true,
+    );
+}
+
+#[test]
+fn terms_that_cannot_be_missed_are_noted() {
+    let u = "u = \"sin(x + 0.3)*exp(y)\"";
+    finds(
+        &plane(u, "", "a = \"d(u, x, x) + d(u, y, y)\""),
+        "source-zero",
+        "equations.a",
+        false,
+    );
+    finds(
+        &plane(u, "", "a = \"u + d(x, y)\""),
+        "term-absent",
+        "equations.a",
+        false,
+    );
+    finds(
+        &plane(u, "", "a = \"u + 0.001*d(u, x)\""),
+        "term-small",
+        "equations.a",
+        false,
+    );
+    finds(
+        &plane(u, "", "a = \"u + d(u, y) + x\""),
+        "terms-proportional",
+        "equations.a",
+        false,
+    );
+    finds(
+        &plane(u, "", "a = \"u*x + u*y + u*(x - 2*y)\""),
+        "terms-proportional",
+        "equations.a",
+        false,
+    );
+    does_not_find(&plane(u, "", "a = \"u + x*d(u, x)\""), "terms-proportional");
+}
+
+#[test]
+fn slips_that_cannot_be_seen_are_noted() {
+    // The velocity of a rigid rotation: its gradient is skew, so v·∇v with the transpose has the opposite sign.
+    let rotation = "v = [\"-y\", \"x\"]";
+    does_not_find(
+        &plane(rotation, "", "a = \"dot(grad(v), v)\""),
+        "slip-invisible",
+    );
+    // A gradient field has a symmetric gradient.
+    let potential = "v = [\"y*cos(x*y)\", \"x*cos(x*y)\"]";
+    finds(
+        &plane(potential, "", "a = \"dot(grad(v), v)\""),
+        "slip-invisible",
+        "equations.a",
+        false,
+    );
+    // A constant coefficient has no derivative, so there is no slip.
+    let u = "u = \"sin(x)*y^3\"";
+    does_not_find(
+        &plane(u, "k = \"2\"", "a = \"div(k*grad(u))\""),
+        "slip-invisible",
+    );
+    does_not_find(
+        &plane(u, "k = \"2 + x\"", "a = \"div(k*grad(u))\""),
+        "slip-invisible",
+    );
+    // The coefficient varies across the gradient only.
+    finds(
+        &plane("u = \"sin(x)\"", "k = \"2 + y\"", "a = \"div(k*grad(u))\""),
+        "slip-invisible",
+        "equations.a",
+        false,
+    );
+}
+
+#[test]
+fn data_that_are_zero_are_noted() {
+    let file = |datum: &str| {
+        format!(
+            "{}[boundary.x_max]\nflux = \"{datum}\"\n",
+            plane("u = \"sin(y)*(x - 1.1)^2\"", "", "a = \"laplacian(u)\"")
+        )
+    };
+    finds(
+        &file("dot(grad(u), n)"),
+        "data-zero",
+        "boundary.x_max.flux",
+        false,
+    );
+    does_not_find(&file("dot(grad(u), n) + y"), "data-zero");
+}
+
+#[test]
+fn polynomials_and_symmetries_are_noted() {
+    finds(
+        &plane("u = \"x^2*y\"", "", "a = \"u\""),
+        "polynomial",
+        "exact.u",
+        false,
+    );
+    does_not_find(&plane("u = \"x^2*sin(y)\"", "", "a = \"u\""), "polynomial");
+    finds(
+        &plane("u = \"cos(x - 0.65)*exp(y)\"", "", "a = \"u\""),
+        "symmetric",
+        "exact.u",
+        false,
+    );
+    finds(
+        &plane(
+            "u = \"cos(2*pi*x/0.9)*exp(y)*sin(2*pi*x/0.9)\"",
+            "",
+            "a = \"u\"",
+        ),
+        "symmetric",
+        "exact.u",
+        false,
+    );
+    does_not_find(
+        &plane("u = \"cos(x)*exp(y)\"", "", "a = \"u\""),
+        "symmetric",
+    );
+}
+
+#[test]
+fn kinks_are_noted() {
+    finds(
+        &plane("u = \"abs(x - 0.5)*y\"", "", "a = \"u\""),
+        "kink",
+        "exact.u",
+        false,
+    );
+    does_not_find(&plane("u = \"abs(x + 0.5)*y\"", "", "a = \"u\""), "kink");
+}
+
+#[test]
+fn initial_data_agree_with_conditions() {
+    let file = |condition: &str| {
+        format!("{HEAT}\n[boundary.y_max]\nT = {{ of = \"T\", is = \"{condition}\" }}\n")
+    };
+    let sound = file("1 + 0.3*sin(pi*x)*cos(2)*exp(-t)");
+    does_not_find(&sound, "initial-mismatch");
+    does_not_find(&sound, "condition-violated");
+    finds(&file("1"), "initial-mismatch", "boundary.y_max.T", false);
+}
+
+#[test]
+fn faces_of_level_sets_have_points_and_normals() {
+    let file = "[manufacture]\nname = \"disc\"\ncoordinates = [\"x\", \"y\"]\n[domain]\nx = [-2, 2]\ny = [-1, 1]\n[exact]\nu = \"x^3 + y\"\n\
+                [equations]\na = \"laplacian(u)\"\n[boundary.rim]\nlevel = \"x^2/4 + y^2 - 1\"\nflux = \"dot(grad(u), n)\"\n\
+                [require]\npositive = [\"1.0001 - x^2/4 - y^2\"]\n";
+    assert_eq!(check(file).verdict, "pass");
+    // At (2 cos, sin) the normal is (cos/2, sin)/length.
+    let [c, s] = [0.6_f64, 0.8];
+    let values = crate::files::at(file, "x,y,face\n1.2,0.8,rim\n0.1,0.1,\n");
+    let length = (c * c / 4.0 + s * s).sqrt();
+    let expected = (3.0 * 1.44 * c / 2.0 + s) / length;
+    crate::files::close(&values["boundary"]["rim"]["flux"][0], expected, 1.0);
+    assert!(values["boundary"]["rim"]["flux"][1].is_null());
+}
+
+#[test]
+fn a_check_is_the_same_for_any_order_of_keys() {
+    let reordered = HEAT
+        .replace("x = [0, 1]\ny = [0, 2]\n", "y = [0, 2]\nx = [0, 1]\n")
+        .replace(
+            "k = \"1 + 0.1*T^2\"\nq = \"-k*grad(T)\"\n",
+            "q = \"-k*grad(T)\"\nk = \"1 + 0.1*T^2\"\n",
+        );
+    assert_ne!(reordered, HEAT);
+    assert_eq!(check(&reordered), check(HEAT));
+    for (_, language) in manufacture::Language::ALL {
+        assert_eq!(read(&reordered).emit(language), read(HEAT).emit(language));
+    }
+}

@@ -1,0 +1,232 @@
+//! Sources in closed form: what the two ways of the check share is held to something else here.
+
+use crate::files::{at, close, plane};
+
+/// A point away from all symmetries.
+const X: f64 = 0.7;
+const Y: f64 = 0.4;
+const POINT: &str = "x,y\n0.7,0.4\n";
+
+/// The sources of equations at the point.
+#[track_caller]
+fn sources(exact: &str, define: &str, equations: &str, expected: &[(&str, f64)]) {
+    let values = at(&plane(exact, define, equations), POINT);
+    for (component, value) in expected {
+        close(&values["sources"][component][0], *value, 1.0);
+    }
+}
+
+#[test]
+fn the_gradient_of_a_vector_has_the_component_first_and_the_derivative_second() {
+    // v = (x²y, x + y³).
+    let v = "v = [\"x^2*y\", \"x + y^3\"]";
+    let gradient = [[2.0 * X * Y, X * X], [1.0, 3.0 * Y * Y]];
+    sources(
+        v,
+        "g = \"grad(v)\"",
+        "a = \"[g[x, x], g[x, y]]\"\nb = \"[g[y, x], g[2, 2]]\"",
+        &[
+            ("a_x", gradient[0][0]),
+            ("a_y", gradient[0][1]),
+            ("b_x", gradient[1][0]),
+            ("b_y", gradient[1][1]),
+        ],
+    );
+    // (v·∇)v_i = Σ_j v_j ∂_j v_i.
+    let v_value = [X * X * Y, X + Y * Y * Y];
+    let along = |row: [f64; 2]| row[0] * v_value[0] + row[1] * v_value[1];
+    sources(
+        v,
+        "",
+        "a = \"dot(grad(v), v)\"\nb = \"curl(v)\"\nc = \"div(v)\"",
+        &[
+            ("a_x", along(gradient[0])),
+            ("a_y", along(gradient[1])),
+            ("b", 1.0 - X * X),
+            ("c", 2.0 * X * Y + 3.0 * Y * Y),
+        ],
+    );
+}
+
+#[test]
+fn the_divergence_of_a_tensor_contracts_its_last_index() {
+    let tensor = "A = [[\"x*y\", \"y^2\"], [\"x^3\", \"x*y^2\"]]";
+    sources(
+        tensor,
+        "",
+        "a = \"div(A)\"\nb = \"div(transpose(A))\"\nc = \"inner(A, A)\"",
+        &[
+            ("a_x", Y + 2.0 * Y),
+            ("a_y", 3.0 * X * X + 2.0 * X * Y),
+            ("b_x", Y),
+            ("b_y", 2.0 * X * Y),
+            (
+                "c",
+                (X * Y).powi(2) + Y.powi(4) + X.powi(6) + (X * Y * Y).powi(2),
+            ),
+        ],
+    );
+    let determinant = X * Y * X * Y * Y - Y * Y * X.powi(3);
+    sources(
+        tensor,
+        "",
+        "a = \"det(A)\"\nb = \"dot(inv(A), [1, 2])\"\nc = \"trace(A)\"\nd1 = \"skew(A)[x, y]\"",
+        &[
+            ("a", determinant),
+            ("b_x", (X * Y * Y - 2.0 * Y * Y) / determinant),
+            ("b_y", (2.0 * X * Y - X.powi(3)) / determinant),
+            ("c", X * Y + X * Y * Y),
+            ("d1", 0.5 * (Y * Y - X.powi(3))),
+        ],
+    );
+}
+
+#[test]
+fn functions_have_their_derivatives() {
+    let s = "s = \"0.3*x + 0.2*y\"";
+    let value = 0.3 * X + 0.2 * Y;
+    for (function, slope) in [
+        ("sin", value.cos()),
+        ("cos", -value.sin()),
+        ("tan", 1.0 + value.tan().powi(2)),
+        ("asin", 1.0 / (1.0 - value * value).sqrt()),
+        ("acos", -1.0 / (1.0 - value * value).sqrt()),
+        ("atan", 1.0 / (1.0 + value * value)),
+        ("sinh", value.cosh()),
+        ("cosh", value.sinh()),
+        ("tanh", 1.0 - value.tanh().powi(2)),
+        ("exp", value.exp()),
+        ("ln", 1.0 / value),
+        ("log10", 1.0 / (value * std::f64::consts::LN_10)),
+        ("sqrt", 0.5 / value.sqrt()),
+        ("abs", 1.0),
+    ] {
+        sources(
+            s,
+            "",
+            &format!("a = \"d({function}(s), x)\""),
+            &[("a", 0.3 * slope)],
+        );
+    }
+    sources(
+        s,
+        "",
+        "a = \"d(s^x, x)\"\nb = \"d(max(x, y) - min(x, y), y)\"\nc = \"where(x < y, x, y^2) + heaviside(x - y)\"",
+        &[
+            ("a", value.powf(X) * (value.ln() + X * 0.3 / value)),
+            ("b", -1.0),
+            ("c", Y * Y + 1.0),
+        ],
+    );
+}
+
+#[test]
+fn integrals_run_over_the_whole_interval() {
+    // ∫ x² y over [0.2, 1.1], and its derivative by y.
+    let cubes = (1.1_f64.powi(3) - 0.2_f64.powi(3)) / 3.0;
+    sources(
+        "u = \"x*sin(y)\"",
+        "",
+        "a = \"integral(x*u, x)\"\nb = \"d(integral(x*u, x), y)\"\nc = \"integral(integral(x*y, x), y)\"",
+        &[
+            ("a", cubes * Y.sin()),
+            ("b", cubes * Y.cos()),
+            ("c", 0.5 * (1.21 - 0.04) * 0.5 * (1.96 - 0.09)),
+        ],
+    );
+}
+
+/// Burgers' equation with u = x/(1 + t): the source is zero but for what is added.
+#[test]
+fn burgers_by_hand() {
+    let text = "[manufacture]\nname = \"burgers\"\ncoordinates = [\"x\"]\ntime = \"t\"\n[domain]\nx = [1, 2]\nt = [0, 1]\n\
+                [parameters]\nnu = 0.1\n[exact]\nu = \"x/(1 + t) + x^3\"\n[equations]\nu = \"dt(u) + u*d(u, x) - nu*d(u, x, x)\"\n\
+                [initial]\nu = \"u\"\n";
+    let values = at(text, "x,t\n1.3,0.6\n");
+    let [x, t] = [1.3_f64, 0.6];
+    let u = x / (1.0 + t) + x.powi(3);
+    let slope = 1.0 / (1.0 + t) + 3.0 * x * x;
+    let expected = -x / (1.0 + t).powi(2) + u * slope - 0.1 * 6.0 * x;
+    close(&values["sources"]["u"][0], expected, 1.0);
+    close(
+        &values["terms"]["u"]["-nu*d(u, x, x)"][0],
+        -0.1 * 6.0 * x,
+        1.0,
+    );
+    close(&values["initial"]["u"][0], x + x.powi(3), 1.0);
+}
+
+/// The same Navier-Stokes problem in cylindrical and in Cartesian coordinates.
+#[test]
+fn cylindrical_coordinates_agree_with_cartesian_ones() {
+    let head = |system: &str, coordinates: &str, domain: &str| {
+        format!(
+            "[manufacture]\nname = \"flow\"\ncoordinates = {coordinates}\nsystem = \"{system}\"\n[domain]\n{domain}\n\
+             [parameters]\nnu = 0.3\n[define]\nsigma = \"-p*identity + 2*nu*sym(grad(v))\"\n"
+        )
+    };
+    let equations = "[equations]\nmomentum = \"dot(grad(v), v) - div(sigma) + laplacian(v)\"\nmass = \"div(v)\"\nspin = \"curl(v)\"\nheat = \"laplacian(p)\"\n";
+    // v = (x y, z - x², x + y z), p = x² y + z, in both bases.
+    let cartesian = head(
+        "cartesian",
+        "[\"x\", \"y\", \"z\"]",
+        "x = [0, 1]\ny = [0, 1]\nz = [0, 1]",
+    ) + "[exact]\nv = [\"x*y\", \"z - x^2\", \"x + y*z\"]\np = \"x^2*y + z\"\n"
+        + equations;
+    let [x, y] = ["(r*cos(phi))", "(r*sin(phi))"];
+    let [a, b, c, p] =
+        ["x*y", "z - x^2", "x + y*z", "x^2*y + z"].map(|text| text.replace('x', x).replace('y', y));
+    let cylindrical = head(
+        "cylindrical",
+        "[\"r\", \"phi\", \"z\"]",
+        "r = [0.5, 1]\nphi = [0, 1]\nz = [0, 1]",
+    ) + &format!(
+        "[exact]\nv = [\"({a})*cos(phi) + ({b})*sin(phi)\", \"({b})*cos(phi) - ({a})*sin(phi)\", \"{c}\"]\np = \"{p}\"\n{equations}"
+    );
+    let [r, phi, z] = [0.8_f64, 0.6, 0.35];
+    let point = format!("x,y,z\n{},{},{z}\n", r * phi.cos(), r * phi.sin());
+    let first = at(&cartesian, &point);
+    let second = at(&cylindrical, &format!("r,phi,z\n{r},{phi},{z}\n"));
+    let number = |component: &str| first["sources"][component][0].as_f64().unwrap();
+    for name in ["momentum", "spin"] {
+        let [a, b, c] = ["x", "y", "z"].map(|axis| number(&format!("{name}_{axis}")));
+        close(
+            &second["sources"][format!("{name}_r")][0],
+            a * phi.cos() + b * phi.sin(),
+            10.0,
+        );
+        close(
+            &second["sources"][format!("{name}_phi")][0],
+            b * phi.cos() - a * phi.sin(),
+            10.0,
+        );
+        close(&second["sources"][format!("{name}_z")][0], c, 10.0);
+    }
+    close(&second["sources"]["mass"][0], number("mass"), 10.0);
+    close(&second["sources"]["heat"][0], number("heat"), 10.0);
+}
+
+/// Swirl in axisymmetric coordinates: (v·∇)v has the centrifugal term -v_θ²/r.
+#[test]
+fn axisymmetric_vectors_have_three_components() {
+    let text = "[manufacture]\nname = \"swirl\"\ncoordinates = [\"r\", \"z\"]\nsystem = \"axisymmetric\"\n[domain]\nr = [0, 1]\nz = [0, 1]\n\
+                [exact]\nv = [\"r*z\", \"r^2\", \"-z^2\"]\n[equations]\na = \"dot(grad(v), v)\"\nb = \"div(v)\"\nc = \"laplacian(v)\"\n";
+    let [r, z] = [0.6_f64, 0.3];
+    let values = at(text, "r,z\n0.6,0.3\n");
+    close(
+        &values["sources"]["a_r"][0],
+        r * z * z - z * z * r - r.powi(4) / r,
+        1.0,
+    );
+    close(
+        &values["sources"]["a_theta"][0],
+        r * z * 2.0 * r + r * r * r * z / r,
+        1.0,
+    );
+    close(&values["sources"]["a_z"][0], 2.0 * z.powi(3), 1.0);
+    close(&values["sources"]["b"][0], 2.0 * z - 2.0 * z, 1.0);
+    // ∇²(r z) - z/r = 0, ∇²(r²) - 1 = 3, -2.
+    close(&values["sources"]["c_r"][0], 0.0, 1.0);
+    close(&values["sources"]["c_theta"][0], 3.0, 1.0);
+    close(&values["sources"]["c_z"][0], -2.0, 1.0);
+}

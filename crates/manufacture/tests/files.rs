@@ -1,0 +1,69 @@
+//! Files that the tests have in common, and their values.
+
+use manufacture::{Check, Finding, Manufacture, Sampling};
+use serde_json::Value;
+
+pub(crate) const HEAT: &str = include_str!("files/heat.toml");
+
+/// A file that must be sound.
+#[track_caller]
+pub(crate) fn read(text: &str) -> Manufacture {
+    match Manufacture::parse(text, "test.toml") {
+        Ok(manufacture) => manufacture,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// The message of a file that must be refused.
+#[track_caller]
+pub(crate) fn refusal(text: &str) -> String {
+    match Manufacture::parse(text, "test.toml") {
+        Ok(_) => panic!("accepted: {text}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[track_caller]
+pub(crate) fn check(text: &str) -> Check {
+    let sampling = Sampling {
+        points: 100,
+        ..Sampling::default()
+    };
+    read(text).check(&sampling).unwrap()
+}
+
+/// The findings with that code.
+pub(crate) fn found<'c>(check: &'c Check, code: &str) -> Vec<&'c Finding> {
+    check
+        .findings
+        .iter()
+        .filter(|finding| finding.code == code)
+        .collect()
+}
+
+/// A stationary file in the plane with these fields, definitions and equations, each `KEY = "TEXT"` a line.
+pub(crate) fn plane(exact: &str, define: &str, equations: &str) -> String {
+    format!(
+        "[manufacture]\nname = \"test\"\ncoordinates = [\"x\", \"y\"]\n[domain]\nx = [0.2, 1.1]\ny = [0.3, 1.4]\n\
+         [exact]\n{exact}\n[define]\n{define}\n[equations]\n{equations}\n"
+    )
+}
+
+/// The values at points, each a line of a table under its header.
+#[track_caller]
+pub(crate) fn at(text: &str, table: &str) -> Value {
+    match read(text).at(table, "points.csv") {
+        Ok(values) => values,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Holds a number to another within 1e-10 of a size.
+#[track_caller]
+pub(crate) fn close(found: &Value, expected: f64, size: f64) {
+    let found = found.as_f64().unwrap_or(f64::NAN);
+    assert!(
+        (found - expected).abs() <= 1e-10 * size.max(expected.abs()),
+        "{found} {expected}"
+    );
+}

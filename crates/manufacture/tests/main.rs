@@ -1,0 +1,9 @@
+//! Tests of the crate, one module a subject.
+
+mod against;
+mod checks;
+mod closed_forms;
+mod emitted;
+mod files;
+mod properties;
+mod refusals;

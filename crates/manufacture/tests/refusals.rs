@@ -1,0 +1,170 @@
+//! Input that is refused: the place, what was found, what is expected, the nearest name.
+
+use crate::files::{HEAT, plane, refusal};
+
+/// The heat file with one text replaced must be refused with these words.
+#[track_caller]
+fn refused(old: &str, new: &str, words: &[&str]) {
+    assert!(HEAT.contains(old), "{old}");
+    let message = refusal(&HEAT.replace(old, new));
+    for word in words {
+        assert!(message.contains(word), "`{word}` in {message}");
+    }
+}
+
+#[test]
+fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
+    let text = plane(
+        "T = \"x*y\"",
+        "kappa = \"2\"",
+        "heat = \"div(kapa*grad(T))\"",
+    );
+    let message = refusal(&text);
+    assert_eq!(
+        message,
+        "test.toml:12: equations.heat: unknown name `kapa`, did you mean `kappa`?; expected one of x y T kappa\n    \
+         div(kapa*grad(T))\n        ^"
+    );
+}
+
+#[test]
+fn names_and_keys_are_checked_before_what_follows_from_them() {
+    refused(
+        "[equations.heat]",
+        "[equation.heat]",
+        &["unknown key `equation`", "`equations`?"],
+    );
+    refused(
+        "[exact]",
+        "[exakt]",
+        &["unknown key `exakt`, did you mean `exact`?"],
+    );
+    refused("h = 2.5", "e = 2.5", &["`e` is a constant"]);
+    refused("h = 2.5", "n = 2.5", &["`n` is the unit normal"]);
+    refused("h = 2.5", "sin = 2.5", &["`sin` is a function"]);
+    refused("h = 2.5", "x = 2.5", &["found `x` twice"]);
+    refused("h = 2.5", "k = 2.5", &["found `k` twice"]);
+    refused(
+        "name = \"heat\"",
+        "name = \"my heat\"",
+        &["a letter, then letters, digits"],
+    );
+    refused(
+        "x = [0, 1]",
+        "x = [1, 0]",
+        &["expected an interval, found [1, 0]", "domain.x"],
+    );
+    refused(
+        "x = [0, 1]",
+        "x = [0, 1, 2]",
+        &["expected two numbers, found 3"],
+    );
+    refused(
+        "[boundary.x_max]",
+        "[boundary.x_mx]",
+        &["`x_mx` is no face", "`x_max`?", "y_min"],
+    );
+    refused("[\"L2\", \"H1\"]", "[\"L3\"]", &["found `L3`", "Linf"]);
+}
+
+#[test]
+fn circles_are_printed() {
+    let message = refusal(&plane(
+        "T = \"x\"",
+        "k = \"q\"\nq = \"k + 1\"",
+        "a = \"k*T\"",
+    ));
+    assert!(message.contains("a circle: k -> q -> k"), "{message}");
+}
+
+#[test]
+fn shapes_are_refused_in_words() {
+    for (equation, words) in [
+        ("T - 2*grad(T)", "a scalar minus a vector of 2"),
+        (
+            "T - grad(T)",
+            "a scalar minus a vector of 2; expected equal shapes",
+        ),
+        (
+            "v*v",
+            "a vector of 2 times a vector of 2; expected a scalar on one side, or dot",
+        ),
+        ("div(T)", "`div` of a scalar"),
+        (
+            "v[z]",
+            "expected a number from 1 to 2, or one of x y, found z",
+        ),
+        ("v[3]", "expected a number from 1 to 2"),
+        ("dot(T, v)", "`dot` of a scalar and a vector of 2"),
+        (
+            "trace(v)",
+            "`trace` of a vector of 2; expected a square tensor",
+        ),
+        ("cross(v, [1, 2, 3])", "expected two vectors of 3, or of 2"),
+        ("sin(v)", "expected a scalar, found a vector of 2"),
+        ("2^v", "a scalar to the power of a vector of 2"),
+        ("dt(T)", "expected `time` in [manufacture]"),
+        ("d(T, z)", "expected one of x y, found z"),
+        (
+            "T*n[x]",
+            "`n` is the unit normal; expected it in [boundary] only",
+        ),
+        (
+            "grad(v)",
+            "expected a scalar or a vector, found a tensor of 2 x 2",
+        ),
+        ("[1, [2, 3]]", "a scalar beside a vector of 2"),
+    ] {
+        let text = plane(
+            "T = \"x*y\"\nv = [\"x\", \"y^2\"]",
+            "",
+            &format!("a = \"{equation}\""),
+        );
+        let message = refusal(&text);
+        assert!(message.contains(words), "{equation}: {message}");
+    }
+}
+
+#[test]
+fn the_grammar_is_refused_with_remedies() {
+    for (equation, words) in [
+        ("T**2", "a power is written ^"),
+        ("2T", "a product needs its *"),
+        ("2 T", "found `T`; a product needs its *"),
+        ("(T", "for the bracket at byte 0, found the end"),
+        ("T)", "no bracket is open"),
+        (
+            "T < 1",
+            "a comparison only as the first argument of `where`",
+        ),
+        ("where(T, 1, 2)", "one of < <= > >= in the condition"),
+        ("sin", "`(` after the function `sin`"),
+        ("sine(T)", "unknown function `sine`, did you mean `sin`?"),
+        ("min(T)", "`min`: expected 2 argument(s), found 1"),
+        ("π*T", "write pi"),
+        ("", "an empty text"),
+        ("1e999", "expected a number of at most"),
+    ] {
+        let message = refusal(&plane("T = \"x*y\"", "", &format!("a = \"{equation}\"")));
+        assert!(message.contains(words), "{equation}: {message}");
+    }
+    let deep = format!("{}T{}", "(".repeat(300), ")".repeat(300));
+    let message = refusal(&plane("T = \"x*y\"", "", &format!("a = \"{deep}\"")));
+    assert!(
+        message.contains("at most 256 nested operations"),
+        "{message}"
+    );
+}
+
+#[test]
+fn an_integral_that_does_not_converge_is_refused() {
+    let message = refusal(&plane(
+        "T = \"x*y\"",
+        "",
+        "a = \"integral(abs(x - 0.7), x)*T\"",
+    ));
+    assert!(
+        message.contains("expected a function that is smooth"),
+        "{message}"
+    );
+}

@@ -358,7 +358,8 @@ fn compare(
 }
 
 /// The space of the solver of any order.
-fn space(mesh: Mesh, degree: usize) -> Space {
+/// The space that a simulation has.
+pub(crate) fn space(mesh: Mesh, degree: usize) -> Space {
     let problem = Problem {
         beam: Beam::default(),
         obstacles: None,

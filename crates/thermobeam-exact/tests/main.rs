@@ -4,4 +4,5 @@ mod errors;
 mod expression;
 mod independence;
 mod loads;
+mod second_derivation;
 mod sources;

@@ -1,0 +1,268 @@
+//! The loads against sources that `manufacture` derives from the equations of `studies/manufactured/beam.toml`: a second derivation
+//! that shares no code with the first. Solutions, coefficients, meshes and times are drawn at random; the tip is in contact in many.
+
+use std::cell::{Cell, RefCell};
+
+use manufacture::Manufacture;
+use serde_json::Value;
+use thermobeam::dg::{Field, Space};
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam_exact::expression::{Expression, Variable};
+use thermobeam_exact::solution::{Factors, Manufactured, Product};
+use thermobeam_exact::sources::Sources;
+
+use crate::loads::space;
+
+const FILE: &str = include_str!("../../../studies/manufactured/beam.toml");
+
+const CASES: u64 = 100;
+
+/// Agreement, relative to the largest load of an equation.
+const AGREEMENT: f64 = 1e-10;
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + self.share() * (high - low)
+    }
+
+    /// A function of time.
+    fn of_time(&mut self) -> String {
+        let [a, b, c] = [(); 3].map(|()| self.between(-2.0, 2.0));
+        format!("(cos({a}*t + {b}) + ({c})*t^2*exp(-t))")
+    }
+
+    /// A function of x that is zero at x = 0.
+    fn of_place(&mut self) -> String {
+        let [a, b, c] = [(); 3].map(|()| self.between(-2.0, 2.0));
+        format!("(({a})*sin({b}*x) + x^2*exp({c}*x))")
+    }
+}
+
+/// A problem, its solution for the solver, and its file.
+struct Case {
+    beam: Beam,
+    obstacles: Obstacles,
+    exact: Manufactured,
+    mesh: Mesh,
+    t: f64,
+    manufacture: Manufacture,
+}
+
+/// A sum of products X(x) T(t), for the solver and as a text.
+fn sum(products: &[[String; 2]]) -> (Vec<Product>, String) {
+    let parse = |text: &str, variable| Expression::parse(text, variable).unwrap().into();
+    let product = |[x, t]: &[String; 2]| Product {
+        x: parse(x, Variable::X),
+        t: parse(t, Variable::T),
+    };
+    let texts: Vec<String> = products.iter().map(|[x, t]| format!("{x}*{t}")).collect();
+    (products.iter().map(product).collect(), texts.join(" + "))
+}
+
+/// The file with the value of a key replaced.
+fn with(file: &str, key: &str, value: &str) -> String {
+    let start = format!("\n{key} = ");
+    let from = file.find(&start).unwrap_or_else(|| panic!("no key {key}")) + start.len();
+    let length = file[from..].find('\n').unwrap();
+    format!("{}{value}{}", &file[..from], &file[from + length..])
+}
+
+impl Case {
+    fn random(seed: u64) -> Self {
+        let random = &mut Random(seed);
+        let beam = Beam {
+            zeta: random.between(0.0, 1.0),
+            a: random.between(-1.0, 1.0),
+            rho: random.between(0.0, 3.0),
+            beta: random.between(-1.0, 3.0),
+            theta_a: random.between(-2.0, 2.0),
+        };
+        let obstacles = Obstacles {
+            epsilon: 10f64.powf(random.between(-2.0, 0.0)),
+            g1: random.between(-0.4, 0.0),
+            g2: random.between(0.0, 0.4),
+        };
+        let [u, phi] = [2, 1].map(|count| {
+            let product = |_| [random.of_place(), random.of_time()];
+            sum(&(0..count).map(product).collect::<Vec<_>>())
+        });
+        let bump = format!("({}*(1 - x))", random.of_place());
+        let ends = ["(1 - x)".to_owned(), format!("({})", beam.theta_a)];
+        let theta = sum(&[ends, [bump, random.of_time()]]);
+        let mut file = FILE.to_owned();
+        for (key, value) in [
+            ("zeta", beam.zeta),
+            ("a", beam.a),
+            ("rho", beam.rho),
+            ("beta", beam.beta),
+            ("theta_A", beam.theta_a),
+            ("eps", obstacles.epsilon),
+            ("g1", obstacles.g1),
+            ("g2", obstacles.g2),
+        ] {
+            file = with(&file, key, &format!("{value:?}"));
+        }
+        for (key, (_, text)) in [("u", &u), ("phi", &phi), ("theta", &theta)] {
+            file = with(&file, key, &format!("\"{text}\""));
+        }
+        let mut nodes = vec![0.0];
+        for _ in 0..4 + (random.share() * 4.0) as usize {
+            nodes.push(nodes[nodes.len() - 1] + random.between(0.5, 1.5));
+        }
+        let end = nodes[nodes.len() - 1];
+        nodes.iter_mut().for_each(|x| *x /= end);
+        let manufacture = Manufacture::parse(&file, "beam.toml");
+        Self {
+            exact: Manufactured {
+                u: u.0,
+                phi: phi.0,
+                theta: theta.0,
+            },
+            mesh: Mesh::from_nodes(nodes).unwrap(),
+            t: random.between(0.0, 2.0),
+            manufacture: manufacture.unwrap_or_else(|error| panic!("{error}\n{file}")),
+            beam,
+            obstacles,
+        }
+    }
+
+    /// The values at points of the beam, the last of which is the tip.
+    fn values(&self, points: &[f64]) -> Value {
+        let mut table = "x,t,face\n".to_owned();
+        for x in points {
+            table += &format!("{x:?},{:?},\n", self.t);
+        }
+        table += &format!("1,{:?},x_max\n", self.t);
+        self.manufacture.at(&table, "points").unwrap()
+    }
+
+    /// The loads by the library.
+    fn filled(&self, sources: &Sources, rows: usize) -> (Vec<[f64; 3]>, f64) {
+        let mut factors = Factors::default();
+        factors.at(&self.exact, self.t);
+        let forces = sources.forces(&factors.u, Some(&self.obstacles), None);
+        let mut load = vec![[f64::NAN; 3]; rows];
+        sources.fill(&factors, forces, None, &mut load);
+        (load, forces.contact)
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// Whether the loads of the equations agree, but for rows that a value of the solution replaces.
+fn agree(found: &[[f64; 3]], expected: &[[f64; 3]], is_free: impl Fn(usize, usize) -> bool) {
+    for equation in 0..3 {
+        let size = |loads: &[[f64; 3]]| {
+            loads
+                .iter()
+                .map(|load| load[equation].abs())
+                .fold(1.0, f64::max)
+        };
+        let most = size(expected);
+        for row in (0..found.len()).filter(|row| is_free(*row, equation)) {
+            let [found, expected] = [found[row][equation], expected[row][equation]];
+            assert!(
+                (found - expected).abs() <= AGREEMENT * most,
+                "row {row}, equation {equation}: {found}, not {expected}"
+            );
+        }
+    }
+}
+
+const SOURCES: [&str; 3] = ["u", "phi", "theta"];
+
+#[test]
+fn loads_on_hats_are_those_of_the_derived_sources() {
+    let rule = Space::gauss(16);
+    let mut touching = 0;
+    for seed in 0..CASES {
+        let case = Case::random(seed);
+        let nodes = case.mesh.nodes();
+        let last = nodes.len() - 1;
+        let sources = Sources::strong(&case.exact, &case.beam, &case.mesh);
+        let (found, contact) = case.filled(&sources, nodes.len());
+        touching += u32::from(contact != 0.0);
+        let mut points = vec![];
+        for ends in nodes.windows(2) {
+            let half = 0.5 * (ends[1] - ends[0]);
+            points.extend(
+                rule.iter()
+                    .map(|(xi, weight)| [ends[0] + half * (1.0 + xi), half * weight]),
+            );
+        }
+        let values = case.values(&points.iter().map(|point| point[0]).collect::<Vec<_>>());
+        let mut expected = vec![[0.0; 3]; nodes.len()];
+        for (place, [x, weight]) in points.iter().enumerate() {
+            let element = place / rule.len();
+            let share = (x - nodes[element]) / (nodes[element + 1] - nodes[element]);
+            for (equation, name) in SOURCES.iter().enumerate() {
+                let source = weight * number(&values["sources"][name][place]);
+                expected[element][equation] += (1.0 - share) * source;
+                expected[element + 1][equation] += share * source;
+            }
+        }
+        let tip = &values["boundary"]["x_max"];
+        expected[last][0] += number(&tip["load_u"][points.len()]);
+        expected[last][1] += number(&tip["load_phi"][points.len()]);
+        agree(&found, &expected, |row, equation| {
+            row > 0 && (equation < 2 || row < last)
+        });
+    }
+    assert!(
+        touching > 20,
+        "the tip is in contact in {touching} cases only"
+    );
+}
+
+#[test]
+fn loads_of_any_order_are_those_of_the_derived_sources() {
+    for seed in 0..CASES {
+        let case = Case::random(1000 + seed);
+        let degree = 1 + (seed % 4) as usize;
+        let space = space(case.mesh.clone(), degree);
+        let sources = Sources::any_order(&case.exact, &case.beam, &space);
+        let (found, _) = case.filled(&sources, space.blocks());
+        let rule = Space::gauss(degree + 14);
+        // The points at which the space integrates, in its order.
+        let visited = RefCell::new(vec![]);
+        let visit = |x: f64| {
+            visited.borrow_mut().push(x);
+            0.0
+        };
+        space.add_load(Field::U, &rule, visit, &mut vec![[0.0; 3]; space.blocks()]);
+        let points = visited.into_inner();
+        let values = case.values(&points);
+        let mut expected = vec![[0.0; 3]; space.blocks()];
+        for (field, name) in [Field::U, Field::Phi, Field::Theta]
+            .into_iter()
+            .zip(SOURCES)
+        {
+            let next = Cell::new(0);
+            let at = |x: f64| {
+                let place = next.replace(next.get() + 1);
+                assert_eq!(points[place], x);
+                number(&values["sources"][name][place])
+            };
+            space.add_load(field, &rule, at, &mut expected);
+        }
+        let tip = &values["boundary"]["x_max"];
+        let row = case.mesh.elements();
+        expected[row][0] += number(&tip["load_u"][points.len()]);
+        expected[row][1] += number(&tip["load_phi"][points.len()]);
+        agree(&found, &expected, |_, _| true);
+    }
+}

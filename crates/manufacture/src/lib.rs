@@ -1,4 +1,4 @@
-//! Source terms and data for a chosen exact solution of differential equations.
+#![doc = include_str!("../README.md")]
 pub mod against;
 mod arithmetic;
 mod at;

@@ -5,5 +5,6 @@ mod checks;
 mod closed_forms;
 mod emitted;
 mod files;
+mod pages;
 mod properties;
 mod refusals;

@@ -40,7 +40,10 @@ pub enum Command {
 /// The commands, grouped by the user's purpose.
 pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate a scene", &["run", "equilibria"]),
-    ("Verify", &["verify", "study", "list", "explain", "new"]),
+    (
+        "Verify",
+        &["verify", "study", "list", "explain", "new", "manufacture"],
+    ),
     ("Records of runs", &["compare", "report"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),

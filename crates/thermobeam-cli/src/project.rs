@@ -89,7 +89,7 @@ const FRONT: Front = Front {
     ],
 };
 
-const TEMPLATES: [Template; 4] = [
+const TEMPLATES: [Template; 5] = [
     Template {
         name: "study",
         about: "A convergence study with a manufactured solution",
@@ -112,6 +112,7 @@ const TEMPLATES: [Template; 4] = [
         next: &["run"],
     },
     program::TEMPLATE,
+    program::MANUFACTURE,
 ];
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ const PROJECT: Project = Project {
         },
         program::ROW,
     ],
-    templates: &[program::TEMPLATE],
+    templates: &[program::TEMPLATE, program::MANUFACTURE],
     ..Project::new("powers", "powers")
 };
 

@@ -2,6 +2,7 @@
 
 mod changes;
 mod failing;
+mod manufacture;
 mod tables;
 
 use std::fs;

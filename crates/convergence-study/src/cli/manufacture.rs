@@ -126,7 +126,12 @@ fn values(manufacture: &Manufacture, table: &Path) -> Outcome {
     Ok(Verdict::Pass)
 }
 
+/// Prints the result, and writes its object to the folder of --out.
 fn print(arguments: &Arguments, object: &Value, words: &str) -> Result<(), Unusable> {
+    if let Some(folder) = &arguments.flags.out {
+        atomic::prepare_folder(folder)?;
+        atomic::write(&folder.join("manufacture.json"), text_of(object)?)?;
+    }
     match arguments.flags.format {
         Format::Json => screen::print(&text_of(object)?)?,
         Format::Text => screen::print(words)?,
@@ -144,7 +149,7 @@ fn write(arguments: &Arguments, manufacture: &Manufacture) -> Result<Vec<String>
     if !files.is_empty() {
         files.extend(manufacture.study());
     }
-    if let (Some(folder), false) = (&arguments.flags.out, files.is_empty()) {
+    if let Some(folder) = &arguments.flags.out {
         atomic::prepare_folder(folder)?;
     }
     let mut wrote = vec![];

@@ -65,10 +65,19 @@ pub const TEMPLATE: Template = Template {
     next: &["study", "explain"],
 };
 
+/// The file that `new manufacture NAME` writes: equations and a chosen solution.
+pub const MANUFACTURE: Template = Template {
+    name: "manufacture",
+    about: "Equations and a chosen exact solution, for sources and data",
+    files: &[(".toml", include_str!("begin/manufacture.toml"))],
+    ignored: "",
+    next: &["manufacture"],
+};
+
 /// The project of the program `convergence-study`: studies of any program, in the folder that it runs in.
 pub const PROJECT: Project = Project {
     kinds: &[ROW],
-    templates: &[TEMPLATE],
+    templates: &[TEMPLATE, MANUFACTURE],
     ..Project::new("convergence-study", "convergence-study")
 };
 

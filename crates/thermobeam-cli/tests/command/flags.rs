@@ -5,6 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use convergence_study::cli::command_line;
+use convergence_study::program;
 use serde_json::Value;
 use thermobeam_cli::{GROUPS, Thermobeam, project};
 
@@ -12,7 +13,7 @@ use super::workspace::{quick, workspace};
 use super::{Ended, Folder, ended, thermobeam, thrown};
 
 /// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` produces.
-const COMMANDS: [(&[&str], i32, &str); 12] = [
+const COMMANDS: [(&[&str], i32, &str); 13] = [
     // Every number is new.
     (&["verify"], 1, "results.json"),
     (&["study", "studies/short.toml"], 0, "results.json"),
@@ -31,6 +32,7 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["sweep", "sweep.toml"], 0, "results.jsonl"),
     (&["merge", "swept"], 0, "results.jsonl"),
     (&["new", "study", "begun"], 0, "begun.toml"),
+    (&["manufacture", "heat.toml"], 0, "manufacture.json"),
 ];
 
 /// Commands missing from [`COMMANDS`]: a script for a shell; times, which take minutes; the help.
@@ -44,6 +46,7 @@ fn place(folder: &Folder) -> PathBuf {
         ("rates.csv", rates),
         ("scene.toml", &thrown("dt = 0.01")),
         ("sweep.toml", sweep),
+        ("heat.toml", program::MANUFACTURE.files[0].1),
     ] {
         fs::write(root.join(name), text).expect("a file");
     }

@@ -1,0 +1,138 @@
+//! `manufacture`: the page of ten minutes as a newcomer follows it, exit status, and what is written.
+
+use std::fs;
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::run;
+
+const PAGE: &str = include_str!("../../../manufacture/TEN-MINUTES.md");
+
+/// The blocks of the page in that language.
+fn blocks(language: &str) -> Vec<&'static str> {
+    let opening = format!("```{language}\n");
+    let blocks = PAGE.split(opening.as_str()).skip(1);
+    blocks
+        .map(|rest| rest.split("```").next().unwrap())
+        .collect()
+}
+
+fn has_numpy() -> bool {
+    let output = Command::new("python3")
+        .args(["-c", "import numpy"])
+        .output();
+    output.is_ok_and(|output| output.status.success())
+}
+
+#[test]
+fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
+    let root = TempDir::new().unwrap();
+    let write = |name: &str, text: &str| fs::write(root.path().join(name), text).unwrap();
+    let (status, _, err) = run(&root, &["new", "manufacture", "heat"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""));
+    let file = fs::read_to_string(root.path().join("heat.toml")).unwrap();
+    assert_eq!(file, blocks("toml")[0]);
+    let (status, out, err) = run(&root, &["manufacture", "heat.toml"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""));
+    assert_eq!(out, blocks("text")[1]);
+    if !has_numpy() {
+        eprintln!("skipped: no Python with NumPy");
+        return;
+    }
+    let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--language", "python"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    let [solver, foreign] = blocks("python")[..] else {
+        panic!("two programs on the page")
+    };
+    write("solver.py", solver);
+    let (status, out, err) = run(&root, &["study", "heat.study.toml"]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    write(
+        "solver.py",
+        &solver.replace("+ 2.5 + step / 2", "- 2.5 + step / 2"),
+    );
+    let (status, out, _) = run(&root, &["study", "heat.study.toml"]);
+    assert_eq!(status, Some(1), "{out}");
+    write("foreign.py", foreign);
+    let (status, out, _) = run(
+        &root,
+        &[
+            "manufacture",
+            "heat.toml",
+            "--against",
+            "python3 foreign.py",
+        ],
+    );
+    assert_eq!((status, out.as_str()), (Some(1), blocks("text")[2]));
+}
+
+#[test]
+fn exit_status_and_output_are_those_of_every_command() {
+    let root = TempDir::new().unwrap();
+    run(&root, &["new", "manufacture", "heat"]);
+    let path = root.path().join("heat.toml");
+    let sound = fs::read_to_string(&path).unwrap();
+    fs::write(root.path().join("points.csv"), "x,face\n0.5,\n1,x_max\n").unwrap();
+    let at = [
+        "manufacture",
+        "heat.toml",
+        "--at",
+        "points.csv",
+        "--format",
+        "json",
+    ];
+    let (status, out, _) = run(&root, &at);
+    let values: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(
+        (status, &values["schema"], &values["name"]),
+        (Some(0), &1.into(), &"heat".into())
+    );
+    assert!(values["boundary"]["x_max"]["robin"][0].is_null());
+    assert!(values["boundary"]["x_max"]["robin"][1].is_number());
+    assert_eq!(values["terms"]["heat"].as_object().unwrap().len(), 2);
+
+    // A check that fails: nothing is emitted.
+    fs::write(
+        &path,
+        sound.replace("positive = [\"k\"]", "positive = [\"k - 1.2\"]"),
+    )
+    .unwrap();
+    let wrong = [
+        "manufacture",
+        "heat.toml",
+        "--language",
+        "c",
+        "--out",
+        "out",
+        "--format",
+        "json",
+    ];
+    let (status, out, _) = run(&root, &wrong);
+    let check: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(
+        (status, &check["check"]["verdict"]),
+        (Some(1), &"fail".into())
+    );
+    assert_eq!(check["check"]["findings"][0]["code"], "not-positive");
+    assert_eq!(check["check"]["findings"][0]["where"], "require.positive");
+    assert!(!root.path().join("out/heat.c").exists());
+
+    // A file that cannot be used: nothing is written.
+    fs::write(&path, sound.replace("loss = \"T\"", "loss = \"TT\"")).unwrap();
+    let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--out", "unusable"]);
+    assert_eq!((status, out.as_str()), (Some(2), ""));
+    assert!(
+        err.starts_with(
+            "error: heat.toml:26: equations.heat.loss: unknown name `TT`, did you mean `T`?"
+        ),
+        "{err}"
+    );
+    assert!(!root.path().join("unusable").exists());
+    let (status, _, err) = run(&root, &["manufacture", "heat.toml", "--language", "cobol"]);
+    assert!(
+        status == Some(2) && err.contains("expected one of c, fortran, python, ufl, octave, rust"),
+        "{err}"
+    );
+}

@@ -7,4 +7,5 @@ mod emitted;
 mod files;
 mod pages;
 mod properties;
+mod public;
 mod refusals;

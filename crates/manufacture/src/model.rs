@@ -18,6 +18,8 @@ pub(crate) struct Model {
     pub(crate) parts: Vec<(Part, Vec<Quantity<NodeId>>)>,
     /// The sources with a slip made throughout.
     pub(crate) slips: Vec<(Slip, Vec<Quantity<NodeId>>)>,
+    /// The data of each face with the normal that points inwards.
+    pub(crate) inward: Vec<Vec<Quantity<NodeId>>>,
     /// The largest number of derivatives one inside the other.
     order: usize,
     /// The largest number of panels of an integral.
@@ -40,6 +42,12 @@ impl Model {
             slips.push((slip, elaborator.sources()?));
             graph = elaborator.algebra;
         }
+        let mut elaborator = Elaborator::new(&problem, graph, Slip::InwardNormal);
+        let mut inward = vec![];
+        for face in 0..problem.faces.len() {
+            inward.push(elaborator.part(Part::Face(face))?);
+        }
+        let graph = elaborator.algebra;
         let mut depth = Elaborator::new(&problem, Depth, Slip::None);
         let mut order = 0;
         for part in Part::all(&problem) {
@@ -55,6 +63,7 @@ impl Model {
         Ok(Self {
             parts,
             slips,
+            inward,
             order,
             panels,
             graph,

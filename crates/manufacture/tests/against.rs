@@ -10,7 +10,7 @@ use crate::files::read;
 const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\ny = [0, 1]\nt = [0, 1]\n\
 [parameters]\na = 1.7\n[exact]\nu = \"1 + sin(a*x)*exp(-t)*(1 + y^2)\"\nv = [\"sin(x + 2*y)\", \"x*cos(y)\"]\n[define]\nk = \"1 + 0.5*x\"\n\
 [equations.u]\nstorage = \"dt(u)\"\ndiffusion = \"-div(k*grad(u))\"\nreaction = \"u^2\"\n[equations]\nv = \"dot(grad(v), v) - div(sym(grad(v)))\"\n\
-[boundary.x_max]\nflux = \"-k*dot(grad(u), n)\"\n";
+[boundary.x_max]\nflux = \"-k*dot(grad(u), n)\"\nrobin = \"-k*dot(grad(u), n) - 3*u\"\n";
 
 /// What is said of a program that computes `u` in Python from the terms S (storage), D (diffusion), R (reaction).
 fn of(expression: &str, on: Option<&str>, columns: &str) -> Vec<Comparison> {
@@ -170,16 +170,17 @@ fn vectors_are_explained_by_component() {
 #[test]
 fn data_of_a_face_have_their_normal() {
     let flux = |sign: &str| {
-        of(
-            &format!("print(repr({sign}(1 + 0.5*x)*G(x, y, t)*p[3]))"),
-            Some("x_max"),
-            "flux",
-        )
-        .remove(0)
-        .cause
+        let program = format!(
+            "q = {sign}(1 + 0.5*x)*G(x, y, t)*p[3]; print(repr(q), repr(q - 3*u(x, y, t)))"
+        );
+        let comparisons = of(&program, Some("x_max"), "flux robin");
+        comparisons
+            .iter()
+            .map(|comparison| comparison.cause)
+            .collect::<Vec<_>>()
     };
-    assert_eq!(flux("-"), "equal");
-    assert_eq!(flux(""), "normal");
+    assert_eq!(flux("-"), ["equal", "equal"]);
+    assert_eq!(flux(""), ["normal", "normal"]);
 }
 
 #[test]

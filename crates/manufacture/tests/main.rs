@@ -8,4 +8,5 @@ mod files;
 mod pages;
 mod properties;
 mod public;
+mod random;
 mod refusals;

@@ -116,6 +116,10 @@ impl Case<'_, '_> {
     /// Sign, constant, factor.
     fn of_source(&self) -> Option<Cause> {
         let is_on_face = self.right.part != Part::Interior;
+        let inward = self.right.with_inward_normal(self.place);
+        if inward.is_some_and(|inward| self.fits(&inward)) {
+            return Some(Cause::plain("normal"));
+        }
         let opposite: Column = self.source.iter().map(|s| -s).collect();
         if self.fits(&opposite) {
             let name = if is_on_face {

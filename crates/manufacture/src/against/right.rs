@@ -132,6 +132,23 @@ impl<'m> Right<'m> {
         )
     }
 
+    /// The component with a normal that points inwards; `None` inside the domain.
+    pub(crate) fn with_inward_normal(&self, place: Place) -> Option<Column> {
+        let Part::Face(face) = self.part else {
+            return None;
+        };
+        let name = &self.quantities[place.quantity].quantity.name;
+        let mut data = self.model.inward[face].iter();
+        let datum = data.find(|datum| datum.role == Role::Datum && datum.name == *name)?;
+        let values = at(self.model, &datum.tensor, &self.points);
+        Some(
+            values
+                .iter()
+                .map(|values| values[place.component].value)
+                .collect(),
+        )
+    }
+
     /// The component at other points.
     pub(crate) fn at_points(&self, place: Place, points: &[Vec<f64>]) -> Column {
         let tensor = &self.quantities[place.quantity].quantity.tensor;

@@ -26,9 +26,12 @@ pub(crate) enum Slip {
     HalfSymmetric,
     /// `transpose(A)` is A.
     PlainTranspose,
+    /// The normal of a face points inwards.
+    InwardNormal,
 }
 
 impl Slip {
+    /// The slips in an equation.
     pub(crate) const ALL: [Slip; 5] = [
         Slip::ProductRule,
         Slip::TransposedGradient,
@@ -46,6 +49,7 @@ impl Slip {
             Slip::PlainSymmetric | Slip::HalfSymmetric | Slip::PlainTranspose => {
                 "missing-transpose"
             }
+            Slip::InwardNormal => "normal",
         }
     }
 
@@ -57,6 +61,7 @@ impl Slip {
             Slip::PlainSymmetric => "with A in place of sym(A)",
             Slip::HalfSymmetric => "with A/2 in place of sym(A)",
             Slip::PlainTranspose => "with A in place of transpose(A)",
+            Slip::InwardNormal => "with a normal that points inwards",
         }
     }
 }
@@ -200,7 +205,7 @@ impl<A: Algebra> Elaborator<'_, A> {
                 self.forget();
             }
             let before = self.slips;
-            let mut terms: Vec<(String, Tensor<A::Number>)> = vec![];
+            let mut terms: Vec<(usize, String, Tensor<A::Number>)> = vec![];
             let mut total: Option<Tensor<A::Number>> = None;
             for term in &equation.terms {
                 let mut tensor = self.expression(&term.expression)?;
@@ -225,8 +230,9 @@ impl<A: Algebra> Elaborator<'_, A> {
                         .place
                         .error_at(&expression.text, expression.tree.at, problem)
                 })?);
-                terms.push((label.clone(), tensor));
+                terms.push((term.place, label.clone(), tensor));
             }
+            terms.sort_by_key(|term| term.0);
             let Some(tensor) = total else { continue };
             if self.slip != Slip::None && self.slips == before {
                 continue;
@@ -236,8 +242,9 @@ impl<A: Algebra> Elaborator<'_, A> {
                 return Err(equation.place.error(problem));
             }
             let key = format!("equations.{}", equation.name);
+            let terms = terms.into_iter().map(|(_, label, tensor)| (label, tensor));
             sources.push(Quantity {
-                terms,
+                terms: terms.collect(),
                 ..quantity(Role::Source, &equation.name, &key, tensor)
             });
         }
@@ -265,6 +272,13 @@ impl<A: Algebra> Elaborator<'_, A> {
         };
         let key = format!("boundary.{}", face.name);
         let mut quantities = vec![quantity(Role::Normal, &face.name, &key, normal.clone())];
+        let sign = if self.slip == Slip::InwardNormal {
+            -1.0
+        } else {
+            1.0
+        };
+        let sign = self.algebra.number(sign);
+        let normal = tensor::scale(&mut self.algebra, Binary::Multiply, &normal, &sign);
         self.normal = Some(normal);
         let data = self.data(&face.data, &key, [Role::Datum, Role::Condition]);
         self.normal = None;

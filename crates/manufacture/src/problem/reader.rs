@@ -19,6 +19,8 @@ pub(super) struct Section<'t> {
 pub(super) struct Field<'t> {
     pub(super) name: String,
     pub(super) place: Place,
+    /// The byte at which the value begins.
+    pub(super) start: usize,
     value: &'t DeValue<'t>,
     /// The value as written.
     written: &'t str,
@@ -61,6 +63,7 @@ impl<'t> Reader<'t> {
         let span = value.span();
         Field {
             name: name.to_owned(),
+            start: span.start,
             place: Place {
                 file: self.file.to_owned(),
                 line: self.line(span.start),
@@ -99,16 +102,6 @@ impl<'t> Section<'t> {
             .collect();
         fields.sort_by(|a, b| a.name.cmp(&b.name));
         fields
-    }
-
-    /// The keys in the order of the file, which is that of the terms of an equation.
-    pub(super) fn fields_as_written(&self) -> Vec<Field<'t>> {
-        let mut entries: Vec<_> = self.table.iter().collect();
-        entries.sort_by_key(|(key, _)| key.span().start);
-        entries
-            .into_iter()
-            .map(|(key, value)| self.reader.field(&self.path, key.get_ref(), value))
-            .collect()
     }
 
     pub(super) fn field(&self, name: &str) -> Option<Field<'t>> {

@@ -324,18 +324,7 @@ fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
     for field in section.fields() {
         check_identifier(&field.name, &field.place)?;
         let terms = if field.is_table() {
-            let fields = field.section()?.fields_as_written();
-            let named = |field: &Field<'_>| {
-                Ok(Term {
-                    label: field.name.clone(),
-                    is_negative: false,
-                    expression: field.expression()?,
-                })
-            };
-            fields
-                .iter()
-                .map(named)
-                .collect::<Result<Vec<Term>, InputError>>()?
+            named_terms(&field.section()?)?
         } else {
             terms(&field.expression()?)
         };
@@ -356,6 +345,24 @@ fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
     Ok(equations)
 }
 
+/// The terms of a table, in alphabetical order, each with its place in the file.
+fn named_terms(section: &Section<'_>) -> Result<Vec<Term>, InputError> {
+    let fields = section.fields();
+    let place = |field: &Field<'_>| {
+        let before = |other: &&Field<'_>| other.start < field.start;
+        fields.iter().filter(before).count()
+    };
+    let named = |field: &Field<'_>| {
+        Ok(Term {
+            label: field.name.clone(),
+            place: place(field),
+            is_negative: false,
+            expression: field.expression()?,
+        })
+    };
+    fields.iter().map(named).collect()
+}
+
 /// A text is cut into terms at its top-level + and -.
 fn terms(expression: &Expression) -> Vec<Term> {
     let mut terms: Vec<Term> = vec![];
@@ -368,6 +375,7 @@ fn terms(expression: &Expression) -> Vec<Term> {
         }
         terms.push(Term {
             label,
+            place: terms.len(),
             is_negative: summand.is_negative,
             expression: Expression {
                 tree: summand.tree.clone(),

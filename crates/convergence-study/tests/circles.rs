@@ -50,7 +50,6 @@ const ORDERS: [(&str, &[&str]); 4] = [
     (
         "thermobeam-exact",
         &[
-            "nearest",
             "norm",
             "quadrature",
             "expression",

@@ -64,7 +64,7 @@ const CRATES: [(&str, &[&str]); 8] = [
     ("convergence-study", &["convergence-judge", "manufacture"]),
     ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
-    ("thermobeam-exact", &["thermobeam"]),
+    ("thermobeam-exact", &["manufacture", "thermobeam"]),
     (
         "thermobeam-study",
         &["convergence-study", "thermobeam", "thermobeam-exact"],

@@ -288,3 +288,27 @@ fn a_check_is_the_same_for_any_order_of_keys() {
         assert_eq!(read(&reordered).emit(language), read(HEAT).emit(language));
     }
 }
+
+#[test]
+fn renaming_a_coordinate_renames_the_output_and_nothing_else() {
+    let file = |x: &str| {
+        plane(
+            "u = \"sin(2*X)*exp(y)\"",
+            "k = \"1 + X^2\"",
+            "a = \"-div(k*grad(u)) + d(u, X)\"",
+        )
+        .replace('X', x)
+        .replace("\"x\", \"y\"", &format!("\"{x}\", \"y\""))
+        .replace("x = [", &format!("{x} = ["))
+    };
+    let emitted = |x: &str| {
+        let files = read(&file(x)).emit(manufacture::Language::C);
+        let lines = files[0].text.lines().filter(|line| !line.starts_with("//"));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(emitted("x"), emitted("xi"));
+    assert_eq!(check(&file("x")).shares.len(), 2);
+    let values =
+        |x: &str| crate::files::at(&file(x), &format!("{x},y\n0.7,0.4\n"))["sources"].clone();
+    assert_eq!(values("x"), values("xi"));
+}

@@ -1,6 +1,6 @@
 //! Sources in closed form: what the two ways of the check share is held to something else here.
 
-use crate::files::{at, close, plane};
+use crate::files::{at, check, close, found, plane};
 
 /// A point away from all symmetries.
 const X: f64 = 0.7;
@@ -118,6 +118,26 @@ fn functions_have_their_derivatives() {
             ("c", Y * Y + 1.0),
         ],
     );
+}
+
+/// Third derivatives by the rules of the graph and by the recurrences of the jets, for each function.
+#[test]
+fn both_ways_agree_on_third_derivatives_of_each_function() {
+    for function in [
+        "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "log10",
+        "sqrt", "abs",
+    ] {
+        let equation = format!("a = \"d({function}(s), x, x, y) + s^2.5 + x^s\"");
+        let check = check(&plane("s = \"0.3*x + 0.2*x*y\"", "", &equation));
+        assert!(
+            found(&check, "second-way").is_empty(),
+            "{function}: {check:#?}"
+        );
+        assert!(
+            found(&check, "singular").is_empty(),
+            "{function}: {check:#?}"
+        );
+    }
 }
 
 #[test]

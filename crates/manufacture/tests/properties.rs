@@ -130,6 +130,17 @@ proptest! {
     }
 
     #[test]
+    fn a_file_with_a_changed_part_is_read_or_refused(start in 0..1200usize, length in 0..30usize, piece in "[-+*/^()\\[\\],<>=\"\n a-z0-9.]{0,12}") {
+        let file = crate::files::HEAT;
+        let start = start.min(file.len());
+        let end = (start + length).min(file.len());
+        let changed = format!("{}{piece}{}", &file[..start], &file[end..]);
+        if let Err(error) = manufacture::Manufacture::parse(&changed, "changed.toml") {
+            prop_assert!(error.to_string().starts_with("changed.toml:"), "{error}");
+        }
+    }
+
+    #[test]
     fn a_printed_tree_is_the_same_tree(sample in samples()) {
         let tree = manufacture::language::parse(&sample.text()).unwrap();
         let again = manufacture::language::parse(&tree.to_string()).unwrap();

@@ -16,13 +16,13 @@
 mod error;
 mod parser;
 mod syntax;
-mod token;
 
 use std::fmt;
 
 use num_dual::Dual2_64;
 
-pub use error::{ExpressionError, ExpressionProblem, NotFinite};
+pub use error::NotFinite;
+pub use manufacture::language::SyntaxError as ExpressionError;
 use syntax::Node;
 
 /// The variable of a function.

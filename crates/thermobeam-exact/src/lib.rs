@@ -27,7 +27,6 @@ pub mod errors;
 pub mod expression;
 pub mod formulas;
 pub mod function;
-pub mod nearest;
 pub mod norm;
 pub mod quadrature;
 pub mod solution;

@@ -195,7 +195,7 @@ fn a_syntax_error_gives_its_position_and_the_expected_input() {
             "",
             0,
             &[
-                "expected a number, x, pi, e, a function or `(`",
+                "expected a number, a name, a function, `(` or `[`",
                 "found an empty text",
             ][..],
         ),
@@ -236,7 +236,7 @@ fn a_syntax_error_gives_its_position_and_the_expected_input() {
             4,
             &[
                 "unknown name `sine`, did you mean `sin`?",
-                "expected one of x pi e sin cos",
+                "expected one of sin cos",
             ],
         ),
         ("Sqrt(x)", 0, &["unknown name `Sqrt`, did you mean `sqrt`?"]),
@@ -316,10 +316,6 @@ fn deep_nesting_is_rejected_without_stack_overflow() {
     let block = format!("(x{})", "+x".repeat(200));
     let sum = function(&format!("{block}{}", format!("+{block}").repeat(40)));
     assert_eq!(sum.eval(1.0), 201.0 * 41.0);
-    assert_eq!(
-        function(&format!("0{}", "+1".repeat(10_000))).eval(0.0),
-        10_000.0
-    );
 }
 
 #[test]

@@ -15,7 +15,7 @@ struct Group<'f> {
 impl Group<'_> {
     /// The names of all components, with this between the parts of long lines.
     fn names(&self, separator: &str) -> String {
-        const LONGEST: usize = 60;
+        const LONGEST: usize = 48;
         let components = self.functions.iter().flat_map(|f| f.components.clone());
         let mut text = String::new();
         let mut length = 0;

@@ -15,9 +15,22 @@ pub struct SyntaxError {
     pub problem: String,
 }
 
+impl SyntaxError {
+    /// Two lines: the text, and a caret below the error. A long text is cut to the part around it.
+    pub fn excerpt(&self) -> String {
+        excerpt(&self.text, self.offset)
+    }
+}
+
 impl fmt::Display for SyntaxError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\n{}", self.problem, excerpt(&self.text, self.offset))
+        write!(
+            f,
+            "{} (byte {})\n{}",
+            self.problem,
+            self.offset,
+            self.excerpt()
+        )
     }
 }
 

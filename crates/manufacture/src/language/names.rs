@@ -134,3 +134,55 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_misspelt_name_is_suggested_and_an_unrelated_word_is_not() {
+        let names = ["sin", "sinh", "sqrt", "log10", "theta_a", "elements"];
+        for (written, meant) in [
+            ("sine", Some("sin")),
+            ("SIN", Some("sin")),
+            ("sqr", Some("sqrt")),
+            ("sqtr", Some("sqrt")),
+            ("log", None),
+            ("log01", Some("log10")),
+            ("olg01", None),
+            ("sinxyz", None),
+            ("thetaa", Some("theta_a")),
+            ("element", Some("elements")),
+            ("zeta", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(written, names), meant, "{written}");
+        }
+    }
+
+    #[test]
+    fn no_suggestion_for_names_longer_than_forty_characters() {
+        assert_eq!(nearest(&"s".repeat(1_000_000), ["sin"]), None);
+        let [forty, more] = [40, 41].map(|count| "s".repeat(count));
+        assert_eq!(
+            [&forty, &more].map(|name| nearest(name, [forty.as_str()])),
+            [Some(forty.as_str()), None]
+        );
+    }
+
+    #[test]
+    fn suggestions_allow_one_edit_per_three_letters() {
+        let edited = ["abcdefghX", "abcdefgXX", "abcdefXXX", "abcdeXXXX"]
+            .map(|name| nearest(name, ["abcdefghi"]));
+        assert_eq!(
+            edited,
+            [
+                Some("abcdefghi"),
+                Some("abcdefghi"),
+                Some("abcdefghi"),
+                None
+            ]
+        );
+        assert_eq!((nearest("y", ["x"]), nearest("xx", ["x"])), (None, None));
+    }
+}

@@ -1,7 +1,7 @@
 //! Parser from text to syntax tree, by precedence climbing.
 
 use super::error::SyntaxError;
-use super::names::{CALLEES, Callee, Function, did_you_mean};
+use super::names::{CALLEES, Callee, Function, nearest};
 use super::token::{Token, TokenKind, next_token};
 use super::tree::{Binary, Comparison, Kind, Tree};
 
@@ -145,11 +145,14 @@ impl Parser<'_> {
         let callee = CALLEES.iter().find(|known| known.0 == name);
         let is_called = self.token.kind == TokenKind::Symbol('(');
         let Some(&(name, callee, least, most)) = callee else {
-            if is_called {
-                let near = did_you_mean(&name, CALLEES.iter().map(|known| known.0));
-                let name = shorten(&name);
-                let problem =
-                    format!("unknown function `{name}`{near}; a product is written with its *");
+            let near = nearest(&name, CALLEES.iter().map(|known| known.0));
+            if let (true, Some(near)) = (is_called, near) {
+                let known: Vec<&str> = CALLEES.iter().map(|known| known.0).collect();
+                let problem = format!(
+                    "unknown name `{}`, did you mean `{near}`?; expected one of {}",
+                    shorten(&name),
+                    known.join(" ")
+                );
                 return Err(self.error(token.start, problem));
             }
             return self.grow(token.start, 0, Kind::Name(name));
@@ -324,7 +327,7 @@ fn infix(kind: TokenKind) -> Option<(Binary, u8, u8)> {
 }
 
 /// At most 24 characters of a token.
-fn shorten(text: &str) -> String {
+pub(super) fn shorten(text: &str) -> String {
     const LONGEST: usize = 24;
     match text.char_indices().nth(LONGEST) {
         Some((cut, _)) => format!("{}...", &text[..cut]),

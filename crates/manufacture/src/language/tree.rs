@@ -125,7 +125,7 @@ impl Tree {
 }
 
 /// The name of what is called.
-pub(crate) fn callee_name(callee: Callee) -> &'static str {
+pub fn callee_name(callee: Callee) -> &'static str {
     CALLEES
         .iter()
         .find(|known| known.1 == callee)

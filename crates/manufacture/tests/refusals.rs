@@ -139,7 +139,7 @@ fn the_grammar_is_refused_with_remedies() {
         ),
         ("where(T, 1, 2)", "one of < <= > >= in the condition"),
         ("sin", "`(` after the function `sin`"),
-        ("sine(T)", "unknown function `sine`, did you mean `sin`?"),
+        ("sine(T)", "unknown name `sine`, did you mean `sin`?"),
         ("min(T)", "`min`: expected 2 argument(s), found 1"),
         ("π*T", "write pi"),
         ("", "an empty text"),
@@ -165,6 +165,32 @@ fn an_integral_that_does_not_converge_is_refused() {
     ));
     assert!(
         message.contains("expected a function that is smooth"),
+        "{message}"
+    );
+}
+
+/// Definitions that double at each step, or that are nested deeply, take no time that grows with the number of paths.
+#[test]
+fn long_chains_of_definitions_are_read_or_refused() {
+    // The first in the alphabet is the last of the chain.
+    let file = |count: usize, rule: &str| {
+        let step = |i: usize| {
+            format!(
+                "f{i:03} = \"{}\"\n",
+                rule.replace('F', &format!("f{:03}", i + 1))
+            )
+        };
+        let define: String = (0..count).map(step).collect();
+        plane(
+            "u = \"f000\"",
+            &format!("{define}f{count:03} = \"x\""),
+            "a = \"div(f000*grad(u))\"",
+        )
+    };
+    crate::files::check(&file(40, "F*F/2"));
+    let message = refusal(&file(400, "F + 1"));
+    assert!(
+        message.contains("at most 256 definitions one inside the other"),
         "{message}"
     );
 }

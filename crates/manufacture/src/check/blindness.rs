@@ -1,7 +1,10 @@
 //! What a test with this solution would not notice, apart from terms and symmetries.
 
 use super::{Finding, Sampled, finding, is_same, is_zero};
-use crate::arithmetic::{Graph, Node, NodeId};
+use std::collections::HashMap;
+
+use crate::arithmetic::tape::needed;
+use crate::arithmetic::{Node, NodeId};
 use crate::derive::{Part, Role, Slip};
 use crate::language::tree::Binary;
 use crate::model::{Model, Rows};
@@ -22,7 +25,7 @@ pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
                     let text = format!(
                         "a polynomial of degree {degree} in space: elements of that degree reproduce it, the error is round-off"
                     );
-                    findings.push(finding("polynomial", key, text, Some(f64::from(degree))));
+                    findings.push(finding("polynomial", key, text, Some(degree)));
                 }
             }
             _ => (),
@@ -88,30 +91,35 @@ fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
 }
 
 /// The degree in space, if all components are polynomials as they are written.
-fn polynomial(model: &Model, parts: &[NodeId]) -> Option<u32> {
-    let coordinates = model.problem.coordinates.len();
-    let degrees = parts
-        .iter()
-        .map(|part| degree(&model.graph, *part, coordinates));
-    degrees.collect::<Option<Vec<u32>>>()?.into_iter().max()
+fn polynomial(model: &Model, parts: &[NodeId]) -> Option<f64> {
+    let mut degrees: HashMap<NodeId, Option<f64>> = HashMap::new();
+    for id in needed(&model.graph, parts) {
+        let degree = degree(model, id, &degrees);
+        degrees.insert(id, degree);
+    }
+    let parts = parts.iter().map(|part| degrees[part]);
+    parts.reduce(|a, b| Some(a?.max(b?))).flatten()
 }
 
-fn degree(graph: &Graph, id: NodeId, coordinates: usize) -> Option<u32> {
-    if !(0..coordinates).any(|coordinate| graph.depends_on(id, coordinate)) {
-        return Some(0);
+/// The degree of a node by those of its operands.
+fn degree(model: &Model, id: NodeId, degrees: &HashMap<NodeId, Option<f64>>) -> Option<f64> {
+    let graph = &model.graph;
+    let mut coordinates = 0..model.problem.coordinates.len();
+    if !coordinates.any(|coordinate| graph.depends_on(id, coordinate)) {
+        return Some(0.0);
     }
-    let of = |id: &NodeId| degree(graph, *id, coordinates);
+    let of = |id: &NodeId| degrees[id];
     match graph.node(id) {
-        Node::Variable(_) => Some(1),
+        Node::Variable(_) => Some(1.0),
         Node::Negate(operand) => of(operand),
         Node::Binary(operator, [left, right]) => match operator {
             Binary::Add | Binary::Subtract => Some(of(left)?.max(of(right)?)),
             Binary::Multiply => Some(of(left)? + of(right)?),
-            Binary::Divide => (of(right)? == 0).then_some(of(left)?),
+            Binary::Divide => (of(right)? == 0.0).then_some(of(left)?),
             Binary::Power => {
                 let exponent = graph.constant(*right)?;
-                let is_whole = exponent.fract() == 0.0 && (0.0..100.0).contains(&exponent);
-                is_whole.then_some(of(left)? * exponent as u32)
+                let is_whole = exponent.fract() == 0.0 && exponent >= 0.0;
+                is_whole.then_some(of(left)? * exponent)
             }
         },
         _ => None,

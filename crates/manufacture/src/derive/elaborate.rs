@@ -6,6 +6,7 @@ use super::Slip;
 use super::space::Space;
 use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::Algebra;
+use crate::language::MAX_DEPTH;
 use crate::language::names::{CONSTANTS, Callee, Function, Operator, did_you_mean};
 use crate::language::tree::{Binary, Comparison, Kind, Tree, callee_name};
 use crate::problem::{Expression, InputError, Problem, Value};
@@ -24,6 +25,8 @@ pub(crate) struct Elaborator<'p, A: Algebra> {
     /// On a face: the outward unit normal.
     pub(super) normal: Option<Tensor<A::Number>>,
     pub(super) known: HashMap<String, Tensor<A::Number>>,
+    /// Whether a derivative occurs in a definition.
+    pub(super) differential: HashMap<String, bool>,
     /// Definitions that are being evaluated.
     open: Vec<String>,
 }
@@ -43,6 +46,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             slips: 0,
             normal: None,
             known: HashMap::new(),
+            differential: HashMap::new(),
             open: vec![],
         }
     }
@@ -166,6 +170,10 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             let mut circle = self.open[first..].to_vec();
             circle.push(name.to_owned());
             let problem = format!("a circle: {}", circle.join(" -> "));
+            return Err(refused(within, tree, problem));
+        }
+        if self.open.len() > MAX_DEPTH {
+            let problem = format!("expected at most {MAX_DEPTH} definitions one inside the other");
             return Err(refused(within, tree, problem));
         }
         self.definition(name, value)

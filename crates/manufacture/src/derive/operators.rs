@@ -286,7 +286,7 @@ impl<A: Algebra> Elaborator<'_, A> {
     }
 
     /// Whether a derivative occurs in it, also in a definition that it names.
-    fn has_derivative(&self, tree: &Tree) -> bool {
+    fn has_derivative(&mut self, tree: &Tree) -> bool {
         match &tree.kind {
             Kind::Call(
                 Callee::Operator(
@@ -299,12 +299,20 @@ impl<A: Algebra> Elaborator<'_, A> {
                 ),
                 _,
             ) => true,
-            Kind::Name(name) => match self.problem.definitions.get(name) {
-                Some(definition) if !definition.is_exact => {
-                    self.value_has_derivative(&definition.value)
+            Kind::Name(name) => {
+                if let Some(known) = self.differential.get(name) {
+                    return *known;
                 }
-                _ => false,
-            },
+                let definition = self.problem.definitions.get(name);
+                let has = match definition {
+                    Some(definition) if !definition.is_exact => {
+                        self.value_has_derivative(&definition.value)
+                    }
+                    _ => false,
+                };
+                self.differential.insert(name.clone(), has);
+                has
+            }
             _ => tree
                 .children()
                 .iter()
@@ -312,7 +320,7 @@ impl<A: Algebra> Elaborator<'_, A> {
         }
     }
 
-    fn value_has_derivative(&self, value: &Value) -> bool {
+    fn value_has_derivative(&mut self, value: &Value) -> bool {
         match value {
             Value::One(expression) => self.has_derivative(&expression.tree),
             Value::List(_, parts) => parts.iter().any(|part| self.value_has_derivative(part)),

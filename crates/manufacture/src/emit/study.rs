@@ -20,7 +20,10 @@ pub(super) fn study(model: &Model) -> Option<EmittedFile> {
         study.command, study.n
     );
     for (error, order) in &study.orders {
-        let _ = write!(text, "\n[[expect]]\nerror = {error:?}\norder = {order}\n");
+        let _ = write!(
+            text,
+            "\n[[expect]]\nerror = {error:?}\norder = {order}\ntolerance = 0.25\n"
+        );
     }
     Some(EmittedFile {
         name: format!("{}.study.toml", problem.name),

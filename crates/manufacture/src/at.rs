@@ -15,6 +15,21 @@ struct Table {
     faces: Vec<String>,
 }
 
+/// The column of each variable; in words what is wrong with the header.
+fn places(variables: &[&str], head: &[&str]) -> Result<Vec<usize>, String> {
+    let known: Vec<&str> = variables.iter().copied().chain(["face"]).collect();
+    if let Some(name) = head.iter().find(|name| !known.contains(name)) {
+        let near = did_you_mean(name, known.iter().copied());
+        let known = known.join(" ");
+        return Err(format!("unknown column `{name}`{near}; expected {known}"));
+    }
+    let place = |variable: &&str| {
+        let place = head.iter().position(|name| name == variable);
+        place.ok_or_else(|| format!("expected the column `{variable}`, found none"))
+    };
+    variables.iter().map(place).collect()
+}
+
 /// Reads a header with the coordinates, time and optionally `face`, then a point for each line.
 fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
     let variables = model.problem.variables();
@@ -33,27 +48,7 @@ fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
         ));
     };
     let head: Vec<&str> = header.split(',').map(str::trim).collect();
-    for name in &head {
-        let known = variables.iter().copied().chain(["face"]);
-        if !known.clone().any(|variable| variable == *name) {
-            let near = did_you_mean(name, known.clone());
-            let known: Vec<&str> = known.collect();
-            let known = known.join(" ");
-            let problem = format!("unknown column `{name}`{near}; expected {known}");
-            return Err(at_line(first, problem));
-        }
-    }
-    let mut places = vec![];
-    for variable in &variables {
-        let place = head.iter().position(|name| name == variable);
-        let missing = || {
-            at_line(
-                first,
-                format!("expected the column `{variable}`, found none"),
-            )
-        };
-        places.push(place.ok_or_else(missing)?);
-    }
+    let places = places(&variables, &head).map_err(|problem| at_line(first, problem))?;
     let face = head.iter().position(|name| *name == "face");
     let mut table = Table {
         points: vec![],

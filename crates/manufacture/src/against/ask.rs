@@ -87,6 +87,33 @@ pub(crate) fn run(command: &[String], question: String) -> Result<String, InputE
         .map_err(|_| failed("expected text, found other bytes".to_owned()))
 }
 
+/// The parts of a line.
+fn cells(line: &str) -> Vec<String> {
+    line.split(|c: char| c == ',' || c.is_whitespace())
+        .filter(|cell| !cell.is_empty())
+        .map(str::to_owned)
+        .collect()
+}
+
+/// The names of the columns of an answer; in words what is wrong with its first line.
+fn names(head: Option<Vec<String>>, known: &[String]) -> Result<Vec<String>, String> {
+    let Some(head) = head else {
+        if known.len() == 1 {
+            return Ok(known.to_vec());
+        }
+        let known = known.join(" ");
+        return Err(format!("expected a first line of names, some of {known}"));
+    };
+    if let Some(name) = head.iter().find(|name| !known.contains(name)) {
+        let near = did_you_mean(name, known.iter().map(String::as_str));
+        let known = known.join(" ");
+        return Err(format!(
+            "unknown name `{name}`{near}; expected some of {known}"
+        ));
+    }
+    Ok(head)
+}
+
 /// Reads an answer about so many points.
 ///
 /// * `known`: the names of the components; a line of names is needed if there are several.
@@ -108,31 +135,12 @@ pub(crate) fn read(
         .enumerate()
         .filter(|line| !line.1.trim().is_empty())
         .peekable();
-    let separators = |c: char| c == ',' || c.is_whitespace();
-    let cells = |line: &'_ str| -> Vec<String> {
-        line.split(separators)
-            .filter(|cell| !cell.is_empty())
-            .map(str::to_owned)
-            .collect()
-    };
-    let mut names: Vec<String> = known.to_vec();
-    let first = lines.peek().map(|line| cells(line.1));
-    let is_head = first.is_some_and(|first| first.iter().any(|cell| cell.parse::<f64>().is_err()));
-    if is_head {
-        if let Some((line, head)) = lines.next() {
-            names = cells(head);
-            if let Some(name) = names.iter().find(|name| !known.contains(name)) {
-                let near = did_you_mean(name, known.iter().map(String::as_str));
-                let known = known.join(" ");
-                let problem = format!("unknown name `{name}`{near}; expected some of {known}");
-                return Err(at_line(line + 1, problem));
-            }
-        }
-    } else if known.len() != 1 {
-        let known = known.join(" ");
-        let problem = format!("expected a first line of names, some of {known}");
-        return Err(at_line(1, problem));
-    }
+    let first = lines.peek().map(|line| cells(line.1)).unwrap_or_default();
+    let is_head = first.iter().any(|cell| cell.parse::<f64>().is_err());
+    let names = names(is_head.then_some(first), known);
+    let head_line = if is_head { lines.next() } else { None };
+    let head_line = head_line.map_or(1, |line| line.0 + 1);
+    let names = names.map_err(|problem| at_line(head_line, problem))?;
     let mut columns: Vec<Vec<String>> = vec![vec![]; names.len()];
     let mut last = 0;
     for (line, row) in lines {

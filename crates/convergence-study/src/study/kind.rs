@@ -118,18 +118,10 @@ pub trait Kind: Send + Sync {
     /// Computes one case: the same result on every thread, at every time.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Why a result counts as a failed case although part of it is kept: a required number is missing. `None` for a complete one.
+    /// Why a result counts as a failed case although part of it counts: a required number is missing. `None` for a complete one.
     fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
         None
     }
-
-    /// Whether a result was not computed but kept from an earlier run.
-    fn is_kept(&self, _found: &Self::Found) -> bool {
-        false
-    }
-
-    /// From now on every case is computed, ignoring results kept from earlier runs.
-    fn compute_anew(&mut self) {}
 
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
@@ -229,9 +221,6 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
-
-    /// From now on every case is computed, ignoring results kept from earlier runs.
-    fn compute_anew(&mut self);
 }
 
 /// The cases of a study while they are run.
@@ -250,9 +239,6 @@ pub trait Plan: Send + Sync {
 
     /// Why case number `index` has no result; `None` if it has one.
     fn failure(&self, index: usize) -> Option<CaseFailure>;
-
-    /// Whether the result of case number `index` was kept from an earlier run.
-    fn is_kept(&self, index: usize) -> bool;
 
     /// Judges the results after each case has run.
     fn judge(&self) -> Outcome;
@@ -304,10 +290,6 @@ impl<K: Kind> Study for Described<K> {
     fn untested(&self) -> Vec<Untested> {
         self.kind.untested()
     }
-
-    fn compute_anew(&mut self) {
-        self.kind.compute_anew();
-    }
 }
 
 /// Cases of one kind and their results.
@@ -357,12 +339,6 @@ impl<K: Kind> Plan for Typed<'_, K> {
             Ok(found) => self.kind.failure(found),
             Err(failure) => Some(failure.clone()),
         }
-    }
-
-    fn is_kept(&self, index: usize) -> bool {
-        self.ran()[index]
-            .ok()
-            .is_some_and(|found| self.kind.is_kept(found))
     }
 
     fn judge(&self) -> Outcome {

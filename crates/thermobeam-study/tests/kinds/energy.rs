@@ -23,17 +23,17 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
         ("a rise", |found| found.worst.rise = 2e-14),
         ("a residual", |found| found.worst.residual = 2e-14),
         ("a rise that is not finite", |found| {
-            found.worst.rise = f64::NAN
+            found.worst.rise = f64::NAN;
         }),
         ("a residual that is not finite", |found| {
-            found.worst.residual = f64::NAN
+            found.worst.residual = f64::NAN;
         }),
         ("a bound that is not finite", |found| {
-            found.worst.open = f64::NAN
+            found.worst.open = f64::NAN;
         }),
         ("a sum that is not finite", |found| found.drift = f64::NAN),
         ("an energy that is not finite", |found| {
-            found.initial_energy = f64::INFINITY
+            found.initial_energy = f64::INFINITY;
         }),
         ("a missing step", |found| found.steps -= 1),
         ("another end", |found| found.end = End::NotFinite),
@@ -78,13 +78,13 @@ fn each_claim_of_a_case_can_fail() {
         (
             "hat",
             ("a rise that is not finite", |found| {
-                found.worst.risen = f64::NAN
+                found.worst.risen = f64::NAN;
             }),
         ),
         (
             "hat",
             ("a residual that is not finite", |found| {
-                found.worst.residual = f64::NAN
+                found.worst.residual = f64::NAN;
             }),
         ),
         (
@@ -162,7 +162,7 @@ fn each_claim_of_the_random_scenes_can_fail() {
     let planted: [Defect<Batch>; 12] = [
         ("a definite operator refused", |batch| batch.refused = 1),
         ("a level that is not finite", |batch| {
-            batch.not_finite_levels = 1
+            batch.not_finite_levels = 1;
         }),
         ("an iteration limit", |batch| {
             batch.ends[End::Answer as usize] -= 1;
@@ -173,28 +173,28 @@ fn each_claim_of_the_random_scenes_can_fail() {
             batch.ends[End::NotFinite as usize] += 1;
         }),
         ("a scene without an end", |batch| {
-            batch.ends[End::Answer as usize] -= 1
+            batch.ends[End::Answer as usize] -= 1;
         }),
         ("exceptions", |batch| {
             batch
                 .scenes
                 .iter_mut()
                 .take(2)
-                .for_each(|[.., residual]| *residual = 1e-11)
+                .for_each(|[.., residual]| *residual = 1e-11);
         }),
         ("an open balance", |batch| batch.worst.open = 1.1),
         ("a rise", |batch| batch.worst.risen = 1.1),
         ("an open balance that is not finite", |batch| {
-            batch.worst.open = f64::NAN
+            batch.worst.open = f64::NAN;
         }),
         ("a risen energy that is not finite", |batch| {
-            batch.worst.risen = f64::NAN
+            batch.worst.risen = f64::NAN;
         }),
         ("a rise that is not finite", |batch| {
-            batch.worst.rise = f64::NAN
+            batch.worst.rise = f64::NAN;
         }),
         ("a residual that is not finite", |batch| {
-            batch.worst.residual = f64::NAN
+            batch.worst.residual = f64::NAN;
         }),
     ];
     for case in 0..sound.len() {

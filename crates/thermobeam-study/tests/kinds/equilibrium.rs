@@ -53,10 +53,10 @@ fn every_claim_about_end_states_can_fail() {
         ("paper-2-beta-5, n = 40", |end| near(end).errors[0] = 1e-5),
         ("paper-1-beta-0, n = 160", |end| near(end).errors[0] = 2e-6),
         ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
-            near(end).errors[0] = 2e-13
+            near(end).errors[0] = 2e-13;
         }),
         ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
-            near(end).errors[1] = 2e-13
+            near(end).errors[1] = 2e-13;
         }),
     ];
     for (k, (label, defect)) in planted.into_iter().enumerate() {
@@ -84,7 +84,7 @@ fn no_number_may_be_nan() {
     for ran in &sound {
         for (k, number) in numbers.into_iter().enumerate() {
             let found = verdict(&study, &sound, &ran.case.label, |end| {
-                *number(end) = f64::NAN
+                *number(end) = f64::NAN;
             });
             assert_eq!(found, Verdict::Fail, "number {k} of {}", ran.case.label);
         }

@@ -42,16 +42,16 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
         fails("E", &|found| found.states[1].energy += by);
         // The tolerance for times of events is ten times larger.
         fails("the time of an event", &|found| {
-            found.events[1].t += 10.0 * by
+            found.events[1].t += 10.0 * by;
         });
     }
     fails("a missing event", &|found| _ = found.events.pop());
     fails("an event the other way round", &|found| {
-        found.events[0].to = found.events[0].from
+        found.events[0].to = found.events[0].from;
     });
     fails("a missing state", &|found| _ = found.states.pop());
     fails("a balance that does not close", &|found| {
-        found.balance[0] = 1e-11
+        found.balance[0] = 1e-11;
     });
     fails("an energy that grows", &|found| found.balance[1] = 1e-15);
     fails("a curve with a hole", &|found| found.tip[7].1 = f64::NAN);

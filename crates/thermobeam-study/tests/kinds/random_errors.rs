@@ -55,7 +55,7 @@ fn a_part_of_the_file_passes_and_each_check_can_fail() {
         let refuse = |reason: &str| {
             let refused = vec![reason.to_owned()];
             verdict(&|found| {
-                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused)
+                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused);
             })
         };
         assert_eq!(refuse("given up"), Verdict::Fail);

@@ -35,7 +35,7 @@ fn every_claim_about_rigid_obstacles_can_fail() {
             (RunOf::Impact, stiffest),
         ] {
             let verdict = with(run, nth, &|found| {
-                *found.penetration.as_mut().expect("a penetration") *= wrong
+                *found.penetration.as_mut().expect("a penetration") *= wrong;
             });
             assert_ne!(verdict, Verdict::Pass, "{run:?} times {wrong}");
         }

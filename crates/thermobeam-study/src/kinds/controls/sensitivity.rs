@@ -91,9 +91,9 @@ impl Kind for Sensitivity {
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (missed + detected);
             if detects(10f64.powf(middle)) {
-                detected = middle
+                detected = middle;
             } else {
-                missed = middle
+                missed = middle;
             }
         }
         Ok(Some(10f64.powf(detected)))

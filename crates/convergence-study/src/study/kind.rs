@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use super::coverage::{Coverage, NO_RESULT};
 use super::header::Header;
 use super::outcome::{Check, Origin, Outcome};
 use crate::text::lists::{and_more, grouped};
@@ -157,6 +158,19 @@ pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
         ran.push(run(case));
     }
     ran
+}
+
+/// Judges the results of a study, and counts its cases in addition to what its kind counts.
+///
+/// * `ran`: one result for each case, in the order of [`Kind::cases`].
+pub fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
+    // A result counts as a failed case where part of it is missing.
+    let is_complete = |found: &K::Found| kind.failure(found).is_none();
+    let left_out = |ran: &Ran<_, _>| (!ran.ok().is_some_and(is_complete)).then_some(NO_RESULT);
+    let mut outcome = kind.judge(ran);
+    let cases = Coverage::of("cases", ran.iter().map(left_out));
+    outcome.coverage.push(cases);
+    outcome
 }
 
 /// The claim of the check of [`completion`].
@@ -342,7 +356,7 @@ impl<K: Kind> Plan for Typed<'_, K> {
     }
 
     fn judge(&self) -> Outcome {
-        self.kind.judge(&self.ran())
+        judge(self.kind, &self.ran())
     }
 }
 

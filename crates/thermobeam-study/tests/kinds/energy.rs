@@ -6,7 +6,7 @@ use thermobeam_study::kinds::energy::{End, ROW};
 
 use super::file;
 use super::refused::refusal;
-use super::typed::{changed, passes_but_not_without_each_case};
+use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
 
 fn runs(name: &str) -> EnergyRuns {
     EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -120,6 +120,14 @@ fn each_claim_of_a_case_can_fail() {
             "{what} in {label}"
         );
     }
+    let stepped = sound.iter().position(|ran| ran.case.label == "hat");
+    let items = ["runs for the balance", "without a step"];
+    leaves_one_out(&study, &sound, stepped.expect("a case"), items, |found| {
+        found.steps = 0;
+    });
+    // Without a step there is no largest residual.
+    let unmoved = changed::<EnergyRuns>(&sound, |_, found| found.steps = 0);
+    assert_eq!(study.judge(&unmoved).headline, "no step");
 }
 
 /// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam reaches nearly the same share of it.
@@ -209,6 +217,16 @@ fn each_claim_of_the_random_scenes_can_fail() {
                 Verdict::Fail,
                 "{what} in batch {case}"
             );
+        }
+        for (reason, end) in [
+            ("refused, the operator is not definite", End::Indefinite),
+            ("ended by another failure", End::NotFinite),
+        ] {
+            let items = ["scenes to their last step", reason];
+            leaves_one_out(&study, &sound, case, items, |batch| {
+                batch.ends[End::Answer as usize] -= 1;
+                batch.ends[end as usize] += 1;
+            });
         }
     }
 }

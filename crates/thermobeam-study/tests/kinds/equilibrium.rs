@@ -1,5 +1,5 @@
 use super::planted::verdict_with;
-use super::typed::{Runs, passes_but_not_without_each_case};
+use super::typed::{Runs, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, run_cases_here};
@@ -30,7 +30,20 @@ fn verdict(
 
 #[test]
 fn the_file_passes_but_not_without_each_case() {
-    passes_but_not_without_each_case(&study());
+    let study = study();
+    let sound = passes_but_not_without_each_case(&study);
+    // Of an end that is straight no order is known.
+    let bent = sound
+        .iter()
+        .position(|ran| ran.case.label == "paper-2-beta-5, n = 160");
+    let items = [
+        "ends for the order",
+        "straight, so that the mesh causes no error",
+    ];
+    leaves_one_out(&study, &sound, bent.expect("the case"), items, |end| {
+        let state = &mut near(end).state;
+        (state.u_tip, state.phi_tip) = (0.0, 0.0);
+    });
 }
 
 #[test]

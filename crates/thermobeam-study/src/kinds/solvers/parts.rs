@@ -536,10 +536,13 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
         label: "in contact".to_owned(),
         intervals: curve(|found| &found.contact),
     };
-    let shaded = if phases.intervals.is_empty() {
-        ""
+    let (title, shaded) = if phases.intervals.is_empty() {
+        ("Newton's method takes fewer iterations", "")
     } else {
-        "; shaded where the tip is in contact"
+        (
+            "The fixed point takes more iterations in contact",
+            "; shaded where the tip is in contact",
+        )
     };
     let caption = format!(
         "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
@@ -551,7 +554,7 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
             phases,
             ..plots::iterations(&series)
         }
-        .titled("The fixed point takes more iterations in contact")
+        .titled(title)
         .draw(),
     )
 }

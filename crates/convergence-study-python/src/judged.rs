@@ -54,6 +54,7 @@ impl Judgement {
         };
         let columns = vec![ErrorColumn {
             name: self.name.clone(),
+            symbol: None,
             errors,
             claim,
             look: 0,

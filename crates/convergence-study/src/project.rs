@@ -49,9 +49,12 @@ impl Project {
             templates: &[],
             front_pictures: &[],
             front: Front {
-                verified: "",
-                plot: "",
+                subject: "",
+                picture: "",
+                finding: "",
                 statements: &[],
+                plot: "",
+                verified: "",
             },
             settings,
             places: &[],
@@ -61,15 +64,21 @@ impl Project {
     }
 }
 
-/// What a passing run has verified.
+/// What a passing run has verified, in the order of the page. Figures are named by their files; a text may be empty.
 #[derive(Debug, Clone, Copy)]
 pub struct Front {
-    /// A description in a few sentences.
-    pub verified: &'static str,
-    /// The file name of the figure that shows it.
-    pub plot: &'static str,
+    /// What is studied, in one sentence.
+    pub subject: &'static str,
+    /// A figure of it.
+    pub picture: &'static str,
+    /// The most important result, in two sentences.
+    pub finding: &'static str,
     /// Statements, each with the study whose numbers answer it, and the name of the rate that does; an empty name means its key numbers.
     pub statements: &'static [(&'static str, &'static str, &'static str)],
+    /// The figure that shows the claim of one study.
+    pub plot: &'static str,
+    /// What was verified and how, in a few sentences.
+    pub verified: &'static str,
 }
 
 /// Commented files to start from, which run unchanged.

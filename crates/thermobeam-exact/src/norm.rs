@@ -52,6 +52,20 @@ impl Norm {
             Norm::Superclose => "superclose",
         }
     }
+
+    /// The notation of the paper, for the legends of figures.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Norm::Velocity => "‖ûₕ−uₜ‖",
+            Norm::Shear => "‖uₕₓ−φₕ−(uₓ−φ)‖",
+            Norm::RotationRate => "‖φ\u{302}ₕ−φₜ‖",
+            Norm::Curvature => "‖φₕₓ−φₓ‖",
+            Norm::Temperature => "‖θₕ−θ‖",
+            Norm::Theorem34 => "norm of (3.14)",
+            Norm::Displacement => "‖uₕ−u‖",
+            Norm::Superclose => "√Zₙ of (3.16)",
+        }
+    }
 }
 
 /// One number for each norm, such as the errors at one time level.

@@ -1,14 +1,14 @@
-//! Values over two parameters as coloured cells: with numbers in the cells if there is room, or with marks and boundary curves on top;
-//! and a field over space and time, as a picture.
+//! Values over two parameters as coloured cells, with marks and boundary curves on top; and a field
+//! over space and time, as a picture.
 //!
 //! Cells are written compactly: one path per colour, one piece per run of equal neighbours.
 
-use super::canvas::{self, Anchor, Canvas, Layer, Pen, Point, Rect, grid};
+use super::canvas::{self, Canvas, Layer, Pen, Point, Rect, grid};
 use super::colour::ColourScale;
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
 use super::sheet::{Entry, Layout, Page, Swatch};
-use super::style::{self, NOTE_SIZE, WHITE, text_width};
+use super::style::{self, WHITE};
 use super::xy::left_out;
 use super::{Axis, Scale, Series};
 use std::collections::BTreeMap;
@@ -20,6 +20,8 @@ const ALONE: f64 = 0.25;
 /// Values over two parameters, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
+    /// Above the plot: what the reader should see.
+    pub title: Option<String>,
     /// Horizontal axis, for example `dt`.
     pub x: Axis,
     /// Vertical axis, for example `h`.
@@ -51,6 +53,7 @@ pub fn surface(figure: &Surface) -> String {
     let values = sorted(&figure.values, &rows, &columns, f64::NAN);
     let marked = sorted(&figure.marked, &rows, &columns, false);
     let plan = Layout {
+        title: figure.title.clone(),
         x: span(figure.x.scale, &edges(&x, ALONE)),
         y: span(figure.y.scale, &edges(&y, ALONE)),
         x_label: figure.x.label.clone(),
@@ -71,10 +74,6 @@ pub fn surface(figure: &Surface) -> String {
         colours,
     };
     cells.draw(plan, |sheet, place| {
-        // For errors, for example: a bar shows small counts as well. Nothing is drawn over the cells.
-        if figure.z.scale == Scale::Log && figure.boundaries.is_empty() {
-            write_values(sheet, &cells.values, place);
-        }
         draw_marks(sheet, &marked, place);
         draw_boundaries(sheet, figure);
     })
@@ -227,35 +226,6 @@ fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
     };
     let non_finite = missing(Scale::Linear);
     left_out(non_finite, missing(z) - non_finite)
-}
-
-/// Writes its value into each cell, if there is room for all of them.
-fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: &dyn Fn(usize, usize) -> Rect) {
-    const CLEAR: f64 = 6.0;
-    let cells = values
-        .iter()
-        .enumerate()
-        .flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
-    let written = cells.filter(|(.., value)| value.is_finite());
-    let texts: Vec<_> = written
-        .map(|(k, j, value)| (format!("{value:.1e}"), place(k, j)))
-        .collect();
-    let has_room = |(text, cell): &(String, Rect)| {
-        text_width(text, NOTE_SIZE) + CLEAR <= cell.width() && NOTE_SIZE + CLEAR <= cell.height()
-    };
-    if texts.iter().all(has_room) {
-        sheet.canvas.draw(
-            Layer {
-                halo: true,
-                ..Layer::default()
-            },
-            |pen| {
-                texts.iter().for_each(|(text, cell)| {
-                    pen.text(text, cell.centre(), NOTE_SIZE, Anchor::Center, style::INK);
-                });
-            },
-        );
-    }
 }
 
 /// A boundary with fewer points is drawn as points.

@@ -54,6 +54,13 @@ impl Xy {
         self
     }
 
+    /// The same with markers alone: points in no order.
+    pub fn scattered(self) -> Self {
+        let mut figure = self.marked();
+        figure.curves.iter_mut().for_each(|curve| curve.width = 0.0);
+        figure
+    }
+
     /// The same with a title above the plot.
     pub fn titled(self, title: impl Into<String>) -> Self {
         Self {

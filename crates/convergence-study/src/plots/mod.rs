@@ -11,7 +11,7 @@
 //! | [`history`] | quantities over time, with limits and shaded phases |
 //! | [`space_time`] | `u(x, t)` as a picture |
 //! | [`iterations`] | iterations per step |
-//! | [`forest`] | all judged rates relative to their claims |
+//! | [`forest`] | judged rates with their intervals, relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
 //! The drawing can be read back: `canvas` writes names and values into the picture, for a page that shows them.

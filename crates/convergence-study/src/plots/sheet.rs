@@ -8,6 +8,8 @@ use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_widt
 use plotters::style::RGBColor;
 
 const EDGE: f64 = 16.0;
+/// Height of the row of the title.
+const TITLE_ROW: f64 = 32.0;
 const NOTE_HEIGHT: f64 = 24.0;
 /// From the frame down to the middle of the tick labels, and on to the middle of the axis label.
 const TICK_LABEL_DROP: f64 = 19.0;
@@ -23,6 +25,7 @@ const COLUMN_GAP: f64 = 26.0;
 /// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
+    /// `None`: the vertical axis over the horizontal one.
     pub(super) title: Option<String>,
     pub(super) x: Ruler,
     pub(super) y: Ruler,
@@ -48,6 +51,15 @@ pub(super) struct Page {
 }
 
 impl Layout {
+    fn title(&self) -> String {
+        let of_axes = || {
+            [&self.y_label, &self.x_label]
+                .map(|label| without_unit(label))
+                .join(" over ")
+        };
+        self.title.clone().unwrap_or_else(of_axes)
+    }
+
     /// Measures all texts and places the plot area between them.
     pub(super) fn lay_out(self) -> Page {
         let y_ticks = self.y.ticks(8);
@@ -55,9 +67,7 @@ impl Layout {
         let right = style::WIDTH - self.right.max(2.0 * EDGE);
         let x_ticks = ticks_that_fit(&self.x, right - left);
         let headline = self.above.is_some() || y_ticks.exponent != 0;
-        let top = EDGE
-            + if self.title.is_some() { 32.0 } else { 0.0 }
-            + if headline { 24.0 } else { 0.0 };
+        let top = EDGE + TITLE_ROW + if headline { 24.0 } else { 0.0 };
         let plot = Rect {
             left,
             top,
@@ -75,6 +85,11 @@ impl Layout {
             plan: self,
         }
     }
+}
+
+/// A label up to its unit, such as `displacement u` of `displacement u (dimensionless)`.
+fn without_unit(label: &str) -> &str {
+    label.split(" (").next().unwrap_or(label)
 }
 
 fn legend_top(plot: &Rect) -> f64 {
@@ -206,17 +221,10 @@ impl Page {
             draw_headlines(pen, plot, plan, x);
         });
         self.draw_foot();
-        let Layout {
-            title,
-            x_label,
-            y_label,
-            ..
-        } = self.plan;
-        let attributes = canvas::axes(&self.plot, [(&x_label, &self.x), (&y_label, &self.y)]);
-        self.canvas.finish(
-            &title.unwrap_or_else(|| format!("{y_label} over {x_label}")),
-            &attributes,
-        )
+        let plan = self.plan;
+        let axes = [(&*plan.x_label, &self.x), (&*plan.y_label, &self.y)];
+        let attributes = canvas::axes(&self.plot, axes);
+        self.canvas.finish(&plan.title(), &attributes)
     }
 
     /// Draws the legend centred on the plot but always within the page, its first row below `top`.
@@ -306,7 +314,7 @@ fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
             style::INK,
         );
     }
-    let label = elide(label, LABEL_SIZE, plot.height() + 2.0 * EDGE);
+    let label = elide(label, LABEL_SIZE, plot.height() + EDGE);
     pen.text_upwards(
         &label,
         (EDGE + 0.5 * LABEL_SIZE, plot.centre().1),
@@ -315,16 +323,14 @@ fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
 }
 
 fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Layout, x: &Ruler) {
-    if let Some(title) = &plan.title {
-        let title = elide(title, TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
-        pen.text(
-            &title,
-            (0.5 * style::WIDTH, EDGE + 10.0),
-            TITLE_SIZE,
-            Anchor::Center,
-            style::INK,
-        );
-    }
+    let title = elide(&plan.title(), TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
+    pen.text(
+        &title,
+        (0.5 * style::WIDTH, EDGE + 10.0),
+        TITLE_SIZE,
+        Anchor::Center,
+        style::INK,
+    );
     if let Some((at, text)) = &plan.above {
         pen.text(
             text,

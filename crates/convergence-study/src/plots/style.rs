@@ -60,9 +60,14 @@ pub fn text_width(text: &str, size: f64) -> f64 {
 /// Advance of one glyph in em, after DejaVu Sans, rounded up.
 fn glyph_width(c: char) -> f64 {
     match c {
+        // A combining circumflex stands on the letter before it.
+        '\u{302}' => 0.0,
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | 'I' | ' ' => 0.33,
+        '‖' => 0.5,
         'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '[' | ']' => 0.42,
-        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' => 0.43,
+        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' | 'ₕ' | 'ₓ' | 'ₜ' | 'ₙ' => {
+            0.43
+        }
         'm' | 'w' | 'M' | 'W' | '%' => 0.98,
         'A'..='Z' | '=' | '+' | '−' | '×' | '<' | '>' | '≥' | '≤' => 0.8,
         _ => 0.64,

@@ -106,7 +106,7 @@ pub struct Outline {
 /// A figure with curves.
 #[derive(Clone, Default)]
 pub struct Xy {
-    /// Set above the plot.
+    /// Set above the plot: what the reader should see. `None`: the vertical axis over the horizontal one.
     pub title: Option<String>,
     /// The horizontal axis.
     pub x: Axis,

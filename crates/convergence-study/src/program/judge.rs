@@ -55,7 +55,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     };
     let mut outcome = grid.judge();
     outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));
-    let mut figures = grid.figures("error");
+    let mut figures = grid.figures(|name| format!("error {name}"));
     figures.extend(work_precision(levels, ran));
     Outcome {
         // These errors are not judged over either step alone.
@@ -255,7 +255,9 @@ fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
         .iter()
         .filter(|column| column.claim.is_some());
     let series: Vec<Series> = claimed.map(series).collect();
-    let drawn = plots::work_precision("work, as the program counts it", "error", &series).draw();
+    let drawn = plots::work_precision("work, as the program counts it", "error", &series)
+        .titled("Errors fall with work: lower and further left is better")
+        .draw();
     Some(Figure::new(
         "work",
         "Errors over the work that they cost: the lower and the further left, the better.",
@@ -351,6 +353,7 @@ fn differences(
 ) -> Figure {
     let column = |(column, _): &(&ErrorColumn, Estimate)| ErrorColumn {
         name: name(column),
+        symbol: None,
         errors: column
             .errors
             .windows(2)

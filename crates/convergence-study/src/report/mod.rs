@@ -84,9 +84,9 @@ impl Findings<'_> {
             .flat_map(|finished| &finished.outcome.figures)
     }
 
-    /// The picture of all rates.
+    /// The picture of the rates nearest to a failure.
     fn rates(&self) -> Option<Figure> {
-        forest::figure(self.project, &self.record.studies)
+        forest::figure(&self.record.studies)
     }
 
     /// The report in Markdown: the verdict, one table, then a section for each study.

@@ -56,20 +56,17 @@ fn head(findings: &Findings<'_>) -> String {
     )
 }
 
-/// What did not pass, what changed, the origin of the report, and all rates in one picture.
+/// What did not pass, what changed, the origin of the report, and the widest intervals in one picture.
 fn front(findings: &Findings<'_>) -> String {
     let changes = failures::changes(findings, &|id| findings.linked(id, id)).concat();
     let picture = findings
         .rates()
         .map(|figure| html(&section::figure(&figure), &[figure]));
-    let (verified, plot) = section::front(findings, &|id| findings.linked(id, id));
+    let (verified, figures) = section::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])
         + &failures::html(findings.record)
         + &html(&changes, &[])
-        + &html(
-            &verified,
-            plot.map(std::slice::from_ref).unwrap_or_default(),
-        )
+        + &html(&verified, &figures)
         + &origin(findings)
         + &picture.unwrap_or_default()
 }

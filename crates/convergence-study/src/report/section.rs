@@ -144,13 +144,13 @@ pub(super) fn figure(figure: &Figure) -> String {
     )
 }
 
-/// In Markdown, with its plot; empty if the run does not pass or contains none of the studies.
+/// In Markdown, with its figures; empty if the run does not pass or contains none of the studies.
 ///
 /// * `link`: how a study's id is written.
-pub(super) fn front<'f>(
-    findings: &'f Findings<'_>,
+pub(super) fn front(
+    findings: &Findings<'_>,
     link: &dyn Fn(&str) -> String,
-) -> (String, Option<&'f Figure>) {
+) -> (String, Vec<Figure>) {
     let record = findings.record;
     let front = &findings.project.front;
     let find = |id: &str| record.studies.iter().find(|study| study.header.id == id);
@@ -160,9 +160,8 @@ pub(super) fn front<'f>(
         .filter_map(|(statement, id, rate)| Some((*statement, find(id)?, *rate)));
     let answered: Vec<(&str, &Finished, &str)> = answered.collect();
     if record.verdict != Verdict::Pass || answered.is_empty() {
-        return (String::new(), None);
+        return (String::new(), vec![]);
     }
-    let picture = findings.figures().find(|figure| figure.file == front.plot);
     let row = |(statement, study, name): &(&str, &Finished, &str)| {
         let rate = study.outcome.rates.iter().find(|(norm, _)| norm == name);
         let rate = rate.map(|(_, rate)| {
@@ -182,12 +181,38 @@ pub(super) fn front<'f>(
         &["statement", "found", "study"],
         answered.iter().map(row).collect(),
     );
-    let plot = picture.map(figure).unwrap_or_default();
-    (
-        format!(
-            "## What is verified\n\n{}\n\n{plot}\n{statements}\n",
-            text(front.verified)
-        ),
-        picture,
-    )
+    let drawn = |file: &str| {
+        let of_study = |study: &'_ Finished| {
+            study
+                .outcome
+                .figures
+                .iter()
+                .find(|figure| figure.file == file)
+                .cloned()
+        };
+        record
+            .studies
+            .iter()
+            .find_map(|study| Some((study, of_study(study)?)))
+    };
+    let mut parts = vec!["## What is verified\n".to_owned()];
+    let mut figures = vec![];
+    if let Some((_, picture)) = drawn(front.picture) {
+        parts.push(figure(&Figure {
+            caption: front.subject.to_owned(),
+            ..picture.clone()
+        }));
+        figures.push(picture);
+    }
+    if !front.finding.is_empty() {
+        parts.push(text(front.finding) + "\n");
+    }
+    parts.push(statements);
+    if let Some((study, plot)) = drawn(front.plot) {
+        parts.push(format!("**{}**\n", link(&study.header.id)));
+        parts.push(figure(&plot));
+        figures.push(plot);
+    }
+    parts.push(text(front.verified) + "\n\n");
+    (parts.join("\n"), figures)
 }

@@ -7,8 +7,10 @@ use super::outcome::{Check, Outcome};
 use crate::judge::grid::{Adding, GridErrors};
 use crate::judge::verdict::Verdict;
 #[cfg(feature = "reports")]
-use crate::plots;
+use crate::plots::{self, ErrorSeries, xy::Xy};
 use crate::text::number::plain_text;
+#[cfg(feature = "reports")]
+use crate::text::number::{order_text, short_text};
 
 /// Root mean square misfit in log e up to which contributions are considered to add.
 const MISFIT: f64 = 0.1;
@@ -141,41 +143,17 @@ impl Grid {
     }
 
     #[cfg(feature = "reports")]
-    /// Each error over the grid, as a picture `surface-<name>.svg`.
+    /// Each error over the mesh width, with a line for each time step, as a picture `over-h-<name>.svg`.
     ///
-    /// * `what`: the meaning of an error's name, such as `norm`.
-    pub fn figures(&self, what: &str) -> Vec<Figure> {
-        let widths: Vec<f64> = self
-            .points
-            .iter()
-            .step_by(self.times.max(1))
-            .map(|[h, _]| *h)
-            .collect();
-        let steps: Vec<f64> = self
-            .points
-            .iter()
-            .take(self.times)
-            .map(|[_, dt]| *dt)
-            .collect();
+    /// * `label`: an error, by its name, as the vertical axis shows it.
+    pub fn figures(&self, label: impl Fn(&str) -> String) -> Vec<Figure> {
         let figure = |column: &GridColumn| {
-            let at = |k: usize, j: usize| {
-                column
-                    .errors
-                    .get(j * self.times + k)
-                    .copied()
-                    .unwrap_or(f64::NAN)
+            let xy = Xy {
+                title: Some("Errors fall with h until the error of dt is left".to_owned()),
+                y: plots::Axis::log(label(&column.name)),
+                ..Xy::of_errors("mesh width h")
             };
-            let svg = plots::surface(&plots::Surface {
-                x: plots::Axis::log("mesh width h"),
-                y: plots::Axis::log("time step dt"),
-                z: plots::Axis::log(format!("error, {}", column.name)),
-                x_values: widths.clone(),
-                y_values: steps.clone(),
-                values: (0..steps.len())
-                    .map(|k| (0..widths.len()).map(|j| at(k, j)).collect())
-                    .collect(),
-                ..plots::Surface::default()
-            });
+            let lines: Vec<ErrorSeries> = (0..self.times).map(|k| self.line(column, k)).collect();
             let plain = |c: char| {
                 if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') {
                     c
@@ -185,12 +163,28 @@ impl Grid {
             };
             let name: String = column.name.chars().map(plain).collect();
             let caption = format!(
-                "Error in the {what} `{}` over mesh width and time step.",
-                column.name
+                "Error `{}` over the mesh width, with a line for each time step: of order {} (triangle) where the error \
+                 of the time step is small.",
+                column.name,
+                order_text(column.space.order)
             );
-            Figure::new(&format!("surface-{name}"), caption, svg)
+            let svg = plots::convergence(xy, &lines, &[column.space.order]);
+            Figure::new(&format!("over-h-{name}"), caption, svg)
         };
         self.columns.iter().map(figure).collect()
+    }
+
+    /// The errors at the k-th time step of each mesh.
+    #[cfg(feature = "reports")]
+    fn line(&self, column: &GridColumn, k: usize) -> ErrorSeries {
+        let points = self.points.iter().zip(&column.errors);
+        let of_step = points.skip(k).step_by(self.times.max(1));
+        let dt = self.points.get(k).map_or(f64::NAN, |[_, dt]| *dt);
+        ErrorSeries {
+            label: format!("dt = {}", short_text(dt)),
+            points: of_step.map(|([h, _], error)| (*h, *error)).collect(),
+            ..ErrorSeries::default()
+        }
     }
 
     fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {

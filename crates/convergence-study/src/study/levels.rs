@@ -51,6 +51,16 @@ impl Axis {
         }
     }
 
+    /// The step that is refined, in a title.
+    #[cfg(feature = "reports")]
+    fn symbol(self) -> &'static str {
+        match self {
+            Axis::Space => "h",
+            Axis::Time => "dt",
+            Axis::Both => "h and dt",
+        }
+    }
+
     /// The step that is refined, as the label of an axis of a figure.
     pub fn label(self) -> &'static str {
         match self {
@@ -66,6 +76,8 @@ impl Axis {
 pub struct ErrorColumn {
     /// Its name: a norm, a quantity.
     pub name: String,
+    /// Its notation in the legends of figures; `None`: its name.
+    pub symbol: Option<String>,
     /// As measured; `None` without a result: the case failed, or found no such error.
     pub errors: Vec<Option<f64>>,
     /// The claim about it, if there is one.
@@ -101,6 +113,7 @@ impl ErrorColumn {
         };
         let column = |(look, name): (usize, &str)| Self {
             name: name.to_owned(),
+            symbol: None,
             errors: found.iter().map(|errors| error(errors, name)).collect(),
             claim: claims
                 .iter()
@@ -259,11 +272,12 @@ impl Levels {
     #[cfg(feature = "reports")]
     /// The judged errors, each with the line of its rate if that is known, and triangles for the orders claimed.
     ///
+    /// * `subject`: what has these errors, for the title, which says what one should see.
     /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there are any.
     pub fn figure(
         &self,
         what: &str,
-        title: Option<String>,
+        subject: Option<String>,
         caption: String,
         rates: &Rates,
     ) -> Figure {
@@ -275,7 +289,7 @@ impl Levels {
             let points = self.points(column);
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
-                label: column.name.clone(),
+                label: column.symbol.clone().unwrap_or(column.name.clone()),
                 fit: rate.and_then(|(_, rate)| rate.power_law()),
                 interval: rate.and_then(|(_, rate)| rate.interval),
                 points: points
@@ -300,8 +314,16 @@ impl Levels {
         } else {
             format!(" No result: {}.", without.join("; "))
         };
+        let step = self.axis.symbol();
+        let seen = match subject {
+            Some(subject) => format!("{subject}: errors fall with {step} as the triangles do"),
+            None => format!("Errors fall with {step} as the triangles do"),
+        };
+        let has_triangle = series
+            .iter()
+            .any(|series| series.order.is_some_and(|order| order > 0.0));
         let xy = Xy {
-            title,
+            title: has_triangle.then_some(seen),
             notes,
             ..Xy::of_errors(self.axis.label())
         };
@@ -323,18 +345,21 @@ impl Levels {
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
+    ///
+    /// * `subject`, `caption`: as in [`figure`](Self::figure).
     pub fn outcome(
         &self,
         what: &str,
-        title: Option<&str>,
+        subject: Option<&str>,
         caption: &str,
         checks: Vec<Check>,
     ) -> Outcome {
         let rates = self.judge();
         #[cfg(feature = "reports")]
-        let figure = Some(self.figure(what, title.map(str::to_owned), caption.to_owned(), &rates));
+        let figure =
+            Some(self.figure(what, subject.map(str::to_owned), caption.to_owned(), &rates));
         #[cfg(not(feature = "reports"))]
-        let (figure, _) = (None, (what, title, caption));
+        let (figure, _) = (None, (what, subject, caption));
         Outcome {
             levels: self.errors(),
             figures: figure.into_iter().collect(),
@@ -485,6 +510,7 @@ mod tests {
             let claim = Some(Claim::new(2.0, tolerance));
             let column = ErrorColumn {
                 name: "L2".into(),
+                symbol: None,
                 errors,
                 claim,
                 look: 0,
@@ -530,6 +556,7 @@ mod tests {
             refinements,
             [ErrorColumn {
                 name: "L2".into(),
+                symbol: None,
                 errors,
                 claim,
                 look: 0,

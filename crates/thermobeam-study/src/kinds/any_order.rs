@@ -388,12 +388,12 @@ impl AnyOrder {
             } else {
                 ("p", degree)
             };
-            let title = format!("{letter} = {degree}");
-            let caption = format!("Errors for {title}, with the orders of theory (triangles).");
+            let subject = format!("{letter} = {degree}");
+            let caption = format!("Errors for {subject}, with the orders of theory (triangles).");
             let what = format!("{letter}{degree}");
             all.extend(
                 self.levels(series, runs)
-                    .outcome(&what, Some(&title), &caption, vec![]),
+                    .outcome(&what, Some(&subject), &caption, vec![]),
             );
         }
         Outcome {
@@ -425,9 +425,12 @@ impl AnyOrder {
             .map(|ran| ran.ok().map(|errors| errors.named.as_slice()))
             .collect();
         let mut columns = ErrorColumn::of(&claims, &errors);
-        columns
-            .iter_mut()
-            .for_each(|column| column.name = format!("{name}, {}", column.name));
+        columns.iter_mut().for_each(|column| {
+            // The degree is in the title.
+            let symbol = column.name.replace("u_t", "uₜ");
+            column.name = format!("{name}, {}", column.name);
+            column.symbol = Some(symbol);
+        });
         let refinement = |ran: &Ran<Resolution, Errors>| {
             let Resolution {
                 degree,
@@ -498,7 +501,7 @@ impl AnyOrder {
             ..history
         };
         let svg = drawing
-            .titled("Error over the degree of the elements")
+            .titled("The error falls exponentially with the degree, to round-off")
             .draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let summary = checks

@@ -268,6 +268,7 @@ type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
 /// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order goes unnoticed.
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     let figure = |key: &str,
+                  title: &str,
                   caption: &str,
                   [x, y]: [Axis; 2],
                   ends: [f64; 2],
@@ -281,6 +282,7 @@ fn figures(sheets: &[Sheet]) -> Vec<Figure> {
             key,
             caption,
             Xy {
+                title: Some(title.to_owned()),
                 x,
                 show_x,
                 show_y,
@@ -320,7 +322,15 @@ fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
     let note =
         format!("tolerances {first}, {second}, {third} from left to right; better: right and down");
-    let trade = figure("rules", of_rules, axes, [0.0, 100.0], &note, trade);
+    let trade = figure(
+        "rules",
+        "The rule seldom passes a wrong claim",
+        of_rules,
+        axes,
+        [0.0, 100.0],
+        &note,
+        trade,
+    );
     let axes = [
         Axis::linear("share of the finest error (%)"),
         Axis::linear("tables that pass (%)"),
@@ -329,6 +339,7 @@ fn figures(sheets: &[Sheet]) -> Vec<Figure> {
         trade,
         figure(
             "hidden-8",
+            "The rule seldom passes a table that hides a lower order",
             of_hidden,
             axes,
             [4.0, 21.0],

@@ -165,7 +165,12 @@ impl Kind for EndStates {
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
         let caption =
             "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
-        let figure = bent.figure("errors", None, caption.to_owned(), &rates);
+        let figure = bent.figure(
+            "errors",
+            Some("Steady states".to_owned()),
+            caption.to_owned(),
+            &rates,
+        );
         let rows: Vec<_> = scenes
             .iter()
             .map(|ends| (vec![ends.scene.name.clone()], ends.readings()))
@@ -212,6 +217,7 @@ impl EndStates {
         let columns = scenes.enumerate().flat_map(|(k, ends)| {
             [(0, "u"), (1, "φ")].map(|(field, name)| ErrorColumn {
                 name: format!("{}: {name}", ends.scene.name),
+                symbol: None,
                 errors: ends
                     .ends
                     .iter()

@@ -145,8 +145,8 @@ impl Kind for Frequencies {
         let caption = format!(
             "Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}."
         );
-        let title = Some("Discrete frequencies, ω_h - ω");
-        let outcome = levels.outcome("errors", title, &caption, checks);
+        let subject = Some("Frequencies ωₕ − ω");
+        let outcome = levels.outcome("errors", subject, &caption, checks);
         Outcome {
             tables: vec![self.table(&levels, &outcome.rates)],
             ..outcome
@@ -167,6 +167,7 @@ impl Frequencies {
         };
         let column = |mode: usize| ErrorColumn {
             name: format!("omega-{}", mode + 1),
+            symbol: Some(format!("ω{}", subscript(mode + 1))),
             errors: ran
                 .iter()
                 .map(|level| Some(level.ok()?.get(mode)? - exact[mode]))
@@ -291,4 +292,11 @@ impl Frequencies {
 fn determinant(omega: f64) -> f64 {
     let [plus, minus] = [omega * omega - omega, omega * omega + omega].map(f64::sqrt);
     1.0 + plus.cos() * minus.cos() - omega * omega * (plus.sin() / plus) * (minus.sin() / minus)
+}
+
+/// A number in small digits below the line.
+fn subscript(number: usize) -> String {
+    let digits = number.to_string().into_bytes();
+    let small = |digit: u8| char::from_u32('₀' as u32 + u32::from(digit - b'0'));
+    digits.into_iter().filter_map(small).collect()
 }

@@ -291,7 +291,7 @@ fn files_with_errors_are_refused() {
 }
 
 #[test]
-fn figures_begin_with_the_initial_energy_and_show_what_is_allowed() {
+fn figures_begin_with_the_initial_energy_and_tables_show_what_is_allowed() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
     assert!(
@@ -308,7 +308,13 @@ fn figures_begin_with_the_initial_energy_and_show_what_is_allowed() {
             .expect(what);
         figure.svg.contains(">allowed<") || figure.svg.contains("allowed\n")
     };
-    assert!(allowed(&study.judge(&sound), "balance.svg"));
+    let residuals = &study.judge(&sound).tables[1];
+    assert_eq!(residuals.head, ["scene", "residual", "allowed"]);
+    assert_eq!(residuals.rows.len(), 7);
+    for row in &residuals.rows {
+        let [residual, allowed] = [1, 2].map(|cell: usize| row[cell].parse::<f64>().unwrap());
+        assert!(0.0 < residual && residual <= allowed, "{row:?}");
+    }
     let study = runs("extremes.toml");
     assert!(allowed(
         &study.judge(&passes_but_not_without_each_case(&study)),

@@ -226,11 +226,11 @@ fn the_legend_says_of_which_differences_nothing_is_claimed() {
     let outcome = run_one(&parse("reference-space.toml", |text| text));
     let svg = &outcome.figures[0].svg;
     assert!(
-        svg.contains("tip-max, reference (not claimed), order 2, "),
+        svg.contains("max u(1, t) (not claimed), order 2, "),
         "{}",
         outcome.figures[0].file
     );
-    assert!(svg.contains("tip, reference, order 2, "));
+    assert!(svg.contains("u(1, t), order 2, "));
     assert_eq!(
         outcome
             .rates

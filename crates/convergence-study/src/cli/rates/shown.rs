@@ -396,6 +396,10 @@ fn figure(findings: &Judgement<'_>) -> String {
     let guides = floor.into_iter().collect();
     convergence(
         Xy {
+            title: Some(format!(
+                "Errors over {}, and the lines of their rates",
+                findings.table.step
+            )),
             guides,
             ..Xy::of_errors(&findings.table.step)
         },

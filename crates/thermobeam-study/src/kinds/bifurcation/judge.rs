@@ -1,7 +1,11 @@
 //! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches; tables, figures
 //! and guarded numbers.
 
-use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Found, SteadyBranch};
+use std::cmp::Ordering;
+
+use super::{
+    AtRest, BRACKET, BifurcationStudy, BranchKey, CLOSE, Diagram, DiagramTask, Found, SteadyBranch,
+};
 use crate::kinds::prelude::*;
 
 /// A beam with a tip closer to zero than this is straight.
@@ -161,12 +165,28 @@ impl<'r> DiagramOf<'r> {
         let markers =
             "solid where stable, dashed where not; open markers: where moving beams come to rest";
         let caption = format!("Steady states over β for θ_A = {theta_a}: {markers}.");
-        let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
+        let fork = diagram.event[0];
+        let is_fork = super::buckles(self.scene);
+        // A minus sign, not a hyphen.
+        let event = format!("{fork:.4}").replace('-', "−");
+        let (title, end) = if is_fork {
+            // Above the fork there is the straight beam alone.
+            (
+                format!("Several steady states below β = {event}, one above"),
+                fork + 2.0 * CLOSE,
+            )
+        } else {
+            (
+                format!("One steady state for every β; it lifts off at β = {event}"),
+                f64::INFINITY,
+            )
+        };
+        let whole = self.drawing(diagram, title, [f64::NEG_INFINITY, end]);
         let mut figures = vec![Figure::new(&format!("theta-a-{theta_a}"), caption, whole)];
-        if super::buckles(self.scene) {
-            let fork = diagram.event[0];
+        if is_fork {
+            let title = "The beam bends until its free end meets an obstacle".to_owned();
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
-            let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
+            let close = self.drawing(diagram, title, [fork - CLOSE, fork + CLOSE]);
             figures.push(Figure::new(
                 &format!("theta-a-{theta_a}-fork"),
                 caption,
@@ -176,7 +196,7 @@ impl<'r> DiagramOf<'r> {
         figures
     }
 
-    fn drawing(&self, diagram: &Diagram, range: [f64; 2]) -> String {
+    fn drawing(&self, diagram: &Diagram, title: String, range: [f64; 2]) -> String {
         let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points
                 .iter()
@@ -184,39 +204,57 @@ impl<'r> DiagramOf<'r> {
                 .filter(|(beta, _)| (range[0]..=range[1]).contains(beta))
                 .collect()
         };
-        let labels = [
-            (Phase::Free, "free"),
-            (Phase::Upper, "upper obstacle"),
-            (Phase::Lower, "lower obstacle"),
-        ];
-        let mut branches = Vec::new();
-        for ((contact, label), stable) in labels
-            .into_iter()
-            .flat_map(|label| [(label, true), (label, false)])
-        {
-            let of = |branch: &&SteadyBranch| {
-                branch.key.contact == contact && branch.key.stable == stable
-            };
-            // A branch found at a single β is a corner of the diagram, not a line.
-            let curves = diagram
-                .branches
-                .iter()
-                .filter(of)
-                .map(|branch| shown(&branch.points));
-            let lines = curves.filter(|points| points.len() > 1);
-            branches.extend(lines.map(|points| figures::Branch {
-                label: label.to_owned(),
-                points,
-                stable,
-            }));
+        let curve = |branch: &SteadyBranch| figures::Branch {
+            label: branch_name(&branch.key).to_owned(),
+            points: shown(&branch.points),
+            stable: branch.key.stable,
+        };
+        let mut branches: Vec<figures::Branch> = vec![];
+        for next in diagram.branches.iter().map(curve) {
+            // The straight beam is one branch, whatever the number of its unstable directions.
+            let known = branches.iter_mut().find(|known| {
+                next.label == NAMES[0] && (&known.label, known.stable) == (&next.label, next.stable)
+            });
+            match known {
+                Some(known) => known.points.extend(next.points),
+                None => branches.push(next),
+            }
         }
+        // A branch found at a single β is a corner of the diagram, not a line.
+        branches.retain(|branch| branch.points.len() > 1);
+        let place = |branch: &figures::Branch| {
+            (
+                NAMES.iter().position(|name| *name == branch.label),
+                !branch.stable,
+            )
+        };
+        branches.sort_by_key(place);
         let ends = plots::Series::new("end of a run", shown(&self.tips().collect::<Vec<_>>()));
-        figures::bifurcation(
-            &branches,
-            figures::obstacle_lines(self.scene.obstacles),
-            &ends,
-        )
+        figures::bifurcation(&figures::Bifurcation {
+            title,
+            branches,
+            obstacles: figures::obstacle_lines(self.scene.obstacles),
+            ends,
+        })
     }
+}
+
+/// Names of branches, in the order of the legend.
+const NAMES: [&str; 4] = [
+    "straight",
+    "bent, free",
+    "on the upper obstacle",
+    "on the lower obstacle",
+];
+
+fn branch_name(key: &BranchKey) -> &'static str {
+    let place = match (key.contact, key.side) {
+        (Phase::Free, Some(Ordering::Equal)) => 0,
+        (Phase::Free, _) => 1,
+        (Phase::Upper, _) => 2,
+        (Phase::Lower, _) => 3,
+    };
+    NAMES[place]
 }
 
 pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -> Outcome {
@@ -242,6 +280,7 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     );
     let column = ErrorColumn {
         name,
+        symbol: None,
         errors,
         claim,
         look: 0,

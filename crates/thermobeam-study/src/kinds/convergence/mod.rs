@@ -256,7 +256,7 @@ impl Convergence {
         outcome.extend(Outcome::new("", vec![], vec![completion]));
         Outcome {
             levels: levels.errors(),
-            figures: grid.figures("norm"),
+            figures: grid.figures(label),
             quantities: levels.quantities(&outcome.rates),
             ..outcome
         }
@@ -305,4 +305,13 @@ impl Convergence {
             }
         }
     }
+}
+
+/// The axis of a norm, in the notation of the paper.
+fn label(norm: &str) -> String {
+    let known = Norm::ALL.into_iter().find(|known| known.name() == norm);
+    format!(
+        "error, {}",
+        known.map_or_else(|| norm.to_owned(), |known| known.symbol().to_owned())
+    )
 }

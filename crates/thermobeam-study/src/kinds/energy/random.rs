@@ -341,6 +341,7 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
         .map(|row| row.iter().map(|value| value.is_nan()).collect())
         .collect();
     let map = plots::Surface {
+        title: Some("The balance of the energy closes to round-off".to_owned()),
         x: plots::Axis::log("time step dt"),
         y: plots::Axis::log("shortest element (dimensionless)"),
         z: plots::Axis::log("largest residual / energy"),

@@ -343,7 +343,10 @@ impl Kind for EnergyRuns {
                 "runs for the balance",
                 ran.iter().map(left_out),
             )],
-            tables: vec![readings::table(title, &["run"], &rows)],
+            tables: [readings::table(title, &["run"], &rows)]
+                .into_iter()
+                .chain(self.balance(&found))
+                .collect(),
             figures: self.figures(&found),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
             ..Outcome::new(summary, vec![], checks)
@@ -592,46 +595,51 @@ impl EnergyRuns {
             };
             drawn.iter().map(curve).collect()
         };
-        // A line for each bound that the runs drawn must keep.
-        let allowed = |bound: fn(&EnergyRun) -> Option<f64>| -> Vec<plots::Guide> {
-            let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| bound(run)).collect();
+        // A line for each bound of the drift that the runs drawn must keep.
+        if !self.histories {
+            let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| run.drift).collect();
             bounds.sort_by(f64::total_cmp);
             bounds.dedup();
-            bounds
-                .into_iter()
-                .map(|value| plots::Guide {
-                    label: "allowed".to_owned(),
-                    value,
-                })
-                .collect()
-        };
-        if !self.histories {
+            let allowed = |value: f64| plots::Guide {
+                label: "allowed".to_owned(),
+                value,
+            };
             let drifts = not_zero(series(|_, sample| (sample.step as f64, sample.drift.abs())));
             let drift = Xy {
                 x: plots::Axis::linear("steps"),
-                guides: allowed(|run| run.drift),
+                guides: bounds.into_iter().map(allowed).collect(),
                 ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
             };
             let caption = "Sum of the signed residuals of the energy balance up to each step.";
-            return vec![Figure::new("drift", caption, drift.draw())];
+            let title = "The residuals of the balance do not add up";
+            return vec![Figure::new("drift", caption, drift.titled(title).draw())];
         }
         let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
         let energies = series(|found, sample| (sample.t, sample.energy / found.initial_energy));
         let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies)
-            .with_looks(&looks);
-        // The largest so far: residuals scatter too much for several curves in one figure.
-        let residuals = not_zero(series(|_, sample| (sample.t, sample.residual)));
-        let y = plots::Axis::log("largest residual up to t / initial energy");
-        let balance = Xy {
-            guides: allowed(|run| run.share),
-            ..plots::history(y, &residuals).with_looks(&looks)
+            .with_looks(&looks)
+            .titled("The energy never rises");
+        let caption = "The energy, in units of its initial size: it never rises.";
+        vec![Figure::new("energy", caption, energy.draw())]
+    }
+
+    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve shows no more.
+    fn balance(&self, found: &[(&EnergyRun, &Found)]) -> Option<Table> {
+        let row = |(run, found): &(&EnergyRun, &Found)| {
+            vec![
+                run.scene().to_owned(),
+                format!("{:.1e}", found.worst.residual),
+                run.share.map_or_else(String::new, plain_text),
+            ]
         };
-        let of_energy = "The energy, in units of its initial size: it never rises.";
-        let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
-        vec![
-            Figure::new("energy", of_energy, energy.draw()),
-            Figure::new("balance", caption, balance.draw()),
-        ]
+        let rows: Vec<Vec<String>> = found
+            .iter()
+            .filter(|(run, _)| run.is_drawn)
+            .map(row)
+            .collect();
+        let title = "Largest residual of the energy balance in a step, over the initial energy";
+        let head = ["scene", "residual", "allowed"];
+        (self.histories && !rows.is_empty()).then(|| Table::new(title, head, rows))
     }
 }
 

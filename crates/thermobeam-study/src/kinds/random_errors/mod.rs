@@ -392,12 +392,21 @@ impl RandomErrors {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let work = "work of a scene's searches (unknowns times solves)";
         let series = [plots::Series::new("random scenes", points)];
-        let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
+        let drawn = Xy {
+            guides: vec![plots::Guide {
+                label: "target".to_owned(),
+                value: 1.0,
+            }],
+            ..plots::work_precision(work, "largest error of u(1, t) / target error", &series)
+        };
         let caption = "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
         Figure::new(
             "errors",
             caption,
-            drawn.titled("Errors of the runs chosen").draw(),
+            drawn
+                .scattered()
+                .titled("Every error stays below its target")
+                .draw(),
         )
     }
 }

@@ -4,7 +4,7 @@ use convergence_study::judge::fit::Level;
 use convergence_study::text::number::rate_text;
 
 use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
-use crate::figures::{contraction, obstacle_lines};
+use crate::figures::{ContractionFactors, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
 /// Contraction above which a time step averages over the whole impact, so that the penetration is of order 1.
@@ -390,10 +390,15 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
             runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))),
         )
     };
-    let series = vec![
-        of_fixed_point("converges", true),
-        of_fixed_point("fails", false),
-    ];
+    let factors = ContractionFactors {
+        title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
+        measured: vec![
+            of_fixed_point("converges", true),
+            of_fixed_point("fails", false),
+        ],
+        predicted: "predicted factor α".to_owned(),
+        estimates: plots::Series::default(),
+    };
     let orders = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
                   order 2/3 where it is resolved.";
     let contracts = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
@@ -404,7 +409,7 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
             "Displacement of the free end as the obstacles become rigid.",
             tip(study, all, limit),
         ),
-        Figure::new("contraction", contracts, contraction(&series)),
+        Figure::new("contraction", contracts, contraction(&factors)),
     ]
 }
 
@@ -421,6 +426,9 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
         over_epsilon("at rest", |of| penetration(of.rest)),
     ];
     let xy = Xy {
+        title: Some(
+            "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact".to_owned(),
+        ),
         x: plots::Axis::log("compliance of the obstacles ε"),
         y: plots::Axis::log("penetration (dimensionless)"),
         beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
@@ -449,5 +457,6 @@ fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) 
         guides: obstacle_lines(study.moving.obstacles),
         ..plots::history(y, &series)
     }
+    .titled("The motion tends to that between rigid obstacles")
     .draw()
 }

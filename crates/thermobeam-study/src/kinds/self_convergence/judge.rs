@@ -22,6 +22,8 @@ const KNOWN: f64 = 1e-2;
 pub(super) struct Observable {
     /// The name in study files and tables.
     pub(super) name: &'static str,
+    /// The notation of the paper.
+    symbol: &'static str,
     /// The order in h for a smooth solution.
     in_space: f64,
     of: fn(&Traced, &Traced) -> f64,
@@ -31,36 +33,42 @@ static OBSERVABLES: [Observable; 7] = [
     TIP,
     Observable {
         name: "rotation",
+        symbol: "φ(1, t)",
         in_space: 2.0,
         of: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
     },
     // The energy (3.9).
     Observable {
         name: "energy",
+        symbol: "E",
         in_space: 2.0,
         of: |a, b| distance_of_curves(&a.energies, &b.energies),
     },
     // The largest u(1) over all time levels.
     Observable {
         name: "tip-max",
+        symbol: "max u(1, t)",
         in_space: 2.0,
         of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
     },
     // The largest defect of the energy balance in a step; of a fixed number of iterations it has an order of its own.
     Observable {
         name: "balance",
+        symbol: "defect of the balance",
         in_space: 2.0,
         of: |a, b| (a.energy_defect - b.energy_defect).abs(),
     },
     // The solutions as functions.
     Observable {
         name: "theorem-3.4",
+        symbol: Norm::Theorem34.symbol(),
         in_space: 1.0,
         of: |coarse, fine| functions(coarse, fine)[0],
     },
     // The same norm of their values at the nodes of the coarser mesh.
     Observable {
         name: "superclose",
+        symbol: Norm::Superclose.symbol(),
         in_space: 2.0,
         of: |coarse, fine| functions(coarse, fine)[1],
     },
@@ -68,6 +76,7 @@ static OBSERVABLES: [Observable; 7] = [
 
 const TIP: Observable = Observable {
     name: "tip",
+    symbol: "u(1, t)",
     in_space: 2.0,
     of: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()),
 };
@@ -185,10 +194,11 @@ fn to_reference(
         .filter(|column| shown.iter().any(|(name, _)| *name == column.name))
     {
         column.name = not_claimed(&column.name);
+        column.symbol = column.symbol.as_deref().map(not_claimed);
     }
-    let title = format!("Differences to a run of any order: {}", study.scene.name);
+    let subject = study.scene.name.clone();
     let caption = "Differences to a run of any order, with the orders of a smooth solution.";
-    differences.figure("errors", Some(title), caption.to_owned(), &rates)
+    differences.figure("errors", Some(subject), caption.to_owned(), &rates)
 }
 
 /// How far u(1) of each level is from the reference over time.
@@ -204,8 +214,10 @@ fn tip(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Figure {
         plots::Series::new(name(level), (1..=study.samples).map(point))
     };
     let curves: Vec<_> = (0..reference).map(curve).collect();
-    let title = format!("Tip of {}: distance to the reference", study.scene.name);
-    let drawn = plots::history(plots::Axis::log("|u(1, t) - reference|"), &curves).titled(title);
+    let y = plots::Axis::log("|u(1, t) − reference| (dimensionless)");
+    let drawn = plots::history(y, &curves)
+        .marked()
+        .titled("Each refinement brings the tip nearer to the reference, at all times");
     Figure::new(
         "tip",
         "Distance of u(1, t) to the reference on each level.",
@@ -255,6 +267,7 @@ fn differences(
         );
         wanted(claim).then(|| ErrorColumn {
             name: format!("{}, {reading}", observable.name),
+            symbol: Some(observable.symbol.to_owned()),
             errors: (0..count).map(difference).collect(),
             claim: Some(claim.copied().unwrap_or(smooth)),
             look: norm.unwrap_or(Norm::ALL.len() + place),

@@ -337,7 +337,15 @@ impl Map {
 
     fn figures(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
         let over = self.over.name();
-        let draw = |file: &str, caption: String, colours, value: &dyn Fn(&Point) -> Option<f64>| {
+        let draw = |file: &str,
+                    title: &str,
+                    caption: String,
+                    colours: Surface,
+                    value: &dyn Fn(&Point) -> Option<f64>| {
+            let colours = Surface {
+                title: Some(title.to_owned()),
+                ..colours
+            };
             Figure::new(file, caption, self.surface(rows, colours, value))
         };
         let colours = |z, fails: &str, boundaries| Surface {
@@ -363,6 +371,7 @@ impl Map {
         vec![
             draw(
                 "contraction",
+                "The fixed point fails where α reaches 1",
                 format!(
                     "Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."
                 ),
@@ -376,12 +385,14 @@ impl Map {
             ),
             draw(
                 "iterations",
+                "The iterations of the fixed point grow towards α = 1",
                 format!("Iterations of the fixed point in a step over dt and {over}."),
                 fixed_point(Axis::log("iterations of the fixed point")),
                 &|point| Some(step(point)?.iterations.max(1) as f64),
             ),
             draw(
                 "newton",
+                "Newton's method needs few iterations at every step",
                 format!("Most iterations of Newton's method in a step over dt and {over}."),
                 newton(
                     Axis::linear("most Newton iterations in a step"),
@@ -391,6 +402,7 @@ impl Map {
             ),
             draw(
                 "balance",
+                "The balance of the energy closes to round-off at every step",
                 format!(
                     "Largest residual of the energy balance in a step of Newton's method over dt and {over}."
                 ),

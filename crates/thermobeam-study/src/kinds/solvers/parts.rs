@@ -341,16 +341,28 @@ fn contraction_row([dt, epsilon, zeta]: [f64; 3], point: &Contraction) -> Vec<St
 fn contraction_figure(found: &[([f64; 3], &Contraction)]) -> Figure {
     let mut zetas: Vec<f64> = found.iter().map(|([_, _, zeta], _)| *zeta).collect();
     zetas.dedup();
-    let series = zetas.iter().map(|zeta| {
+    let measured = |zeta: &f64| {
         let of_zeta = found.iter().filter(|([_, _, z], _)| z == zeta);
         plots::Series::new(
             format!("ζ = {zeta}"),
             of_zeta.map(|(_, point)| (point.radius, point.measured)),
         )
+    };
+    // Elsewhere α lies under the marker of the measured factor.
+    let is_off = |point: &&Contraction| (point.alpha / point.measured - 1.0).abs() > 0.1;
+    let off = found
+        .iter()
+        .map(|(_, point)| *point)
+        .filter(is_off)
+        .map(|point| (point.radius, point.alpha));
+    let svg = figures::contraction(&figures::ContractionFactors {
+        title: "The fixed point contracts as its linearisation does".to_owned(),
+        measured: zetas.iter().map(measured).collect(),
+        predicted: "spectral radius of the linearised iteration".to_owned(),
+        estimates: plots::Series::new("α, where over 10 % off", off.collect::<Vec<_>>()),
     });
-    let svg = figures::contraction(&series.collect::<Vec<_>>());
     let caption = "Contraction factor of the fixed point in contact: measured over the spectral radius of the linearised \
-                   iteration. From 1 on the iteration diverges.";
+                   iteration, and the estimate α. From 1 on the iteration diverges.";
     Figure::new("contraction", caption, svg)
 }
 
@@ -524,10 +536,13 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
         label: "in contact".to_owned(),
         intervals: curve(|found| &found.contact),
     };
-    let shaded = if phases.intervals.is_empty() {
-        ""
+    let (title, shaded) = if phases.intervals.is_empty() {
+        ("Newton's method takes fewer iterations", "")
     } else {
-        "; shaded where the tip is in contact"
+        (
+            "The fixed point takes more iterations in contact",
+            "; shaded where the tip is in contact",
+        )
     };
     let caption = format!(
         "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
@@ -539,6 +554,7 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
             phases,
             ..plots::iterations(&series)
         }
+        .titled(title)
         .draw(),
     )
 }

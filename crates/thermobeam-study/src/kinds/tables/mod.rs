@@ -104,40 +104,40 @@ fn meets(
     Ok(())
 }
 
-/// The norms in words, for `explain`, in the order of [`Norm::ALL`].
+/// The norms in the notation of the paper and in words, for `explain`, in the order of [`Norm::ALL`].
 pub const TERMS: [Term; Norm::ALL.len()] = [
     term(
         Norm::Velocity,
-        "the L2 norm of the error of the velocity u_t",
+        "‖ûₕ−uₜ‖, the L2 norm of the error of the velocity u_t",
     ),
     term(
         Norm::Shear,
-        "the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best",
+        "‖uₕₓ−φₕ−(uₓ−φ)‖, the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best",
     ),
     term(
         Norm::RotationRate,
-        "the L2 norm of the error of the rate of rotation phi_t",
+        "‖φ\u{302}ₕ−φₜ‖, the L2 norm of the error of the rate of rotation phi_t",
     ),
     term(
         Norm::Curvature,
-        "the L2 norm of the error of phi_x: a derivative, so first order in h at best",
+        "‖φₕₓ−φₓ‖, the L2 norm of the error of phi_x: a derivative, so first order in h at best",
     ),
     term(
         Norm::Temperature,
-        "the L2 norm of the error of the temperature",
+        "‖θₕ−θ‖, the L2 norm of the error of the temperature",
     ),
     term(
         Norm::Theorem34,
-        "the root of the sum of the squares of velocity, shear, rotation-rate, curvature and temperature at the same time: \
-         the left-hand side of Theorem 3.4, bounded there by c (h + dt)",
+        "The norm of (3.14), the left-hand side of Theorem 3.4: the root of the sum of the squares of velocity, shear, \
+         rotation-rate, curvature and temperature at the same time, bounded there by c (h + dt)",
     ),
     term(
         Norm::Displacement,
-        "the L2 norm of the error of the displacement u",
+        "‖uₕ−u‖, the L2 norm of the error of the displacement u",
     ),
     term(
         Norm::Superclose,
-        "as theorem-3.4, but of the distance to the interpolant of the exact solution: Z_n^1/2 of (3.16). The first order of \
+        "√Zₙ of (3.16): as theorem-3.4, but of the distance to the interpolant of the exact solution. The first order of \
          Theorem 3.4 is that of interpolation alone; to the interpolant the scheme is of order h^2 + dt. The sharpest guard: \
          it sees defects which the interpolation error hides",
     ),
@@ -210,6 +210,7 @@ pub(crate) fn norm_levels<'r>(
     let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
     let column = |norm: Norm| ErrorColumn {
         name: norm.name().to_owned(),
+        symbol: Some(norm.symbol().to_owned()),
         errors: ran
             .clone()
             .map(|(_, errors)| errors.map(|errors| errors[norm]))

@@ -275,8 +275,8 @@ impl Kind for Vibration {
             .map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
         let levels = norm_levels(&self.refine, &self.expect, step, errors);
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
-        let title = Some("Damped vibration, no source term");
-        let mut outcome = levels.outcome("errors", title, caption, checks);
+        let subject = Some("Damped vibration");
+        let mut outcome = levels.outcome("errors", subject, caption, checks);
         if self.refine.axis == Axis::Both {
             outcome.figures.extend(self.tip_figure(ran));
         }
@@ -348,8 +348,8 @@ impl Vibration {
         let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
         let caption =
             "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        let figure =
-            plots::history(y, &[exact, coarsest, finest]).titled("Tip of the vibrating beam");
+        let figure = plots::history(y, &[exact, coarsest, finest])
+            .titled("The tip of the fine beam moves as the exact one does");
         Some(Figure::new("tip", caption, figure.draw()))
     }
 }

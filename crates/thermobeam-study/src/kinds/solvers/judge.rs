@@ -251,12 +251,9 @@ impl Boundary {
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
     for step in points(rows).map(|point| &point.step) {
-        match prediction(step) {
-            Some(converges) => {
-                *(if converges { &mut fast } else { &mut beyond }) += 1;
-                wrong += usize::from(step.converged != converges);
-            }
-            None => {}
+        if let Some(converges) = prediction(step) {
+            *(if converges { &mut fast } else { &mut beyond }) += 1;
+            wrong += usize::from(step.converged != converges);
         }
     }
     let claim = "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma";

@@ -20,11 +20,10 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
             .lines()
             .find(|line| line.starts_with("L2: 2.0000 ± 0.00005"))
             .unwrap();
+        let missing = "1 of 5 levels has no result: n = 16";
+        let judged = "4 of 5 cases judged; 1 not: without a result";
         assert!(
-            found.ends_with(
-                ", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16; \
-                 4 of 5 cases judged; 1 not: without a result"
-            ),
+            found.ends_with(&format!(", claimed 2 ± 0.05: {missing}; {judged}")),
             "{out}"
         );
         assert!(

@@ -159,11 +159,15 @@ impl<'s> Matrix<'s> {
         self.rows
             .push([vec![fault.name().to_owned()], cells].concat());
         let all = verdicts.len();
-        let left_out = verdicts.iter().map(|verdict| {
-            verdict
-                .is_none()
-                .then_some("the study lacks the term, or a run")
-        });
+        // Where every study must notice the fault, each of them has the term.
+        let reason = if self.every {
+            NO_RESULT
+        } else {
+            "the study lacks the term"
+        };
+        let left_out = verdicts
+            .iter()
+            .map(|verdict| verdict.is_none().then_some(reason));
         self.left_out.extend(left_out);
         if fault == Fault::None {
             let fail = self

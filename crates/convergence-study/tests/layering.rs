@@ -69,7 +69,12 @@ const CRATES: [(&str, &[&str]); 7] = [
     ),
     (
         "thermobeam-cli",
-        &["convergence-study", "thermobeam", "thermobeam-study"],
+        &[
+            "convergence-study",
+            "thermobeam",
+            "thermobeam-exact",
+            "thermobeam-study",
+        ],
     ),
 ];
 

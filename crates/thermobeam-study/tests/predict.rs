@@ -5,7 +5,7 @@ use convergence_study::run::time_limit;
 use thermobeam::dg::{self, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::scheme::SCHEMES;
-use thermobeam::vibration::{Mode, TimeFactor};
+use thermobeam_exact::vibration::{Mode, TimeFactor};
 use thermobeam_study::error::Evaluator;
 use thermobeam_study::error::free_vibration;
 use thermobeam_study::predict::choice::{Choice, Quantity};

@@ -1,8 +1,8 @@
 //! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
 use super::scenes::{advance, graded, simulate, stepping, uniform};
+use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::norms::{max_or_nan, slope_squared};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -135,19 +135,14 @@ fn below_a_factor_of_one_the_fixed_point_converges() {
     assert!(simulation.advance().unwrap().iterations > 100);
 }
 
-fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
-    let n = matrix.diagonal.len() - 1;
-    DMatrix::from_fn(n, n, |i, j| match (i + 1).wrapping_sub(j) {
-        2 => matrix.lower[i + 1],
-        1 => matrix.diagonal[i + 1],
-        0 => matrix.upper[i + 1],
-        _ => 0.0,
-    })
-}
-
 /// Spectral radius of the iteration V → W → V on the mesh, without contact, with N = 0 and a = 0.
 fn spectral_radius(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
-    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let P1Matrices {
+        mass: m,
+        stiffness: k,
+        coupling: c,
+        ..
+    } = P1Matrices::new(&problem.mesh);
     let (kappa, s) = (scheme.inertia / dt, problem.beam.zeta + 0.5 * dt);
     let to_rotation = (&m * (kappa + s) + &k * s)
         .lu()
@@ -266,7 +261,12 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
 ///
 /// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial force, with u as old and new level.
 fn spectral_radii(problem: &Problem, u: &[f64], dt: f64) -> [f64; 4] {
-    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let P1Matrices {
+        mass: m,
+        stiffness: k,
+        coupling: c,
+        ..
+    } = P1Matrices::new(&problem.mesh);
     let (
         Beam {
             zeta, a, beta, rho, ..
@@ -388,7 +388,12 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
 
 /// The matrix of the linearised iteration over (δV, δW), from dense matrices of (4.2).
 fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DMatrix<f64> {
-    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let P1Matrices {
+        mass: m,
+        stiffness: k,
+        coupling: c,
+        ..
+    } = P1Matrices::new(&problem.mesh);
     let Problem {
         beam,
         obstacles,

@@ -205,7 +205,7 @@ impl Branch {
 mod tests {
     use super::super::EquilibriumError::{Bifurcation, Inaccurate};
     use super::*;
-    use crate::parameters::Beam;
+    use thermobeam::parameters::Beam;
 
     fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch {
         let contact = if support.is_some() {

@@ -2,10 +2,10 @@
 
 use super::{close, loaded, obstacles, states};
 use std::f64::consts::PI;
-use thermobeam::equilibrium::{
+use thermobeam::parameters::Obstacles;
+use thermobeam_exact::equilibrium::{
     BUCKLING_VALUES, Completeness, EquilibriumError, Phase, completeness, equilibria,
 };
-use thermobeam::parameters::Obstacles;
 
 /// The buckling value N_k of the beam without support.
 fn buckling(k: u32) -> f64 {

@@ -2,10 +2,10 @@
 
 use std::convert::Infallible;
 
-use crate::bracket::bisect;
-use crate::dg::MAX_DEGREE;
-use crate::dg::element;
-use crate::mesh::Mesh;
+use thermobeam::bracket::bisect;
+use thermobeam::dg::MAX_DEGREE;
+use thermobeam::dg::element;
+use thermobeam::mesh::Mesh;
 use thiserror::Error;
 
 /// The reason why these frequencies cannot be computed.

@@ -49,6 +49,20 @@
 //! every N, and bent states exist exactly at the buckling values N_k > β: the mode with either sign, and with the
 //! amplitude for which N_k = β + ρ‖u'‖². A small load splits each of these into two states, one on each side of N_k.
 //!
+//! ```
+//! use thermobeam::kirchhoff::BUCKLING;
+//! use thermobeam::parameters::Beam;
+//! use thermobeam_exact::equilibrium::equilibria;
+//!
+//! let kappa = std::f64::consts::FRAC_PI_2;
+//! assert!((BUCKLING - kappa.powi(2) / (1.0 + kappa.powi(2))).abs() < 1e-15);
+//! let states = equilibria(&Beam { beta: -0.8, ..Beam::default() }, None)?;
+//! let unstable: Vec<_> = states.iter().map(|state| state.unstable_directions).collect();
+//! assert_eq!(unstable, [Some(0), Some(1), Some(0)]);
+//! assert!((states[2].n_value + BUCKLING).abs() < 1e-12);
+//! # Ok::<(), thermobeam_exact::equilibrium::EquilibriumError>(())
+//! ```
+//!
 //! # N <= -1, and β <= -1
 //!
 //! For N < -1 the coefficient of u'' is negative: k² = 1 - q > 1, all functions are hyperbolic, and there is no
@@ -64,18 +78,19 @@
 mod branch;
 mod completeness;
 mod law;
+mod maximum;
 mod polish;
 mod scan;
 mod shape;
 
-use crate::parameters::{Beam, Obstacles, ParameterError};
 use branch::Branch;
 use law::{Law, Support};
+use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thiserror::Error;
 
-pub use crate::contact::Phase;
 pub use completeness::{Completeness, completeness};
 pub use shape::Shape;
+pub use thermobeam::contact::Phase;
 
 /// [`equilibria`] returns all states with N above the buckling value N_k of index k = `BUCKLING_VALUES` + 1.
 ///
@@ -164,14 +179,14 @@ pub struct Equilibrium {
 /// load of the size of round-off, and if the computed state is inaccurate.
 ///
 /// ```
-/// use thermobeam::equilibrium::{Phase, equilibria};
+/// use thermobeam_exact::equilibrium::{Phase, equilibria};
 /// use thermobeam::parameters::{Beam, Obstacles};
 ///
 /// let beam = Beam { beta: -0.8, ..Beam::default() };
 /// let states = equilibria(&beam, Some(&Obstacles::default()))?;
 /// let found: Vec<_> = states.iter().map(|state| (state.contact, state.stable)).collect();
 /// assert_eq!(found, [(Phase::Lower, true), (Phase::Free, false), (Phase::Upper, true)]);
-/// # Ok::<(), thermobeam::equilibrium::EquilibriumError>(())
+/// # Ok::<(), thermobeam_exact::equilibrium::EquilibriumError>(())
 /// ```
 pub fn equilibria(
     beam: &Beam,

@@ -1,7 +1,9 @@
 //! Exact modes against the equations, and frequencies against a dense eigenvalue problem.
 
 use thermobeam::mesh::Mesh;
-use thermobeam::vibration::{Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies};
+use thermobeam_exact::vibration::{
+    Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies,
+};
 
 use crate::p1_matrices::P1Matrices;
 

@@ -3,8 +3,8 @@
 use super::{close, loaded, slope_squared_by_quadrature, states};
 use crate::drawn::at_least;
 use proptest::prelude::*;
-use thermobeam::equilibrium::{Equilibrium, Phase, equilibria};
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam_exact::equilibrium::{Equilibrium, Phase, equilibria};
 
 /// The textbook formula for one law at one N, with integrals by Simpson's rule: (f, c, u(1)).
 fn textbook(beam: &Beam, support: Option<(f64, f64)>, n_value: f64) -> (f64, f64, f64) {

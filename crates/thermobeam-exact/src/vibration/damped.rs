@@ -1,6 +1,6 @@
 //! The time factor of a damped mode.
 
-use crate::parameters::{ParameterError, check};
+use thermobeam::parameters::{ParameterError, check};
 
 /// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
 ///
@@ -8,6 +8,30 @@ use crate::parameters::{ParameterError, check};
 ///
 /// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (oscillation), equal for ζω = 2, and real for ζω > 2
 /// (overdamped), as for all high modes with ζ > 0. The mode may be one of the beam or of a mesh, each with its own ω.
+///
+/// ```
+/// use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+/// use thermobeam::mesh::Mesh;
+/// use thermobeam::parameters::Beam;
+/// use thermobeam_exact::vibration::{Mode, TimeFactor};
+///
+/// let mode = Mode::new(0);
+/// let beam = Beam { zeta: 0.1, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 };
+/// let initial = Initial {
+///     u: Box::new(move |x| mode.u(x)),
+///     phi: Box::new(move |x| mode.phi(x)),
+///     ..Initial::at_rest(0.0)
+/// };
+/// let mesh = Mesh::uniform(1)?;
+/// let problem = Problem { beam, obstacles: None, mesh, degree: 12, initial };
+/// let stepping = Stepping { degree: 3, dt: 0.1, restart_dt: 0.1, ..Stepping::default() };
+/// let mut simulation = Simulation::new(problem, stepping)?;
+/// simulation.advance(1.0)?;
+/// let tip = simulation.value(Field::U, 1.0, 1.0).expect("the last step ends there");
+/// let exact = TimeFactor::new(mode.omega(), beam.zeta, 1.0, 0.0)?.value(1.0);
+/// assert!((tip - exact).abs() < 1e-10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeFactor {
     omega: f64,

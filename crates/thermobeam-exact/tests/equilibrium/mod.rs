@@ -4,9 +4,9 @@ mod buckling;
 mod completeness;
 mod discrete;
 
-use thermobeam::equilibrium::{Equilibrium, Phase, equilibria};
 use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam_exact::equilibrium::{Equilibrium, Phase, equilibria};
 
 fn heated(beta: f64, theta_a: f64) -> Beam {
     Beam {

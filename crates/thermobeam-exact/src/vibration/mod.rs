@@ -51,7 +51,7 @@
 //! ω - 1/(8ω)), at which the determinant itself has nearly double roots: a scan of its sign would miss them.
 //!
 //! ```
-//! use thermobeam::vibration::{Mode, TimeFactor};
+//! use thermobeam_exact::vibration::{Mode, TimeFactor};
 //!
 //! let lowest = Mode::new(0);
 //! let factor = TimeFactor::new(lowest.omega(), 0.1, 1.0, 0.0)?;
@@ -64,9 +64,9 @@
 mod damped;
 mod discrete;
 
-use crate::bracket::bisect;
 use crate::stumpff::{c0, c1};
 use std::f64::consts::FRAC_PI_2;
+use thermobeam::bracket::bisect;
 
 pub use damped::TimeFactor;
 pub use discrete::{SpectrumError, discrete_frequencies, discrete_frequencies_until};

@@ -20,8 +20,8 @@
 
 use super::law::{Law, Support, free_buckling};
 use super::{BUCKLING_VALUES, laws};
-use crate::contact::Phase;
-use crate::parameters::{Beam, Obstacles};
+use thermobeam::contact::Phase;
+use thermobeam::parameters::{Beam, Obstacles};
 
 /// What is known about the states that [`equilibria`](super::equilibria) does not list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use super::{scenes, states};
 use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::equilibrium::Equilibrium;
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam_exact::equilibrium::Equilibrium;
 
 fn interpolate(p1: &P1Matrices, u: impl Fn(f64) -> f64, phi: impl Fn(f64) -> f64) -> DVector<f64> {
     let n = p1.elements;

@@ -1,9 +1,9 @@
 //! The matrices of (3.7) for the P1 hat functions N_0..N_n, tridiagonal, over all n + 1 nodes.
 //!
 //! The solver works element by element without them. The manufactured solutions that isolate the time error, the
-//! studies of vibrations, and the tests use them.
+//! studies of vibrations, and tests use them.
 
-use crate::mesh::Mesh;
+use thermobeam::mesh::Mesh;
 
 /// A tridiagonal matrix of n + 1 rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +72,16 @@ impl Tridiagonal {
             upper,
         }
     }
+
+    /// Entry (i, j), zero outside the three diagonals.
+    pub fn entry(&self, i: usize, j: usize) -> f64 {
+        match j as isize - i as isize {
+            -1 => self.lower[i],
+            0 => self.diagonal[i],
+            1 => self.upper[i],
+            _ => 0.0,
+        }
+    }
 }
 
 /// Consistent mass matrix, `M_ij = (N_j, N_i)`.
@@ -93,19 +103,6 @@ pub fn stiffness(mesh: &Mesh) -> Tridiagonal {
 /// `(φ, w_x) = wᵀ C φ` and `(u_x, χ) = χᵀ Cᵀ u`. Source: the coupling terms of (3.7) between u, φ and θ.
 pub fn coupling(mesh: &Mesh) -> Tridiagonal {
     Tridiagonal::assemble(mesh, |_| [[-0.5, -0.5], [0.5, 0.5]])
-}
-
-#[cfg(test)]
-impl Tridiagonal {
-    /// Entry (i, j).
-    pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
-        match j as isize - i as isize {
-            -1 => self.lower[i],
-            0 => self.diagonal[i],
-            1 => self.upper[i],
-            _ => 0.0,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The static problem for given N: linear, with one law for each state of contact.
 
 use super::shape::{Shape, tanh_ratio};
-use crate::bracket::bisect;
 use std::f64::consts::PI;
+use thermobeam::bracket::bisect;
 
 /// Axial force and load of the beam, and support of its tip.
 ///

@@ -18,8 +18,9 @@
 //! Sylvester's law it has as many negative directions as there are poles above N, less one if f' = 1 - ρS' < 0.
 
 use super::law::Law;
-use crate::bracket::{bisect, maximize};
+use super::maximum::maximize;
 use std::cmp::Ordering;
+use thermobeam::bracket::bisect;
 
 /// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead of N.
 ///

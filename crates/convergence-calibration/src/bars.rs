@@ -1,12 +1,13 @@
 //! Error bars of values whose limit is known: how often they hold the error, alongside the grid convergence index.
 
-use super::laws::LAWS;
-use super::{
-    ALL, CalibrationError, Draw, LEVEL_COUNTS, Row, Share, Sheet, is_declared, row, steps,
-};
-use crate::judge::fit::Level;
-use crate::judge::richardson::{Estimator, Value};
-use crate::judge::verdict::FEWEST_LEVELS;
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::richardson::{Estimator, Value};
+use convergence_study::judge::verdict::FEWEST_LEVELS;
+
+use crate::draw::{CalibrationError, Draw};
+use crate::intervals::{ALL, LEVEL_COUNTS, is_declared, steps};
+use crate::laws::LAWS;
+use crate::sheet::{Cell, Row, Share, Sheet};
 
 /// Laws that bars are not made for: chance makes up a tenth of the error or more on every level.
 const NO_BAR: [&str; 5] = [
@@ -17,31 +18,41 @@ const NO_BAR: [&str; 5] = [
     "one outlier, up to a factor of 3",
 ];
 
-/// Lengths of bars, in units of the true error, and how often the bars hold it.
+/// How often bars and indices hold the true error, and their half-widths in units of it.
 #[derive(Debug, Clone, Default)]
 struct Bars {
-    shares: [Share; 3],
-    lengths: [Vec<f64>; 2],
+    refused: Share,
+    bar_holds: Share,
+    index_holds: Share,
+    bar_lengths: Vec<f64>,
+    index_lengths: Vec<f64>,
 }
 
 impl Bars {
     /// * `error`: the true error.
     fn count(&mut self, bar: Option<[f64; 2]>, index: Option<f64>, error: f64) {
-        self.shares[0].count(bar.is_none());
+        self.refused.count(bar.is_none());
         let Some([low, high]) = bar else { return };
-        self.shares[1].count(low <= error && error <= high);
+        self.bar_holds.count(low <= error && error <= high);
         if let Some(half) = index {
-            self.shares[2].count(error.abs() <= half);
-            self.lengths[0].push(0.5 * (high - low) / error.abs());
-            self.lengths[1].push(half / error.abs());
+            self.index_holds.count(error.abs() <= half);
+            self.bar_lengths.push(0.5 * (high - low) / error.abs());
+            self.index_lengths.push(half / error.abs());
         }
     }
 
-    fn row(&self, name: impl Into<String>, declared: bool) -> Row {
-        let mut row = row(name, declared, &self.shares);
-        row.values
-            .extend(self.lengths.iter().map(|lengths| median(lengths)));
-        row
+    fn cells(&self) -> Vec<Cell> {
+        let length = |column: &str, lengths: &[f64]| Cell {
+            column: column.to_owned(),
+            value: median(lengths),
+        };
+        vec![
+            self.refused.cell("refused"),
+            self.bar_holds.cell("bar holds it"),
+            self.index_holds.cell("index holds it"),
+            length("half-width of the bar", &self.bar_lengths),
+            length("of the index", &self.index_lengths),
+        ]
     }
 }
 
@@ -86,28 +97,20 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
             count_in(&mut of_all);
         }
     }
-    let columns = [
-        "refused",
-        "bar holds it",
-        "index holds it",
-        "half-width of the bar",
-        "of the index",
-    ];
     let title = "Error bars and grid convergence index on values of known limit: how often they hold the true error; half-widths are medians, as shares of it";
-    let laws = LAWS
-        .iter()
-        .zip(&of_laws)
-        .map(|(law, bars)| bars.row(law.name, is_declared(law, &NO_BAR)));
-    let counts = of_counts
-        .iter()
-        .zip(FEWEST_LEVELS..)
-        .map(|(bars, count)| bars.row(format!("{count} values"), true));
-    let bars = Sheet::new(
-        "bars",
-        title,
-        &columns,
-        laws.chain(counts).chain([of_all.row(ALL, true)]),
-    );
+    let mut rows = vec![];
+    for (law, bars) in LAWS.iter().zip(&of_laws) {
+        rows.push(Row::new(law.name, is_declared(law, &NO_BAR), bars.cells()));
+    }
+    for (count, bars) in (FEWEST_LEVELS..).zip(&of_counts) {
+        rows.push(Row::new(format!("{count} values"), true, bars.cells()));
+    }
+    rows.push(Row::new(ALL, true, of_all.cells()));
+    let bars = Sheet {
+        key: "bars",
+        title: title.to_owned(),
+        rows,
+    };
     Ok(vec![bars, noise(&estimator, 10 * tables, &mut draw)?])
 }
 
@@ -115,7 +118,8 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
 fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let mut rows = vec![];
     for count in FEWEST_LEVELS..FEWEST_LEVELS + LEVEL_COUNTS {
-        let mut shares = [Share::default(); 2];
+        let mut refused = Share::default();
+        let mut holds = Share::default();
         for _ in 0..tables {
             let random = draw.next()?;
             let mut value = |k: usize| {
@@ -127,20 +131,23 @@ fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet,
             };
             let values: Vec<Value> = (0..count).map(&mut value).collect();
             let bar = estimator.estimate(&values, 2.0).bar;
-            shares[0].count(bar.is_err());
+            refused.count(bar.is_err());
             if let Ok(bar) = bar {
-                shares[1].count(bar.limit[0] <= 1.0 && 1.0 <= bar.limit[1]);
+                holds.count(bar.limit[0] <= 1.0 && 1.0 <= bar.limit[1]);
             }
         }
-        rows.push(row(format!("{count} values"), true, &shares));
+        let cells = vec![
+            refused.cell("refused"),
+            holds.cell("interval holds the limit"),
+        ];
+        rows.push(Row::new(format!("{count} values"), true, cells));
     }
     let title = "Limits of values of second order whose errors scatter by 2 %, steps halved";
-    Ok(Sheet::new(
-        "noise",
-        title,
-        &["refused", "interval holds the limit"],
+    Ok(Sheet {
+        key: "noise",
+        title: title.to_owned(),
         rows,
-    ))
+    })
 }
 
 #[cfg(test)]

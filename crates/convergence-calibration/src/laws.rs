@@ -8,8 +8,8 @@
 //! * *emerging*: h^p + b h^(p - 1/2) or h^(p - 1). The order is the lower one, whatever the levels show of it.
 //! * *stagnating*: plateaus, a wrong limit, growing round-off. There is no order, and every claim is wrong.
 
-use crate::judge::fit::Level;
-use crate::judge::random::SplitMix;
+use convergence_study::judge::fit::Level;
+use convergence_study::judge::random::SplitMix;
 
 /// 3 to 12 levels, ratios 1.1 to 4: what papers use, sound or not.
 pub const WIDE: Meshes = Meshes {
@@ -103,7 +103,7 @@ const fn law(name: &'static str, group: Group, shape: Shape) -> Law {
 }
 
 /// A law of another file.
-pub(super) const fn held_out(name: &'static str, group: Group, formula: Formula) -> Law {
+pub(crate) const fn held_out(name: &'static str, group: Group, formula: Formula) -> Law {
     law(name, group, Shape::HeldOut(formula))
 }
 
@@ -272,12 +272,12 @@ impl Law {
 }
 
 /// Draws the numbers of a law; the error is a function of the step, to be called once for each step, coarsest first.
-pub(super) type Formula =
+pub(crate) type Formula =
     for<'a> fn(Exponents, &'a mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + 'a>;
 
 /// The numbers that are the same for all levels of a table of a held-out law.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Exponents {
+pub(crate) struct Exponents {
     /// The exponent that the coarse levels show.
     pub p: f64,
     /// The order, if there is one.
@@ -378,7 +378,7 @@ fn saturated(x: f64) -> f64 {
 }
 
 /// A number whose logarithm is uniform.
-pub(super) fn log_uniform([low, high]: [f64; 2], random: &mut SplitMix) -> f64 {
+pub(crate) fn log_uniform([low, high]: [f64; 2], random: &mut SplitMix) -> f64 {
     random.within([low.ln(), high.ln()]).exp()
 }
 
@@ -453,7 +453,7 @@ fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::fit::pairwise_rates;
+    use convergence_study::judge::fit::pairwise_rates;
 
     #[test]
     fn a_hidden_term_has_its_share_of_the_finest_error() {

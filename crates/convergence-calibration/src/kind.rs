@@ -13,13 +13,24 @@
 //! most = 0.006           # or least = ...
 //! ```
 
-use convergence_study::judge::calibration::{
-    CLAIMS, CalibrationError, ELEMENTS_OF_A_TABLE, RULES, Row, Sheet, bars::of_the_bars,
-    grids::of_grids, of_the_rule,
-};
+use std::path::Path;
 
-use super::prelude::*;
+use convergence_study::input::{InputError, Section};
+use convergence_study::plots;
+use convergence_study::plots::xy::Xy;
+use convergence_study::study::kind::completion;
+use convergence_study::study::{
+    Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
+    Table, reader,
+};
 use plots::Axis;
+
+use crate::bars::of_the_bars;
+use crate::grids::of_grids;
+use crate::laws::HIDDEN_SHARES;
+use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
+use crate::sheet::{Row, Sheet};
+use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -126,41 +137,39 @@ impl Expectation {
             row,
             bounds: [least, most],
         } = self;
-        let found = sheets.iter().find(|known| known.key == sheet);
-        let place = found.and_then(|sheet| sheet.columns.iter().position(|known| known == column));
+        let sheet_of_key = sheets.iter().find(|known| known.key == sheet);
         let is_meant = |known: &&Row| {
             row.as_ref()
                 .map_or(known.declared, |name| *name == known.name)
         };
-        let rows: Vec<&Row> = found
-            .iter()
-            .flat_map(|sheet| &sheet.rows)
+        let rows = sheet_of_key.iter().flat_map(|sheet| &sheet.rows);
+        let values: Vec<(&Row, f64)> = rows
             .filter(is_meant)
+            .filter_map(|row| Some((row, row.value(column)?)))
             .collect();
-        let (Some(place), false) = (place, rows.is_empty()) else {
-            let names = |sheet: &Sheet| format!("columns: {}", sheet.columns.join("; "));
-            let there = found.map_or_else(|| "no such sheet".to_owned(), names);
+        if values.is_empty() {
+            let columns = |sheet: &Sheet| format!("columns: {}", sheet.columns().join("; "));
+            let there = sheet_of_key.map_or_else(|| "no such sheet".to_owned(), columns);
             let row = row.as_deref().unwrap_or("each declared");
             return vec![Check::that(
                 false,
                 format!("{sheet} has {column} of {row}"),
                 there,
             )];
-        };
+        }
         let bound = if least.is_finite() {
             format!("at least {least}")
         } else {
             format!("at most {most}")
         };
-        let check = |row: &Row| {
-            let value = row.values.get(place).copied().unwrap_or(f64::NAN);
+        let check = |(row, value): (&Row, f64)| {
             Check::that(
                 *least <= value && value <= *most,
                 format!("{sheet}, {}: {column}: {bound}", row.name),
                 text(value),
             )
         };
-        rows.into_iter().map(check).collect()
+        values.into_iter().map(check).collect()
     }
 }
 
@@ -199,7 +208,7 @@ impl Kind for Calibration {
     }
 
     fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
-        Ok((of.sheets)(tables, seed)?)
+        (of.sheets)(tables, seed).map_err(CaseFailure::from)
     }
 
     fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
@@ -227,13 +236,13 @@ impl Kind for Calibration {
 /// The shares of true claims that our own rule passes. Every run draws the same tables, so these shares change only with the
 /// rule. A few verdicts may differ on another machine.
 fn guarded(sheet: &Sheet) -> Vec<Quantity> {
-    let own = sheet.rows.iter().find(|row| row.name == RULES[0]);
-    let shares = own
-        .into_iter()
-        .flat_map(|row| sheet.columns.iter().zip(&row.values));
-    let true_passes = shares.filter(|(column, _)| column.starts_with("true pass"));
-    true_passes
-        .map(|(column, share)| Quantity::new(format!("{}: {column}", sheet.key), *share, 0.01))
+    let own = sheet.row(Rule::Ours.name());
+    let columns = CLAIMS.map(|(tolerance, _)| true_pass(tolerance));
+    let shares = columns
+        .iter()
+        .filter_map(|column| Some((column, own?.value(column)?)));
+    shares
+        .map(|(column, share)| Quantity::new(format!("{}: {column}", sheet.key), share, 0.01))
         .collect()
 }
 
@@ -255,88 +264,90 @@ fn table(sheet: &Sheet) -> Table {
     };
     let cells = |row: &Row| {
         std::iter::once(name(row))
-            .chain(row.values.iter().map(|value| text(*value)))
+            .chain(row.cells.iter().map(|cell| text(cell.value)))
             .collect()
     };
-    let head = std::iter::once(String::new()).chain(sheet.columns.iter().cloned());
+    let columns = sheet.columns().into_iter().map(str::to_owned);
+    let head = std::iter::once(String::new()).chain(columns);
     Table::new(&sheet.title, head, sheet.rows.iter().map(cells))
 }
 
-/// The points that a row contributes.
-type Points = fn(&Sheet, &Row) -> Vec<(f64, f64)>;
+/// A curve for each rule of a sheet.
+///
+/// * `show_x`: values that the axis must contain.
+/// * `points`: of the curve of a row.
+fn figure(
+    sheet: &Sheet,
+    caption: &str,
+    [x, y]: [Axis; 2],
+    show_x: [f64; 2],
+    note: String,
+    points: fn(&Row) -> Vec<(f64, f64)>,
+) -> Figure {
+    let curve = |row: &Row| plots::Series::new(row.name.clone(), points(row));
+    let curves: Vec<plots::Series> = sheet.rows.iter().map(curve).collect();
+    let figure = Xy {
+        x,
+        show_x: show_x.to_vec(),
+        show_y: vec![100.0],
+        notes: vec![note],
+        ..plots::history(y, &curves).marked()
+    };
+    Figure::new(sheet.key, caption, figure.draw())
+}
+
+/// True claims that pass, and wrong ones, in per cent, at each tolerance.
+fn trade(row: &Row) -> Vec<(f64, f64)> {
+    let percent = |column: String| 100.0 * row.value(&column).unwrap_or(f64::NAN);
+    CLAIMS
+        .map(|(tolerance, off)| {
+            (
+                percent(true_pass(tolerance)),
+                percent(wrong_pass(tolerance, off)),
+            )
+        })
+        .to_vec()
+}
+
+/// Tables that pass, by the share of the hidden term, both in per cent.
+fn hidden(row: &Row) -> Vec<(f64, f64)> {
+    let passes = |share: f64| 100.0 * row.value(&hidden_part(share)).unwrap_or(f64::NAN);
+    HIDDEN_SHARES
+        .map(|share| (100.0 * share, passes(share)))
+        .to_vec()
+}
 
 /// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order goes unnoticed.
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
-    let figure = |key: &str,
-                  caption: &str,
-                  [x, y]: [Axis; 2],
-                  ends: [f64; 2],
-                  note: &str,
-                  points: Points| {
-        let sheet = sheets.iter().find(|sheet| sheet.key == key)?;
-        let curve = |row: &Row| plots::Series::new(row.name.clone(), points(sheet, row));
-        let history = plots::history(y, &sheet.rows.iter().map(curve).collect::<Vec<_>>()).marked();
-        let (show_x, show_y, notes) = (ends.to_vec(), vec![100.0], vec![note.to_owned()]);
-        Some(Figure::new(
-            key,
-            caption,
-            Xy {
-                x,
-                show_x,
-                show_y,
-                notes,
-                ..history
-            }
-            .draw(),
-        ))
-    };
-    let trade: Points = |_, row| {
-        (0..CLAIMS.len())
-            .map(|claim| {
-                (
-                    100.0 * row.values[3 * claim + 1],
-                    100.0 * row.values[3 * claim],
-                )
-            })
-            .collect()
-    };
-    let hidden: Points = |sheet, row| {
-        let share = |column: &String| column.trim_end_matches(" %").parse().unwrap_or(f64::NAN);
-        sheet
-            .columns
-            .iter()
-            .map(share)
-            .zip(row.values.iter().map(|value| 100.0 * value))
-            .collect()
-    };
-    let of_rules =
-        "What each rule pays for the true claims it passes: wrong claims that pass, too.";
-    let of_hidden =
-        "How often a term of lower order goes unnoticed, by its share of the finest error.";
-    let axes = [
-        Axis::linear("true claims that pass (%)"),
-        Axis::log("wrong claims that pass (%)"),
-    ];
+    let sheet = |key: &str| sheets.iter().find(|sheet| sheet.key == key);
     let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
-    let note =
-        format!("tolerances {first}, {second}, {third} from left to right; better: right and down");
-    let trade = figure("rules", of_rules, axes, [0.0, 100.0], &note, trade);
-    let axes = [
-        Axis::linear("share of the finest error (%)"),
-        Axis::linear("tables that pass (%)"),
-    ];
-    [
-        trade,
+    let of_rules = sheet("rules").map(|sheet| {
         figure(
-            "hidden-8",
-            of_hidden,
-            axes,
+            sheet,
+            "What each rule pays for the true claims it passes: wrong claims that pass, too.",
+            [
+                Axis::linear("true claims that pass (%)"),
+                Axis::log("wrong claims that pass (%)"),
+            ],
+            [0.0, 100.0],
+            format!(
+                "tolerances {first}, {second}, {third} from left to right; better: right and down"
+            ),
+            trade,
+        )
+    });
+    let of_hidden = sheet("hidden-8").map(|sheet| {
+        figure(
+            sheet,
+            "How often a term of lower order goes unnoticed, by its share of the finest error.",
+            [
+                Axis::linear("share of the finest error (%)"),
+                Axis::linear("tables that pass (%)"),
+            ],
             [4.0, 21.0],
-            "better: down",
+            "better: down".to_owned(),
             hidden,
-        ),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+        )
+    });
+    of_rules.into_iter().chain(of_hidden).collect()
 }

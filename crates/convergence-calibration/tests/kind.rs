@@ -1,11 +1,33 @@
-use convergence_study::judge::calibration::Sheet;
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::calibration::{Calibration, ROW};
+//! The kind of study: each expectation can fail, and what a file has wrong is refused.
 
-use super::file;
-use super::refused::refusal;
-use super::typed::{changed, report};
+use std::path::{Path, PathBuf};
+
+use convergence_calibration::kind::{Calibration, ROW};
+use convergence_calibration::sheet::Sheet;
+use convergence_study::input;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::study::kind::run_cases_here;
+use convergence_study::study::{CaseFailure, FromFile, Header, Kind, Outcome};
+
+/// A file of the repository's `studies/`.
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../studies")
+        .join(name)
+}
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(file(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// All checks, with their evidence.
+fn report(outcome: &Outcome) -> String {
+    let checks = outcome
+        .checks
+        .iter()
+        .map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));
+    checks.collect::<Vec<_>>().join("\n")
+}
 
 /// Where the file has an expectation, a check bounds the value of a sheet from the stated side.
 #[test]
@@ -20,7 +42,10 @@ fn each_share_can_be_too_large_or_too_small() {
             report(&study.judge(&sound))
         );
         let failing = |plant: &dyn Fn(&mut Vec<Sheet>)| {
-            let runs = changed::<Calibration>(&sound, |_, found| plant(found));
+            let mut runs = sound.clone();
+            for ran in &mut runs {
+                plant(ran.found.as_mut().expect("a case that has run"));
+            }
             let judged = study.judge(&runs);
             judged
                 .checks
@@ -33,7 +58,8 @@ fn each_share_can_be_too_large_or_too_small() {
                 found
                     .iter_mut()
                     .flat_map(|sheet| &mut sheet.rows)
-                    .for_each(|row| row.values.fill(value));
+                    .flat_map(|row| &mut row.cells)
+                    .for_each(|cell| cell.value = value);
             }
         };
         let bounded = study.judge(&sound).checks.len() - 1;
@@ -68,7 +94,7 @@ fn a_sheet_column_or_row_that_is_not_there_fails() {
         ("column = \"refused\"", "column = \"refuse\""),
         ("row = \"all declared\"", "row = \"all\""),
     ] {
-        let text = super::text("error-bars.toml")
+        let text = text("error-bars.toml")
             .replace(from, to)
             .replace("tables = 150", "tables = 1");
         let study = Calibration::parse(&text, &file("error-bars.toml"))
@@ -82,16 +108,36 @@ fn a_sheet_column_or_row_that_is_not_there_fails() {
     }
 }
 
+/// The message about a study file with `from` replaced by `to`.
+#[track_caller]
+fn refusal(name: &str, from: &str, to: &str) -> String {
+    let changed = text(name).replacen(from, to, 1);
+    assert_ne!(changed, text(name), "{name} has no {from}");
+    let read = input::parse_beside(
+        &changed,
+        &file(&format!("changed-{name}")),
+        |root, folder| (ROW.read)(Header::from_document(root)?, root, folder),
+    );
+    read.err()
+        .unwrap_or_else(|| panic!("{name} with {to} is read"))
+        .to_string()
+}
+
 #[test]
 fn files_with_errors_are_refused() {
     for (from, to, message) in [
         ("tables = 4", "tables = 0", "tables"),
+        (
+            "tables = 4",
+            "tables = 1000000000000",
+            "tables: found 1000000000000",
+        ),
         ("of = \"rule\"", "of = \"rules\"", "rule"),
         ("most = 0.0029", "most = -1", "most"),
         ("most = 0.0029", "", "one of the two"),
         ("column = ", "columns = ", "columns"),
     ] {
-        let error = refusal(&ROW, "rule-calibration.toml", from, to);
+        let error = refusal("rule-calibration.toml", from, to);
         assert!(error.contains(message), "{error}");
     }
 }

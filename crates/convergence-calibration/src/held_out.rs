@@ -2,8 +2,8 @@
 //!
 //! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H on the finest, p uniform in [0.5, 4].
 
-use super::laws::{Exponents, Group, Law, held_out, log_uniform};
-use crate::judge::random::SplitMix;
+use crate::laws::{Exponents, Group, Law, held_out, log_uniform};
+use convergence_study::judge::random::SplitMix;
 
 /// The laws.
 pub const HELD_OUT: [Law; 10] = [
@@ -101,9 +101,9 @@ fn noisy_limit(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f6
 
 #[cfg(test)]
 mod tests {
-    use super::super::laws::LAWS;
     use super::*;
-    use crate::judge::fit::pairwise_rates;
+    use crate::laws::LAWS;
+    use convergence_study::judge::fit::pairwise_rates;
 
     /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
     #[test]

@@ -4,10 +4,12 @@
 //! from 1/30 to 30 in the middle. Where a lower order hides, `A = h^(p+1) + f h^p` with f from 0.01 to 1, and p + 1 is claimed. A constant is 10 to 300 % of the finest error, and is
 //! added to the errors, of either sign, or its square to their squares.
 
-use super::{CalibrationError, Draw, Share, Sheet, row};
-use crate::judge::grid::{Adding, GridErrors};
-use crate::judge::random::SplitMix;
-use crate::judge::verdict::{RateVerdict, Verdict};
+use convergence_study::judge::grid::{Adding, GridErrors};
+use convergence_study::judge::random::SplitMix;
+use convergence_study::judge::verdict::{RateVerdict, Verdict};
+
+use crate::draw::{CalibrationError, Draw};
+use crate::sheet::{Cell, Row, Share, Sheet};
 
 const ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 
@@ -105,6 +107,74 @@ fn both_pass(rates: &[RateVerdict; 2]) -> bool {
     rates.iter().all(|rate| rate.verdict.is_pass())
 }
 
+/// Verdicts on both orders of a grid, and how often an interval holds its order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Orders {
+    pass: Share,
+    fail: Share,
+    interval_holds: Share,
+}
+
+impl Orders {
+    fn count(&mut self, rates: &[RateVerdict; 2], orders: [f64; 2]) {
+        self.pass.count(both_pass(rates));
+        for (rate, order) in rates.iter().zip(orders) {
+            self.fail.count(rate.verdict == Verdict::Fail);
+            if let Some([low, high]) = rate.interval {
+                self.interval_holds.count(low <= order && order <= high);
+            }
+        }
+    }
+}
+
+/// What is counted for one number of levels.
+#[derive(Debug, Clone, Copy, Default)]
+struct Grids {
+    sound: Orders,
+    hidden_order_passes: Share,
+    constant_passes: Share,
+    constant_in_squares_passes: Share,
+    noisy: Orders,
+}
+
+impl Grids {
+    fn count(&mut self, levels: usize, random: &mut SplitMix) -> Result<(), CalibrationError> {
+        let law = Law::draw(levels, false, random);
+        let hidden = Law::draw(levels, true, random);
+        let size = random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
+        let sound = law.errors(|error| error);
+        let constant = size * sound[sound.len() - 1];
+        self.sound.count(&law.judge(&sound)?, law.orders);
+        let [in_h, _] = hidden.judge(&hidden.errors(|error| error))?;
+        self.hidden_order_passes.count(in_h.verdict.is_pass());
+        let shifted = law.errors(|error| (error + constant).abs());
+        self.constant_passes.count(both_pass(&law.judge(&shifted)?));
+        let in_squares = law.errors(|error| error.hypot(constant));
+        self.constant_in_squares_passes
+            .count(both_pass(&law.judge(&in_squares)?));
+        let noisy = law.errors(|error| error * (0.01 * random.normal()).exp());
+        self.noisy.count(&law.judge(&noisy)?, law.orders);
+        Ok(())
+    }
+
+    fn cells(&self) -> Vec<Cell> {
+        vec![
+            self.sound.pass.cell("sound pass"),
+            self.sound.fail.cell("sound orders fail"),
+            self.sound.interval_holds.cell("interval holds the order"),
+            self.hidden_order_passes.cell("hidden order passes"),
+            self.constant_passes.cell("constant passes"),
+            self.constant_in_squares_passes
+                .cell("constant in squares passes"),
+            self.noisy.pass.cell("sound pass, noise 1 %"),
+            self.noisy.fail.cell("sound orders fail, noise 1 %"),
+            self.noisy
+                .interval_holds
+                .cell("interval holds the order, noise 1 %"),
+        ]
+    }
+}
+
 /// The sheet *grids*.
 ///
 /// * `tables`: number of grids for each number of levels.
@@ -114,54 +184,17 @@ fn both_pass(rates: &[RateVerdict; 2]) -> bool {
 pub fn of_grids(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError> {
     let mut rows = vec![];
     for levels in [4, 5, 6, 8] {
-        let (mut draw, mut shares) = (Draw::new(seed), [Share::default(); 9]);
+        let mut draw = Draw::new(seed);
+        let mut counted = Grids::default();
         for _ in 0..tables {
-            let random = draw.next()?;
-            let (law, hidden) = (
-                Law::draw(levels, false, random),
-                Law::draw(levels, true, random),
-            );
-            let size =
-                random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
-            let sound = law.errors(|error| error);
-            let constant = size * sound[sound.len() - 1];
-            let judged = law.judge(&sound)?;
-            shares[0].count(both_pass(&judged));
-            shares[3].count(
-                hidden.judge(&hidden.errors(|error| error))?[0]
-                    .verdict
-                    .is_pass(),
-            );
-            shares[4].count(both_pass(
-                &law.judge(&law.errors(|error| (error + constant).abs()))?,
-            ));
-            shares[5].count(both_pass(
-                &law.judge(&law.errors(|error| error.hypot(constant)))?,
-            ));
-            let noisy = law.judge(&law.errors(|error| error * (0.01 * random.normal()).exp()))?;
-            shares[6].count(both_pass(&noisy));
-            for (place, rates) in [(1, judged), (7, noisy)] {
-                for (rate, order) in rates.iter().zip(law.orders) {
-                    shares[place].count(rate.verdict == Verdict::Fail);
-                    if let Some([low, high]) = rate.interval {
-                        shares[place + 1].count(low <= order && order <= high);
-                    }
-                }
-            }
+            counted.count(levels, draw.next()?)?;
         }
-        rows.push(row(format!("{levels} levels"), true, &shares));
+        rows.push(Row::new(format!("{levels} levels"), true, counted.cells()));
     }
-    let columns = [
-        "sound pass",
-        "sound orders fail",
-        "interval holds the order",
-        "hidden order passes",
-        "constant passes",
-        "constant in squares passes",
-        "sound pass, noise 1 %",
-        "sound orders fail, noise 1 %",
-        "interval holds the order, noise 1 %",
-    ];
     let title = "Grids of h and dt at ±0.2: both orders of sound grids, a lower order that hides, a constant of 10 % of the finest error or more";
-    Ok(vec![Sheet::new("grids", title, &columns, rows)])
+    Ok(vec![Sheet {
+        key: "grids",
+        title: title.to_owned(),
+        rows,
+    }])
 }

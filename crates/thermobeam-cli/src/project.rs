@@ -30,7 +30,7 @@ pub const fn project(command: &'static str) -> Project {
         front: FRONT,
         settings,
         places: &PLACES,
-        fingerprints: Some(".cargo/fingerprints.json"),
+        fingerprints: Some("xtask/fingerprints.json"),
         seconds_per_cost: Some(NODE_STEP),
     }
 }

@@ -5,12 +5,29 @@ mod regressions;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use convergence_calibration::kind;
 use convergence_study::cli::{command_line, ended};
 use convergence_study::project::Project;
+use convergence_study::study::KindRow;
 use thermobeam_cli::{GROUPS, project};
+use thermobeam_study::kinds::KINDS;
 
-/// The beam, under this command.
-const PROJECT: Project = project("cargo xtask");
+/// The beam under this command, and the calibration of the rule.
+const PROJECT: Project = Project {
+    kinds: &WITH_CALIBRATION,
+    ..project("cargo xtask")
+};
+
+/// The kinds of the beam, and that which counts how often the rule errs: it is not published.
+const WITH_CALIBRATION: [KindRow; KINDS.len() + 1] = {
+    let mut kinds = [kind::ROW; KINDS.len() + 1];
+    let mut place = 0;
+    while place < KINDS.len() {
+        kinds[place] = KINDS[place];
+        place += 1;
+    }
+    kinds
+};
 
 #[derive(Debug, Parser)]
 struct Xtask {
@@ -43,4 +60,39 @@ fn main() -> ExitCode {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use convergence_study::cli::{explain, workspace};
+
+    use super::PROJECT;
+
+    #[test]
+    fn every_study_of_the_repository_is_explained() {
+        let files = workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+            .unwrap();
+        assert!(files.len() > 10);
+        for file in files {
+            let header = file.study.header();
+            let text = explain::study(&PROJECT, file.study.as_ref());
+            let text = text
+                .unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
+            for title in [
+                "what is claimed",
+                "why it should hold",
+                "how it is judged",
+                "what a failure would mean",
+            ] {
+                assert!(text.contains(&format!("\n{title}\n")), "{text}");
+            }
+            assert!(
+                text.starts_with(&header.id)
+                    && text.lines().all(|line| line.chars().count() <= 100),
+                "{text}"
+            );
+        }
+    }
 }

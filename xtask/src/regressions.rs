@@ -1,7 +1,7 @@
 //! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and name each?
 //!
 //! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as uniform.
-//! `.cargo/regressions.toml` lists such mistakes, each with the study or the test that must notice it. Each is planted in a copy of the work
+//! `xtask/regressions.toml` lists such mistakes, each with the study or the test that must notice it. Each is planted in a copy of the work
 //! tree below `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are kept, so an interrupted
 //! run continues where it stopped.
 
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// Plant only mistakes with this in their name or file; may be repeated
     #[arg(long, value_name = "PART")]
     only: Vec<String>,
-    /// Write reports/regressions.md, and .cargo/fingerprints.json for comparison with later runs
+    /// Write reports/regressions.md, and xtask/fingerprints.json for comparison with later runs
     #[arg(long)]
     write: bool,
     /// Diagnose recorded results again, and plant nothing
@@ -152,7 +152,7 @@ fn print_list(chosen: &[&Regression]) -> Outcome {
 }
 
 /// Where later runs of `verify` find the effects of these mistakes.
-const FINGERPRINTS: &str = ".cargo/fingerprints.json";
+const FINGERPRINTS: &str = "xtask/fingerprints.json";
 
 const HEAD: [&str; 4] = [
     "mistake",

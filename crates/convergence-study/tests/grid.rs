@@ -1,4 +1,4 @@
-//! Orders over a grid of h and dt, also for errors that do not add; `calibration.rs` measures how often they are right.
+//! Orders over a grid of h and dt, also for errors that do not add; `convergence-calibration` measures how often they are right.
 
 use convergence_study::judge::grid::{Adding, GridErrors};
 use convergence_study::judge::verdict::{Reason, Verdict};

@@ -57,7 +57,8 @@ const LIBRARIES: [(&str, &[&str]); 12] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 7] = [
+const CRATES: [(&str, &[&str]); 8] = [
+    ("convergence-calibration", &["convergence-study"]),
     ("convergence-judge", &[]),
     ("convergence-study", &["convergence-judge"]),
     ("convergence-study-tests", &["convergence-study"]),
@@ -69,7 +70,12 @@ const CRATES: [(&str, &[&str]); 7] = [
     ),
     (
         "thermobeam-cli",
-        &["convergence-study", "thermobeam", "thermobeam-study"],
+        &[
+            "convergence-study",
+            "thermobeam",
+            "thermobeam-exact",
+            "thermobeam-study",
+        ],
     ),
 ];
 

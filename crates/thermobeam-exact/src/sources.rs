@@ -13,11 +13,11 @@
 //! [`formulas`](crate::formulas): the two computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
 //! contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
 
+use crate::assembly::{Tridiagonal, coupling, mass, stiffness};
 use crate::defect::{Defect, axial_force_with, contact_with};
 use crate::formulas::{SchemeFormulas, contact_force};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, FieldFactors, Manufactured, Product};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};

@@ -1,7 +1,12 @@
 //! The tests of the exact solutions, in one program.
 
+mod drawn;
+mod equilibrium;
 mod errors;
 mod expression;
 mod independence;
 mod loads;
+mod p1_matrices;
+mod solver;
 mod sources;
+mod vibration;

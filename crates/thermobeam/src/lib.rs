@@ -42,8 +42,8 @@
 //! # From data to levels
 //!
 //! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) → one [`scheme`] and one [solver](solve) →
-//! [`Level`](solve::Level)s → [`energy`] and [`norms`]. [`dg`] solves the same equations to any order in space and time. Exact solutions for comparison: [`equilibrium`],
-//! [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The crate does no input or output and starts no threads. Every failure is a value of a type
+//! [`Level`](solve::Level)s → [`energy`] and [`norms`]. [`dg`] solves the same equations to any order in space and time. Exact solutions for comparison are in the crate
+//! `thermobeam-exact`, which nothing here uses. The results that the solver must satisfy are derived in [`theory`]. The crate does no input or output and starts no threads. Every failure is a value of a type
 //! in [`error`], and a failed step leaves the simulation at its last level.
 //!
 //! ```
@@ -73,15 +73,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod assembly;
 mod block_tridiagonal;
-mod bracket;
+pub mod bracket;
 pub mod contact;
 pub mod contraction;
 pub mod dg;
 pub mod energy;
 pub mod ensemble;
-pub mod equilibrium;
 pub mod error;
 pub mod kirchhoff;
 pub mod lanes;
@@ -92,15 +90,14 @@ pub mod parameters;
 pub mod scheme;
 pub mod simulation;
 pub mod solve;
-mod stumpff;
 pub mod tridiagonal;
-pub mod vibration;
 
 /// [energy]: crate::energy
 /// [contraction]: crate::contraction
 /// [linearized]: crate::linearized
-/// [equilibrium]: crate::equilibrium
-/// [vibration]: crate::vibration
+/// [equilibrium]: ../../thermobeam_exact/equilibrium/index.html
+/// [completeness]: ../../thermobeam_exact/equilibrium/enum.Completeness.html
+/// [vibration]: ../../thermobeam_exact/vibration/index.html
 /// [dg]: crate::dg
 // The links above are for rustdoc, those at the end of THEORY.md for readers of that file.
 #[doc = include_str!("../THEORY.md")]

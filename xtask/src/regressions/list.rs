@@ -7,7 +7,7 @@ use convergence_study::cli::exit::Unusable;
 use serde::Deserialize;
 
 /// The list.
-pub(super) const FILE: &str = ".cargo/regressions.toml";
+pub(super) const FILE: &str = "xtask/regressions.toml";
 
 /// A mistake of meaning that a person might make.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -1,6 +1,6 @@
 //! Claims other than an order within a tolerance, each judged by what the [rule](super::verdict) reads.
 //!
-//! `RULE.md` has a paragraph on each; `judge::calibration` measures how often it errs.
+//! `RULE.md` has a paragraph on each; the crate `convergence-calibration` measures how often it errs.
 
 use std::fmt;
 

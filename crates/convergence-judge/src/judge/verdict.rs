@@ -1,8 +1,5 @@
-//! [laws]: crate::judge::calibration::laws
-//! [held]: crate::judge::calibration::held_out
-//! [calibration]: crate::judge::calibration
 //! [grid]: crate::judge::grid
-// The links above are for rustdoc, those at the end of RULE.md for readers of that file.
+// The link above is for rustdoc, that at the end of RULE.md for readers of that file.
 #![doc = include_str!("verdict/RULE.md")]
 
 use thiserror::Error;
@@ -18,7 +15,7 @@ mod words;
 
 pub use cause::Cause;
 pub use outcome::{PowerLaw, RateVerdict};
-pub(crate) use reading::Reading;
+pub use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away};
 pub use words::{Aside, SetAside, Verdict};
@@ -117,8 +114,8 @@ impl Judge {
         self.judge_read(&reading, order)
     }
 
-    /// The same for levels already read by a judge with the same floor and confidence.
-    pub(crate) fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
+    /// The same for levels that a judge with the same floor has [read](Self::read).
+    pub fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
         RateVerdict::new(
             reading,
             order,
@@ -137,13 +134,14 @@ impl Judge {
         RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
-    /// The part that does not depend on claim and tolerance, to be compared with several claims.
-    pub(crate) fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
+    /// What the levels, coarsest first, say by themselves: it depends on neither claim nor tolerance, and is held
+    /// against several claims by [`Judge::judge_read`] and [`Judge::decide`], also of judges with other tolerances.
+    pub fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
         Reading::new(levels, self.floor)
     }
 
-    /// The outcome for levels already read by a judge with the same floor and confidence.
-    pub(crate) fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
+    /// The verdict alone on levels that a judge with the same floor has [read](Self::read).
+    pub fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
         reading.reason(order, self.tolerance).verdict()
     }
 

@@ -9,7 +9,7 @@ use crate::exact::function::Factor;
 use crate::exact::solution::{Manufactured, Product};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, ParameterError};
-use thermobeam::vibration::{Mode, TimeFactor};
+use thermobeam_exact::vibration::{Mode, TimeFactor};
 
 /// The freely vibrating beam with viscosity ζ: all other terms are switched off.
 pub fn beam(zeta: f64) -> Beam {

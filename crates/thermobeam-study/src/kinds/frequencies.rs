@@ -13,7 +13,7 @@
 //! tolerance = 0.1
 //! ```
 
-use thermobeam::vibration::{discrete_frequencies_until, frequencies};
+use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::prelude::*;
 use super::tables::Layout;

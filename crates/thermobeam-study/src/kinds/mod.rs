@@ -5,7 +5,6 @@
 
 pub mod any_order;
 pub mod bifurcation;
-pub mod calibration;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
@@ -35,7 +34,7 @@ use convergence_study::study::{KindRow, Study, StudyFile};
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 18] = [
+pub const KINDS: [KindRow; 17] = [
     convergence::ROW,
     any_order::ROW,
     controls::ROW,
@@ -52,7 +51,6 @@ pub const KINDS: [KindRow; 18] = [
     random_errors::ROW,
     rigid::ROW,
     work_precision::ROW,
-    calibration::ROW,
     program::ROW,
 ];
 

@@ -21,7 +21,6 @@ pub(crate) use convergence_study::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
 };
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
-pub(crate) use thermobeam::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
 pub(crate) use thermobeam::mesh::{Mesh, MeshError};
@@ -29,7 +28,8 @@ pub(crate) use thermobeam::parameters::{Beam, Obstacles};
 pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 pub(crate) use thermobeam::simulation::{Initial, Problem, Stepping};
 pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
-pub(crate) use thermobeam::vibration::Mode;
+pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
+pub(crate) use thermobeam_exact::vibration::Mode;
 
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;

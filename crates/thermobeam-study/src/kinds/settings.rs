@@ -18,7 +18,7 @@ pub const PLACES: [(&str, &str); 18] = [
     ),
     (
         "no time steps",
-        "crates/thermobeam/src/equilibrium, vibration",
+        "crates/thermobeam-exact/src/equilibrium, vibration",
     ),
     (
         "the fixed point",
@@ -47,11 +47,11 @@ pub const PLACES: [(&str, &str); 18] = [
     ("obstacles", "crates/thermobeam/src/contact.rs"),
     (
         "a graded mesh",
-        "the lengths of elements: crates/thermobeam/src/mesh.rs, assembly.rs, norms.rs",
+        "the lengths of elements: crates/thermobeam/src/mesh.rs, norms.rs",
     ),
     (
         "listed nodes",
-        "the lengths of elements: crates/thermobeam/src/mesh.rs, assembly.rs",
+        "the lengths of elements: crates/thermobeam/src/mesh.rs",
     ),
     (
         "whole scenes",

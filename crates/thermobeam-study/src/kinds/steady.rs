@@ -1,6 +1,6 @@
 //! The scenes listed in a study file, their runs to rest, and the exact steady states in which they should end.
 
-use thermobeam::equilibrium::{EquilibriumError, equilibria};
+use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
 
 use super::prelude::*;
 

@@ -3,7 +3,7 @@ use super::typed::{Runs, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, run_cases_here};
-use thermobeam::equilibrium::Phase;
+use thermobeam_exact::equilibrium::Phase;
 use thermobeam_study::kinds::equilibrium::{AtRest, EndStates, Nearest};
 
 fn study() -> EndStates {

@@ -1,6 +1,6 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind, Origin};
-use thermobeam::equilibrium::{Equilibrium, Phase};
+use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::experiment::{AtRest, Experiments, Found, Measured, Nearest, ROW};
 
 use super::file;

@@ -3,7 +3,6 @@
 mod any_order;
 mod any_order_controls;
 mod bifurcation;
-mod calibration;
 mod controls;
 mod convergence;
 mod energy;

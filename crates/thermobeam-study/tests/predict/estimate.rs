@@ -1,7 +1,7 @@
 //! `--estimate-error`: the parts of the error of a run.
 
 use thermobeam::dg::Stepping;
-use thermobeam::vibration::TimeFactor;
+use thermobeam_exact::vibration::TimeFactor;
 use thermobeam_study::predict::estimate::Source;
 use thermobeam_study::run::simulate::{Recording, Simulator};
 use thermobeam_study::scene::{Method, Scene};

@@ -7,7 +7,7 @@ mod estimate;
 
 use thermobeam::dg::Stepping;
 use thermobeam::mesh::Mesh;
-use thermobeam::vibration::Mode;
+use thermobeam_exact::vibration::Mode;
 use thermobeam_study::predict::choice::{Choice, Quantity};
 use thermobeam_study::predict::estimate::{Budget, Estimate};
 use thermobeam_study::predict::{self, Cost, MOST_WORK, Unreachable, Work};

@@ -44,7 +44,7 @@ fn slope(m: usize) -> (usize, f64) {
 }
 
 /// `∫ N_i N_j dξ`.
-pub(crate) fn mass(i: usize, j: usize) -> f64 {
+pub fn mass(i: usize, j: usize) -> f64 {
     expansion(i)
         .iter()
         .flat_map(|(k, a)| expansion(j).map(|(l, b)| a * b * product(*k, l)))
@@ -52,7 +52,7 @@ pub(crate) fn mass(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_i' N_j' dξ`: 1 for i = j >= 2.
-pub(crate) fn stiffness(i: usize, j: usize) -> f64 {
+pub fn stiffness(i: usize, j: usize) -> f64 {
     if i >= 2 || j >= 2 {
         return if i == j { 1.0 } else { 0.0 };
     }
@@ -60,7 +60,7 @@ pub(crate) fn stiffness(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_j N_i' dξ`, the same on every element.
-pub(crate) fn coupling(i: usize, j: usize) -> f64 {
+pub fn coupling(i: usize, j: usize) -> f64 {
     let (k, a) = slope(i);
     expansion(j)
         .iter()

@@ -47,7 +47,7 @@
 
 mod block;
 mod contact_event;
-pub(crate) mod element;
+pub mod element;
 mod factor;
 mod forms;
 mod legendre;

@@ -1,8 +1,8 @@
 //! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
 
 use super::scenes::{advance, graded, simulate, stepping, uniform};
+use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::norms::{max_or_nan, slope_squared};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -133,16 +133,6 @@ fn below_a_factor_of_one_the_fixed_point_converges() {
     assert!((0.9..1.0).contains(&alpha), "{alpha}");
     let mut simulation = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 4.5e-3, 1e-10);
     assert!(simulation.advance().unwrap().iterations > 100);
-}
-
-fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
-    let n = matrix.diagonal.len() - 1;
-    DMatrix::from_fn(n, n, |i, j| match (i + 1).wrapping_sub(j) {
-        2 => matrix.lower[i + 1],
-        1 => matrix.diagonal[i + 1],
-        0 => matrix.upper[i + 1],
-        _ => 0.0,
-    })
 }
 
 #[test]
@@ -352,7 +342,12 @@ fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
 /// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial force; the problem's u
 /// is both the old and the new level.
 fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DenseIteration {
-    let [m, k, c] = [mass, stiffness, coupling].map(|assemble| dense(&assemble(&problem.mesh)));
+    let P1Matrices {
+        mass: m,
+        stiffness: k,
+        coupling: c,
+        ..
+    } = P1Matrices::new(&problem.mesh);
     let Problem {
         beam,
         obstacles,

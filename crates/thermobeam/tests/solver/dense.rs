@@ -2,8 +2,8 @@
 //!
 //! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in this order.
 
+use crate::p1_matrices::over_all_nodes;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::Problem;
@@ -81,21 +81,11 @@ impl State {
     }
 }
 
-fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
-    let size = matrix.diagonal.len();
-    DMatrix::from_fn(size, size, |i, j| match (i + 1).wrapping_sub(j) {
-        2 => matrix.lower[i],
-        1 => matrix.diagonal[i],
-        0 => matrix.upper[i],
-        _ => 0.0,
-    })
-}
-
 impl Dense {
     pub(crate) fn new(problem: &Problem) -> Self {
         let (mesh, beam) = (&problem.mesh, problem.beam);
         let n = mesh.elements();
-        let [m, k, c] = [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| dense(&matrix));
+        let [m, k, c] = over_all_nodes(mesh);
         let steady =
             DVector::from_iterator(n + 1, mesh.nodes().iter().map(|x| beam.theta_a * (1.0 - x)));
         let lift = (&c * steady * beam.a).rows(1, n).into_owned();

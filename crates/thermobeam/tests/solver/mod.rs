@@ -13,7 +13,6 @@ mod linear_exact;
 mod nonlinear_exact;
 mod reference;
 mod robustness;
-mod steady;
 mod temperature;
 mod tolerance;
 mod work;

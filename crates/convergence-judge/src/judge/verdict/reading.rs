@@ -10,9 +10,9 @@ use crate::judge::fit::{
     Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
 
-/// A sequence of errors, read once and compared with any claim.
+/// A sequence of errors, read once and held against any number of claims: see [`Judge::read`](super::Judge::read).
 #[derive(Debug, Clone)]
-pub(crate) struct Reading<'a> {
+pub struct Reading<'a> {
     sequence: &'a [Level],
     /// Number of levels.
     pub(super) levels: usize,
@@ -22,7 +22,8 @@ pub(crate) struct Reading<'a> {
     range: Range<usize>,
     /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels above the floor.
     pub(super) used: Range<usize>,
-    pub(crate) fit: Option<RateInterval>,
+    /// The rate at h → 0 with its interval; `None` if the levels have none.
+    pub fit: Option<RateInterval>,
     /// What makes rates impossible to form.
     unusable: Option<Reason>,
 }

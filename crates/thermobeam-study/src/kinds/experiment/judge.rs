@@ -433,7 +433,7 @@ impl AxialForce {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use thermobeam::equilibrium::equilibria;
+    use thermobeam_exact::equilibrium::equilibria;
 
     /// The number of steady states is that of the claim, at both ends of each range and next to them.
     #[test]

@@ -1,6 +1,6 @@
 //! Damped vibrations without any source term: the only motion of this beam known in closed form.
 //!
-//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam::vibration`] are decoupled. No load keeps the solution in
+//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam_exact::vibration`] are decoupled. No load keeps the solution in
 //! place, so equal errors in the scheme and in the sources cannot cancel. `modes` isolates the error of space or time.
 
 mod modes;

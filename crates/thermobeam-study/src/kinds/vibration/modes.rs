@@ -23,7 +23,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
+use thermobeam_exact::assembly::{Tridiagonal, coupling, mass, stiffness};
 
 use super::Vibration;
 use crate::error::free_vibration::{self, piecewise_linear};
@@ -238,7 +238,7 @@ fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use thermobeam::vibration::discrete_frequencies;
+    use thermobeam_exact::vibration::discrete_frequencies;
 
     #[test]
     fn the_schemes_paths_converge_at_their_order() {

@@ -277,7 +277,7 @@ impl ExactExperiments {
         let agreement = scenes.iter().map(OfScene::difference).fold(0.0, max_or_nan);
         let tip = self.over_time(
             scenes,
-            "The free end bounces off the obstacles",
+            "the free end bounces, faster for larger β",
             plots::Axis::linear("displacement u(1, t) (dimensionless)"),
             |scene| scene.tip(),
         );
@@ -297,7 +297,7 @@ impl ExactExperiments {
         if self.compare {
             let error = self.over_time(
                 scenes,
-                "The paper's resolution: where contact begins, the error jumps",
+                "the error jumps where contact begins",
                 plots::Axis::log("error of u(1, t) (dimensionless)"),
                 |scene| scene.error_over_time(),
             );
@@ -324,12 +324,13 @@ impl ExactExperiments {
         heatings.sort_by(f64::total_cmp);
         heatings.dedup();
         let panel = |&theta_a: &f64| {
-            let shown: Vec<(&Scene, &OfScene<'_>)> = self
+            let mut shown: Vec<(&Scene, &OfScene<'_>)> = self
                 .scenes
                 .iter()
                 .zip(scenes)
                 .filter(|(scene, _)| scene.beam.theta_a == theta_a)
                 .collect();
+            shown.sort_by(|(one, _), (other, _)| one.beam.beta.total_cmp(&other.beam.beta));
             let curve = |(scene, runs): &(&Scene, &OfScene<'_>)| {
                 plots::Series::new(figures::beta_label(&scene.beam), points(runs))
             };
@@ -340,9 +341,18 @@ impl ExactExperiments {
             let curves: Vec<plots::Series> = shown.iter().map(curve).collect();
             plots::history(y.clone(), &curves)
                 .with_looks(&looks)
-                .titled(format!("{title}, θ_A = {theta_a}"))
+                .titled(format!("{}: {title}", heating(theta_a)))
         };
         heatings.iter().map(panel).collect()
+    }
+}
+
+/// The temperature of the clamped end in words.
+fn heating(theta_a: f64) -> String {
+    if theta_a == 0.0 {
+        "Without heating (θ_A = 0)".to_owned()
+    } else {
+        format!("Heated (θ_A = {theta_a})")
     }
 }
 

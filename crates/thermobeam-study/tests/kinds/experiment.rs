@@ -177,10 +177,14 @@ fn paper(change: fn(&mut PaperRun)) -> Box<dyn Fn(&mut Found)> {
 #[test]
 fn the_papers_algorithm_is_judged_beside_newtons_method() {
     let study = coarse_full_study("tolerance = 1e-7");
-    let sound = passes_but_not_without_each_case(&study);
+    let sound = run_cases_here(&study);
+    assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
     let label = "paper-1-beta-0, fixed point and Newton";
     let case = sound.iter().position(|ran| ran.case.label == label);
     let case = case.expect("a run by the paper's algorithm");
+    let mut missing = sound.clone();
+    missing.remove(case);
+    assert_eq!(study.judge(&missing).verdict, Verdict::Fail);
     for (number, plant) in [
         paper(|run| run.solvers.distance = 1e-2),
         paper(|run| run.solvers.distance = f64::NAN),

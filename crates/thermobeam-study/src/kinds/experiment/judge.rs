@@ -23,7 +23,7 @@ const REMAINS: f64 = 50.0;
 const ROUND_OFF: f64 = 1e-14;
 
 /// Share of an error that can be neglected.
-const NEGLIGIBLE: f64 = 0.1;
+const NEGLIGIBLE: f64 = 0.02;
 
 /// The β below which the paper's text claims several steady states.
 const AS_PRINTED: f64 = -0.5;

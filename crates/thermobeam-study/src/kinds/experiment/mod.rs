@@ -157,7 +157,13 @@ impl FromFile for Experiments {
         let run = root.table("run", &["t_max", "window", "rate"])?;
         let t_max = run.positive("t_max")?;
         let experiments = experiments(root, folder)?;
-        let discretisations = discretisations(root, "discretisations", None, t_max)?;
+        let ends = experiments.iter().map(|experiment| experiment.scene.t_end);
+        let t_end = ends.fold(0.0, f64::max);
+        let discretisations = discretisations(root, "discretisations", None, t_end)?;
+        let field = run.require("t_max", POSITIVE)?;
+        for Discretisation { stepping, .. } in &discretisations {
+            limits::steps_until(&field, t_max, stepping.dt, limits::STEPS)?;
+        }
         let fixed_point = root
             .section("fixed_point")?
             .map(|section| {

@@ -128,7 +128,7 @@ impl Plotted {
     /// How exact the curves are, in words.
     pub(super) fn accuracy(&self) -> Vec<String> {
         let exact = format!(
-            "Drawn by dG: the error, by a second discretisation, is at most {} of the width of the line",
+            "By dG; the error, by a second discretisation, is at most {} of the line's width",
             short_text(self.error())
         );
         let paper = self.error_of_paper().map(|error| {

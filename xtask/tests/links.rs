@@ -51,7 +51,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
             (Event::Start(Tag::Heading { .. }), _) => heading = Some(String::new()),
             (Event::Text(text) | Event::Code(text), Some(heading)) => heading.push_str(&text),
             (Event::End(TagEnd::Heading(_)), Some(_)) => {
-                found.extend(heading.take().map(|heading| anchor(&heading)))
+                found.extend(heading.take().map(|heading| anchor(&heading)));
             }
             _ => {}
         }

@@ -89,7 +89,7 @@ fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
             "--names" => choice.names = Some(list()),
             "--order" => match value.rsplit_once('=') {
                 Some((name, order)) => {
-                    orders.push((Some(name.to_owned()), order.parse().expect("an order")))
+                    orders.push((Some(name.to_owned()), order.parse().expect("an order")));
                 }
                 None => orders.push((None, value.parse().expect("an order"))),
             },

@@ -152,7 +152,7 @@ fn the_factors_of_a_step_are_those_that_the_scheme_sees() {
         );
     }
     let near = |found: f64, expected: f64| {
-        assert!((found - expected).abs() < 1e-12, "{found}, not {expected}")
+        assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
     };
     near(middle.u.value[1], 0.5 * (before + after));
     near(middle.u.rate[1], expected);

@@ -256,7 +256,7 @@ fn seconds_and_tip(
 ) -> Result<(f64, f64), CaseFailure> {
     let mut tip = f64::NAN;
     let spent = how.run(family, nodes, 1, &mut |space, level, _| {
-        tip = nodal(space, level, &[1.0]).u[0]
+        tip = nodal(space, level, &[1.0]).u[0];
     })?;
     Ok((spent.seconds, tip))
 }

@@ -60,6 +60,15 @@ impl Obstacles {
         self.depth(u) / self.epsilon
     }
 
+    /// Slope of the contact force over u(1) while the free end is in contact: 1/ε, or half of it for the discrete gradient, in
+    /// which u at the old level has the other half.
+    pub(crate) fn slope(&self, rule: ContactRule) -> f64 {
+        match rule {
+            ContactRule::Implicit => 1.0 / self.epsilon,
+            ContactRule::DiscreteGradient => 0.5 / self.epsilon,
+        }
+    }
+
     /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε if viscosity is negligible (ζ < ε).
     ///
     /// The penetration is largest at 1.65 t*; contact lasts longer, for every ε. `THEORY.md`, "Penetration of an impact";

@@ -17,7 +17,7 @@
 
 pub use crate::error::Loop;
 use crate::norms::{l2_squared, slope_squared};
-use crate::scheme::{Case, ContactRule};
+use crate::scheme::Case;
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Largest number of power iterations, and the relative change of the quotient at which they stop.
@@ -55,10 +55,7 @@ impl Case {
         let Some(obstacles) = &self.obstacles else {
             return 0.0;
         };
-        let slope = match self.scheme.contact {
-            ContactRule::Implicit => 1.0 / obstacles.epsilon,
-            ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
-        };
+        let slope = obstacles.slope(self.scheme.contact);
         self.matrix_of_u(n_value).map_or(f64::INFINITY, |of_u| {
             self.dt * slope * of_u.factor.last_of_inverse()
         })

@@ -48,55 +48,15 @@ impl Ensemble {
         scheme: Scheme,
         settings: Settings,
     ) -> Result<Self, SetupError> {
-        if dt.len() != problems.len() {
-            return Err(SetupError::Length {
-                field: "dt",
-                found: dt.len(),
-                expected: problems.len(),
-            });
-        }
-        let Some(first) = problems.first() else {
-            return Err(SetupError::Length {
-                field: "problems",
-                found: 0,
-                expected: 1,
-            });
-        };
-        let nodes = first.mesh.nodes().len();
-        let mut starts = vec![];
-        for (problem, &dt) in problems.iter_mut().zip(dt) {
-            let level = prepare(
-                problem,
-                &Stepping {
-                    scheme,
-                    settings,
-                    dt,
-                    loaded: false,
-                },
-            )?;
-            if level.u.len() != nodes {
-                return Err(SetupError::Length {
-                    field: "nodes",
-                    found: level.u.len(),
-                    expected: nodes,
-                });
-            }
-            starts.push((problem.case(scheme, dt), level));
-        }
+        let starts = starts(&mut problems, dt, scheme, settings)?;
         let heated: Vec<bool> = starts
             .iter()
             .map(|(case, level)| is_heated(&case.beam, level))
             .collect();
-        let group = |(starts, heated): (&[(Case, Level)], &[bool])| {
-            let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
-            let cases = lanes().map(|(case, _)| case.clone()).collect();
-            let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
-            newton(cases, settings, &levels, heated.contains(&true))
-        };
         let groups: Vec<_> = starts
             .chunks(WIDTH)
             .zip(heated.chunks(WIDTH))
-            .map(group)
+            .map(|(starts, heated)| group(starts, heated.contains(&true), settings))
             .collect();
         let outcomes = vec![
             Err(StepFailure::NonFinite {
@@ -204,4 +164,58 @@ impl Ensemble {
     pub fn is_heated(&self, k: usize) -> bool {
         self.heated[k]
     }
+}
+
+/// Each case with its first level; all have the same number of nodes.
+fn starts(
+    problems: &mut [Problem],
+    dt: &[f64],
+    scheme: Scheme,
+    settings: Settings,
+) -> Result<Vec<(Case, Level)>, SetupError> {
+    let check_length = |field, found, expected| {
+        if found == expected {
+            Ok(())
+        } else {
+            Err(SetupError::Length {
+                field,
+                found,
+                expected,
+            })
+        }
+    };
+    check_length("dt", dt.len(), problems.len())?;
+    let Some(first) = problems.first() else {
+        return Err(SetupError::Length {
+            field: "problems",
+            found: 0,
+            expected: 1,
+        });
+    };
+    let nodes = first.mesh.nodes().len();
+    let mut starts = vec![];
+    for (problem, &dt) in problems.iter_mut().zip(dt) {
+        let stepping = Stepping {
+            scheme,
+            settings,
+            dt,
+            loaded: false,
+        };
+        let level = prepare(problem, &stepping)?;
+        check_length("nodes", level.u.len(), nodes)?;
+        starts.push((problem.case(scheme, dt), level));
+    }
+    Ok(starts)
+}
+
+/// The solver of up to [`WIDTH`] cases; unused lanes repeat the last one.
+fn group(
+    starts: &[(Case, Level)],
+    is_heated: bool,
+    settings: Settings,
+) -> Box<dyn Batch<Lanes<WIDTH>>> {
+    let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
+    let cases = lanes().map(|(case, _)| case.clone()).collect();
+    let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
+    newton(cases, settings, &levels, is_heated)
 }

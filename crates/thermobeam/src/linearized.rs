@@ -16,7 +16,7 @@
 
 use crate::contraction::{Operator, coupling, stiffness_times, transposed_coupling};
 use crate::norms::slope_squared;
-use crate::scheme::{Case, ContactRule};
+use crate::scheme::Case;
 
 /// The linear map of the errors (δV, δW) of one iterate to those of the next.
 pub struct LinearizedIteration {
@@ -62,10 +62,7 @@ impl Case {
             None
         };
         let touched = obstacles.filter(|obstacles| obstacles.force(u[n]) != 0.0);
-        let slope = touched.map_or(0.0, |obstacles| match scheme.contact {
-            ContactRule::Implicit => 1.0 / obstacles.epsilon,
-            ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
-        });
+        let slope = touched.map_or(0.0, |obstacles| obstacles.slope(scheme.contact));
         Some(LinearizedIteration {
             of_u: Operator::new(n, lengths, kappa, sigma + 0.5 * dt * axial_force)?,
             of_phi: Operator::new(n, lengths, kappa + sigma, sigma)?,

@@ -207,9 +207,9 @@ fn solve_exponent(tail: &[Level], contraction: f64) -> Option<f64> {
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
         if excess(middle) > 0.0 {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     Some(0.5 * (low + high))

@@ -59,7 +59,7 @@ pub(super) fn run(
         screen::tell(&format!(
             "note: no picture {}/{file}",
             visible::path(&beside.join(FIGURES))
-        ))
+        ));
     });
     let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
     let words = flags.words(verdict, &sentence, whole);

@@ -12,7 +12,7 @@ use super::exit::Unusable;
 use super::{exit, screen};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::run::{self, Progress, Spent};
+use crate::run::{self, Progress};
 use crate::store::Provenance;
 use crate::study::Study;
 
@@ -126,12 +126,6 @@ pub(super) fn watched<T>(
 
 fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
-}
-
-/// How many results an earlier run computed; `None` for zero.
-pub fn kept(spent: &Spent) -> Option<String> {
-    let Spent { cases, kept, .. } = spent;
-    (*kept > 0).then(|| format!("{kept} of {cases} cases kept from an earlier run"))
 }
 
 fn sentence(done: &[String], count: usize) -> String {

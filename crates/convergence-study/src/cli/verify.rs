@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
-use super::running::{Limits, kept, watched};
+use super::running::{Limits, watched};
 use super::screen::{self, Format};
 use super::{github, workspace};
 use crate::judge::verdict::Verdict;
@@ -79,7 +79,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
         scope => scope,
     };
-    let mut studies: Vec<Box<dyn Study>> = all
+    let studies: Vec<Box<dyn Study>> = all
         .into_iter()
         .zip(meant)
         .filter(|(_, meant)| *meant)
@@ -93,10 +93,6 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         only,
         ..
     } = arguments;
-    if *bless {
-        // Blessed numbers must come from the programs as they are now.
-        studies.iter_mut().for_each(|study| study.compute_anew());
-    }
     let flags = &arguments.flags;
     let effort = Effort {
         fail_fast: arguments.fail_fast,
@@ -337,9 +333,6 @@ fn overview(
         };
         let rows: Vec<Vec<String>> = slowest.iter().take(SLOWEST).map(row).collect();
         text += &(screen::table(&["seconds", "slowest studies"], &rows) + "\n");
-    }
-    for Finished { header, spent, .. } in &found.record.studies {
-        text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
     }
     // As seen from the workspace.
     text += &screen::report_in(

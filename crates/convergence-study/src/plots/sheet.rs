@@ -250,7 +250,7 @@ impl Page {
             let x = left + (k % columns) as f64 * column_width;
             let y = top + ((k / columns) as f64 + 0.5) * ROW_HEIGHT;
             canvas.group(&canvas::entry(&entry.label), |canvas| {
-                draw_entry(canvas, entry, (x, y), column_width)
+                draw_entry(canvas, entry, (x, y), column_width);
             });
         }
     }
@@ -436,7 +436,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, width: f64) {
             if width > 0.0 {
                 let ends = [(x, y), (x + SWATCH_WIDTH, y)];
                 canvas.draw(Layer::default().dashed(look.dash), |pen| {
-                    pen.line(&ends, look.colour, width)
+                    pen.line(&ends, look.colour, width);
                 });
             }
             canvas.draw(Layer::default(), |pen| {

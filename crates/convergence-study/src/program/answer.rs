@@ -29,9 +29,6 @@ pub struct Answer {
     /// Why the case has failed nevertheless: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,
-    /// Whether an earlier run computed it.
-    #[serde(skip)]
-    pub kept: bool,
 }
 
 /// A table `[[expect]]`: a number that every answer must contain, and the claim about it.

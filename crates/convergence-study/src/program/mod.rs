@@ -2,13 +2,13 @@
 //!
 //! A case is one resolution. The program is started with it, without a shell. Its answer is the last line of its standard output that is a
 //! JSON object: errors by name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a
-//! one-line reason; none of its processes outlives it. Answers may be kept, by content.
+//! one-line reason; none of its processes outlives it.
 //!
 //! | file | holds |
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
-//! | `answer.rs`, `kept.rs` | its answer; kept answers |
+//! | `answer.rs` | its answer |
 //! | `judge.rs` | from answers to an outcome: errors, and values without an exact solution |
 
 mod answer;
@@ -16,7 +16,6 @@ mod command;
 mod file;
 pub mod guard;
 mod judge;
-mod kept;
 mod output;
 mod refine;
 
@@ -32,7 +31,6 @@ use crate::study::{
 };
 use answer::Expectation;
 use command::{Invocation, filled};
-use kept::Store;
 use refine::Refine;
 
 pub use answer::Answer;
@@ -61,7 +59,7 @@ pub const TEMPLATE: Template = Template {
         (".toml", include_str!("begin/study.toml")),
         (".py", include_str!("begin/program.py")),
     ],
-    ignored: "# Results that are kept, and reports that are made anew.\n.convergence-study/\n/report/\n/reports/local/\n",
+    ignored: "# Reports that are made anew.\n/report/\n/reports/local/\n",
     next: &["study", "explain"],
 };
 
@@ -81,10 +79,6 @@ pub struct Program {
     directory: PathBuf,
     /// The time limit of a case.
     timeout: Duration,
-    /// The place of kept results, if results are kept.
-    store: Option<Store>,
-    /// Whether to ignore results of earlier runs.
-    anew: bool,
     refine: Refine,
     expect: Vec<Expectation>,
 }
@@ -152,44 +146,11 @@ impl Kind for Program {
     fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
         let invocation = self.invocation(case);
         let started = Instant::now();
-        let run = || {
-            let answer = invocation.run(&self.expect)?;
-            Ok::<_, CaseFailure>(Answer {
-                seconds: started.elapsed().as_secs_f64(),
-                ..answer
-            })
-        };
-        let Some(store) = &self.store else {
-            return run();
-        };
-        let key = store.key(&invocation)?;
-        // A result kept for other expectations may lack a number expected now.
-        let kept = if self.anew { None } else { store.get(&key) };
-        let kept = kept.filter(|answer| {
-            self.expect
-                .iter()
-                .all(|expected| answer.require(expected).is_ok())
-        });
-        if let Some(answer) = kept {
-            return Ok(Answer {
-                kept: true,
-                ..answer
-            });
-        }
-        let answer = run()?;
-        if answer.failure.is_none() {
-            // If a result cannot be kept, the next run takes longer; this one still has its result.
-            let _ = store.put(&key, &invocation, &answer);
-        }
-        Ok(answer)
-    }
-
-    fn is_kept(&self, answer: &Answer) -> bool {
-        answer.kept
-    }
-
-    fn compute_anew(&mut self) {
-        self.anew = true;
+        let answer = invocation.run(&self.expect)?;
+        Ok(Answer {
+            seconds: started.elapsed().as_secs_f64(),
+            ..answer
+        })
     }
 
     fn failure(&self, answer: &Answer) -> Option<CaseFailure> {
@@ -231,13 +192,8 @@ impl Kind for Program {
             }
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
-        let kept = if self.store.is_some() {
-            " Results are kept while command and files are unchanged."
-        } else {
-            ""
-        };
         let run = format!(
-            "{}, for at most {} s a case.{kept}",
+            "{}, for at most {} s a case.",
             self.words.join(" "),
             self.timeout.as_secs_f64()
         );

@@ -22,7 +22,7 @@ pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, Strin
         match answer::object(line) {
             // It may be the answer, and then no earlier object is.
             Some(_) if !is_whole => {
-                (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()))
+                (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()));
             }
             Some(Ok(found)) => (object, near_miss) = (Some(found), None),
             Some(Err((reason, is_answer))) => {

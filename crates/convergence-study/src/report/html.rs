@@ -49,7 +49,7 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                 ]);
             }
             Event::End(TagEnd::Table) => {
-                kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())])
+                kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())]);
             }
             Event::Html(text) if is_own(&text) => {
                 title = without_own_tags(&text).trim().to_owned();

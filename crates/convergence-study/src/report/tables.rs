@@ -160,7 +160,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
         let width = |columns: &[Column]| columns.iter().map(Column::width).sum::<usize>();
         match tables.last_mut() {
             Some(last) if width(last) + column.width() <= room && last[0].rows_like(&column) => {
-                last.push(column)
+                last.push(column);
             }
             _ => tables.push(vec![column]),
         }

@@ -4,6 +4,7 @@ use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
+use crate::study::coverage::incomplete;
 use crate::study::levels;
 use crate::study::outcome::Outcome;
 use crate::text::lists::{self, and_more};
@@ -136,12 +137,14 @@ pub fn can_be_blessed(finished: &[Finished]) -> bool {
         .all(|finished| finished.outcome.verdict == Verdict::Pass)
 }
 
-/// The numbers to read first: the study's own, or the rate that decides against its order; then the failures.
+/// The numbers to read first: the study's own, or the rate that decides against its order; then the failures, and how much was
+/// not judged.
 pub fn key_numbers(outcome: &Outcome) -> String {
     let Outcome {
         headline,
         rates,
         checks,
+        coverage,
         ..
     } = outcome;
     let mut parts = if headline.is_empty() {
@@ -157,11 +160,14 @@ pub fn key_numbers(outcome: &Outcome) -> String {
         checks.iter().map(|check| check.verdict),
         "checks",
     ));
-    match (parts.is_empty(), checks.len()) {
-        (true, 0) => "nothing judged".to_owned(),
-        (true, n) => format!("all {n} checks pass"),
-        (false, _) => parts.join("; "),
+    if parts.is_empty() {
+        parts.push(match checks.len() {
+            0 => "nothing judged".to_owned(),
+            n => format!("all {n} checks pass"),
+        });
     }
+    parts.extend(incomplete(coverage));
+    parts.join("; ")
 }
 
 /// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a table has each of them.

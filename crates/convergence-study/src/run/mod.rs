@@ -71,8 +71,6 @@ pub struct Spent {
     pub wall: Duration,
     /// The number of its cases.
     pub cases: usize,
-    /// How many of them were not computed: their results come from an earlier run.
-    pub kept: usize,
 }
 
 /// Why nothing was run.
@@ -343,7 +341,6 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
                 done.into_iter()
                     .map(|done| (cases[done.case].label.clone(), done.work)),
             );
-            spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }
         Err(reason) => broken("list its cases", reason),

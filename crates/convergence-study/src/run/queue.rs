@@ -92,7 +92,6 @@ pub(super) fn spent(done: &[Done]) -> Spent {
         busy,
         wall,
         cases: done.len(),
-        kept: 0,
     }
 }
 

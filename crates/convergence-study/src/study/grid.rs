@@ -88,7 +88,7 @@ impl Grid {
                 })),
                 // Readers of study files have already refused such a tolerance.
                 Err(error) => {
-                    checks.extend(names.map(|name| Check::that(false, name, error.to_string())))
+                    checks.extend(names.map(|name| Check::that(false, name, error.to_string())));
                 }
             }
             checks.push(self.judge_model(&column.name, misfits));

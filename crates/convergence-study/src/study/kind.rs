@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use super::coverage::{Coverage, NO_RESULT};
 use super::header::Header;
 use super::outcome::{Check, Origin, Outcome};
 use crate::text::lists::{and_more, grouped};
@@ -118,18 +119,10 @@ pub trait Kind: Send + Sync {
     /// Computes one case: the same result on every thread, at every time.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Why a result counts as a failed case although part of it is kept: a required number is missing. `None` for a complete one.
+    /// Why a result counts as a failed case although part of it counts: a required number is missing. `None` for a complete one.
     fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
         None
     }
-
-    /// Whether a result was not computed but kept from an earlier run.
-    fn is_kept(&self, _found: &Self::Found) -> bool {
-        false
-    }
-
-    /// From now on every case is computed, ignoring results kept from earlier runs.
-    fn compute_anew(&mut self) {}
 
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
@@ -165,6 +158,19 @@ pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
         ran.push(run(case));
     }
     ran
+}
+
+/// Judges the results of a study, and counts its cases in addition to what its kind counts.
+///
+/// * `ran`: one result for each case, in the order of [`Kind::cases`].
+pub fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
+    // A result counts as a failed case where part of it is missing.
+    let is_complete = |found: &K::Found| kind.failure(found).is_none();
+    let left_out = |ran: &Ran<_, _>| (!ran.ok().is_some_and(is_complete)).then_some(NO_RESULT);
+    let mut outcome = kind.judge(ran);
+    let cases = Coverage::of("cases", ran.iter().map(left_out));
+    outcome.coverage.push(cases);
+    outcome
 }
 
 /// The claim of the check of [`completion`].
@@ -229,9 +235,6 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
-
-    /// From now on every case is computed, ignoring results kept from earlier runs.
-    fn compute_anew(&mut self);
 }
 
 /// The cases of a study while they are run.
@@ -250,9 +253,6 @@ pub trait Plan: Send + Sync {
 
     /// Why case number `index` has no result; `None` if it has one.
     fn failure(&self, index: usize) -> Option<CaseFailure>;
-
-    /// Whether the result of case number `index` was kept from an earlier run.
-    fn is_kept(&self, index: usize) -> bool;
 
     /// Judges the results after each case has run.
     fn judge(&self) -> Outcome;
@@ -303,10 +303,6 @@ impl<K: Kind> Study for Described<K> {
 
     fn untested(&self) -> Vec<Untested> {
         self.kind.untested()
-    }
-
-    fn compute_anew(&mut self) {
-        self.kind.compute_anew();
     }
 }
 
@@ -359,14 +355,8 @@ impl<K: Kind> Plan for Typed<'_, K> {
         }
     }
 
-    fn is_kept(&self, index: usize) -> bool {
-        self.ran()[index]
-            .ok()
-            .is_some_and(|found| self.kind.is_kept(found))
-    }
-
     fn judge(&self) -> Outcome {
-        self.kind.judge(&self.ran())
+        judge(self.kind, &self.ran())
     }
 }
 

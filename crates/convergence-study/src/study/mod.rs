@@ -4,6 +4,7 @@
 //! order) and how their results become an [`Outcome`]: checks with verdicts, rates, tables, figures, and the numbers
 //! that the baseline guards. Only the runner uses threads, and only the report writes Markdown.
 
+pub mod coverage;
 mod errors_over_levels;
 #[cfg(feature = "files")]
 mod file;
@@ -15,6 +16,7 @@ pub mod outcome;
 pub mod readings;
 pub mod until_decided;
 
+pub use coverage::Coverage;
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};

@@ -5,6 +5,7 @@
 
 use std::collections::HashSet;
 
+use super::coverage::{self, Coverage};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::json;
@@ -26,6 +27,9 @@ pub struct Outcome {
     pub rates: Vec<(String, RateVerdict)>,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
+    /// How many items of each sort were judged, and why not the others; empty in older records.
+    #[serde(default)]
+    pub coverage: Vec<Coverage>,
     /// Tables of the report.
     #[serde(default)]
     pub tables: Vec<Table>,
@@ -281,6 +285,7 @@ impl Outcome {
             levels: vec![],
             rates,
             checks,
+            coverage: vec![],
             tables: vec![],
             figures: vec![],
             quantities: vec![],
@@ -293,6 +298,7 @@ impl Outcome {
         self.levels.extend(part.levels);
         self.rates.extend(part.rates);
         self.checks.extend(part.checks);
+        coverage::merge(&mut self.coverage, part.coverage);
         self.tables.extend(part.tables);
         self.figures.extend(part.figures);
         self.quantities.extend(part.quantities);
@@ -338,7 +344,8 @@ impl Outcome {
     }
 }
 
-/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a failing check if it does not meet the requirements.
+/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a failing check if it does not
+/// meet the requirements. Its summary says how many items were not judged, if any.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     outcome
         .figures
@@ -360,6 +367,9 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
         outcome.summary = joined(&outcome.summary, "nothing was judged");
     } else if outcome.verdict != claimed {
         outcome.summary = joined(&outcome.summary, "but a rate or a check does not pass");
+    }
+    for left_out in coverage::incomplete(&outcome.coverage) {
+        outcome.summary = joined(&outcome.summary, &left_out);
     }
     outcome
 }
@@ -408,6 +418,15 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
             "the figure `{}` is not called {id}-<what>.svg",
             figure.file
         ));
+    }
+    defects.extend(twice(
+        "the count of",
+        outcome.coverage.iter().map(|coverage| &coverage.items),
+    ));
+    for coverage in &outcome.coverage {
+        if !coverage.adds_up() {
+            defects.push(format!("the counts of `{}` do not add up", coverage.items));
+        }
     }
     for table in &outcome.tables {
         if table.rows.iter().any(|row| row.len() != table.head.len()) {
@@ -512,6 +531,23 @@ mod tests {
     }
 
     #[test]
+    fn a_summary_says_how_many_items_were_not_judged() {
+        let summary = |reasons: &[Option<&str>]| {
+            let coverage = vec![Coverage::of("points", reasons.iter().copied())];
+            let outcome = Outcome {
+                coverage,
+                ..passing()
+            };
+            settle("id", outcome).summary
+        };
+        assert_eq!(
+            summary(&[None, Some("short")]),
+            "fine; 1 of 2 points judged; 1 not: short"
+        );
+        assert_eq!(summary(&[None, None]), "fine");
+    }
+
+    #[test]
     fn every_defect_of_an_outcome_fails_and_is_named() {
         let quantity = |value| Quantity {
             name: "q".into(),
@@ -550,6 +586,15 @@ mod tests {
                 ..passing()
             },
             "ragged",
+        );
+        let mut twice_judged = Coverage::of("points", [None, Some("short")]);
+        twice_judged.judged = 2;
+        refused(
+            Outcome {
+                coverage: vec![twice_judged],
+                ..passing()
+            },
+            "the counts of `points` do not add up",
         );
         let mut nan = passing();
         nan.rates[0].1.fitted = Some(f64::NAN);

@@ -175,7 +175,7 @@ impl Node {
         match self {
             Node::Constant(_) | Node::Variable => (),
             Node::Negate(operand) | Node::ConstantPower(operand, _) => {
-                operand.push_branches(x, branches)
+                operand.push_branches(x, branches);
             }
             Node::Call1(function, argument) => {
                 if *function == Function::Abs {

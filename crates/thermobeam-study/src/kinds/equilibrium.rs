@@ -184,7 +184,15 @@ impl Kind for EndStates {
             "{} long runs end at most {worst:.1e} from an exact steady state",
             scenes.len()
         );
+        let straight = |ends: &Ends<'_>| {
+            ends.is_straight()
+                .then_some("straight, so that the mesh causes no error")
+        };
         Outcome {
+            coverage: vec![Coverage::of(
+                "ends for the order",
+                scenes.iter().map(straight),
+            )],
             levels: self.levels(scenes.iter()).errors(),
             tables: vec![readings::table(title, &["scene"], &rows)],
             figures: vec![figure],

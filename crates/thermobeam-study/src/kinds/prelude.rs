@@ -9,12 +9,13 @@ pub(crate) use convergence_study::judge::verdict::{Judge, RateVerdict, Verdict};
 pub(crate) use convergence_study::plots;
 pub(crate) use convergence_study::plots::xy::Xy;
 pub(crate) use convergence_study::run::time_limit::Patience;
+pub(crate) use convergence_study::study::coverage::NO_RESULT;
 pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
-    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow,
-    Origin, Outcome, Quantity, Ran, Reading, Refinement, Study, Table, Untested, read_claim,
-    reader, readings,
+    Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
+    KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Study, Table, Untested,
+    read_claim, reader, readings,
 };
 pub(crate) use convergence_study::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
@@ -41,6 +42,11 @@ pub(crate) use crate::run::family::{Family, OnMesh};
 pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator, driver};
 pub(crate) use crate::run::{Motion, RunError, Sample};
 pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
+
+/// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect result.
+pub(crate) fn largest_of(numbers: impl IntoIterator<Item = f64>) -> Option<f64> {
+    numbers.into_iter().reduce(max_or_nan)
+}
 
 /// Whether each value is larger than its predecessor.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {

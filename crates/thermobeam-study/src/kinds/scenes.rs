@@ -355,17 +355,12 @@ impl Kind for Scenes {
         );
         checks.push(alike_in_lanes(&found));
         let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
-        let strain = answered
-            .map(|(whole, shown)| whole.farthest(shown).1 / whole.within)
-            .fold(0.0, max_or_nan);
-        let distance =
-            format!(", at most {strain:.2} of the distance allowed to an independent answer");
-        let any_answer = self.scenes.iter().any(|whole| !whole.answer.is_empty());
-        let headline = format!(
-            "{} scenes{}",
-            found.len(),
-            if any_answer { &distance } else { "" }
-        );
+        let strain =
+            largest_of(answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within));
+        let distance = strain.map_or(String::new(), |strain| {
+            format!(", at most {strain:.2} of the distance allowed to an independent answer")
+        });
+        let headline = format!("{} scenes{distance}", found.len());
         let head = [
             "scene",
             "scheme",
@@ -385,9 +380,33 @@ impl Kind for Scenes {
                 &rows,
             )],
             quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
+            coverage: self.coverage(ran),
             headline: headline.clone(),
             ..Outcome::new(headline, vec![], checks)
         }
+    }
+}
+
+impl Scenes {
+    /// The scenes that are compared with an answer, and with themselves in lanes.
+    fn coverage(&self, ran: &[Ran<usize, Shown>]) -> Vec<Coverage> {
+        let count = |items: &str, reason: fn(&Whole, &Shown) -> Option<&'static str>| {
+            let of_scene = |ran: &Ran<usize, Shown>| match ran.ok() {
+                Some(shown) => reason(&self.scenes[ran.case.data], shown),
+                None => Some(NO_RESULT),
+            };
+            Coverage::of(items, ran.iter().map(of_scene))
+        };
+        vec![
+            count("scenes against an answer", |whole, _| {
+                let unknown = whole.answer.is_empty();
+                unknown.then_some("with bounds or an end only")
+            }),
+            count("scenes in lanes", |_, shown| {
+                let alone = shown.alike_in_lanes.is_none();
+                alone.then_some("without a scheme that runs in lanes")
+            }),
+        ]
     }
 }
 

@@ -90,9 +90,9 @@ impl Datum {
             }
             let middle = 0.5 * (from + to);
             if change(from, middle) > change(middle, to) {
-                to = middle
+                to = middle;
             } else {
-                from = middle
+                from = middle;
             }
         }
         let stays = change(from, to);

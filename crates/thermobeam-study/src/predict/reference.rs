@@ -105,8 +105,6 @@ pub struct Reference {
     pub run: Cost,
     /// The finer space of the last comparison, in words.
     pub finer_space: String,
-    /// Whether the initial data have features so narrow that they took nodes of their own.
-    pub(super) is_narrow: bool,
 }
 
 impl Reference {
@@ -137,11 +135,10 @@ pub(super) fn reference(
     let first = start
         .cloned()
         .unwrap_or_else(|| first(scene, wanted, &data.kept));
-    let (first, is_narrow) = data.resolve(first, wanted)?;
+    let (first, _) = data.resolve(first, wanted)?;
     let mut search = Search {
         wanted,
         data,
-        is_narrow,
         work,
         last: 0.0,
         best: [f64::INFINITY; 2],
@@ -176,7 +173,6 @@ struct Compared {
 struct Search<'s, 'w> {
     wanted: &'s Wanted,
     data: Data,
-    is_narrow: bool,
     work: &'s mut Work<'w>,
     /// Work of the last run.
     last: f64,
@@ -247,7 +243,6 @@ impl Search<'_, '_> {
             time: [compared.time.most() * self.wanted.tolerance[0]; 3],
             end: 0.0,
             run: base.cost,
-            is_narrow: self.is_narrow,
         };
         if !matches!(self.wanted.rows, Rows::Norm(_)) {
             for k in 0..base.width {

@@ -61,7 +61,7 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) 
     let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
     match (place("dt"), place("t_end")) {
         (Some(place), _) => {
-            drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0)
+            drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0);
         }
         (None, Some(place)) => drawn[place] = dt * (drawn[place] / dt).round().max(1.0),
         (None, None) => {}

@@ -211,7 +211,7 @@ impl Bench {
                 let scene = Scene::read(&path).map_err(|error| said(&error))?;
                 match scene.method {
                     Method::OneStep(_) => {
-                        drop(Simulator::new(&scene).map_err(|error| refused(&error))?)
+                        drop(Simulator::new(&scene).map_err(|error| refused(&error))?);
                     }
                     Method::Dg(stepping) => {
                         drop(
@@ -237,7 +237,7 @@ impl Bench {
                 let table = RateTable::read_with(&path, &Choice::default())
                     .map_err(|error| said(&error))?;
                 table.columns.iter().for_each(|column| {
-                    drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05)))
+                    drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05)));
                 });
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),

@@ -5,7 +5,7 @@ use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors};
 
 use super::refused::refusal;
 use super::text;
-use super::typed::{changed, passes_but_not_without_each_case};
+use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
 
 /// Two scenes of the file and a rough one; for one of them linear elements are compared too.
 fn study() -> RandomErrors {
@@ -55,7 +55,7 @@ fn a_part_of_the_file_passes_and_each_check_can_fail() {
         let refuse = |reason: &str| {
             let refused = vec![reason.to_owned()];
             verdict(&|found| {
-                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused)
+                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused);
             })
         };
         assert_eq!(refuse("given up"), Verdict::Fail);
@@ -66,6 +66,10 @@ fn a_part_of_the_file_passes_and_each_check_can_fail() {
         };
         assert_eq!(refuse("meshes do not resolve u"), expected);
     }
+    let items = ["searches", "refused with a reason"];
+    leaves_one_out(&study, &sound, 0, items, |found| {
+        found.refused = vec!["given up".to_owned()];
+    });
     assert_eq!(
         verdict(&|found| found.linear = None),
         Verdict::Fail,

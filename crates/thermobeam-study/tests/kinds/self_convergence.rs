@@ -216,7 +216,7 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
     let planted = changed::<SelfConvergence>(&sound, |case, found| {
-        found.tip_range[1] += 0.1 * case as f64
+        found.tip_range[1] += 0.1 * case as f64;
     });
     assert_eq!(study.judge(&planted).verdict, Verdict::Pass);
 }

@@ -4,6 +4,7 @@ use super::file;
 use super::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
+use convergence_study::study::kind::judge;
 use convergence_study::study::outcome::Outcome;
 use convergence_study::study::outcome::settle;
 use convergence_study::study::{CaseFailure, FromFile, Kind, Ran, run_cases_here};
@@ -35,7 +36,7 @@ fn failed(outcome: &Outcome) -> Vec<&str> {
 #[test]
 fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
     let study = quick();
-    let outcome = study.judge(&passes_but_not_without_each_case(&study));
+    let outcome = judge(&study, &passes_but_not_without_each_case(&study));
     assert!(
         outcome
             .checks

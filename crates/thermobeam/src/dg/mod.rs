@@ -20,7 +20,7 @@
 //! # The modules
 //!
 //! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
-//! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
+//! `factor`: their matrix and its elimination. `stages`: a step of given length. `phase`, `contact_event`, `lengths`: where steps end.
 //! `problem`, `simulation`, `observe`: the interface for users, with the balance of the energy.
 //!
 //! ```
@@ -54,6 +54,7 @@ mod legendre;
 mod lengths;
 mod observe;
 mod operator;
+mod phase;
 mod problem;
 mod residual;
 mod simulation;

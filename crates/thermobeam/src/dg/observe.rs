@@ -9,7 +9,8 @@
 //!
 //! with the energy of [`crate::energy`]. The balance also holds for a step that ends on an obstacle, to round-off.
 
-use super::simulation::{Simulation, TIP_SLACK};
+use super::phase::TIP_SLACK;
+use super::simulation::Simulation;
 use super::{Field, Level};
 use crate::energy::{Balance, Energy};
 use crate::norms::max_or_nan;

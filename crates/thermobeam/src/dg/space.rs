@@ -372,7 +372,7 @@ mod tests {
         for field in [Field::U, Field::W] {
             let mut coefficients = vec![[0.0; 3]; space.blocks()];
             space.project(field, polynomial, |_, block, place, value| {
-                coefficients[block][place] = value
+                coefficients[block][place] = value;
             });
             for i in 0..=50 {
                 let x = f64::from(i) / 50.0;

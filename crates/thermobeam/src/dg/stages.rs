@@ -233,6 +233,36 @@ fn transform<const S: usize>(columns: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] 
     sum
 }
 
+/// An iteration that has just been done.
+struct Iteration {
+    number: usize,
+    increment: f64,
+    /// The ratio of this increment to the one before; NaN at the first.
+    contraction: f64,
+}
+
+impl Iteration {
+    /// * `size`: of the solution, in the norm of the increments.
+    fn has_converged(&self, tolerance: f64, size: f64) -> bool {
+        let Self {
+            number,
+            increment,
+            contraction,
+        } = *self;
+        // Once their ratio is known, the sum of the remaining increments is at most this.
+        let rest = if contraction < 0.5 {
+            increment * contraction / (1.0 - contraction)
+        } else {
+            increment
+        };
+        let is_known = number > 1 && rest <= tolerance;
+        // Round-off: further iterations change only the last digits.
+        let is_stagnant =
+            increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
+        increment <= tolerance || is_known || is_stagnant
+    }
+}
+
 impl<const S: usize> Stages for DgStepper<S> {
     fn guess_constant(&mut self, level: &Level) {
         for (x, rates) in self.trial.x.iter_mut().zip(&level.rates) {
@@ -303,17 +333,12 @@ impl<const S: usize> Stages for DgStepper<S> {
                 });
             }
             contraction = increment / previous;
-            // Once their ratio is known, the sum of the remaining increments is at most this.
-            let rest = if contraction < 0.5 {
-                increment * contraction / (1.0 - contraction)
-            } else {
-                increment
+            let last = Iteration {
+                number: iteration,
+                increment,
+                contraction,
             };
-            let known = iteration > 1 && rest <= by.tolerance;
-            // Round-off: further iterations change only the last digits.
-            let stagnant = increment <= FLOOR * size
-                || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
-            if increment <= by.tolerance || known || stagnant {
+            if last.has_converged(by.tolerance, size) {
                 task.displace(&self.trial.x, &mut self.trial.terms);
                 return Ok(iteration);
             }

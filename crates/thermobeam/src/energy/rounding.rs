@@ -196,7 +196,7 @@ mod tests {
             of(there)
         };
         let near = |found: f64, expected: f64| {
-            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}")
+            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
         };
         let end = |value: f64| vec![0.0, value];
         // 1 + |β| + ρ ‖u_x‖² = 20.

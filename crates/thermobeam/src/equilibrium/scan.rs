@@ -289,9 +289,9 @@ mod tests {
             while right - left > 1e-9 {
                 let (c, d) = (left + (right - left) / 3.0, right - (right - left) / 3.0);
                 if without_beta(c) < without_beta(d) {
-                    left = c
+                    left = c;
                 } else {
-                    right = d
+                    right = d;
                 }
             }
             let (s, beta) = (left, without_beta(left));

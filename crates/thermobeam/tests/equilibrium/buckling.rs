@@ -98,9 +98,9 @@ fn two_states_merge_in_a_fold_and_vanish() {
     while one - three > 1e-14 * one {
         let middle = 0.5 * (three + one);
         if count(middle) == 1 {
-            one = middle
+            one = middle;
         } else {
-            three = middle
+            three = middle;
         }
     }
     assert_eq!(

@@ -69,9 +69,9 @@ fn blind_scan(beam: &Beam, obstacles: &Obstacles, largest: f64) -> Vec<(Phase, f
             for _ in 0..60 {
                 let middle = 0.5 * (lo + hi);
                 if (f(middle) > 0.0) == (f(lo) > 0.0) {
-                    lo = middle
+                    lo = middle;
                 } else {
-                    hi = middle
+                    hi = middle;
                 }
             }
             let (_, c, tip) = textbook(beam, support, lo);

@@ -178,7 +178,7 @@ fn sorted(text: &str) -> Lines<'_> {
             _ if is_row && !is_comment(&line) => rows.push((line, cells)),
             // A row with a word in place of a number is one, so that the word is refused.
             false if begins > 0 && 2 * begins >= cells.len() && !is_comment(&line) => {
-                rows.push((line, cells))
+                rows.push((line, cells));
             }
             true => heads.push(line),
             false => {}

@@ -263,7 +263,10 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
         study.scenes.len(),
         study.scenes.len() * study.rest.betas.len(),
     );
+    let ends = scenes.iter().flat_map(|of| &of.rests);
+    let left_out = ends.map(|(_, rest)| rest.is_none().then_some(NO_RESULT));
     Outcome {
+        coverage: vec![Coverage::of("runs to rest", left_out)],
         tables: vec![force_table(&forces), rest_table(study, &scenes)],
         figures: scenes.iter().flat_map(|of| of.figures()).collect(),
         quantities: events

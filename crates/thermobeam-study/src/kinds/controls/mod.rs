@@ -131,6 +131,10 @@ struct Matrix<'s> {
     every: bool,
     /// That of completion, that of all studies without a fault, then one for each fault.
     checks: Vec<Check>,
+    /// For each planted fault whether it was detected.
+    detected: Vec<bool>,
+    /// For each pair of a study and a fault why it was not judged.
+    left_out: Vec<Option<&'static str>>,
     rows: Vec<Vec<String>>,
 }
 
@@ -144,6 +148,8 @@ impl<'s> Matrix<'s> {
             ids,
             every,
             checks: vec![completion],
+            detected: vec![],
+            left_out: vec![],
             rows: vec![],
         }
     }
@@ -153,6 +159,12 @@ impl<'s> Matrix<'s> {
         self.rows
             .push([vec![fault.name().to_owned()], cells].concat());
         let all = verdicts.len();
+        let left_out = verdicts.iter().map(|verdict| {
+            verdict
+                .is_none()
+                .then_some("the study lacks the term, or a run")
+        });
+        self.left_out.extend(left_out);
         if fault == Fault::None {
             let fail = self
                 .ids
@@ -183,6 +195,7 @@ impl<'s> Matrix<'s> {
             (failed > 0, "")
         };
         let evidence = format!("{failed} of {all} studies notice it");
+        self.detected.push(holds);
         self.checks.push(Check::that(
             holds,
             format!("{} is detected{by}", fault.name()),
@@ -192,12 +205,8 @@ impl<'s> Matrix<'s> {
 
     /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the faults' column.
     fn outcome(self, faults: &str, more: &str, title: &str, first: &str) -> Outcome {
-        let of_faults = &self.checks[2..];
-        let detected = of_faults
-            .iter()
-            .filter(|check| check.verdict == Verdict::Pass)
-            .count();
-        let headline = format!("{detected} of {} {faults} detected", of_faults.len());
+        let detected = self.detected.iter().filter(|detected| **detected).count();
+        let headline = format!("{detected} of {} {faults} detected", self.detected.len());
         let summary = format!("{headline}, {more}");
         let tables = vec![Table::new(
             title,
@@ -207,6 +216,7 @@ impl<'s> Matrix<'s> {
         Outcome {
             headline,
             tables,
+            coverage: vec![Coverage::of("pairs of a study and a fault", self.left_out)],
             ..Outcome::new(summary, vec![], self.checks)
         }
     }

@@ -91,9 +91,9 @@ impl Kind for Sensitivity {
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (missed + detected);
             if detects(10f64.powf(middle)) {
-                detected = middle
+                detected = middle;
             } else {
-                missed = middle
+                missed = middle;
             }
         }
         Ok(Some(10f64.powf(detected)))
@@ -104,10 +104,12 @@ impl Kind for Sensitivity {
             not_finite([("the smallest error", *smallest)])
         })];
         let (mut rows, mut quantities) = (vec![], vec![]);
+        let mut left_out = vec![];
         for key in Coefficients::names() {
             let cells: Vec<(f64, String)> = (0..self.studies.len())
                 .map(|study| cell(study, key, ran))
                 .collect();
+            left_out.extend((0..self.studies.len()).map(|study| not_judged(study, key, ran)));
             let best = cells
                 .iter()
                 .map(|(smallest, _)| *smallest)
@@ -140,10 +142,26 @@ impl Kind for Sensitivity {
         let tables = vec![Table::new(title, head, rows)];
         Outcome {
             headline: summary.clone(),
+            coverage: vec![Coverage::of("pairs of a study and a coefficient", left_out)],
             tables,
             quantities,
             ..Outcome::new(summary, vec![], checks)
         }
+    }
+}
+
+/// Why the smallest error that a study detects is not known; `None` if it is.
+fn not_judged(
+    study: usize,
+    key: &str,
+    ran: &[Ran<(usize, &'static str), Option<f64>>],
+) -> Option<&'static str> {
+    let case = ran.iter().find(|ran| ran.case.data == (study, key));
+    match case.map(|case| &case.found) {
+        None => Some("the coefficient is absent or zero"),
+        Some(Err(_)) => Some(NO_RESULT),
+        Some(Ok(None)) => Some("not in the range"),
+        Some(Ok(Some(_))) => None,
     }
 }
 

@@ -110,7 +110,11 @@ impl Kind for RandomScenes {
         checks.extend(total.claims(scenes, exceptions));
         let [answers, indefinite, others] = total.ended();
         let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
-        let largest = format!("{:.1e} of the energy", worst.residual);
+        let largest = if *steps > 0 {
+            format!("{:.1e} of the energy", worst.residual)
+        } else {
+            "unknown without a step".to_owned()
+        };
         let above = format!("residual at most {largest}, {exceptions} above {CLOSED:.0e}");
         let summary =
             format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
@@ -127,6 +131,7 @@ impl Kind for RandomScenes {
         // On another machine, a scene at the limit of definiteness may fall on either side.
         let quantities = vec![Quantity::new("answers", answers as f64, 1e-3)];
         Outcome {
+            coverage: vec![self.coverage(&total)],
             headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
             tables: vec![counts, self.table(&listed)],
             figures: vec![residuals(&total.scenes)],
@@ -137,6 +142,24 @@ impl Kind for RandomScenes {
 }
 
 impl RandomScenes {
+    /// The scenes that are judged to their last step; the others are judged up to the step that fails.
+    fn coverage(&self, total: &Batch) -> Coverage {
+        let [answers, indefinite, others] = total.ended();
+        let ended = answers + indefinite + others;
+        let count = |reason: Option<&'static str>, n: usize| std::iter::repeat_n(reason, n);
+        let reasons = count(None, answers)
+            .chain(count(
+                Some("refused, the operator is not definite"),
+                indefinite,
+            ))
+            .chain(count(Some("ended by another failure"), others))
+            .chain(count(
+                Some(NO_RESULT),
+                (self.batches * BATCH).saturating_sub(ended),
+            ));
+        Coverage::of("scenes to their last step", reasons)
+    }
+
     fn scheme(&self, batch: usize) -> Scheme {
         SCHEMES[batch % SCHEMES.len()]
     }

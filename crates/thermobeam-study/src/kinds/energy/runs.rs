@@ -317,9 +317,13 @@ impl Kind for EnergyRuns {
                 .map(|(run, found)| run.share_of(found))
                 .fold(0.0, max_or_nan),
         );
-        let headline = format!(
-            "largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}"
-        );
+        let headline = if steps > 0 {
+            format!(
+                "largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}"
+            )
+        } else {
+            "no step".to_owned()
+        };
         let summary = format!(
             "{holding} of {} runs hold, {steps} steps: {headline}; at most {share}",
             self.runs.len()
@@ -329,8 +333,16 @@ impl Kind for EnergyRuns {
             .map(|(run, found)| (vec![run.name.clone()], run.readings(found)))
             .collect();
         let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";
+        let left_out = |ran: &Ran<usize, Found>| match ran.ok() {
+            None => Some(NO_RESULT),
+            Some(found) => (found.steps == 0).then_some("without a step"),
+        };
         Outcome {
             headline,
+            coverage: vec![Coverage::of(
+                "runs for the balance",
+                ran.iter().map(left_out),
+            )],
             tables: vec![readings::table(title, &["run"], &rows)],
             figures: self.figures(&found),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],

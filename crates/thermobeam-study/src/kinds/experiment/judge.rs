@@ -430,8 +430,8 @@ fn moves(group: &OfGroup<'_>) -> [Check; 3] {
         ),
         Check::that(
             several && grows,
-            "the frequency of oscillation grows with β (with β itself, not with its size |β|)",
-            format!("frequency of u(1): {frequencies}"),
+            "the frequency of oscillation grows with β",
+            format!("frequency of u(1), in the order of β, not of |β|: {frequencies}"),
         ),
         Check::that(
             several && is_largest,
@@ -496,10 +496,10 @@ fn at_rest(run: &Measured) -> String {
 /// * `complete`: whether every β has a result; otherwise no claim holds.
 fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
     let alone_and_straight = |rest: &AtRest| rest.states == 1 && rest.tip[0].abs() <= STRAIGHT;
-    let claim = |range: [f64; 2], holds: fn(&AtRest) -> bool, text: &str, more: &str| {
+    let claim = |range: AxialForce, holds: fn(&AtRest) -> bool, text: &str, more: &str| {
         let within: Vec<_> = rests
             .iter()
-            .filter(|(beta, _)| range[0] < *beta && *beta < range[1])
+            .filter(|(beta, _)| AxialForce::of(*beta) == Some(range))
             .collect();
         let holds = complete && !within.is_empty() && within.iter().all(|(_, rest)| holds(rest));
         let evidence = |(beta, rest): &&(f64, &AtRest)| {
@@ -521,18 +521,78 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
         rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable()
     };
     let unique = "uniqueness for β > -1/2: the straight beam is the only steady state, and moving beams come to rest in it";
-    let one = "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 < β < -1/2 \
+    let one = "not as printed (\"for β < -1/2 there are multiple steady-state solutions\"): for -0.7116 ≤ β ≤ -1/2 \
                there is only one, the straight beam";
     let convex = format!(
-        "; the potential energy is strictly convex for β > -(π²/4)/(1 + π²/4) = {:.6}",
+        "; the potential energy is strictly convex for β ≥ -(π²/4)/(1 + π²/4) = {:.6}",
         -BUCKLING
     );
     let several = "for β < -0.7116 there are several steady states, two of them stable, and moving beams come to rest bent";
     [
-        claim([AS_PRINTED, f64::INFINITY], alone_and_straight, unique, "")
-            .stated_by(Origin::Source),
-        claim([-BUCKLING, AS_PRINTED], alone_and_straight, one, &convex)
-            .stated_by(Origin::Correction),
-        claim([f64::NEG_INFINITY, -BUCKLING], bent, several, ""),
+        claim(AxialForce::AsPrinted, alone_and_straight, unique, "").stated_by(Origin::Source),
+        claim(AxialForce::Refuted, alone_and_straight, one, &convex).stated_by(Origin::Correction),
+        claim(AxialForce::BeyondBuckling, bent, several, ""),
     ]
+}
+
+/// Where an axial force at rest lies, which decides what is claimed of it.
+///
+/// At β = -1/2 the paper claims nothing, and the straight beam is the only steady state, as above. The same holds at
+/// β = -B: the quadratic part of the potential energy is not negative there, and vanishes only along the buckling mode,
+/// along which ρ/4 ‖u_x‖⁴ is strictly convex. So both ends belong to the range between them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum AxialForce {
+    /// β > -1/2: one steady state, as the paper says.
+    AsPrinted,
+    /// -B <= β <= -1/2: one steady state, against the paper.
+    Refuted,
+    /// β < -B: several steady states.
+    BeyondBuckling,
+}
+
+impl AxialForce {
+    /// `None` for NaN alone.
+    fn of(beta: f64) -> Option<Self> {
+        if beta > AS_PRINTED {
+            Some(Self::AsPrinted)
+        } else if beta >= -BUCKLING {
+            Some(Self::Refuted)
+        } else if beta < -BUCKLING {
+            Some(Self::BeyondBuckling)
+        } else {
+            None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use thermobeam::equilibrium::equilibria;
+
+    /// The number of steady states is that of the claim, at both ends of each range and next to them.
+    #[test]
+    fn each_axial_force_falls_under_the_claim_that_is_true_of_it() {
+        let rows = [
+            (-0.4999, AxialForce::AsPrinted),
+            (-0.5, AxialForce::Refuted),
+            (-0.6, AxialForce::Refuted),
+            (-BUCKLING, AxialForce::Refuted),
+            (-BUCKLING - 1e-6, AxialForce::BeyondBuckling),
+            (-0.8, AxialForce::BeyondBuckling),
+        ];
+        for (beta, expected) in rows {
+            assert_eq!(AxialForce::of(beta), Some(expected), "{beta}");
+            let beam = Beam {
+                beta,
+                ..Beam::default()
+            };
+            let states = equilibria(&beam, Some(&Obstacles::default()))
+                .unwrap()
+                .len();
+            let is_several = expected == AxialForce::BeyondBuckling;
+            assert_eq!(states > 1, is_several, "β = {beta}: {states} states");
+        }
+        assert_eq!(AxialForce::of(f64::NAN), None);
+    }
 }

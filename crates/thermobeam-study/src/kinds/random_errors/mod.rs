@@ -327,7 +327,7 @@ impl RandomErrors {
         ran: &[Ran<Drawn, Found>],
         found: &[(&Ran<Drawn, Found>, &Found)],
     ) -> Vec<Check> {
-        let [over_estimate, over_target, over_norm_target] = worst(found);
+        let [over_estimate, over_target, over_norm_target] = worst(found).unwrap_or([f64::NAN; 3]);
         let falls: Vec<f64> = found
             .iter()
             .filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine))
@@ -432,16 +432,19 @@ impl Kind for RandomErrors {
             .iter()
             .filter_map(|ran| Some((ran, ran.ok()?)))
             .collect();
-        let [over_estimate, over_target, over_norm_target] = worst(&found);
         let rows: Vec<_> = found
             .iter()
             .map(|(ran, found)| (vec![ran.case.label.clone()], found.readings()))
             .collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
-        let most = max_or_nan(over_target, over_norm_target);
-        let errors =
-            format!("{over_estimate:.2} of their estimates and {most:.2} of the target error");
-        let headline = format!("{} scenes: errors at most {errors}", found.len());
+        let errors = worst(&found).map_or("no error is known".to_owned(), |worst| {
+            let [over_estimate, over_target, over_norm_target] = worst;
+            let most = max_or_nan(over_target, over_norm_target);
+            format!(
+                "errors at most {over_estimate:.2} of their estimates and {most:.2} of the target error"
+            )
+        });
+        let headline = format!("{} scenes: {errors}", found.len());
         Outcome {
             tables: vec![readings::table(
                 "Errors relative to the estimates and targets",
@@ -451,8 +454,24 @@ impl Kind for RandomErrors {
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
             headline: headline.clone(),
+            coverage: vec![self.searches(ran)],
             ..Outcome::new(headline, vec![], self.checks(ran, &found))
         }
+    }
+}
+
+impl RandomErrors {
+    /// Each scene has an estimate and a search for each target; some are refused.
+    fn searches(&self, ran: &[Ran<Drawn, Found>]) -> Coverage {
+        let each = 1 + self.targets.len() + self.norm_targets.len();
+        let of_scene = |ran: &Ran<Drawn, Found>| {
+            let (reason, count) = match ran.ok() {
+                Some(found) => ("refused with a reason", found.refused.len()),
+                None => (NO_RESULT, each),
+            };
+            (0..each).map(move |k| (k < count).then_some(reason))
+        };
+        Coverage::of("searches", ran.iter().flat_map(of_scene))
     }
 }
 
@@ -469,19 +488,20 @@ impl Found {
     }
 }
 
-/// The largest errors in units of their estimates, of the targets, and of those in the norm.
-fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> [f64; 3] {
+/// The largest errors in units of their estimates, of the targets, and of those in the norm; `None` without a scene.
+fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> Option<[f64; 3]> {
     let of: [fn(&Found) -> f64; 3] = [
         |found| found.over_estimate,
         |found| found.over_target,
         |found| found.over_norm_target,
     ];
-    of.map(|of| {
+    let largest = of.map(|of| {
         found
             .iter()
             .map(|(_, found)| of(found))
             .fold(0.0, max_or_nan)
-    })
+    });
+    (!found.is_empty()).then_some(largest)
 }
 
 /// Words of the refusals of rough data.

@@ -16,6 +16,9 @@ const STIFF: f64 = 1e-3;
 /// Contraction above which the fixed point may need more iterations than allowed.
 const SLOW: f64 = 0.8;
 
+/// Contraction below which a step takes too few iterations to show it.
+const MEASURABLE: f64 = 0.01;
+
 /// A rate, and the name of its curve.
 const LARGEST: &str = "largest penetration, fixed h and dt";
 
@@ -68,6 +71,26 @@ impl<'r> Compliance<'r> {
 
     fn alpha(&self) -> f64 {
         number(self.fixed_point, |found| found.alpha)
+    }
+
+    /// Whether a time step averages over the impact. The predicted α tells; if the case failed it is NaN, which must not drop a
+    /// level.
+    fn is_averaged(&self) -> bool {
+        !(self.alpha() < AVERAGED)
+    }
+
+    fn is_stiff(&self) -> bool {
+        self.epsilon <= STIFF
+    }
+
+    /// Why the factor of the fixed point is not compared with α; `None` if it is.
+    fn factor_left_out(&self) -> Option<&'static str> {
+        match self.alpha() {
+            alpha if alpha.is_nan() => Some(NO_RESULT),
+            alpha if alpha < MEASURABLE => Some("too few iterations to show a factor"),
+            alpha if alpha >= SLOW => Some("α near 1 or above"),
+            _ => None,
+        }
     }
 
     /// Penetrations and forces.
@@ -188,6 +211,7 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
         ],
         figures: figures(study, &all, limit),
         quantities: readings::guarded(forces.iter().flat_map(|(_, readings)| readings)),
+        coverage: coverage(&all),
         ..Outcome::new(
             format!("orders in ε: {}", observed.join("; ")),
             rates,
@@ -198,9 +222,8 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
 
 /// The four orders in ε.
 fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
-    // The predicted α tells whether dt resolves the impact. If a case failed it is NaN, which must not drop a level.
-    let averaged = |of: &Compliance<'_>| !(of.alpha() < AVERAGED);
-    let stiff = |of: &Compliance<'_>| of.epsilon <= STIFF;
+    let averaged = |of: &Compliance<'_>| of.is_averaged();
+    let stiff = |of: &Compliance<'_>| of.is_stiff();
     let rate = |name: &str,
                 order,
                 belongs: &dyn Fn(&Compliance<'_>) -> bool,
@@ -313,22 +336,46 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
 }
 
 fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
-    let judged = all.iter().filter(|of| (0.01..SLOW).contains(&of.alpha()));
+    let judged = all.iter().filter(|of| of.factor_left_out().is_none());
     let ratios: Vec<f64> = judged
         .map(|of| number(of.fixed_point, |run| run.contraction) / of.alpha())
         .collect();
-    let worst = ratios
-        .iter()
-        .map(|ratio| (ratio - 1.0).abs())
-        .fold(0.0, max_or_nan);
+    let worst = largest_of(ratios.iter().map(|ratio| (ratio - 1.0).abs()));
+    let farthest = worst.map_or("no ratio".to_owned(), |worst| {
+        format!("the farthest ratio {worst:.1e} from 1")
+    });
     Check::that(
-        !ratios.is_empty() && worst <= 0.1,
+        worst.is_some_and(|worst| worst <= 0.1),
         "in contact the fixed point contracts by α = (dt/ε) [A_u⁻¹]_nn, to a tenth",
         format!(
-            "{} compliances with α between 0.01 and {SLOW}, the farthest ratio {worst:.1e} from 1",
+            "{} compliances with α between {MEASURABLE} and {SLOW}, {farthest}",
             ratios.len()
         ),
     )
+}
+
+/// The compliances that each statement judges; the orders have ranges of their own.
+fn coverage(all: &[Compliance<'_>]) -> Vec<Coverage> {
+    let count = |items: &str, reason: fn(&Compliance<'_>) -> Option<&'static str>| {
+        Coverage::of(items, all.iter().map(reason))
+    };
+    vec![
+        count("compliances on a fixed grid for an order", |of| {
+            (!of.is_averaged()).then_some("a time step resolves the impact")
+        }),
+        count("compliances at rest and in an impact for an order", |of| {
+            (!of.is_stiff()).then_some("too soft")
+        }),
+        count("compliances for the end of convergence", |of| {
+            if of.fixed_point.is_none() {
+                return Some(NO_RESULT);
+            }
+            (SLOW..=1.0)
+                .contains(&of.alpha())
+                .then_some("α just below 1")
+        }),
+        count("compliances for the factor α", |of| of.factor_left_out()),
+    ]
 }
 
 /// The first figure omits the distance to the rigid limit: on its scale it coincides with the largest penetration.

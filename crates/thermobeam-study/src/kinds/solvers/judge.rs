@@ -34,18 +34,14 @@ impl Map {
         );
         let converged = points(rows).filter(|point| point.step.converged).count();
         let completes = points(rows).filter(|point| point.newton_completes).count();
-        let ratio = |line: &Boundary| {
-            let crossing = line.found.filter(|crossing| crossing.gamma <= ALONE)?;
-            Some((crossing.dt / line.predicted.unwrap_or(f64::NAN) - 1.0).abs())
-        };
-        let worst = 100.0
-            * lines
-                .iter()
-                .filter_map(|(_, line)| ratio(line))
-                .fold(0.0, max_or_nan);
-        let residual = largest(rows, |newton| newton.worst.residual);
-        let boundary = format!("boundary within {worst:.2} % of alpha = 1");
-        let residual = format!("residual at most {residual:.1e} of the energy");
+        let worst = largest_of(lines.iter().filter_map(|(_, line)| line.distance_alone()));
+        let boundary = worst.map_or("no boundary".to_owned(), |worst| {
+            format!("boundary within {:.2} % of alpha = 1", 100.0 * worst)
+        });
+        let residual = largest_of(newton(rows).map(|newton| newton.worst.residual));
+        let residual = residual.map_or("no residual".to_owned(), |residual| {
+            format!("residual at most {residual:.1e} of the energy")
+        });
         let all = self.points * self.points;
         let points = format!(
             "{all} points: the fixed point converges at {converged}, Newton's method at {completes}"
@@ -53,11 +49,41 @@ impl Map {
         let summary = format!("{points}; {boundary} where gamma <= {ALONE}; {residual}");
         Outcome {
             headline: format!("{boundary}, {residual}"),
+            coverage: self.coverage(rows, lines),
             tables: vec![self.boundaries(lines)],
             figures: self.figures(rows, lines),
             quantities: self.quantities(lines, converged as f64),
             ..Outcome::new(summary, vec![], checks)
         }
+    }
+
+    /// The points and boundaries that each statement judges.
+    fn coverage(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Coverage> {
+        let points: Vec<&Point> = points(rows).collect();
+        let missing = (self.points * self.points).saturating_sub(points.len());
+        let of_points = |items: &str, reason: fn(&Point) -> Option<&'static str>| {
+            let reasons = points.iter().map(|point| reason(point));
+            Coverage::of(
+                items,
+                reasons.chain(std::iter::repeat_n(Some(NO_RESULT), missing)),
+            )
+        };
+        let not_run = self.lines.len().saturating_sub(lines.len());
+        let reasons = lines.iter().map(|(_, line)| line.not_alone());
+        vec![
+            of_points("points for convergence", |point| {
+                let between = prediction(&point.step).is_none();
+                between.then_some("factors near 1, which predict nothing")
+            }),
+            of_points("points for the balance", |point| {
+                let failed = point.newton.is_none();
+                failed.then_some("no step by Newton's method")
+            }),
+            Coverage::of(
+                "boundaries for alpha = 1 alone",
+                reasons.chain(std::iter::repeat_n(Some(NO_RESULT), not_run)),
+            ),
+        ]
     }
 
     fn complete(&self, rows: &MapRows<'_>) -> Check {
@@ -196,23 +222,38 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
     )
 }
 
+/// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict nothing.
+fn prediction(&FixedPointStep { alpha, gamma, .. }: &FixedPointStep) -> Option<bool> {
+    if alpha < SLOW && gamma < SLOW {
+        return Some(true);
+    }
+    // An infinite α means that the operator A_u of the step is not definite.
+    (alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW)).then_some(false)
+}
+
+impl Boundary {
+    /// Why α alone does not decide where the boundary is; `None` if it does.
+    fn not_alone(&self) -> Option<&'static str> {
+        match self.found {
+            None => Some("no boundary on the map"),
+            Some(crossing) => (!(crossing.gamma <= ALONE)).then_some("gamma takes part"),
+        }
+    }
+
+    /// Relative distance of the boundary to α = 1, where α alone decides.
+    fn distance_alone(&self) -> Option<f64> {
+        let crossing = self.found.filter(|_| self.not_alone().is_none())?;
+        Some((crossing.dt / self.predicted.unwrap_or(f64::NAN) - 1.0).abs())
+    }
+}
+
 /// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
-    for FixedPointStep {
-        alpha,
-        gamma,
-        converged,
-        ..
-    } in points(rows).map(|point| point.step)
-    {
-        if alpha < SLOW && gamma < SLOW {
-            fast += 1;
-            wrong += usize::from(!converged);
-        } else if alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW) {
-            // An infinite α means that the operator A_u of the step is not definite.
-            beyond += 1;
-            wrong += usize::from(converged);
+    for step in points(rows).map(|point| &point.step) {
+        if let Some(converges) = prediction(step) {
+            *(if converges { &mut fast } else { &mut beyond }) += 1;
+            wrong += usize::from(step.converged != converges);
         }
     }
     let claim = "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma";

@@ -48,7 +48,7 @@ pub(super) struct Map {
     pub(super) dt: [f64; 2],
     pub(super) range: [f64; 2],
     pub(super) points: usize,
-    lines: Vec<f64>,
+    pub(super) lines: Vec<f64>,
     elements: usize,
     steps: usize,
     pub(super) agreement: f64,

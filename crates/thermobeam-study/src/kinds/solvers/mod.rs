@@ -190,7 +190,7 @@ impl Kind for Solvers {
             match (task, found) {
                 (SolverTask::Contraction(at), Found::Contraction(of)) => factors.push((at, of)),
                 (SolverTask::Comparison(tolerance), Found::Comparison(of)) => {
-                    agreements.push((tolerance, of))
+                    agreements.push((tolerance, of));
                 }
                 (SolverTask::Row(value), Found::Row(row)) => rows.push((value, &row[..])),
                 (SolverTask::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),

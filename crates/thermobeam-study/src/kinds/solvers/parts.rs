@@ -226,35 +226,28 @@ pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)], all: usize) 
         .map(|(_, point)| *point)
         .filter(|point| point.is_settled())
         .collect();
-    let worst = settled
-        .iter()
-        .map(|point| point.error())
-        .fold(0.0, max_or_nan);
-    let deviation = found
-        .iter()
-        .map(|(_, point)| point.deviation)
-        .fold(0.0, max_or_nan);
+    let worst = largest_of(settled.iter().map(|point| point.error()));
+    let deviation = largest_of(found.iter().map(|(_, point)| point.deviation));
     let linear = found
         .iter()
         .filter(|(_, point)| point.deviation <= LINEAR)
         .count();
-    let increments = format!(
-        "increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points"
-    );
-    let factors = format!(
-        "the factor is its spectral radius to {:.1} % at {}",
-        100.0 * worst,
-        settled.len()
-    );
-    let unsettled = all - settled.len();
-    let left_out = if unsettled == 0 {
-        String::new()
-    } else {
-        format!("; too few iterations for that at {unsettled}")
-    };
-    let summary = format!("{increments}; {factors}{left_out}");
+    let increments = deviation.map_or("no point has a result".to_owned(), |deviation| {
+        format!(
+            "increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points"
+        )
+    });
+    let factors = worst.map_or("no factor is known".to_owned(), |worst| {
+        format!(
+            "the factor is its spectral radius to {:.1} % at {}",
+            100.0 * worst,
+            settled.len()
+        )
+    });
+    let summary = format!("{increments}; {factors}");
     Outcome {
         headline: summary.clone(),
+        coverage: vec![factors_judged(found, all)],
         tables: vec![contraction_table(found)],
         figures: vec![contraction_figure(found)],
         quantities: found
@@ -270,6 +263,15 @@ pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)], all: usize) 
                 .collect(),
         )
     }
+}
+
+/// The points whose factor is compared with the spectral radius.
+fn factors_judged(found: &[([f64; 3], &Contraction)], all: usize) -> Coverage {
+    let unsettled = format!("fewer than {SETTLED} iterations");
+    let reason = |point: &Contraction| (!point.is_settled()).then(|| unsettled.clone());
+    let missing = std::iter::repeat_n(Some(NO_RESULT.to_owned()), all - found.len());
+    let reasons = found.iter().map(|(_, point)| reason(point));
+    Coverage::of("factors", reasons.chain(missing))
 }
 
 impl Contraction {

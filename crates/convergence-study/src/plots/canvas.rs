@@ -199,6 +199,11 @@ impl Canvas {
         }
     }
 
+    /// Height in px of the document.
+    pub fn height(&self) -> f64 {
+        self.height.round()
+    }
+
     /// Draws a layer on top of the others.
     pub fn draw(&mut self, layer: Layer, draw: impl FnOnce(&Pen<'_>)) {
         let mut fragment = String::new();

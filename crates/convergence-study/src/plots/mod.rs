@@ -11,6 +11,8 @@
 //! | [`history`] | quantities over time, with limits and shaded phases |
 //! | [`space_time`] | `u(x, t)` as a picture |
 //! | [`iterations`] | iterations per step |
+//! | [`panels`] | figures one below the other |
+//! | [`inset`] | a small figure inside a larger one |
 //! | [`forest`] | judged rates with their intervals, relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
@@ -34,7 +36,9 @@ mod convergence;
 mod forest;
 mod heat;
 mod history;
+pub mod inset;
 pub mod look;
+mod panels;
 pub mod ruler;
 pub mod sheet;
 pub mod style;
@@ -44,6 +48,7 @@ pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestRow, forest};
 pub use heat::{SpaceTime, Surface, space_time, surface};
 pub use history::{history, iterations, work_precision};
+pub use panels::panels;
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -16,6 +16,8 @@ const TICK_LABEL_DROP: f64 = 19.0;
 const AXIS_LABEL_DROP: f64 = 48.0;
 /// Guide labels closer than this would overlap.
 const GUIDE_SPACING: f64 = 21.0;
+/// Number of ticks of the vertical axis, at most.
+const Y_TICKS: usize = 8;
 /// Height of a row of the legend.
 const ROW_HEIGHT: f64 = 27.0;
 const SWATCH_WIDTH: f64 = 46.0;
@@ -62,10 +64,9 @@ impl Layout {
 
     /// Measures all texts and places the plot area between them.
     pub(super) fn lay_out(self) -> Page {
-        let y_ticks = self.y.ticks(8);
+        let y_ticks = self.y.ticks(Y_TICKS);
         let left = EDGE + LABEL_SIZE + 10.0 + widest(&y_ticks) + 12.0;
         let right = style::WIDTH - self.right.max(2.0 * EDGE);
-        let x_ticks = ticks_that_fit(&self.x, right - left);
         let headline = self.above.is_some() || y_ticks.exponent != 0;
         let top = EDGE + TITLE_ROW + if headline { 24.0 } else { 0.0 };
         let plot = Rect {
@@ -75,13 +76,20 @@ impl Layout {
             bottom: top + style::PLOT_HEIGHT,
         };
         let height = notes_top(&plot, &self.legend) + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
+        self.page(Canvas::new(style::WIDTH, height.round()), plot, Y_TICKS)
+    }
+
+    /// The page with its plot in this place.
+    ///
+    /// * `y_ticks`: number of ticks of the vertical axis, at most.
+    pub(super) fn page(self, canvas: Canvas, plot: Rect, y_ticks: usize) -> Page {
         Page {
-            canvas: Canvas::new(style::WIDTH, height.round()),
+            canvas,
             x: self.x.laid_out(plot.left, plot.right),
             y: self.y.laid_out(plot.bottom, plot.top),
             plot,
-            x_ticks,
-            y_ticks,
+            x_ticks: ticks_that_fit(&self.x, plot.width()),
+            y_ticks: self.y.ticks(y_ticks),
             plan: self,
         }
     }
@@ -202,8 +210,8 @@ impl Page {
         });
     }
 
-    /// Draws everything around the data, and closes the document.
-    pub(super) fn finish(mut self) -> String {
+    /// Draws the frame, and the ticks and labels of the axes.
+    pub(super) fn draw_frame(&mut self) {
         let Page {
             canvas,
             plot,
@@ -212,14 +220,25 @@ impl Page {
             plan,
             x,
             y,
-            ..
-        } = &mut self;
+        } = self;
         canvas.draw(Layer::default(), |pen| {
             pen.frame(*plot, style::INK, style::THIN);
             draw_x_axis(pen, plot, x, x_ticks, &plan.x_label);
             draw_y_axis(pen, plot, y, y_ticks, &plan.y_label);
-            draw_headlines(pen, plot, plan, x);
         });
+    }
+
+    /// Draws everything around the data, and closes the document.
+    pub(super) fn finish(mut self) -> String {
+        self.draw_frame();
+        let Page {
+            canvas,
+            plot,
+            plan,
+            x,
+            ..
+        } = &mut self;
+        canvas.draw(Layer::default(), |pen| draw_headlines(pen, plot, plan, x));
         self.draw_foot();
         let plan = self.plan;
         let axes = [(&*plan.x_label, &self.x), (&*plan.y_label, &self.y)];

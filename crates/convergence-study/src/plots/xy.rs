@@ -1,6 +1,7 @@
 //! The core of all figures with curves: ranges, layers in order, notes on omitted data.
 
 use super::canvas::{self, Anchor, Layer, Point, Rect};
+use super::inset::Inset;
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, has_place, on_scale};
 use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
@@ -128,6 +129,8 @@ pub struct Xy {
     pub show_x: Vec<f64>,
     /// Lines under the legend, before those on coinciding curves and on omitted points.
     pub notes: Vec<String>,
+    /// A small figure inside the plot.
+    pub inset: Option<Inset>,
 }
 
 /// The data points of a figure: their numbers, and the ranges of those that both axes can show.
@@ -151,6 +154,12 @@ impl Xy {
     /// The vertical range.
     pub fn y_ruler(&self) -> Ruler {
         self.y_ruler_of(&self.extent())
+    }
+
+    /// The width of a curve's line, measured on the vertical axis; in decades if that is logarithmic.
+    pub fn line_width(&self) -> f64 {
+        let ruler = self.y_ruler();
+        (ruler.hi - ruler.lo) * style::LINE / style::PLOT_HEIGHT
     }
 
     fn x_ruler_of(&self, extent: &Extent) -> Ruler {
@@ -209,13 +218,21 @@ impl Xy {
 
     /// Draws the figure.
     pub fn draw(&self) -> String {
+        self.drawn().finish()
+    }
+
+    /// The page with everything but what is around the plot.
+    pub(super) fn drawn(&self) -> Page {
         let mut sheet = self.plan().lay_out();
         self.draw_ground(&mut sheet);
         sheet.draw_grid();
         sheet.draw_guides(&self.guides);
         self.draw_curves(&mut sheet);
         self.draw_outlines(&mut sheet);
-        sheet.finish()
+        if let Some(inset) = &self.inset {
+            inset.draw(&mut sheet);
+        }
+        sheet
     }
 
     fn plan(&self) -> Layout {
@@ -302,7 +319,7 @@ impl Xy {
         });
     }
 
-    fn draw_curves(&self, sheet: &mut Page) {
+    pub(super) fn draw_curves(&self, sheet: &mut Page) {
         let parts: Vec<Curve> = self.curves.iter().flat_map(Curve::parts).collect();
         let share = ENVELOPE_COLUMNS / parts.len().max(1);
         let columns = (sheet.plot.width() as usize).min(share).max(1);

@@ -49,6 +49,24 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
     scenes.into_iter().enumerate().map(look).collect()
 }
 
+/// The values of β in the paper's experiments.
+const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
+
+/// The [`look`](convergence_study::plots::look::look) of a value of β, the same in all figures whose curves are its values; of other
+/// values the next one.
+pub(crate) fn look_of_beta(beta: f64) -> usize {
+    BETAS
+        .iter()
+        .position(|known| *known == beta)
+        .unwrap_or(BETAS.len())
+}
+
+/// The name of a beam by its axial force at rest.
+pub(crate) fn beta_label(beam: &Beam) -> String {
+    // A minus sign, not a hyphen.
+    format!("β = {}", beam.beta).replace('-', "−")
+}
+
 impl Run {
     /// Names of files and their SVG documents: u over space and time, the beam in motion, tip displacement with the obstacles, tip
     /// rotation, energy with its limit β²/(4ρ). None if no frames were kept.

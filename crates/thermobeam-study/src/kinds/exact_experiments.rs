@@ -285,40 +285,85 @@ impl ExactExperiments {
     }
 
     fn figures(&self, scenes: &[OfScene<'_>]) -> Vec<Figure> {
-        let figure = |what: &str,
-                      caption: &str,
-                      title: &str,
-                      y,
-                      points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
-            let curve = |scene: &OfScene<'_>| plots::Series::new(scene.name, points(scene));
-            let history =
-                plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>()).titled(title);
-            Figure::new(
-                what,
-                caption,
-                history
-                    .with_looks(&looks(scenes.iter().map(|scene| scene.name)))
-                    .draw(),
-            )
-        };
-        let y = plots::Axis::linear("displacement u(1, t) (dimensionless)");
-        let (caption, title) = (
-            "The free end of every experiment, to ten decimals.",
-            "Displacement of the free end",
+        let agreement = scenes.iter().map(OfScene::difference).fold(0.0, max_or_nan);
+        let tip = self.over_time(
+            scenes,
+            "the free end bounces, faster for larger β",
+            plots::Axis::linear("displacement u(1, t) (dimensionless)"),
+            |scene| scene.tip(),
         );
-        let tip =
-            |scene: &OfScene<'_>| scene.any_order[0].map_or(vec![], |shown| shown.tip.clone());
-        let mut figures = vec![figure("tip", caption, title, y, tip)];
+        let tip: Vec<Xy> = tip
+            .into_iter()
+            .map(|panel| Xy {
+                guides: figures::obstacle_lines(
+                    self.scenes.first().and_then(|scene| scene.obstacles),
+                ),
+                ..panel
+            })
+            .collect();
+        let caption = format!(
+            "The free end of every experiment by dG; two discretisations agree within {agreement:.1e}."
+        );
+        let mut figures = vec![Figure::new("tip", &caption, plots::panels(&caption, &tip))];
         if self.compare {
-            let y = plots::Axis::log("error of u(1, t) (dimensionless)");
-            let title = "Error of the scenes' own scheme at their own resolution";
+            let error = self.over_time(
+                scenes,
+                "the error jumps where contact begins",
+                plots::Axis::log("error of u(1, t) (dimensionless)"),
+                |scene| scene.error_over_time(),
+            );
             let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of \
                            the free end.";
-            figures.push(figure("error", caption, title, y, |scene| {
-                scene.error_over_time()
-            }));
+            figures.push(Figure::new(
+                "error",
+                caption,
+                plots::panels(caption, &error),
+            ));
         }
         figures
+    }
+
+    /// A panel for the experiments without heating and one for those with, if there are any; a curve for each β.
+    fn over_time(
+        &self,
+        scenes: &[OfScene<'_>],
+        title: &str,
+        y: plots::Axis,
+        points: fn(&OfScene<'_>) -> Vec<(f64, f64)>,
+    ) -> Vec<Xy> {
+        let mut heatings: Vec<f64> = self.scenes.iter().map(|scene| scene.beam.theta_a).collect();
+        heatings.sort_by(f64::total_cmp);
+        heatings.dedup();
+        let panel = |&theta_a: &f64| {
+            let mut shown: Vec<(&Scene, &OfScene<'_>)> = self
+                .scenes
+                .iter()
+                .zip(scenes)
+                .filter(|(scene, _)| scene.beam.theta_a == theta_a)
+                .collect();
+            shown.sort_by(|(one, _), (other, _)| one.beam.beta.total_cmp(&other.beam.beta));
+            let curve = |(scene, runs): &(&Scene, &OfScene<'_>)| {
+                plots::Series::new(figures::beta_label(&scene.beam), points(runs))
+            };
+            let looks: Vec<usize> = shown
+                .iter()
+                .map(|(scene, _)| figures::look_of_beta(scene.beam.beta))
+                .collect();
+            let curves: Vec<plots::Series> = shown.iter().map(curve).collect();
+            plots::history(y.clone(), &curves)
+                .with_looks(&looks)
+                .titled(format!("{}: {title}", heating(theta_a)))
+        };
+        heatings.iter().map(panel).collect()
+    }
+}
+
+/// The temperature of the clamped end in words.
+fn heating(theta_a: f64) -> String {
+    if theta_a == 0.0 {
+        "Without heating (θ_A = 0)".to_owned()
+    } else {
+        format!("Heated (θ_A = {theta_a})")
     }
 }
 
@@ -369,6 +414,11 @@ impl<'r> OfScene<'r> {
             any_order: [by(Some(0)), by(Some(1))],
             own: by(None),
         }
+    }
+
+    /// `(t, u(1, t))` by the first discretisation.
+    fn tip(&self) -> Vec<(f64, f64)> {
+        self.any_order[0].map_or(vec![], |shown| shown.tip.clone())
     }
 
     /// The states of the first discretisation.

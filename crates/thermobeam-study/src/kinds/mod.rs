@@ -18,6 +18,7 @@ pub mod rigid;
 pub mod scenes;
 pub mod self_convergence;
 mod settings;
+mod side_by_side;
 pub mod solvers;
 mod steady;
 pub mod tables;

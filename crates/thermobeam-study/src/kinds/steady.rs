@@ -3,6 +3,7 @@
 use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
 
 use super::prelude::*;
+use super::tables::Discretisation;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
 pub(super) fn listed_scenes(
@@ -30,17 +31,29 @@ pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
     Ok(scene)
 }
 
-/// Settings of the runs to rest: with these β, on a uniform mesh, until the beam is slow.
+/// Settings of the runs to rest: with these β, until the beam is slow.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ToRest {
     pub(super) betas: Vec<f64>,
-    elements: usize,
-    dt: f64,
+    method: MethodToRest,
     /// Largest velocity that counts as rest.
     speed: f64,
     /// A longer run fails.
     t_max: f64,
 }
+
+/// How a beam is stepped until it rests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum MethodToRest {
+    /// By the scheme of its scene, on a uniform mesh.
+    OneStep { elements: usize, dt: f64 },
+    /// By dG.
+    AnyOrder(Discretisation),
+}
+
+/// Elements of the mesh on whose nodes a run by dG is compared with speeds and steady states: more than two nodes for each half
+/// wave of a polynomial of degree 12.
+const COMPARED: usize = 32;
 
 impl ToRest {
     /// The keys of a table.
@@ -48,14 +61,30 @@ impl ToRest {
 
     /// Reads a table that has [`ToRest::KEYS`], and possibly others.
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let fits = |list: &[f64]| !list.is_empty() && increases(list);
-        let betas = section.list("beta", "a list of numbers, ascending", Field::number, fits)?;
         let (dt, t_max) = steps_to_rest(section)?;
         let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
+        Self::with(section, MethodToRest::OneStep { elements, dt }, t_max)
+    }
+
+    /// The keys of a table for runs by dG.
+    pub(super) const ANY_ORDER_KEYS: [&str; 3] = ["beta", "speed", "t_max"];
+
+    /// Reads a table with [`ToRest::ANY_ORDER_KEYS`].
+    pub(super) fn read_any_order(
+        section: &Section<'_>,
+        discretisation: Discretisation,
+    ) -> Result<Self, InputError> {
+        let t_max = section.positive("t_max")?;
+        let field = section.require("t_max", POSITIVE)?;
+        limits::steps_until(&field, t_max, discretisation.stepping.dt, limits::STEPS)?;
+        Self::with(section, MethodToRest::AnyOrder(discretisation), t_max)
+    }
+
+    fn with(section: &Section<'_>, method: MethodToRest, t_max: f64) -> Result<Self, InputError> {
+        let fits = |list: &[f64]| !list.is_empty() && increases(list);
         Ok(Self {
-            betas,
-            elements,
-            dt,
+            betas: section.list("beta", "a list of numbers, ascending", Field::number, fits)?,
+            method,
             speed: section.positive("speed")?,
             t_max,
         })
@@ -63,7 +92,10 @@ impl ToRest {
 
     /// What a run costs.
     pub(super) fn cost(&self) -> f64 {
-        cost_to_rest(self.elements, self.dt)
+        match &self.method {
+            MethodToRest::OneStep { elements, dt } => cost_to_rest(*elements, *dt),
+            MethodToRest::AnyOrder(discretisation) => discretisation.cost(RESTS),
+        }
     }
 
     /// Runs the scene with the β of this index to rest.
@@ -72,12 +104,26 @@ impl ToRest {
     /// As [`settle`], and if the steady states cannot be found.
     pub(super) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
         let beta = self.betas[place];
-        let mut scene = scene.at(Mesh::uniform(self.elements)?, self.dt);
+        let mut scene = match &self.method {
+            MethodToRest::OneStep { elements, dt } => scene.at(Mesh::uniform(*elements)?, *dt),
+            MethodToRest::AnyOrder(discretisation) => discretisation.of(scene, self.t_max)?,
+        };
         scene.beam.beta = beta;
         scene.name = format!("beta = {beta}");
         let (t, level) = settle(&scene, self.speed, self.t_max)?;
-        AtRest::of(&scene, &scene.mesh, t, &level, |_| true)
+        AtRest::of(&scene, &compared(&scene)?, t, &level, |_| true)
     }
+}
+
+/// The mesh on whose nodes a run is compared with exact steady states.
+///
+/// # Errors
+/// The mesh has elements that are too small.
+pub(super) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
+    Ok(match scene.method {
+        Method::OneStep(_) => scene.mesh.clone(),
+        Method::Dg(_) => resampled(&scene.mesh, COMPARED)?,
+    })
 }
 
 /// The keys dt and t_max of a run to rest.
@@ -108,9 +154,12 @@ pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
         .number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
 }
 
-/// The cost until a beam has come to rest, at about t = 200.
+/// When a beam has come to rest, roughly.
+const RESTS: f64 = 200.0;
+
+/// The cost until a beam has come to rest.
 pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
-    200.0 / dt * elements as f64
+    RESTS / dt * elements as f64
 }
 
 /// Where a moving beam comes to rest, and the exact steady states. Pairs are of u and of φ.
@@ -199,9 +248,18 @@ const QUIET: f64 = 5.0;
 
 /// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and level.
 ///
+/// * `scene`: by any method; a run by dG is observed at the nodes of its mesh of comparison.
+///
 /// # Errors
 /// A step that fails, or motion beyond `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
+    match scene.method {
+        Method::OneStep(_) => settle_one_step(scene, speed, t_max),
+        Method::Dg(_) => settle_any_order(scene, speed, t_max),
+    }
+}
+
+fn settle_one_step(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     let (mut driver, mut moved) = (simulate::driver(scene)?, 0.0);
     loop {
         let Step {
@@ -214,12 +272,30 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
             return Ok((t, new.clone()));
         }
         if !(t < t_max) {
-            return Err(CaseFailure::new(format!(
-                "{} still moves faster than {speed:e} at t = {t_max}",
-                scene.name
-            )));
+            return Err(still_moves(scene, speed, t_max));
         }
     }
+}
+
+fn settle_any_order(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
+    let (mut motion, mut moved) = (simulate::motion(scene)?, 0.0);
+    let nodes = compared(scene)?;
+    while motion.step(t_max)?.is_some() {
+        let (t, level) = (motion.t(), motion.on(&nodes));
+        if !level.is_slow(speed) {
+            moved = t;
+        } else if t - moved >= QUIET {
+            return Ok((t, level));
+        }
+    }
+    Err(still_moves(scene, speed, t_max))
+}
+
+fn still_moves(scene: &Scene, speed: f64, t_max: f64) -> CaseFailure {
+    CaseFailure::new(format!(
+        "{} still moves faster than {speed:e} at t = {t_max}",
+        scene.name
+    ))
 }
 
 /// All exact steady states of the scene.

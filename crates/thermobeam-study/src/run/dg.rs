@@ -152,15 +152,16 @@ impl Motion for DgMotion {
             simulation, level, ..
         } = self;
         simulation.level_into(t, level);
-        let value = |field, x| level.value_and_slope(simulation.space(), field, x).0;
-        let u_tip = value(Field::U, 1.0);
+        let end = level.values_and_slopes(simulation.space(), 1.0);
+        let [u_tip, phi_tip, u_t_tip, phi_t_tip, _] = end.map(|(value, _)| value);
+        let (theta, _) = level.value_and_slope(simulation.space(), Field::Theta, 0.5);
         Sample {
             t,
             u_tip,
-            phi_tip: value(Field::Phi, 1.0),
-            u_t_tip: value(Field::V, 1.0),
-            phi_t_tip: value(Field::W, 1.0),
-            theta_mid: value(Field::Theta, 0.5) + 0.5 * self.theta_a,
+            phi_tip,
+            u_t_tip,
+            phi_t_tip,
+            theta_mid: theta + 0.5 * self.theta_a,
             contact_force: self
                 .obstacles
                 .map_or(0.0, |obstacles| obstacles.force(u_tip)),
@@ -244,18 +245,21 @@ impl Motion for DgMotion {
 
 /// A level of any order by its values at the nodes, without the contact force.
 pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
-    let at = |field| {
-        nodes
-            .iter()
-            .map(|&x| level.value_and_slope(space, field, x).0)
-            .collect()
-    };
-    Level {
-        u: at(Field::U),
-        v: at(Field::V),
-        phi: at(Field::Phi),
-        w: at(Field::W),
-        theta: at(Field::Theta),
+    let mut nodal = Level {
+        u: Vec::with_capacity(nodes.len()),
+        v: Vec::with_capacity(nodes.len()),
+        phi: Vec::with_capacity(nodes.len()),
+        w: Vec::with_capacity(nodes.len()),
+        theta: Vec::with_capacity(nodes.len()),
         contact_force: 0.0,
+    };
+    for &x in nodes {
+        let [u, phi, v, w, theta] = level.values_and_slopes(space, x).map(|(value, _)| value);
+        nodal.u.push(u);
+        nodal.phi.push(phi);
+        nodal.v.push(v);
+        nodal.w.push(w);
+        nodal.theta.push(theta);
     }
+    nodal
 }

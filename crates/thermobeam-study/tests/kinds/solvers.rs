@@ -223,7 +223,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             compared += 1;
             for wrong in [1e-4, f64::NAN] {
                 let verdict = verdict_with(&study, &sound, index, |found| {
-                    agreement(found).distance = wrong;
+                    agreement(found).solvers.distance = wrong;
                 });
                 assert_eq!(verdict, Verdict::Fail, "case {index}, distance {wrong}");
             }

@@ -9,7 +9,7 @@
 //! (κ M + (ζ + (1 + m⁻) dt/2) K) V = κ M v0 - (1 + m⁻) K u0 + C (φ0 + s W) - F(u⁻(1)) e + F_u
 //! ```
 //!
-//! The increment is measured in the norm of (3.14). The convergence is analysed in [`contraction`](crate::contraction).
+//! The increment is measured in the norm of (3.14); [`theory`](crate::theory), "The norm of the stopping test", says why. The convergence is analysed in [`contraction`](crate::contraction).
 
 use crate::error::{Loop, StepFailure};
 use crate::norms::{TheoremSquares, slope_squared};

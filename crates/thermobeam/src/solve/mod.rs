@@ -182,6 +182,23 @@ impl Level {
         self.v.iter().chain(&self.w).all(|rate| rate.abs() <= speed)
     }
 
+    /// Makes this level the difference of two others with the same number of nodes, without allocating.
+    pub fn set_difference(&mut self, one: &Level, other: &Level) {
+        let fields = [
+            (&mut self.u, &one.u, &other.u),
+            (&mut self.v, &one.v, &other.v),
+            (&mut self.phi, &one.phi, &other.phi),
+            (&mut self.w, &one.w, &other.w),
+            (&mut self.theta, &one.theta, &other.theta),
+        ];
+        for (difference, one, other) in fields {
+            for (difference, (one, other)) in difference.iter_mut().zip(one.iter().zip(other)) {
+                *difference = one - other;
+            }
+        }
+        self.contact_force = one.contact_force - other.contact_force;
+    }
+
     /// Copies the values of a level with the same number of nodes, without allocating.
     ///
     /// The derived `clone_from` would allocate five vectors.

@@ -36,6 +36,7 @@ mod spectrum;
 
 use super::prelude::*;
 
+pub use super::side_by_side::SolverComparison;
 pub use map::{Boundary, NewtonSteps, Point};
 pub use parts::{Agreement, Contraction};
 
@@ -98,13 +99,9 @@ impl Found {
                 ("the measured factor", found.measured),
                 ("the deviation", found.deviation),
             ]),
-            Found::Comparison(Agreement {
-                distance,
-                mean_iterations,
-                ..
-            }) => not_finite([
-                ("the distance", *distance),
-                ("the mean number of iterations", *mean_iterations),
+            Found::Comparison(Agreement { solvers, .. }) => not_finite([
+                ("the distance", solvers.distance),
+                ("the mean number of iterations", solvers.mean_iterations),
             ]),
             Found::Row(row) => row.iter().flat_map(Point::not_finite).collect(),
             Found::Boundary(boundary) => boundary.not_finite(),

@@ -3,8 +3,8 @@
 
 use super::spectrum::spectral_radius;
 use super::{SolverTask, factors, positive_numbers};
-use crate::error::reference::distance;
 use crate::kinds::prelude::*;
+use crate::kinds::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
 
 /// Smallest and largest number of iterations between the start and the last increment but one of a measurement.
 const FEWEST: usize = 3;
@@ -366,9 +366,6 @@ fn contraction_figure(found: &[([f64; 3], &Contraction)]) -> Figure {
     Figure::new("contraction", caption, svg)
 }
 
-/// Tolerance of the Newton run that is compared with the fixed point.
-const SOLVED: f64 = 1e-14;
-
 /// The table `[comparison]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Comparison {
@@ -379,14 +376,10 @@ pub(super) struct Comparison {
 }
 
 /// The results of running both solvers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Agreement {
-    /// Largest distance of their levels in the norm of Theorem 3.4, over all steps.
-    pub distance: f64,
-    /// Iterations of the fixed point per step.
-    pub mean_iterations: f64,
-    /// Its largest number of iterations in a step.
-    pub most_iterations: usize,
+    /// Distance and iterations over all steps.
+    pub solvers: SolverComparison,
     /// Its iterations in each step, as (t, iterations).
     pub iterations: Vec<(f64, f64)>,
     /// Newton iterations in each step, likewise.
@@ -423,53 +416,32 @@ impl Comparison {
         self.tolerances.iter().map(case).collect()
     }
 
-    /// Steps the scene by both solvers in parallel.
+    /// Steps the scene by both solvers side by side.
     pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
         let scene = Scene {
             mesh: Mesh::uniform(self.elements)?,
             ..self.scene.clone()
         };
-        let driver = |settings| {
-            let stepping = Stepping {
-                settings,
-                ..scene.one_step()?
-            };
-            Driver::new(simulate::problem(&scene), stepping)
-        };
-        let mut newton = driver(Settings {
-            stopping: Stopping::below(SOLVED),
-            ..Settings::default()
-        })?;
-        let mut fixed = driver(Settings {
-            solver: Solver::FixedPoint,
-            stopping: Stopping::below(tolerance),
-            ..Settings::default()
-        })?;
-        let lengths: Vec<f64> = scene.mesh.lengths().collect();
-        let (mut farthest, mut total, mut most_iterations) = (0.0, 0, 0);
-        let (mut iterations, mut of_newton, mut contact) = (vec![], vec![], vec![]);
+        let mut both = SideBySide::new(&scene, tolerance)?;
+        let mut agreement = Agreement::default();
         for _ in 0..self.steps {
-            let solved = newton.advance(|_, _| ())?;
-            let report = fixed.advance(|_, _| ())?;
-            let t = fixed.simulation().t();
-            let level = fixed.level();
-            farthest = max_or_nan(farthest, distance(&lengths, level, newton.level()));
-            total += report.iterations;
-            most_iterations = most_iterations.max(report.iterations);
-            iterations.push((t, report.iterations as f64));
-            of_newton.push((t, solved.iterations as f64));
-            if level.contact_force != 0.0 {
-                contact.push((t - scene.dt(), t));
+            let StepOfBoth {
+                fixed_point,
+                newton,
+            } = both.step()?;
+            let t = both.fixed_point.t();
+            agreement
+                .iterations
+                .push((t, fixed_point.iterations as f64));
+            agreement.newton.push((t, newton.iterations as f64));
+            if fixed_point.in_contact {
+                agreement.contact.push((t - scene.dt(), t));
             }
         }
-        let mean_iterations = total as f64 / self.steps as f64;
+        let solvers = both.comparison;
         Ok(Agreement {
-            distance: farthest,
-            mean_iterations,
-            most_iterations,
-            iterations,
-            newton: of_newton,
-            contact,
+            solvers,
+            ..agreement
         })
     }
 }
@@ -480,11 +452,11 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
         // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the rest.
         let evidence = format!(
             "{:.2e}, {:.3} of the tolerance",
-            found.distance,
-            found.distance / eta
+            found.solvers.distance,
+            found.solvers.distance / eta
         );
         Check::that(
-            found.distance <= *eta,
+            found.solvers.distance <= *eta,
             format!("eta* = {eta:e}: the error is below eta*"),
             evidence,
         )
@@ -492,9 +464,12 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
     let row = |(
         eta,
         Agreement {
-            distance,
-            mean_iterations,
-            most_iterations,
+            solvers:
+                SolverComparison {
+                    distance,
+                    mean_iterations,
+                    most_iterations,
+                },
             ..
         },
     ): &(f64, &Agreement)| {
@@ -513,7 +488,7 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
         "most iterations",
     ];
     let last = found.last().map(|(_, found)| *found);
-    let distance = last.map_or(f64::NAN, |found| found.distance);
+    let distance = last.map_or(f64::NAN, |found| found.solvers.distance);
     let summary = format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
     let title = "Fixed point against Newton's method on the scene";
     Outcome {

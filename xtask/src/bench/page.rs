@@ -184,28 +184,23 @@ fn smallest(record: &Record, problem: (&str, &str)) -> Table {
 }
 
 fn drawing(record: &Record, problem: (&str, &str), measure: ErrorMeasure, cost: Cost) -> Drawing {
-    let (what, axis, title) = match cost {
+    let (what, axis, seen) = match cost {
         Cost::Seconds => (
             "seconds",
             "run time (CPU seconds)",
-            format!(
-                "In a minute only high order reaches a small error in {}",
-                measure.in_words()
-            ),
+            "high order is by far the fastest",
         ),
         Cost::Work => (
             "work",
             "counted work (elements × linear solves)",
-            format!(
-                "High order needs the least work for a small error in {}",
-                measure.in_words()
-            ),
+            "high order needs the least work",
         ),
     };
+    let title = format!("Error in {}: {seen}", measure.in_words());
     let svg = compared::figure(
         &title,
         axis,
-        &format!("largest error in {} (dimensionless)", measure.in_words()),
+        "largest error (dimensionless)",
         &record.costed(problem.0, measure, cost),
         &names(),
     );

@@ -4,7 +4,6 @@
 //! of several runs, since other load on the machine only slows a run.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use convergence_study::study::Table;
 use thermobeam::ensemble::Ensemble;
@@ -13,6 +12,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver, Start, Work};
 
+use super::cpu_seconds;
 use thermobeam_study::run::simulate;
 use thermobeam_study::scene::Scene;
 
@@ -78,9 +78,9 @@ impl Timed {
     /// Seconds, steps and work, to the end or to a failing step; none of the paper's scenes fails.
     fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
         let timed = |step: &mut dyn FnMut() -> bool| {
-            let start = Instant::now();
+            let begun = cpu_seconds();
             let _ = (0..steps).all(|_| step());
-            start.elapsed().as_secs_f64()
+            cpu_seconds() - begun
         };
         if self.in_lanes {
             let problems = vec![self.problem.clone(); LANES];

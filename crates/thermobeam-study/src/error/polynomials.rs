@@ -224,3 +224,89 @@ impl Errors {
 pub(crate) fn missing() -> CaseFailure {
     CaseFailure::new("there is nothing to measure the error against")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::{AnyOrderEvaluator, Evaluator, free_vibration};
+    use crate::run::Motion;
+    use crate::run::family::Family;
+    use thermobeam::scheme::EULER_CRANK_NICOLSON;
+    use thermobeam::solve::Settings;
+
+    const ZETA: f64 = 0.1;
+
+    /// The exact vibration of the lowest mode, to t = 1.
+    fn vibrating() -> Family {
+        let exact = free_vibration::vibration(&[(0, 0.1)], ZETA).unwrap();
+        Family::of_free_solution(exact, free_vibration::beam(ZETA), 1.0)
+    }
+
+    /// Its state at the end by dG, on elements of this degree.
+    fn end(family: &Family, nodes: &[f64], degree: usize) -> Polynomials {
+        let stepping = dg::Stepping {
+            degree: 4,
+            dt: 0.05,
+            ..dg::Stepping::default()
+        };
+        let mesh = Mesh::from_nodes(nodes.to_vec()).unwrap();
+        let mut motion = family.dg(mesh, degree, stepping).unwrap();
+        while motion.step(1.0).unwrap().is_some() {}
+        let simulation = motion.simulation();
+        Polynomials::new(simulation.space().clone(), vec![simulation.level().clone()])
+    }
+
+    fn agree(one: Errors, other: Errors) {
+        for (a, b) in [(one.norm, other.norm), (one.tip, other.tip)] {
+            assert!(a > 1e-8 && (a / b - 1.0).abs() < 1e-5, "{one:?}, {other:?}");
+        }
+    }
+
+    /// The other path integrates products of interpolation errors, and knows no polynomials.
+    #[test]
+    fn errors_of_linear_elements_are_those_to_the_exact_solution() {
+        let family = vibrating();
+        let reference = end(&family, &[0.0, 0.7, 1.0], 14);
+        for elements in [5, 40, 600] {
+            let mesh = Mesh::mapped(elements, |s| 1.0 - (1.0 - s).powf(1.5)).unwrap();
+            let on = family.on_nodes(mesh);
+            let settings = Settings::default();
+            let mut run = on.start(EULER_CRANK_NICOLSON, settings, 20).unwrap();
+            for _ in 0..20 {
+                run.step(f64::INFINITY).unwrap();
+            }
+            let level = run.on(on.mesh());
+            let errors = |reference| {
+                let mut evaluator = Evaluator::new(&family, &on, reference).unwrap();
+                evaluator.measure(&level, 0, run.t())
+            };
+            agree(errors(None), errors(Some(&reference)));
+        }
+    }
+
+    #[test]
+    fn errors_of_any_order_are_those_to_the_exact_solution() {
+        let family = vibrating();
+        let reference = end(&family, &[0.0, 0.7, 1.0], 14);
+        for nodes in [&[0.0, 1.0][..], &[0.0, 0.4, 1.0]] {
+            let coarse = end(&family, nodes, 3);
+            let errors = |reference| {
+                let mut evaluator =
+                    AnyOrderEvaluator::new(&family, &coarse.space, reference).unwrap();
+                evaluator.measure(&coarse.levels[0], 0)
+            };
+            agree(errors(None), errors(Some(&reference)));
+            agree(errors(None), reference.distance(&coarse));
+        }
+    }
+
+    #[test]
+    fn runs_with_other_times_have_no_distance() {
+        let family = vibrating();
+        let one = end(&family, &[0.0, 1.0], 3);
+        let mut other = one.clone();
+        assert_eq!(one.distance(&other), Errors::default());
+        other.levels.push(other.levels[0].clone());
+        assert!(one.distance(&other).norm.is_nan());
+    }
+}

@@ -239,13 +239,13 @@ fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Table {
 fn drawn(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measurement>]) -> Figure {
     let names = METHODS.map(|method| method.name);
     let title = format!(
-        "High order needs the least work for a small error in {}",
+        "Error in {}: high order needs the least work",
         measure.in_words()
     );
     let svg = figure(
         &title,
         "counted work (elements × linear solves)",
-        &format!("largest error in {} (dimensionless)", measure.in_words()),
+        "largest error (dimensionless)",
         &costed(ran, measure),
         &names,
     );

@@ -7,6 +7,7 @@
 
 use thermobeam::dg;
 
+use crate::error::polynomials::Polynomials;
 use crate::error::reference::combine;
 use crate::error::{AnyOrderEvaluator, Errors, Evaluator};
 use crate::kinds::prelude::*;
@@ -285,7 +286,7 @@ impl std::fmt::Display for Degrees {
 /// Who sees a run by dG.
 pub(super) enum Audience<'r> {
     /// An evaluator, against this reference or the exact solution.
-    Errors(Option<&'r crate::error::polynomials::Polynomials>),
+    Errors(Option<&'r Polynomials>),
     /// The levels are kept.
     Levels(&'r mut Vec<dg::Level>),
     /// Nobody: the run only takes its time.
@@ -305,15 +306,8 @@ impl Degrees {
         mut audience: Audience<'_>,
         clock: Clock,
     ) -> Result<(dg::Space, Measurement), CaseFailure> {
-        let Self { p, q, dt } = self;
-        let stepping = dg::Stepping {
-            degree: q,
-            dt,
-            restart_dt: RESTART * dt,
-            growth: 1.0 + 0.5 * dt / COARSE,
-            ..dg::Stepping::default()
-        };
-        let mut motion = family.dg(Mesh::from_nodes(nodes.to_vec())?, p, stepping)?;
+        let mesh = Mesh::from_nodes(nodes.to_vec())?;
+        let mut motion = family.dg(mesh, self.p, self.stepping())?;
         let space = motion.simulation().space().clone();
         let mut evaluator = match &audience {
             Audience::Errors(reference) => {
@@ -348,19 +342,34 @@ impl Degrees {
             begun = clock();
         }
         drop(evaluator);
-        let stages = (q + 1) as f64;
-        let work = motion.simulation().work();
-        let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
-        let weight = space.blocks() as f64 * stages * stages;
-        let spent = Spent {
-            node_steps: weight * work.steps as f64,
-            node_solves: weight * solves,
-        };
+        let spent = self.spent(&space, motion.simulation().work());
         let measurement = Measurement {
             errors,
             spent,
             seconds,
         };
         Ok((space, measurement))
+    }
+
+    fn stepping(self) -> dg::Stepping {
+        let Self { q, dt, .. } = self;
+        dg::Stepping {
+            degree: q,
+            dt,
+            restart_dt: RESTART * dt,
+            growth: 1.0 + 0.5 * dt / COARSE,
+            ..dg::Stepping::default()
+        }
+    }
+
+    /// The counted work, in the unit of the head of this file.
+    fn spent(self, space: &dg::Space, work: dg::Work) -> Spent {
+        let stages = (self.q + 1) as f64;
+        let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
+        let weight = space.blocks() as f64 * stages * stages;
+        Spent {
+            node_steps: weight * work.steps as f64,
+            node_solves: weight * solves,
+        }
     }
 }

@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
     /// Keeps the runs of an earlier piece, and makes only those that it lacks
     #[arg(long, requires = "out")]
     resume: bool,
-    /// CPU seconds that a run may take
+    /// CPU seconds that a run may take; for all pieces the same, since a dash means that it was not enough
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     limit: f64,
     /// Output of studies/programs/cvode.cpp on this machine
@@ -187,7 +187,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
                 atomic::write(&folder.join(&drawing.file), &drawing.svg)?;
             }
             let page = out.join("bench.md");
-            atomic::write(&page, &format!("{text}{}\n", clock.ended(&root)))?;
+            atomic::write(&page, format!("{text}{}\n", clock.ended(&root)))?;
             println!("written to {}", page.display());
         }
         _ => println!("{text}nothing is written without --out"),

@@ -87,7 +87,7 @@ impl Record {
     /// If the file cannot be written.
     pub(super) fn write(&self, folder: &Path) -> std::io::Result<()> {
         let text = serde_json::to_string_pretty(self).map_err(std::io::Error::other)?;
-        atomic::write(&folder.join(FILE), &format!("{text}\n"))
+        atomic::write(&folder.join(FILE), format!("{text}\n"))
     }
 
     /// The runs of a method on a problem.

@@ -136,10 +136,10 @@ const WAYS: [(&str, Alteration); 10] = [
     }),
     ("four cases in lanes, per case", |s| s.in_lanes = true),
     ("Newton, and the balance of each step", |s| {
-        s.balanced = true
+        s.balanced = true;
     }),
     ("four cases in lanes with it, per case", |s| {
-        (s.in_lanes, s.balanced) = (true, true)
+        (s.in_lanes, s.balanced) = (true, true);
     }),
     ("no obstacles: no contact", |s| s.problem.obstacles = None),
     ("rho = 0: no iteration", |s| s.problem.beam.rho = 0.0),

@@ -1,5 +1,6 @@
 //! `cargo xtask <command>`: the commands of `thermobeam`, and tools for developing the project.
 
+mod bench;
 mod regressions;
 
 use std::process::ExitCode;
@@ -36,13 +37,10 @@ struct Xtask {
 }
 
 #[derive(Debug, Subcommand)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there is one value of it in a run"
-)]
 enum Command {
     #[command(flatten)]
     Thermobeam(thermobeam_cli::Command),
+    Bench(bench::Arguments),
     /// Tools for developing this project
     #[command(subcommand)]
     Dev(Dev),
@@ -54,10 +52,11 @@ enum Dev {
 }
 
 fn main() -> ExitCode {
-    let groups = [&GROUPS[..], &[("This project", &["dev"])]].concat();
+    let groups = [&GROUPS[..], &[("This project", &["bench", "dev"])]].concat();
     let line = command_line::<Xtask>(&PROJECT, &groups);
     ended(line.clone(), |asked: Xtask| match asked.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
+        Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
     })
 }

@@ -1,6 +1,7 @@
 //! The tests of the tools, the map, the links and the workflow, in one program.
 
 mod action;
+mod bench;
 mod dev;
 mod links;
 mod map;

@@ -137,3 +137,31 @@ fn the_error_of_the_papers_figures_is_that_of_the_record() {
         "{number}: {row}"
     );
 }
+
+/// The table of run times in the README is that of the benchmark, row by row, and says how long a run may take.
+#[test]
+fn the_run_times_are_those_of_the_benchmark() {
+    let readme = read("README.md");
+    let report = read("reports/bench.md");
+    let (_, after) = readme
+        .split_once("\n| error in")
+        .expect("a table of run times");
+    let table = format!(
+        "| error in{}",
+        after.split("\n\n").next().expect("its rows")
+    );
+    assert!(table.lines().count() > 5);
+    let wrong: Vec<&str> = table
+        .lines()
+        .filter(|line| !is_row(line, &report))
+        .collect();
+    assert!(wrong.is_empty(), "not in reports/bench.md: {wrong:#?}");
+    let (_, limit) = report.split_once("A run may take ").expect("the limit");
+    let limit = limit.split(" seconds").next().expect("a number");
+    assert!(readme.contains(&format!("not reached within {limit} seconds")));
+    assert!(!is_row("| u(1, t), 1e-3 | 0 |", &report));
+}
+
+fn is_row(line: &str, report: &str) -> bool {
+    report.lines().any(|row| row == line)
+}

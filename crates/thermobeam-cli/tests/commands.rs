@@ -73,34 +73,6 @@ fn a_study_file_that_is_none_is_refused_with_its_line() {
 }
 
 #[test]
-fn times_of_another_program_are_refused_with_their_place() {
-    let scene = "[time]\ndt = 0.1\nt_end = 1.0\n";
-    let root = workspace(&[
-        ("scenes/s.toml", scene),
-        ("cvode.json", "{\"runs\": [{\"zeta\": 0.1}]}"),
-    ]);
-    let bench = |file| {
-        [
-            "bench",
-            "--scene",
-            "studies/scenes/s.toml",
-            "--beside",
-            file,
-        ]
-    };
-    unusable(
-        &root,
-        &bench("studies/cvode.json"),
-        "studies/cvode.json: missing field `degree` at line 1 column",
-    );
-    unusable(
-        &root,
-        &bench("studies/none.json"),
-        "studies/none.json: cannot be read",
-    );
-}
-
-#[test]
 fn where_no_study_is_meant_nothing_passes() {
     let root = workspace(&[]);
     unusable(&root, &["verify"], "no study in the tier quick");

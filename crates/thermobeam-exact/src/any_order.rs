@@ -128,6 +128,27 @@ impl<'a> ErrorMeter<'a> {
         ]
     }
 
+    /// The error of a level in the norm of Theorem 3.4, the left-hand side of (3.14), at its time.
+    pub fn theorem_34(&mut self, level: &Level) -> f64 {
+        self.factors.at(self.exact, level.t);
+        let mut square = 0.0;
+        for (k, (_, weight)) in self.points.iter().enumerate() {
+            let [[_, u_x], [phi, phi_x], [v, _], [w, _], [theta, _]] =
+                self.errors_at(k, level, self.theta_a);
+            let terms = [v, u_x - phi, w, phi_x, theta];
+            square += weight * terms.iter().map(|term| term * term).sum::<f64>();
+        }
+        square.sqrt()
+    }
+
+    /// |u_h(1) - u(1)| of a level at its time.
+    pub fn tip(&mut self, level: &Level) -> f64 {
+        self.factors.at(self.exact, level.t);
+        let products = self.exact.u.iter().zip(&self.factors.u.value);
+        let exact: f64 = products.map(|(p, t)| t * p.x.eval(1.0)).sum();
+        (level.value_and_slope(&self.space, Field::U, 1.0).0 - exact).abs()
+    }
+
     /// The largest `|∫ e_x P_k(ξ) dξ|` over fields, elements and degrees k < p: e is the error of a level, P_k Legendre's polynomial
     /// on ξ in [-1, 1]. The slopes of the space are these polynomials, so it is zero for the projection (3.6), and for no other level.
     ///

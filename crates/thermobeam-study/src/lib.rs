@@ -41,7 +41,6 @@ pub mod predict;
 pub mod run;
 pub mod scene;
 pub mod sweep;
-pub mod timing;
 
 pub use thermobeam_exact as exact;
 pub use thermobeam_exact::expression;

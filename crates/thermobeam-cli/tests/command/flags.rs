@@ -33,8 +33,8 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["new", "study", "begun"], 0, "begun.toml"),
 ];
 
-/// Commands missing from [`COMMANDS`]: a script for a shell; times, which take minutes; the help.
-const OTHERS: [&str; 3] = ["completions", "bench", "help"];
+/// Commands missing from [`COMMANDS`]: a script for a shell; the help.
+const OTHERS: [&str; 2] = ["completions", "help"];
 
 fn place(folder: &Folder) -> PathBuf {
     let root = workspace(folder, "w", &[("short", quick("short"))]);

@@ -6,7 +6,6 @@ pub mod family;
 pub mod history;
 pub mod object;
 pub mod simulate;
-pub mod step_time;
 pub mod tally;
 pub mod together;
 

@@ -17,7 +17,6 @@ mod rigid;
 mod scenes;
 mod self_convergence;
 mod solvers;
-mod surface;
 mod typed;
 mod untested;
 mod vibration;

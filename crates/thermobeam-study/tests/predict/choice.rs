@@ -139,8 +139,8 @@ fn made(choice: &Choice) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     for index in 0..steps {
         run.step(f64::INFINITY).unwrap();
-        let [norm, _, tip] = evaluator.measure(&run.on(on.mesh()), index, run.t());
-        worst = [worst[0].max(tip), worst[1].max(norm)];
+        let errors = evaluator.measure(&run.on(on.mesh()), index, run.t());
+        worst = [worst[0].max(errors.tip), worst[1].max(errors.norm)];
     }
     // The family is released with u(1) = 0.1, the scene with 1.
     worst.map(|error| 10.0 * error)

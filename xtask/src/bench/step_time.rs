@@ -4,18 +4,17 @@
 //! of several runs, since other load on the machine only slows a run.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use convergence_study::study::Table;
+use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Stepping};
+use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver, Start, Work};
 
-use crate::run::driver::{Driver, Step};
-use crate::run::simulate;
-use crate::run::together::EnsembleDriver;
-use crate::scene::Scene;
+use super::cpu_seconds;
+use thermobeam_study::run::simulate;
+use thermobeam_study::scene::Scene;
 
 /// Elements times steps of one timed run: some ten milliseconds.
 const RUN: usize = 500_000;
@@ -79,35 +78,41 @@ impl Timed {
     /// Seconds, steps and work, to the end or to a failing step; none of the paper's scenes fails.
     fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
         let timed = |step: &mut dyn FnMut() -> bool| {
-            let start = Instant::now();
+            let begun = cpu_seconds();
             let _ = (0..steps).all(|_| step());
-            start.elapsed().as_secs_f64()
+            cpu_seconds() - begun
         };
         if self.in_lanes {
-            let (problems, dt) = (vec![self.problem.clone(); LANES], [self.stepping.dt; LANES]);
-            let mut driver =
-                EnsembleDriver::new(problems, &dt, self.stepping.scheme, self.stepping.settings)?;
-            let seconds = timed(&mut || match self.balanced {
-                true => driver.stepped().map(|shown| _ = black_box(shown)).is_ok(),
-                false => driver.advance().is_ok(),
+            let problems = vec![self.problem.clone(); LANES];
+            let dt = [self.stepping.dt; LANES];
+            let Stepping {
+                scheme, settings, ..
+            } = self.stepping;
+            let mut ensemble = Ensemble::new(problems, &dt, scheme, settings)?;
+            let mut balances = Vec::with_capacity(LANES);
+            let seconds = timed(&mut || {
+                ensemble.advance();
+                if self.balanced {
+                    ensemble.balances(&mut balances);
+                    black_box(&balances);
+                }
+                ensemble.report(0).is_ok()
             });
-            return Ok((
-                seconds,
-                driver.ensemble().step().max(1),
-                driver.ensemble().work(),
-            ));
+            return Ok((seconds, ensemble.step().max(1), ensemble.work()));
         }
-        let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
-        let balance = |step: Step<'_>| _ = black_box(step.simulation.balance(step.old, step.new));
-        let seconds = timed(&mut || match self.balanced {
-            true => driver.stepped().map(balance).is_ok(),
-            false => driver.advance(|_, _| ()).is_ok(),
+        let mut simulation = Simulation::new(self.problem.clone(), self.stepping)?;
+        let mut old = simulation.level();
+        let mut new = old.clone();
+        let seconds = timed(&mut || {
+            let is_done = simulation.advance().is_ok();
+            if self.balanced {
+                std::mem::swap(&mut old, &mut new);
+                simulation.observe(&mut new);
+                black_box(simulation.balance(&old, &new));
+            }
+            is_done
         });
-        Ok((
-            seconds,
-            driver.simulation().step().max(1),
-            driver.simulation().work(),
-        ))
+        Ok((seconds, simulation.step().max(1), simulation.work()))
     }
 }
 
@@ -154,7 +159,7 @@ fn cold(setting: &mut Timed) {
 ///
 /// # Errors
 /// [`SetupError`] if the scene cannot be set up on that mesh.
-pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
+pub(super) fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     let whole = Timed::new(scene, Mesh::uniform(elements)?)?;
     let mut against = f64::NAN;
     let mut line = |(name, change): (&str, Alteration)| {
@@ -203,7 +208,7 @@ pub fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
 ///
 /// # Errors
 /// [`SetupError`] if the scene cannot be set up.
-pub fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
+pub(super) fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
     let line = |&n: &usize| {
         let alone = Timed::new(scene, Mesh::uniform(n)?)?;
         let lanes = Timed {

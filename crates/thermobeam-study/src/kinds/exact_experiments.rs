@@ -204,7 +204,7 @@ impl Kind for ExactExperiments {
         tables.push(self.how(&scenes));
         Outcome {
             headline: format!("{agreement}{}", if self.compare { &own } else { "" }),
-            coverage: vec![self.own_schemes()],
+            coverage: self.own_schemes().into_iter().collect(),
             tables,
             figures: self.figures(&scenes),
             quantities: readings::guarded(values.iter().flat_map(|(_, readings)| readings)),
@@ -218,14 +218,11 @@ impl Kind for ExactExperiments {
 }
 
 impl ExactExperiments {
-    /// No statement is made about the scenes' own schemes: their errors are measured, or not even that.
-    fn own_schemes(&self) -> Coverage {
-        let reason = if self.compare {
-            "measured, without a claim"
-        } else {
-            "not run, compare = false"
-        };
-        Coverage::of("own schemes", self.scenes.iter().map(|_| Some(reason)))
+    /// No statement is made about the scenes' own schemes: their errors are measured. `None` if the study does not run them.
+    fn own_schemes(&self) -> Option<Coverage> {
+        let reason = Some("measured, without a claim");
+        self.compare
+            .then(|| Coverage::of("own schemes", self.scenes.iter().map(|_| reason)))
     }
 
     fn shown(&self, scene: &Scene) -> Result<ShownStates, CaseFailure> {

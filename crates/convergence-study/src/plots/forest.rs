@@ -17,7 +17,7 @@ const LINE: f64 = 10.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 66.0;
 /// Widest label, in px; a longer one is cut.
-const LABELS: f64 = 400.0;
+const LABELS: f64 = 470.0;
 
 /// A rate.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct ForestRow {
 /// Draws rates as points with their intervals, in units of their tolerances, from top to bottom.
 pub fn forest(title: &str, rows: &[ForestRow]) -> String {
     let width = |row: &ForestRow| {
-        text_width(&row.label, TICK_SIZE).max(text_width(&row.numbers, NOTE_SIZE))
+        text_width(&row.label, NOTE_SIZE).max(text_width(&row.numbers, NOTE_SIZE))
     };
     let labels = rows.iter().map(width).fold(80.0, f64::max).min(LABELS);
     let plot = Rect {
@@ -128,8 +128,8 @@ fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
         colour(row.rate.verdict)
     };
     let right = plot.left - 12.0;
-    let label = elide(&row.label, TICK_SIZE, LABELS);
-    pen.text(&label, (right, y - LINE), TICK_SIZE, Anchor::Right, ink);
+    let label = elide(&row.label, NOTE_SIZE, LABELS);
+    pen.text(&label, (right, y - LINE), NOTE_SIZE, Anchor::Right, ink);
     let numbers = elide(&row.numbers, NOTE_SIZE, LABELS);
     pen.text(&numbers, (right, y + LINE), NOTE_SIZE, Anchor::Right, MUTED);
     pen.line(&[(12.0, top), (plot.right, top)], GRID, 0.5 * style::THIN);

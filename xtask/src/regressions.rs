@@ -59,40 +59,22 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         return print_list(&chosen);
     }
     // All of them are checked before the first is compiled.
-    let planted = chosen
+    let texts = chosen
         .iter()
         .map(|regression| regression.planted(&root))
         .collect::<Result<Vec<_>, _>>()?;
-    let reported = root.join("reports/regressions.md");
+    let reported = root.join(REPORT);
     let clock = LongRun::begin(
         "one build and one run of the quick tier for each mistake",
         &reported,
         false,
     );
-    let (copy, count) = (Copy::of(&root)?, chosen.len());
+    let count = chosen.len();
+    let copy = Copy::of(&root)?;
     let passing = copy.as_it_is(arguments.recorded)?.seconds;
     exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
-    let (mut all, mut complaints) = (vec![], vec![]);
-    for (regression, text) in chosen.iter().zip(&planted) {
-        match copy.with(regression, text, arguments.recorded) {
-            Ok(found) => {
-                clock.done(&format!(
-                    "{}: {}",
-                    regression.name,
-                    first_words(regression, &found)
-                ));
-                all.push((*regression, found));
-            }
-            Err(why) => complaints.push(format!("{}: {}", regression.name, why.message())),
-        }
-    }
-    if all.is_empty() {
-        return Err(Unusable::because(&complaints.join("\n")));
-    }
-    complaints
-        .iter()
-        .for_each(|complaint| screen::complain(complaint));
-    let all = judged::judged(&root, all)?;
+    let planted = chosen.iter().copied().zip(&texts);
+    let all = judged::judged(&root, plant(&copy, planted, arguments.recorded, &clock)?)?;
     let named = all
         .iter()
         .filter(|one| one.found.is_named_by(one.regression))
@@ -117,22 +99,51 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         screen::table(&HEAD, &table.rows)
     ))?;
     if arguments.write {
-        atomic::write(
-            &reported,
-            page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores,
-        )?;
+        let page = page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores;
+        atomic::write(&reported, page)?;
         let prints = serde_json::to_string(&judged::fingerprints(&all)).map_err(io::Error::from)?;
-        atomic::write(
-            &root.join(FINGERPRINTS),
-            prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n",
-        )?;
-        screen::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
+        let lines = prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n";
+        atomic::write(&root.join(FINGERPRINTS), lines)?;
+        screen::print(&format!("report: {REPORT}, {FINGERPRINTS}\n"))?;
     }
     Ok(if named == count {
         Verdict::Pass
     } else {
         Verdict::Fail
     })
+}
+
+/// Plants one mistake after the other, and runs the quick tier with each.
+///
+/// * `planted`: each mistake with the text of its file.
+///
+/// # Errors
+/// No mistake has a result; the others without one are complained about.
+fn plant<'r, 't>(
+    copy: &Copy,
+    planted: impl Iterator<Item = (&'r Regression, &'t String)>,
+    recorded: bool,
+    clock: &LongRun,
+) -> Result<Vec<(&'r Regression, Found)>, Unusable> {
+    let mut results = vec![];
+    let mut complaints = vec![];
+    for (regression, text) in planted {
+        match copy.with(regression, text, recorded) {
+            Ok(result) => {
+                let words = first_words(regression, &result);
+                clock.done(&format!("{}: {words}", regression.name));
+                results.push((regression, result));
+            }
+            Err(why) => complaints.push(format!("{}: {}", regression.name, why.message())),
+        }
+    }
+    if results.is_empty() {
+        return Err(Unusable::because(&complaints.join("\n")));
+    }
+    complaints
+        .iter()
+        .for_each(|complaint| screen::complain(complaint));
+    Ok(results)
 }
 
 fn print_list(chosen: &[&Regression]) -> Outcome {
@@ -152,6 +163,8 @@ fn print_list(chosen: &[&Regression]) -> Outcome {
 }
 
 /// Where later runs of `verify` find the effects of these mistakes.
+const REPORT: &str = "reports/regressions.md";
+
 const FINGERPRINTS: &str = "xtask/fingerprints.json";
 
 const HEAD: [&str; 4] = [

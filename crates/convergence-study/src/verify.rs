@@ -200,15 +200,7 @@ pub fn verify(
         .transpose()?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
-    let verdict = verdict(&finished, &changes);
-    let mut record = Record::new(
-        request.scope.name(),
-        &command,
-        verdict,
-        Some(&changes),
-        finished,
-    );
-    record.diagnosis = diagnose(project, &record.studies, &changes, &mistakes);
+    let record = diagnosed(project, request, finished, &changes, &mistakes);
     // Everything is prepared before anything is written.
     let provenance = Provenance::collect(
         &request.root,
@@ -242,6 +234,22 @@ pub fn verify(
         blessing,
         reports: target.folder,
     })
+}
+
+/// The record of a run, with the diagnosis of one that does not pass.
+fn diagnosed(
+    project: &Project,
+    request: &Request,
+    finished: Vec<Finished>,
+    changes: &[Change],
+    mistakes: &Fingerprints,
+) -> Record {
+    let command = request.scope.command(project);
+    let verdict = verdict(&finished, changes);
+    let name = request.scope.name();
+    let mut record = Record::new(name, &command, verdict, Some(changes), finished);
+    record.diagnosis = diagnose(project, &record.studies, changes, mistakes);
+    record
 }
 
 /// Accepts all changes into the baseline, or those selected: all of them or none.

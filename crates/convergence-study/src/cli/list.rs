@@ -42,6 +42,24 @@ struct Listed {
     claim: String,
 }
 
+impl Listed {
+    /// * `last`, `seconds`: the last verdict of the study and the time of that run, if it ever ran.
+    fn of(file: &StudyFile, last: Option<Verdict>, seconds: Option<f64>) -> Self {
+        let header = file.study.header();
+        let plan = file.study.plan();
+        let cost: f64 = plan.cases().iter().map(|case| case.cost).sum();
+        Self {
+            id: header.id.clone(),
+            tier: header.tier.name(),
+            kind: header.kind.clone(),
+            last: last.map(Verdict::name),
+            work: 1e-6 * cost,
+            seconds,
+            claim: header.claim.clone(),
+        }
+    }
+}
+
 const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "claim"];
 
 /// Prints a row for each study.
@@ -64,23 +82,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         workspace::last_seconds(&root)?,
     );
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let listed = |(StudyFile { study, .. }, _): (&StudyFile, bool)| {
-        let header = study.header();
-        Listed {
-            id: header.id.clone(),
-            tier: header.tier.name(),
-            kind: header.kind.clone(),
-            last: verdicts.get(&header.id).map(|verdict| verdict.name()),
-            work: 1e-6
-                * study
-                    .plan()
-                    .cases()
-                    .iter()
-                    .map(|case| case.cost)
-                    .sum::<f64>(),
-            seconds: seconds.get(&header.id).copied(),
-            claim: header.claim.clone(),
-        }
+    let listed = |(file, _): (&StudyFile, bool)| {
+        let id = &file.study.header().id;
+        Listed::of(file, verdicts.get(id).copied(), seconds.get(id).copied())
     };
     let studies: Vec<Listed> = meant.map(listed).collect();
     let passed = studies

@@ -1,6 +1,6 @@
 //! `verify`: the main job.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::exit::{Outcome, Unusable};
@@ -87,27 +87,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         .collect();
 
     arguments.limits.consent(project, &studies)?;
-    let Arguments {
-        bless,
-        reason,
-        only,
-        ..
-    } = arguments;
     let flags = &arguments.flags;
-    let effort = Effort {
-        fail_fast: arguments.fail_fast,
-        ..flags.effort(arguments.limits.case_limit)
-    };
-    let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
-    let request = Request {
-        scope,
-        effort,
-        bless: *bless,
-        reason: reason.clone(),
-        only: only.clone(),
-        root,
-        reports,
-    };
+    let request = request(arguments, scope, root);
     let verification = watched(&studies, flags.quiet, |progress| {
         verify::verify(project, &studies, &request, progress)
     })?;
@@ -132,6 +113,23 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         flags.format,
     );
     Ok(record.verdict)
+}
+
+/// * `scope`: what is run; `root`: the folder of the project.
+fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> Request {
+    let flags = &arguments.flags;
+    Request {
+        scope,
+        effort: Effort {
+            fail_fast: arguments.fail_fast,
+            ..flags.effort(arguments.limits.case_limit)
+        },
+        bless: arguments.bless,
+        reason: arguments.reason.clone(),
+        only: arguments.only.clone(),
+        reports: flags.out.clone().unwrap_or_else(|| root.join("reports")),
+        root,
+    }
 }
 
 /// The studies that did not pass, or with a number that moved, in the newest record.
@@ -220,23 +218,7 @@ fn text(
         .as_ref()
         .map(|diagnosis| diagnosis.clearest.as_slice())
         .filter(|_| !verbose);
-    // A failing study has already said why: its numbers moved for the same reason.
-    let failed = |id: &str| {
-        found
-            .record
-            .studies
-            .iter()
-            .any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
-    };
-    let is_said =
-        |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
-    let changes: Vec<Change> = found
-        .record
-        .moves()
-        .iter()
-        .filter(is_said)
-        .cloned()
-        .collect();
+    let changes = changes_to_print(&found.record, *verbose);
     let parts = [
         format!("{verdict}{took}: {sentence}\n"),
         found
@@ -255,6 +237,19 @@ fn text(
         .filter(|part| !part.is_empty())
         .collect();
     parts.join("\n\n") + "\n"
+}
+
+/// The changes, without those of failing studies unless `verbose`: such a study has already said why, and its numbers
+/// moved for the same reason.
+fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
+    let failed = |id: &str| {
+        let mut studies = record.studies.iter();
+        studies.any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
+    };
+    let is_printed =
+        |change: &&Change| verbose || change.movement.needs_a_reason() || !failed(&change.study);
+    let moves = record.moves();
+    moves.iter().filter(is_printed).cloned().collect()
 }
 
 /// What was blessed, or which command blesses.

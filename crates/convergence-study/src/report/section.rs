@@ -162,18 +162,10 @@ pub(super) fn front(
     if record.verdict != Verdict::Pass || answered.is_empty() {
         return (String::new(), vec![]);
     }
-    let row = |(statement, study, name): &(&str, &Finished, &str)| {
-        let rate = study.outcome.rates.iter().find(|(norm, _)| norm == name);
-        let rate = rate.map(|(_, rate)| {
-            format!(
-                "rate {}, claimed {}",
-                rate.rate_in_words(RATE_PLACES),
-                rate.claim()
-            )
-        });
+    let row = |(statement, study, rate): &(&str, &Finished, &str)| {
         vec![
             cell(statement),
-            cell(&rate.unwrap_or_else(|| key_numbers(&study.outcome))),
+            cell(&answer(study, rate)),
             link(&study.header.id),
         ]
     };
@@ -182,18 +174,10 @@ pub(super) fn front(
         answered.iter().map(row).collect(),
     );
     let drawn = |file: &str| {
-        let of_study = |study: &'_ Finished| {
-            study
-                .outcome
-                .figures
-                .iter()
-                .find(|figure| figure.file == file)
-                .cloned()
-        };
-        record
-            .studies
-            .iter()
-            .find_map(|study| Some((study, of_study(study)?)))
+        record.studies.iter().find_map(|study| {
+            let mut figures = study.outcome.figures.iter();
+            Some((study, figures.find(|figure| figure.file == file)?.clone()))
+        })
     };
     let mut parts = vec!["## What is verified\n".to_owned()];
     let mut figures = vec![];
@@ -215,4 +199,14 @@ pub(super) fn front(
     }
     parts.push(text(front.verified) + "\n\n");
     (parts.join("\n"), figures)
+}
+
+/// The numbers of a study that answer a statement: the rate of this name, or its key numbers.
+fn answer(study: &Finished, name: &str) -> String {
+    let mut rates = study.outcome.rates.iter();
+    let rate = rates.find(|(known, _)| known == name).map(|(_, rate)| {
+        let found = rate.rate_in_words(RATE_PLACES);
+        format!("rate {found}, claimed {}", rate.claim())
+    });
+    rate.unwrap_or_else(|| key_numbers(&study.outcome))
 }

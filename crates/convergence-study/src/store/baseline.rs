@@ -240,14 +240,9 @@ impl Baseline {
             (Movement::VanishedFile { .. }, _) => {
                 numbers.remove(study);
                 // The reason stays.
-                let withdrawn = (
-                    change::ID.to_owned(),
-                    BlessedClaim {
-                        value: None,
-                        reason,
-                    },
-                );
-                claims.insert(study.clone(), [withdrawn].into());
+                let value = None;
+                let withdrawn = BlessedClaim { value, reason };
+                claims.insert(study.clone(), [(change::ID.to_owned(), withdrawn)].into());
             }
             // It changes only with a run that passes.
             (_, None) => {
@@ -256,45 +251,33 @@ impl Baseline {
                 )));
             }
             (Movement::NewFile { guarded, .. }, Some(ran)) => {
-                let claim = |value: &String| BlessedClaim {
-                    value: Some(value.clone()),
-                    reason: reason.clone().filter(|_| *guarded > 0),
+                let reason = reason.filter(|_| *guarded > 0);
+                let claim = |(path, value): &(String, String)| {
+                    let value = Some(value.clone());
+                    let reason = reason.clone();
+                    (path.clone(), BlessedClaim { value, reason })
                 };
-                let all = ran
-                    .header
-                    .settings
-                    .iter()
-                    .map(|(path, value)| (path.clone(), claim(value)));
-                claims.entry(study.clone()).or_default().extend(all);
+                let of_study = claims.entry(study.clone()).or_default();
+                of_study.extend(ran.header.settings.iter().map(claim));
             }
             (Movement::Claim { to, .. }, Some(_)) => {
-                let claim = BlessedClaim {
-                    value: to.clone(),
-                    reason,
-                };
-                claims
-                    .entry(study.clone())
-                    .or_default()
-                    .insert(name.clone(), claim);
+                let value = to.clone();
+                let of_study = claims.entry(study.clone()).or_default();
+                of_study.insert(name.clone(), BlessedClaim { value, reason });
             }
             (
                 Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. },
                 Some(ran),
             ) => {
-                let found = ran
-                    .outcome
-                    .quantities
-                    .iter()
-                    .find(|quantity| quantity.name == *name);
-                let new = found.map(|found| Guarded {
-                    value: found.value,
-                    tolerance: found.tolerance,
+                let mut quantities = ran.outcome.quantities.iter();
+                let quantity = quantities.find(|quantity| quantity.name == *name);
+                let new = quantity.map(|quantity| Guarded {
+                    value: quantity.value,
+                    tolerance: quantity.tolerance,
                     reason,
                 });
-                numbers
-                    .entry(study.clone())
-                    .or_default()
-                    .extend(new.map(|new| (name.clone(), new)));
+                let of_study = numbers.entry(study.clone()).or_default();
+                of_study.extend(new.map(|new| (name.clone(), new)));
             }
         }
         numbers.retain(|_, guarded| !guarded.is_empty());

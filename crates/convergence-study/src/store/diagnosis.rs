@@ -6,7 +6,7 @@ mod fingerprint;
 
 use serde::{Deserialize, Serialize};
 
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
@@ -94,21 +94,11 @@ pub fn diagnose(
     let contrast = contrast(&votes(project, finished, changes));
     let first = first(finished, changes);
     let clearest = clearest(&failing);
-    let words = contrast
-        .settings
-        .iter()
-        .map(|(_, value)| value)
-        .chain(first.iter().take(1).map(|field| &field.name));
-    let mut look_at: Vec<String> = words
-        .filter(|_| claims.is_empty())
-        .filter_map(|word| {
-            project
-                .places
-                .iter()
-                .find(|(of, _)| names(word, of))
-                .map(|(_, place)| (*place).to_owned())
-        })
-        .collect();
+    let mut look_at = if claims.is_empty() {
+        places(project, &contrast, first.first())
+    } else {
+        vec![]
+    };
     let again = clearest
         .first()
         .map(String::as_str)
@@ -134,6 +124,20 @@ pub fn diagnose(
         clearest,
         moved: moved(finished, changes),
     })
+}
+
+/// Where to look: the places that belong to the settings of a contrast and to a field.
+fn places(project: &Project, contrast: &Contrast, first: Option<&Field>) -> Vec<String> {
+    let settings = contrast.settings.iter().map(|(_, value)| value);
+    let words = settings.chain(first.map(|field| &field.name));
+    let place = |word: &String| {
+        let mut places = project.places.iter();
+        places.find(|(of, _)| names(word, of))
+    };
+    words
+        .filter_map(place)
+        .map(|(_, place)| (*place).to_owned())
+        .collect()
 }
 
 /// Whether the words of a setting are `what`, alone or in brackets: `ID alone (SETTING)`.
@@ -214,91 +218,108 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
     votes
 }
 
-/// Fields by their share of the movement: within a study each is measured by its tolerance, on its finest level, where
-/// its own error has had the least time to mix with those of others.
+/// Fields by their share of the movement: within a study each is measured by its tolerance, on its
+/// finest level, where its own error has had the least time to mix with those of others.
 fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
     let mut fields: Vec<Field> = vec![];
-    for Finished {
-        header, outcome, ..
-    } in finished
-    {
-        // Levels are in order: the last number of a field belongs to its finest level.
-        let mut finest: Vec<(String, f64, f64)> = vec![];
-        for (name, movement) in
-            numbers(changes, &header.id).filter(|(name, _)| !name.starts_with("rate "))
-        {
-            let weight = movement.weight().clamp(0.0, 1e12);
-            let Movement::Moved { from, to, .. } = movement else {
-                continue;
-            };
-            let factor = (to / from).abs();
-            finest.retain(|(known, ..)| *known != field(name));
-            finest.push((
-                field(name),
-                weight.ln_1p(),
-                if factor.is_nan() {
-                    f64::INFINITY
-                } else {
-                    factor
-                },
-            ));
-        }
-        let rates = outcome
-            .rates
+    for study in finished {
+        let moved = moved_fields(study, changes);
+        let most = moved
             .iter()
-            .filter(|(_, rate)| !rate.verdict.is_pass());
-        let rates: Vec<(String, &RateVerdict)> =
-            rates.map(|(norm, rate)| (field(norm), rate)).collect();
-        let unmoved = |name: &&String| finest.iter().all(|(known, ..)| known != *name);
-        let unmoved: Vec<_> = rates
-            .iter()
-            .map(|(name, _)| name)
-            .filter(unmoved)
-            .cloned()
-            .collect();
-        finest.extend(unmoved.into_iter().map(|name| (name, 1.0, 1.0)));
-        let most = finest
-            .iter()
-            .map(|(_, weight, _)| *weight)
+            .map(|field| field.weight)
             .fold(f64::MIN_POSITIVE, f64::max);
-        for (name, weight, factor) in &finest {
-            let rate = rates
-                .iter()
-                .filter(|(of, _)| of == name)
-                .find_map(|(_, rate)| Some([rate.fitted?, rate.order]));
+        for one in &moved {
             // A study with one wrong field does not show which is first.
-            let share = if finest.len() > 1 {
-                (weight / most).powi(8)
+            let share = if moved.len() > 1 {
+                (one.weight / most).powi(8)
             } else {
                 0.1
             };
-            let found = fields
-                .iter()
-                .position(|field| field.name == *name)
-                .unwrap_or(fields.len());
-            if found == fields.len() {
-                fields.push(Field {
-                    name: name.clone(),
-                    share: 0.0,
-                    rate: None,
-                    factor: 1.0,
-                });
-            }
-            let field = &mut fields[found];
-            field.share += share;
-            field.rate = [field.rate, rate]
-                .into_iter()
-                .flatten()
-                .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
-            field.factor = if factor.ln().abs() > field.factor.ln().abs() {
-                *factor
-            } else {
-                field.factor
-            };
+            add(&mut fields, one, share);
         }
     }
     fields.sort_by(|one, next| next.share.total_cmp(&one.share));
     fields
+}
+
+/// A field of one study whose errors moved or whose rate does not pass.
+struct MovedField {
+    name: String,
+    /// How far its error on the finest level moved, in tolerances, as a logarithm; 1 if only the rate is wrong.
+    weight: f64,
+    /// By what its error on the finest level was multiplied.
+    factor: f64,
+    /// The rate that does not pass, with its order.
+    rate: Option<[f64; 2]>,
+}
+
+/// The fields of a study whose errors moved, then those of which only the rate does not pass.
+fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
+    // Levels are in order: the last number of a field belongs to its finest level.
+    let mut moved: Vec<MovedField> = vec![];
+    let errors = numbers(changes, &study.header.id).filter(|(name, _)| !name.starts_with("rate "));
+    for (name, movement) in errors {
+        let Movement::Moved { from, to, .. } = movement else {
+            continue;
+        };
+        let name = field(name);
+        let factor = (to / from).abs();
+        moved.retain(|known| known.name != name);
+        moved.push(MovedField {
+            name,
+            weight: movement.weight().clamp(0.0, 1e12).ln_1p(),
+            factor: if factor.is_nan() {
+                f64::INFINITY
+            } else {
+                factor
+            },
+            rate: None,
+        });
+    }
+    let rates = study.outcome.rates.iter();
+    let wrong: Vec<(String, Option<[f64; 2]>)> = rates
+        .filter(|(_, rate)| !rate.verdict.is_pass())
+        .map(|(norm, rate)| (field(norm), rate.fitted.map(|fitted| [fitted, rate.order])))
+        .collect();
+    let unmoved: Vec<MovedField> = wrong
+        .iter()
+        .filter(|(name, _)| moved.iter().all(|known| known.name != *name))
+        .map(|(name, _)| MovedField {
+            name: name.clone(),
+            weight: 1.0,
+            factor: 1.0,
+            rate: None,
+        })
+        .collect();
+    moved.extend(unmoved);
+    for one in &mut moved {
+        let mut of_field = wrong.iter().filter(|(name, _)| *name == one.name);
+        one.rate = of_field.find_map(|(_, rate)| *rate);
+    }
+    moved
+}
+
+/// Adds what one study says about a field to what the others say.
+fn add(fields: &mut Vec<Field>, moved: &MovedField, share: f64) {
+    let known = fields.iter().position(|field| field.name == moved.name);
+    let place = known.unwrap_or(fields.len());
+    if known.is_none() {
+        fields.push(Field {
+            name: moved.name.clone(),
+            share: 0.0,
+            rate: None,
+            factor: 1.0,
+        });
+    }
+    let field = &mut fields[place];
+    field.share += share;
+    field.rate = [field.rate, moved.rate]
+        .into_iter()
+        .flatten()
+        .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
+    if moved.factor.ln().abs() > field.factor.ln().abs() {
+        field.factor = moved.factor;
+    }
 }
 
 /// The claims of failing checks without the case before the colon, the commonest first.

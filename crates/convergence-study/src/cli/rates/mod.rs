@@ -146,26 +146,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let estimator = Estimator::new(arguments.tolerance)?;
     let source = arguments.file.display().to_string();
-    let claims: String = arguments
-        .order
-        .iter()
-        .map(|claimed| format!(" --order {}", quoted(&claimed.text)))
-        .collect();
-    let choice = Choice {
-        step: arguments.step.clone(),
-        columns: arguments.columns.clone(),
-        values: arguments.values.clone(),
-        names: arguments.names.clone(),
-        claimed: arguments
-            .order
-            .iter()
-            .filter_map(|claimed| claimed.name.clone())
-            .collect(),
-        dim: arguments.dim,
-        ratio: arguments.ratio,
-        command: format!("{} rates {source}{claims}", project.command),
-    };
-    let table = RateTable::read_with(&arguments.file, &choice)?;
+    let table = RateTable::read_with(&arguments.file, &choice(project, arguments, &source))?;
     let judged = |(k, (column, claim)): (usize, (_, Claim))| {
         let column: &Column = column;
         let estimate = (k >= table.columns.len()).then(|| column.estimate(&estimator, claim.order));
@@ -207,6 +188,27 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         &shown::object(&findings),
         &shown::text(&findings, flags.quiet),
     )?)
+}
+
+/// What the arguments say about the table.
+///
+/// * `source`: the file, as the command that repeats the run names it.
+fn choice(project: &Project, arguments: &Arguments, source: &str) -> Choice {
+    let claims = arguments.order.iter();
+    let names = claims.clone().filter_map(|claimed| claimed.name.clone());
+    let options: String = claims
+        .map(|claimed| format!(" --order {}", quoted(&claimed.text)))
+        .collect();
+    Choice {
+        step: arguments.step.clone(),
+        columns: arguments.columns.clone(),
+        values: arguments.values.clone(),
+        names: arguments.names.clone(),
+        claimed: names.collect(),
+        dim: arguments.dim,
+        ratio: arguments.ratio,
+        command: format!("{} rates {source}{options}", project.command),
+    }
 }
 
 /// The columns to judge: errors, then values.

@@ -71,6 +71,31 @@ pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable,
     })
 }
 
+/// The k-th column over the steps.
+///
+/// * `step_halves`: half the last digit of each step as printed; 0 where it is known exactly.
+fn column(
+    reader: &TableReader<'_>,
+    k: usize,
+    steps: &[f64],
+    step_halves: &[f64],
+) -> Result<Column, InputError> {
+    let Cells { name, halves, .. } = &reader.columns[k];
+    let level = |(row, step): (usize, &f64)| {
+        Ok(Level {
+            step: *step,
+            error: reader.must(row, k)?,
+        })
+    };
+    let levels = steps.iter().enumerate().map(level);
+    Ok(Column {
+        name: name.clone(),
+        levels: levels.collect::<Result<_, InputError>>()?,
+        halves: halves.clone(),
+        step_halves: step_halves.to_vec(),
+    })
+}
+
 /// Reads a table with one choice.
 fn attempt(
     text: &str,
@@ -98,26 +123,7 @@ fn attempt(
     } else {
         reader.columns[step.column].halves.clone()
     };
-    let column = |&k: &usize| {
-        let Cells { name, halves, .. } = &reader.columns[k];
-        let level = |(row, step): (usize, &f64)| {
-            Ok(Level {
-                step: *step,
-                error: reader.must(row, k)?,
-            })
-        };
-        let levels = steps
-            .iter()
-            .enumerate()
-            .map(level)
-            .collect::<Result<_, InputError>>()?;
-        Ok(Column {
-            name: name.clone(),
-            levels,
-            halves: halves.clone(),
-            step_halves: step_halves.clone(),
-        })
-    };
+    let column = |&k: &usize| column(&reader, k, &steps, &step_halves);
     let parts = [
         ("errors", reader.quoted(&errors)),
         ("values", reader.quoted(&values)),

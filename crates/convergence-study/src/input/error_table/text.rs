@@ -98,20 +98,7 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
         .or_else(|| numbered(&heads, width))
         .or_else(|| names(&heads, &rows, separator, width))
     {
-        None if is_turned(&rows) => {
-            let named = usize::from(number(rows[0][0], true).is_none());
-            let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
-            let names = if named == 1 {
-                column(0)
-            } else {
-                vec![&text[..0]; rows.len()]
-            };
-            RawTable {
-                names,
-                rows: (named..width).map(column).collect(),
-                ..table
-            }
-        }
+        None if is_turned(&rows) => turned(&rows, width, table),
         names => {
             // If the number of words is not that of the columns, it says how many columns there should be.
             let words = heads
@@ -125,6 +112,22 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
                 ..table
             }
         }
+    }
+}
+
+/// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
+fn turned<'t>(rows: &[Vec<&'t str>], width: usize, table: RawTable<'t>) -> RawTable<'t> {
+    let named = usize::from(number(rows[0][0], true).is_none());
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
+    let names = if named == 1 {
+        column(0)
+    } else {
+        vec![&rows[0][0][..0]; rows.len()]
+    };
+    RawTable {
+        names,
+        rows: (named..width).map(column).collect(),
+        ..table
     }
 }
 
@@ -352,6 +355,20 @@ fn is_no_name(cell: &&str) -> bool {
             || cell.contains(|c: char| c.is_alphabetic() || c.is_control()))
 }
 
+/// A line cut at its separator, at commas, at semicolons, and where there are several blanks.
+fn splits(line: &str, separator: Option<char>) -> [Vec<&str>; 4] {
+    let wide = line
+        .split("  ")
+        .map(|cell| cell.trim_matches([' ', '|', '\t']))
+        .filter(|cell| !cell.is_empty());
+    [
+        split(line, separator),
+        split(line, Some(',')),
+        split(line, Some(';')),
+        wide.collect(),
+    ]
+}
+
 /// The nearest line above the rows with a name for each column. Columns of rates, which begin or end with a dash, and
 /// the first column may have none.
 fn names<'t>(
@@ -379,16 +396,7 @@ fn names<'t>(
     });
     let mut first = "";
     for line in heads.iter().rev() {
-        let wide = line
-            .split("  ")
-            .map(|cell| cell.trim_matches([' ', '|', '\t']));
-        let wide = wide.filter(|cell| !cell.is_empty()).collect();
-        let splits: [Vec<&str>; 4] = [
-            split(line, separator),
-            split(line, Some(',')),
-            split(line, Some(';')),
-            wide,
-        ];
+        let splits = splits(line, separator);
         // Between words of several names there are single blanks: no word is the name of a rate then.
         let is_worded = separator.is_none() && (2..splits[0].len()).contains(&splits[3].len());
         let fits = |mask: &[usize], cells: &&Vec<&str>| {

@@ -19,7 +19,7 @@
 //! The drawing can be read back: `canvas` writes names and values into the picture, for a page that shows them.
 //!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
-//! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
+//! laid-out page; `xy`, `heat` and `space_time` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
 //!
 //! ```
 //! use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};
@@ -31,8 +31,11 @@
 //! ```
 
 pub mod canvas;
+mod coinciding;
 mod colour;
 mod convergence;
+mod curve;
+mod envelope;
 mod forest;
 mod heat;
 mod history;
@@ -41,14 +44,16 @@ pub mod look;
 mod panels;
 pub mod ruler;
 pub mod sheet;
+mod space_time;
 pub mod style;
 pub mod xy;
 
 pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestRow, forest};
-pub use heat::{SpaceTime, Surface, space_time, surface};
+pub use heat::{Surface, surface};
 pub use history::{history, iterations, work_precision};
 pub use panels::panels;
+pub use space_time::{SpaceTime, space_time};
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,7 +9,8 @@
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
 //! | `answer.rs` | its answer |
-//! | `judge.rs` | from answers to an outcome: errors, and values without an exact solution |
+//! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
+//! | `values.rs` | the same for values without an exact solution |
 
 mod answer;
 mod command;
@@ -18,6 +19,7 @@ pub mod guard;
 mod judge;
 mod output;
 mod refine;
+mod values;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

@@ -3,8 +3,8 @@
 use super::Scale;
 use super::canvas::{Anchor, Layer, Rect};
 use super::ruler::{Ruler, Ticks, on_scale, power_of_ten};
-use super::sheet::{Page, elide};
-use super::style::{self, LABEL_SIZE, TICK_SIZE, text_width};
+use super::sheet::Page;
+use super::style::{self, LABEL_SIZE, TICK_SIZE, elide, text_width};
 use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap, ViridisRGB};
 

@@ -1,8 +1,9 @@
 //! Judged rates, each with its name and its interval, relative to its claim (a forest plot).
 
 use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
-use super::sheet::elide;
-use super::style::{self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, text_width};
+use super::style::{
+    self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, elide, text_width,
+};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use plotters::style::RGBColor;
 

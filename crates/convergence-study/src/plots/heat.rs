@@ -4,9 +4,10 @@
 
 use super::canvas::{self, Canvas, Layer, Pen, Point, Rect, grid};
 use super::colour::ColourScale;
+use super::legend::{Entry, Swatch};
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
-use super::sheet::{Entry, Layout, Page, Swatch};
+use super::sheet::{Layout, Page};
 use super::style::{self, WHITE};
 use super::xy::left_out;
 use super::{Axis, Scale, Series};

@@ -39,7 +39,7 @@ mod envelope;
 mod forest;
 mod heat;
 mod history;
-pub mod inset;
+mod legend;
 pub mod look;
 mod panels;
 pub mod ruler;
@@ -54,6 +54,7 @@ pub use heat::{Surface, surface};
 pub use history::{history, iterations, work_precision};
 pub use panels::panels;
 pub use space_time::{SpaceTime, space_time};
+pub use xy::inset;
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,6 +4,8 @@ use plotters::style::RGBColor;
 
 /// Page width in px. Figures are read at full and at half width, and the text sizes below allow for that.
 pub const WIDTH: f64 = 900.0;
+/// Room between the edge of the page and everything on it, in px.
+pub const EDGE: f64 = 16.0;
 /// Height of the plot area in px; the page grows with its legend, the plot does not shrink.
 pub const PLOT_HEIGHT: f64 = 430.0;
 
@@ -55,6 +57,21 @@ pub const MIXED: Dash = &[11.0, 4.0, 2.5, 4.0];
 pub fn text_width(text: &str, size: f64) -> f64 {
     let em: f64 = text.chars().map(glyph_width).sum();
     em * size
+}
+
+/// A text of this size cut to fit a width, both in px, ending with an ellipsis if it was cut.
+pub fn elide(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for c in text.chars() {
+        if text_width(&kept, size) + text_width("m…", size) > width {
+            break;
+        }
+        kept.push(c);
+    }
+    kept + "…"
 }
 
 /// Advance of one glyph in em, after DejaVu Sans, rounded up.

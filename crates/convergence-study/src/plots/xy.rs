@@ -1,15 +1,18 @@
 //! The core of all figures with curves: ranges, layers in order, notes on omitted data.
 
+pub mod inset;
+
 use super::canvas::{self, Anchor, Layer, Point, Rect};
 use super::coinciding;
 pub use super::curve::Curve;
 use super::envelope::lines;
-use super::inset::Inset;
+use super::legend::{Entry, Swatch};
 use super::ruler::{Ruler, has_place, on_scale};
-use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
+use super::sheet::{Layout, Page, guide_margin};
 use super::style::TICK_SIZE;
 use super::{Axis, Guide, Phases, Scale, style};
 use crate::text::number::counted;
+use inset::Inset;
 
 /// Room left around the data, as a fraction of its range.
 const MARGIN: f64 = 0.05;

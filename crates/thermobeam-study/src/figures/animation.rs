@@ -4,7 +4,7 @@ use convergence_study::plots::Scale;
 use convergence_study::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
 use convergence_study::plots::look::look;
 use convergence_study::plots::ruler::{Ruler, fixed, on_scale};
-use convergence_study::plots::sheet::elide;
+use convergence_study::plots::style::elide;
 use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 
 use crate::run::driver::thinned;

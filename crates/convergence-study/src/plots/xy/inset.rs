@@ -1,9 +1,9 @@
 //! A small figure inside a larger one.
 
-use super::canvas::{Anchor, Canvas, Layer, Rect};
-use super::sheet::{Layout, Page, guide_margin};
-use super::style::{self, NOTE_SIZE};
-use super::xy::Xy;
+use super::Xy;
+use crate::plots::canvas::{Anchor, Canvas, Layer, Rect};
+use crate::plots::sheet::{Layout, Page, guide_margin};
+use crate::plots::style::{self, NOTE_SIZE};
 
 /// A small figure in the plot of a larger one: an enlarged part of its curves, or the same curves on another scale.
 ///

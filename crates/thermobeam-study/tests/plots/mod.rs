@@ -4,6 +4,8 @@ mod figures;
 #[path = "../../../convergence-study/tests/plots/laws.rs"]
 mod laws;
 
+use std::path::Path;
+
 use convergence_study::plots::Series;
 use laws::{elements, parse};
 use thermobeam_study::figures::*;
@@ -312,4 +314,44 @@ fn branches_end_inside_the_frame() {
             .all(|x| *x > plot[0] + 50.0 && *x < plot[2] - 50.0),
         "{across:?}"
     );
+}
+
+/// Every picture of both tiers, with the name of its file; of a page with several panels, each.
+fn of_the_reports() -> Vec<(&'static str, String)> {
+    let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports");
+    let mut figures = vec![];
+    for folder in ["figures", "full/figures"] {
+        for entry in std::fs::read_dir(reports.join(folder)).expect(folder) {
+            let path = entry.expect(folder).path();
+            let name: &'static str = path.display().to_string().leak();
+            let svg = std::fs::read_to_string(&path).expect("a picture");
+            figures.extend(panels(&svg).into_iter().map(|panel| (name, panel)));
+        }
+    }
+    figures
+}
+
+/// The documents in a document, or the document.
+fn panels(svg: &str) -> Vec<String> {
+    let doc = parse(svg);
+    let inner = doc.root_element().children();
+    let panels = inner.filter(|node| node.has_tag_name("svg") && node.has_attribute("data-plot"));
+    let panels: Vec<String> = panels.map(|node| svg[node.range()].to_owned()).collect();
+    if panels.is_empty() {
+        vec![svg.to_owned()]
+    } else {
+        panels
+    }
+}
+
+#[test]
+fn the_pictures_of_the_reports_obey_the_laws() {
+    let figures = of_the_reports();
+    assert!(figures.len() > 100, "{}", figures.len());
+    laws::every_figure_is_well_formed_and_free_of_nan(&figures);
+    laws::every_text_is_large_enough_and_on_the_page(&figures);
+    laws::every_figure_has_a_title_that_says_more_than_its_axes(&figures);
+    laws::no_two_texts_overlap(&figures);
+    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&figures);
+    laws::no_two_entries_of_a_legend_look_alike(&figures);
 }

@@ -4,6 +4,7 @@ mod fuzz;
 mod input;
 mod kinds;
 mod manufactured;
+mod one_loop;
 mod plots;
 mod predict;
 mod simulate;

@@ -134,7 +134,9 @@ impl Motion for DgMotion {
             Report {
                 dt: done.dt,
                 iterations: done.iterations,
+                contraction: None,
                 in_contact: phase != Phase::Free,
+                unsound: None,
             }
         }))
     }

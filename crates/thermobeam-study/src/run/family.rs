@@ -219,6 +219,11 @@ impl OnMesh<'_> {
         &self.problem.mesh
     }
 
+    /// Final time.
+    pub(crate) fn t_end(&self) -> f64 {
+        self.of.t_end
+    }
+
     /// Starts at t = 0 with a scheme and `steps` steps to do.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
 
-use super::{Motion, Report, RunError, Sample, Watch};
+use super::{AnyMotion, Motion, Report, RunError, Sample, Watch};
 
 /// Maximum number of frames: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;
@@ -159,7 +159,7 @@ impl RunHistory {
 }
 
 impl Watch for RunHistory {
-    fn see(&mut self, motion: &mut dyn Motion, _: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(&mut self, motion: &mut AnyMotion, _: &Report) -> Result<ControlFlow<()>, RunError> {
         let is_drawn = !self.frames.times.is_empty();
         if is_drawn {
             self.since_row += motion.balance();

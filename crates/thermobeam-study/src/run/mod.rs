@@ -70,8 +70,12 @@ pub struct Report {
     pub dt: f64,
     /// Number of iterations.
     pub iterations: usize,
+    /// Ratio of the last two increments, if the method has measured it.
+    pub contraction: Option<f64>,
     /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout a step of dG.
     pub in_contact: bool,
+    /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at it.
+    pub unsound: Option<Unsound>,
 }
 
 /// Why a problem did not reach its end.
@@ -197,40 +201,56 @@ pub trait Motion {
     }
 }
 
-/// Observes a motion after each of its steps.
-pub trait Watch {
+/// A motion by whatever method.
+pub type AnyMotion = dyn Motion;
+
+/// Observes a motion after each of its steps: any motion, or those of one method.
+pub trait Watch<M: ?Sized = AnyMotion> {
     /// Observes the last step, and reads what it needs.
     ///
     /// # Errors
     /// [`RunError`] ends the run at this step.
-    fn see(
-        &mut self,
-        motion: &mut dyn Motion,
-        report: &Report,
-    ) -> Result<ControlFlow<()>, RunError>;
+    fn see(&mut self, motion: &mut M, report: &Report) -> Result<ControlFlow<()>, RunError>;
 }
 
-impl<F: FnMut(&mut dyn Motion, &Report) -> Result<ControlFlow<()>, RunError>> Watch for F {
-    fn see(
-        &mut self,
-        motion: &mut dyn Motion,
-        report: &Report,
-    ) -> Result<ControlFlow<()>, RunError> {
+impl<M: ?Sized, F> Watch<M> for F
+where
+    F: FnMut(&mut M, &Report) -> Result<ControlFlow<()>, RunError>,
+{
+    fn see(&mut self, motion: &mut M, report: &Report) -> Result<ControlFlow<()>, RunError> {
         self(motion, report)
     }
+}
+
+/// Steps a motion to `until` and shows every step to one observer, which cannot end it: see [`run`].
+///
+/// # Errors
+/// [`RunError`] of the failed step; the motion then stands at the last level.
+pub(crate) fn run_to<M: Motion + ?Sized>(
+    motion: &mut M,
+    until: f64,
+    mut see: impl FnMut(&mut M, &Report),
+) -> Result<(), RunError> {
+    let mut watch = |motion: &mut M, report: &Report| {
+        see(motion, report);
+        Ok(ControlFlow::Continue(()))
+    };
+    run(motion, until, &[], &mut [&mut watch])
 }
 
 /// Steps a motion to `until`, or until a watch ends it.
 ///
 /// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of steps.
 ///
+/// Every watch sees the step that ends the run, also one whose state is [unsound](Report::unsound).
+///
 /// # Errors
-/// [`RunError`] of the failed step, or of a watch; the motion then stands at the last level.
-pub fn run(
-    motion: &mut dyn Motion,
+/// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at the last level.
+pub fn run<M: Motion + ?Sized>(
+    motion: &mut M,
     until: f64,
     ends: &[f64],
-    watches: &mut [&mut dyn Watch],
+    watches: &mut [&mut dyn Watch<M>],
 ) -> Result<(), RunError> {
     let mut passed = 0;
     loop {
@@ -246,10 +266,20 @@ pub fn run(
             passed += 1;
             continue;
         };
+        let mut is_ended = false;
         for watch in &mut *watches {
-            if watch.see(motion, &report)?.is_break() {
-                return Ok(());
-            }
+            is_ended |= watch.see(motion, &report)?.is_break();
+        }
+        if let Some(unsound) = report.unsound {
+            return Err(RunError::unsound(
+                motion.steps(),
+                motion.t(),
+                report.dt,
+                unsound,
+            ));
+        }
+        if is_ended {
+            return Ok(());
         }
     }
 }

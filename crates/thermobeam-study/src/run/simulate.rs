@@ -30,7 +30,7 @@ use super::dg::DgMotion;
 use super::driver::Driver;
 use super::history::RunHistory;
 pub use super::tally::{Contact, Run};
-use super::{Motion, Report, RunError, Watch, run};
+use super::{AnyMotion, Motion, Report, RunError, Watch, run};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};
 
@@ -63,7 +63,7 @@ pub fn problem(scene: &Scene) -> Problem {
 ///
 /// # Errors
 /// [`SetupError`] if the solver refuses the scene's numbers.
-pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
+pub(crate) fn driver(scene: &Scene) -> Result<Driver<'static>, SetupError> {
     Driver::new(problem(scene), scene.one_step()?)
 }
 
@@ -119,7 +119,7 @@ impl Simulator {
 
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
-        let mut told = |motion: &mut dyn Motion, _: &Report| {
+        let mut told = |motion: &mut AnyMotion, _: &Report| {
             progress(motion.steps(), motion.t());
             Ok(ControlFlow::Continue(()))
         };
@@ -137,7 +137,7 @@ impl Simulator {
         mut read: impl FnMut(&mut dyn Motion),
     ) -> Result<Run, RunError> {
         let mut passed = 0;
-        let mut watch = |motion: &mut dyn Motion, _: &Report| {
+        let mut watch = |motion: &mut AnyMotion, _: &Report| {
             // A level of a one-step scheme is there up to rounding.
             if times
                 .get(passed)

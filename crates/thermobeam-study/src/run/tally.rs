@@ -10,7 +10,7 @@ use thermobeam::energy::Balance;
 use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
-use super::{Motion, Report, RunError, Sample, Solves, Unsound, Watch};
+use super::{AnyMotion, Report, RunError, Sample, Solves, Unsound, Watch};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -279,7 +279,7 @@ impl Contact {
 impl Watch for Run {
     fn see(
         &mut self,
-        motion: &mut dyn Motion,
+        motion: &mut AnyMotion,
         report: &Report,
     ) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());

@@ -339,9 +339,7 @@ impl Experiments {
             let end = (windows * self.window).min(self.t_max);
             // Summed from differences: the round-off of the total would hide a slow fall.
             let mut fall = 0.0;
-            while motion.step(end)?.is_some() {
-                fall -= recorder.add(&mut *motion);
-            }
+            run_to(&mut *motion, end, |motion, _| fall -= recorder.add(motion))?;
             if fall <= self.rate * self.window {
                 return measured(
                     &scene,

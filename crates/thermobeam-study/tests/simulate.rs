@@ -375,7 +375,11 @@ fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
 fn a_step_by_dg_is_in_contact_if_the_free_end_touches_an_obstacle_in_all_of_it() {
     let mut steps = vec![];
     let mut watch = |motion: &mut AnyMotion, report: &Report| {
-        steps.push((motion.t() - report.dt, motion.t(), report.in_contact));
+        steps.push((
+            motion.work().t - report.dt,
+            motion.work().t,
+            report.in_contact,
+        ));
         Ok(ControlFlow::Continue(()))
     };
     let simulator = Simulator::new(&located("t_end = 1.0", "0.01*x*(x-2)")).unwrap();

@@ -112,7 +112,7 @@ impl SideBySide {
 }
 
 fn one_step(driver: &mut Driver<'_>) -> Result<Report, CaseFailure> {
-    let until = driver.t() + driver.simulation().dt();
+    let until = driver.work().t + driver.simulation().dt();
     let mut done = None;
     run_to(driver, until, |_, report| done = Some(*report))?;
     done.ok_or_else(|| CaseFailure::new("no step was done"))

@@ -263,7 +263,7 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
         }
         Method::Dg(_) => {
             let nodes = compared(scene)?;
-            let level = |motion: &AnyMotion| motion.on(&nodes);
+            let level = |motion: &AnyMotion| motion.snapshot().on(&nodes);
             let is_slow = |motion: &AnyMotion| level(motion).is_slow(speed);
             quiet(&mut *simulate::motion(scene)?, t_max, is_slow, level)?
         }
@@ -285,17 +285,18 @@ fn quiet<M: Motion + ?Sized>(
 ) -> Result<Option<(f64, Level)>, RunError> {
     let mut moved = 0.0;
     let mut watch = |motion: &mut M, _: &Report| {
+        let t = motion.work().t;
         if !is_slow(motion) {
-            moved = motion.t();
+            moved = t;
         }
-        Ok(if motion.t() - moved >= QUIET {
+        Ok(if t - moved >= QUIET {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         })
     };
     run(motion, t_max, &[], &mut [&mut watch])?;
-    let t = motion.t();
+    let t = motion.work().t;
     Ok((t - moved >= QUIET).then(|| (t, level(motion))))
 }
 

@@ -317,7 +317,7 @@ fn by_dg(
     run_within(&mut motion, scene.t_end, &mut read)?;
     curves.cost = Cost {
         work: (unknowns * solves) as f64,
-        seconds: motion.wall().as_secs_f64(),
+        seconds: motion.work().wall.as_secs_f64(),
         runs: 1,
     };
     Ok(curves)
@@ -360,7 +360,7 @@ fn by_one_step(
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
     let mut read = |driver: &mut Driver<'_>| {
-        let (simulation, new, n) = (driver.simulation(), driver.level(), driver.steps());
+        let (simulation, new, n) = (driver.simulation(), driver.level(), driver.work().steps);
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {
@@ -388,7 +388,7 @@ fn by_one_step(
     run_within(&mut driver, scene.t_end, &mut read)?;
     curves.cost = Cost {
         work: (elements * steps) as f64,
-        seconds: driver.wall().as_secs_f64(),
+        seconds: driver.work().wall.as_secs_f64(),
         runs: 1,
     };
     Ok(curves)

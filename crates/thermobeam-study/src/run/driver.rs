@@ -10,8 +10,9 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 
+use super::snapshot::Snapshot;
 use super::tally::{EnergySize, EnergySummary};
-use super::{Motion, Report, RunError, Sample, Solves, Unsound};
+use super::{Motion, Report, RunError, Sample, Unsound, Work};
 
 /// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps a hundredth.
 const CHECKED: usize = 16;
@@ -151,60 +152,10 @@ impl<'l> Driver<'l> {
             rounding: now.rounding + ROUNDED * initial.abs(),
             ..now
         };
-        energy.sound(|| rounded(self.energy_size())).err()
+        energy
+            .sound(|| rounded(self.snapshot().energy_size()))
+            .err()
     }
-}
-
-/// Maximum number of rows of a history: every step up to this number, then every second, third, ... step.
-pub(crate) const MOST_ROWS: usize = 200_000;
-
-/// Maximum number of nodes of a frame: twice the rows of a picture over space and time.
-const MOST_POINTS: usize = 281;
-
-/// At most `most` of `0..len`, evenly spaced, including both ends.
-pub(crate) fn thinned(len: usize, most: usize) -> Vec<usize> {
-    if len <= most {
-        return (0..len).collect();
-    }
-    (0..most).map(|k| k * (len - 1) / (most - 1)).collect()
-}
-
-/// A level with each field replaced.
-pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
-    let Level {
-        u,
-        v,
-        phi,
-        w,
-        theta,
-        contact_force,
-    } = level;
-    Level {
-        u: map(u),
-        v: map(v),
-        phi: map(phi),
-        w: map(w),
-        theta: map(theta),
-        contact_force: *contact_force,
-    }
-}
-
-/// The P1 functions of a level at the nodes of another mesh.
-pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
-    let (nodes, mut left) = (mesh.nodes(), 0);
-    let place = |&x: &f64| {
-        while left + 2 < nodes.len() && nodes[left + 1] <= x {
-            left += 1;
-        }
-        (left, (x - nodes[left]) / (nodes[left + 1] - nodes[left]))
-    };
-    let places: Vec<(usize, f64)> = other.nodes().iter().map(place).collect();
-    map_fields(level, |y| {
-        places
-            .iter()
-            .map(|&(i, s)| (1.0 - s) * y[i] + s * y[i + 1])
-            .collect()
-    })
 }
 
 impl Motion for Driver<'_> {
@@ -227,15 +178,7 @@ impl Motion for Driver<'_> {
         }))
     }
 
-    fn t(&self) -> f64 {
-        self.simulation.t()
-    }
-
-    fn steps(&self) -> usize {
-        self.simulation.step()
-    }
-
-    fn at(&mut self, _: f64) -> Sample {
+    fn sample(&mut self) -> Sample {
         let (simulation, level) = (&self.simulation, &self.new);
         let Problem {
             beam,
@@ -253,43 +196,9 @@ impl Motion for Driver<'_> {
         }
     }
 
-    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
-        let steps = (t_end / self.simulation.dt()).round() as usize;
-        let is_shown = self
-            .simulation
-            .step()
-            .is_multiple_of(steps.div_ceil(count).max(1));
-        if is_shown {
-            vec![self.simulation.t()]
-        } else {
-            vec![]
-        }
-    }
-
-    fn rows(&self) -> usize {
-        MOST_ROWS
-    }
-
-    fn points(&self) -> Vec<f64> {
-        let nodes = self.simulation.problem().mesh.nodes();
-        thinned(nodes.len(), MOST_POINTS)
-            .into_iter()
-            .map(|i| nodes[i])
-            .collect()
-    }
-
-    fn shape(&self, _: f64) -> Vec<f64> {
-        thinned(self.new.u.len(), MOST_POINTS)
-            .into_iter()
-            .map(|i| self.new.u[i])
-            .collect()
-    }
-
-    fn on(&self, mesh: &Mesh) -> Level {
-        Level {
-            contact_force: 0.0,
-            ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh)
-        }
+    /// At its end: the scheme has no values inside.
+    fn inside(&mut self, _: f64) -> Sample {
+        self.sample()
     }
 
     fn extremes(&self) -> [f64; 2] {
@@ -300,29 +209,22 @@ impl Motion for Driver<'_> {
         self.simulation.balance(&self.old, &self.new)
     }
 
-    fn energy_size(&self) -> EnergySize {
-        let rounding = if self.is_solved {
-            self.simulation.rounding(&self.old, &self.new).total()
-        } else {
-            // A fixed number of iterations leaves a defect that nothing bounds.
-            f64::INFINITY
-        };
-        EnergySize {
-            terms: self.simulation.energy_scale(&self.new),
-            rounding,
+    fn work(&self) -> Work {
+        Work {
+            t: self.simulation.t(),
+            steps: self.simulation.step(),
+            solves: self.simulation.work().into(),
+            wall: self.wall,
         }
     }
 
-    fn solves(&self) -> Solves {
-        self.simulation.work().into()
-    }
-
-    fn wall(&self) -> Duration {
-        self.wall
-    }
-
-    fn is_heated(&self) -> bool {
-        self.simulation.is_heated()
+    fn snapshot(&self) -> Snapshot<'_> {
+        Snapshot::OneStep {
+            simulation: &self.simulation,
+            old: &self.old,
+            level: &self.new,
+            is_solved: self.is_solved,
+        }
     }
 }
 

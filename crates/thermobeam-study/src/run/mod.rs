@@ -6,22 +6,21 @@ pub mod family;
 pub mod history;
 pub mod object;
 pub mod simulate;
+pub(crate) mod snapshot;
 pub mod tally;
 pub mod together;
 
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use tally::EnergySize;
-
 use convergence_study::run::time_limit::TimeUp;
 use serde::Serialize;
-use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::solve::Level;
+use thermobeam::mesh::MeshError;
 use thiserror::Error;
+
+pub use snapshot::Snapshot;
 
 /// Observed quantities at one time; the JSON object of a run has them, except the contact force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -142,38 +141,33 @@ pub enum Unsound {
 
 const EXPECTED: &str = "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
+/// Where a motion stands, and counts of the work done so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Work {
+    /// The current time.
+    pub t: f64,
+    /// Steps done.
+    pub steps: usize,
+    /// Linear systems solved.
+    pub solves: Solves,
+    /// Time spent in steps.
+    pub wall: Duration,
+}
+
 /// A beam in motion, one step at a time. Observed values are computed only on request.
 pub trait Motion {
     /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until` is the end of a step.
+    /// Only [`run`] calls it.
     ///
     /// # Errors
     /// [`RunError`]; the state is then unchanged.
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError>;
 
-    /// The current time.
-    fn t(&self) -> f64;
-
-    /// Steps done.
-    fn steps(&self) -> usize;
+    /// The current state.
+    fn sample(&mut self) -> Sample;
 
     /// The state at a time in the last step; for a one-step scheme at its end.
-    fn at(&mut self, t: f64) -> Sample;
-
-    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the first is `t_end /
-    /// count`. A one-step scheme shows levels at equal numbers of steps, at most `count` of them.
-    fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
-
-    /// Times of a history.
-    fn rows(&self) -> usize;
-
-    /// Points x of a picture.
-    fn points(&self) -> Vec<f64>;
-
-    /// Displacement at those points, at a time in the last step.
-    fn shape(&self, t: f64) -> Vec<f64>;
-
-    /// The values of the current level at the nodes of a mesh, without the contact force.
-    fn on(&self, mesh: &Mesh) -> Level;
+    fn inside(&mut self, t: f64) -> Sample;
 
     /// Smallest and largest u(1) in the last step; for a one-step scheme at its end.
     fn extremes(&self) -> [f64; 2];
@@ -181,24 +175,11 @@ pub trait Motion {
     /// The energy's balance over the last step.
     fn balance(&self) -> Balance;
 
-    /// The size of the current level's energy, with which errors of the balance are compared.
-    fn energy_size(&self) -> EnergySize;
+    /// Where it stands, and the work so far.
+    fn work(&self) -> Work;
 
-    /// Counts of the work done so far.
-    fn solves(&self) -> Solves;
-
-    /// Time spent in steps.
-    fn wall(&self) -> Duration;
-
-    /// Whether the temperature is computed.
-    fn is_heated(&self) -> bool {
-        true
-    }
-
-    /// What the free end touches, and where contact began and ended; `None` if the method does not locate events.
-    fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
-        None
-    }
+    /// The whole state, for pictures and comparisons.
+    fn snapshot(&self) -> Snapshot<'_>;
 }
 
 /// A motion by whatever method.
@@ -254,7 +235,7 @@ pub fn run<M: Motion + ?Sized>(
 ) -> Result<(), RunError> {
     let mut passed = 0;
     loop {
-        while ends.get(passed).is_some_and(|&end| end <= motion.t()) {
+        while ends.get(passed).is_some_and(|&end| end <= motion.work().t) {
             passed += 1;
         }
         let Some(report) = motion.step(ends.get(passed).copied().unwrap_or(until).min(until))?
@@ -271,12 +252,8 @@ pub fn run<M: Motion + ?Sized>(
             is_ended |= watch.see(motion, &report)?.is_break();
         }
         if let Some(unsound) = report.unsound {
-            return Err(RunError::unsound(
-                motion.steps(),
-                motion.t(),
-                report.dt,
-                unsound,
-            ));
+            let Work { t, steps, .. } = motion.work();
+            return Err(RunError::unsound(steps, t, report.dt, unsound));
         }
         if is_ended {
             return Ok(());

@@ -76,7 +76,7 @@ impl State {
             phi_tip,
             energy,
             ..
-        } = motion.at(t);
+        } = motion.inside(t);
         let simulation = motion.simulation();
         let mut integrands = vec![];
         if !located.is_empty() {
@@ -116,7 +116,7 @@ impl Trace {
                         phi_tip,
                         energy,
                         ..
-                    } = motion.at(motion.t());
+                    } = motion.sample();
                     states.push(State {
                         t,
                         numbers: [u_tip, phi_tip, energy],
@@ -128,7 +128,7 @@ impl Trace {
                 let mut motion = DgMotion::new(scene, stepping)?;
                 let located = located(&motion, points);
                 run_to(&mut motion, scene.t_end, |motion, _| {
-                    let (from, to) = (motion.simulation().old_level().t, motion.t());
+                    let (from, to) = (motion.simulation().old_level().t, motion.simulation().t());
                     for part in PARTS {
                         states.push(State::of_dg(
                             motion,
@@ -161,9 +161,9 @@ impl Truth {
         let mut motion = DgMotion::new(scene, scene.dg_stepping())?;
         let located = located(&motion, points);
         let mut read: Vec<Trace> = traces.iter().map(|_| Trace { states: vec![] }).collect();
-        let mut tips = vec![(0.0, motion.at(0.0).u_tip)];
+        let mut tips = vec![(0.0, motion.sample().u_tip)];
         run_to(&mut motion, scene.t_end, |motion, _| {
-            let (from, to) = (motion.simulation().old_level().t, motion.t());
+            let (from, to) = (motion.simulation().old_level().t, motion.simulation().t());
             for (trace, read) in traces.iter().zip(&mut read) {
                 while let Some(state) = trace.states.get(read.states.len()) {
                     let t = state.t.min(scene.t_end);
@@ -194,7 +194,7 @@ impl Truth {
             phi_tip,
             energy,
             ..
-        } = motion.at(motion.t());
+        } = motion.sample();
         let range = [
             -largest(tips.iter().map(|(t, u)| (*t, -u)).collect()),
             largest(tips),

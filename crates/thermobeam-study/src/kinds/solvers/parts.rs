@@ -433,7 +433,7 @@ impl Comparison {
                 fixed_point,
                 newton,
             } = both.step()?;
-            let t = both.fixed_point.t();
+            let t = both.fixed_point.work().t;
             agreement
                 .iterations
                 .push((t, fixed_point.iterations as f64));

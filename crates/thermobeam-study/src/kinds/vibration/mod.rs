@@ -226,7 +226,7 @@ impl Kind for Vibration {
         let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
         let mut tip = vec![(0.0, driver.level().u[elements])];
         run_to(&mut driver, steps as f64 * dt, |driver, _| {
-            let (n, new) = (driver.steps(), driver.level());
+            let (n, new) = (driver.work().steps, driver.level());
             if let Some(closed) = &mut closed {
                 closed(n, &mut factors);
                 let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];

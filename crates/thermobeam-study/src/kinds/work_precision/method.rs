@@ -236,11 +236,11 @@ impl OneStep {
             }
             seconds += clock() - begun;
             if let Some(evaluator) = &mut evaluator {
-                let mut level = run.on(on.mesh());
+                let mut level = run.snapshot().on(on.mesh());
                 if let Some(half) = &half {
-                    level = combine(&half.on(on.mesh()), &level, 2.0);
+                    level = combine(&half.snapshot().on(on.mesh()), &level, 2.0);
                 }
-                errors = errors.worst(evaluator.measure(&level, index, run.t()));
+                errors = errors.worst(evaluator.measure(&level, index, run.work().t));
             }
         }
         let mut spent = Spent::of(&run, on.mesh().elements());
@@ -321,7 +321,7 @@ impl Degrees {
         let mut errors = Errors::default();
         let (mut index, mut seconds, mut begun) = (0, 0.0, clock());
         run_to(&mut motion, family.t_end, |motion, _| {
-            if motion.t() < time(index + 1) {
+            if motion.work().t < time(index + 1) {
                 return;
             }
             seconds += clock() - begun;

@@ -275,10 +275,10 @@ mod tests {
             for _ in 0..20 {
                 run.step(f64::INFINITY).unwrap();
             }
-            let level = run.on(on.mesh());
+            let level = run.snapshot().on(on.mesh());
             let errors = |reference| {
                 let mut evaluator = Evaluator::new(&family, &on, reference).unwrap();
-                evaluator.measure(&level, 0, run.t())
+                evaluator.measure(&level, 0, run.work().t)
             };
             agree(errors(None), errors(Some(&reference)));
         }

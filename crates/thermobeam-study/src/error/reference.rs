@@ -11,8 +11,8 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 
 use crate::exact::norm::TheoremSquares;
-use crate::run::driver::{map_fields, on_mesh};
 use crate::run::simulate::{Recording, Simulator};
+use crate::run::snapshot::{map_fields, on_mesh};
 use crate::scene::{Scene, resampled};
 
 /// Polynomials are kept as linear functions, on this many elements for each of the finest mesh compared. The interpolation
@@ -62,8 +62,8 @@ impl Traced {
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
         let run = Simulator::new(scene)?.read_at(Recording::Summary, &times, |motion| {
-            levels.push(motion.on(&mesh));
-            energies.push(motion.at(motion.t()).energy);
+            levels.push(motion.snapshot().on(&mesh));
+            energies.push(motion.sample().energy);
         })?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
         let is_solved = scene.method.stopping().tolerance().is_some();

@@ -7,8 +7,8 @@ use convergence_study::plots::ruler::{Ruler, fixed, on_scale};
 use convergence_study::plots::style::elide;
 use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 
-use crate::run::driver::thinned;
 pub use crate::run::history::Frames;
+use crate::run::snapshot::thinned;
 
 /// Maximum numbers of frames and of points per frame; their product bounds the size of the document.
 const MOST_FRAMES: usize = 120;

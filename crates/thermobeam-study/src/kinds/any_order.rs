@@ -294,10 +294,10 @@ impl Kind for AnyOrder {
         let mut meter = ErrorMeter::new(&self.exact, theta_a, motion.simulation().space());
         // The initial data have the θ_A of the loads, whatever the solver's is.
         let start = meter.slope_moments(motion.simulation().level(), self.theory.beam.theta_a);
-        while motion.step(self.t_end)?.is_some() {
-            let simulation = motion.simulation();
+        run_to(&mut motion, self.t_end, |motion, _| {
             // Only a study over time judges these.
             if self.over == Over::Time {
+                let simulation = motion.simulation();
                 let (from, to) = (simulation.old_level().t, simulation.t());
                 for s in INSIDE {
                     if simulation.level_into(from + s * (to - from), &mut level) {
@@ -307,7 +307,7 @@ impl Kind for AnyOrder {
                     }
                 }
             }
-        }
+        })?;
         let [values, slopes] = meter.errors(motion.simulation().level());
         let together =
             |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();

@@ -227,7 +227,7 @@ impl ExactExperiments {
 
     fn shown(&self, scene: &Scene) -> Result<ShownStates, CaseFailure> {
         let mut states = vec![];
-        let read = |motion: &mut dyn Motion| states.push(motion.at(motion.t()));
+        let read = |motion: &mut dyn Motion| states.push(motion.sample());
         let run = Simulator::new(scene)?.read_at(Recording::Curve(TIP_TIMES), &self.times, read)?;
         let balance = [
             run.energy.largest_balance_residual / run.energy.initial,

@@ -37,10 +37,10 @@ pub(crate) use crate::exact::norm::{Norm, Norms};
 pub(crate) use crate::exact::solution::{Factors, Manufactured, Product};
 pub(crate) use crate::expression::{Expression, Variable};
 pub(crate) use crate::figures::{self, looks};
-pub(crate) use crate::run::driver::{Driver, Step};
+pub(crate) use crate::run::driver::Driver;
 pub(crate) use crate::run::family::{Family, OnMesh};
 pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator, driver};
-pub(crate) use crate::run::{Motion, RunError, Sample};
+pub(crate) use crate::run::{AnyMotion, Motion, Report, RunError, Sample, run, run_to};
 pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
 
 /// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect result.

@@ -5,7 +5,6 @@
 
 use super::prelude::*;
 use crate::exact::norm::TheoremSquares;
-use crate::run::Report;
 
 /// Tolerance of Newton's method.
 const SOLVED: f64 = 1e-14;
@@ -13,8 +12,8 @@ const SOLVED: f64 = 1e-14;
 /// Two runs of one scene.
 pub(super) struct SideBySide {
     /// The paper's algorithm.
-    pub(super) fixed_point: Driver,
-    newton: Driver,
+    pub(super) fixed_point: Driver<'static>,
+    newton: Driver<'static>,
     lengths: Vec<f64>,
     /// The difference of both levels.
     difference: Level,
@@ -112,7 +111,9 @@ impl SideBySide {
     }
 }
 
-fn one_step(driver: &mut Driver) -> Result<Report, CaseFailure> {
-    let report = driver.step(f64::INFINITY)?;
-    report.ok_or_else(|| CaseFailure::new("no step was done"))
+fn one_step(driver: &mut Driver<'_>) -> Result<Report, CaseFailure> {
+    let until = driver.work().t + driver.simulation().dt();
+    let mut done = None;
+    run_to(driver, until, |_, report| done = Some(*report))?;
+    done.ok_or_else(|| CaseFailure::new("no step was done"))
 }

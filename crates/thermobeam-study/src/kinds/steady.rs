@@ -1,5 +1,7 @@
 //! The scenes listed in a study file, their runs to rest, and the exact steady states in which they should end.
 
+use std::ops::ControlFlow;
+
 use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
 
 use super::prelude::*;
@@ -254,48 +256,48 @@ const QUIET: f64 = 5.0;
 /// A step that fails, or motion beyond `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     match scene.method {
-        Method::OneStep(_) => settle_one_step(scene, speed, t_max),
-        Method::Dg(_) => settle_any_order(scene, speed, t_max),
+        Method::OneStep(_) => {
+            let level = |driver: &Driver<'_>| driver.level().clone();
+            let is_slow = |driver: &Driver<'_>| driver.level().is_slow(speed);
+            quiet(&mut simulate::driver(scene)?, t_max, is_slow, level)?
+        }
+        Method::Dg(_) => {
+            let nodes = compared(scene)?;
+            let level = |motion: &AnyMotion| motion.snapshot().on(&nodes);
+            let is_slow = |motion: &AnyMotion| level(motion).is_slow(speed);
+            quiet(&mut *simulate::motion(scene)?, t_max, is_slow, level)?
+        }
     }
+    .ok_or_else(|| {
+        CaseFailure::new(format!(
+            "{} still moves faster than {speed:e} at t = {t_max}",
+            scene.name
+        ))
+    })
 }
 
-fn settle_one_step(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
-    let (mut driver, mut moved) = (simulate::driver(scene)?, 0.0);
-    loop {
-        let Step {
-            new, simulation, ..
-        } = driver.stepped()?;
-        let t = simulation.t();
-        if !new.is_slow(speed) {
+/// Steps a motion until it has been slow for a while; `None` if it still moves at `t_max`.
+fn quiet<M: Motion + ?Sized>(
+    motion: &mut M,
+    t_max: f64,
+    is_slow: impl Fn(&M) -> bool,
+    level: impl Fn(&M) -> Level,
+) -> Result<Option<(f64, Level)>, RunError> {
+    let mut moved = 0.0;
+    let mut watch = |motion: &mut M, _: &Report| {
+        let t = motion.work().t;
+        if !is_slow(motion) {
             moved = t;
-        } else if t - moved >= QUIET {
-            return Ok((t, new.clone()));
         }
-        if !(t < t_max) {
-            return Err(still_moves(scene, speed, t_max));
-        }
-    }
-}
-
-fn settle_any_order(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
-    let (mut motion, mut moved) = (simulate::motion(scene)?, 0.0);
-    let nodes = compared(scene)?;
-    while motion.step(t_max)?.is_some() {
-        let (t, level) = (motion.t(), motion.on(&nodes));
-        if !level.is_slow(speed) {
-            moved = t;
-        } else if t - moved >= QUIET {
-            return Ok((t, level));
-        }
-    }
-    Err(still_moves(scene, speed, t_max))
-}
-
-fn still_moves(scene: &Scene, speed: f64, t_max: f64) -> CaseFailure {
-    CaseFailure::new(format!(
-        "{} still moves faster than {speed:e} at t = {t_max}",
-        scene.name
-    ))
+        Ok(if t - moved >= QUIET {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    };
+    run(motion, t_max, &[], &mut [&mut watch])?;
+    let t = motion.work().t;
+    Ok((t - moved >= QUIET).then(|| (t, level(motion))))
 }
 
 /// All exact steady states of the scene.

@@ -1,5 +1,7 @@
 //! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
+use std::ops::ControlFlow;
+
 use thermobeam::energy::{Balance, Rounding};
 
 use super::prelude::*;
@@ -115,7 +117,7 @@ impl EnergyWatch {
     }
 
     /// Adds a step; `rounding` is evaluated only if needed.
-    pub(super) fn step(
+    pub(super) fn add(
         &mut self,
         balance: &Balance,
         scale: f64,
@@ -206,10 +208,7 @@ pub(super) fn watched(
         )
     };
     let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
-    for _ in 0..steps {
-        let Some((ensemble, balances)) = driver.stepped()? else {
-            break;
-        };
+    driver.run(steps, |ensemble, balances| {
         for (k, ((watch, old), balance)) in runs.iter_mut().zip(balances).enumerate() {
             let Ok(report) = ensemble.report(k) else {
                 continue;
@@ -217,12 +216,13 @@ pub(super) fn watched(
             ensemble.observe(k, &mut new);
             see(k, report.iterations, &new);
             let case = &ensemble.cases()[k];
-            watch.step(balance, case.energy_scale(&new), || {
+            watch.add(balance, case.energy_scale(&new), || {
                 case.rounding(old, &new)
             });
             std::mem::swap(old, &mut new);
         }
-    }
+        ControlFlow::Continue(())
+    })?;
     let ended = |(k, (watch, _)): (usize, &(EnergyWatch, Level))| Watched {
         worst: watch.worst,
         failure: driver.ensemble().report(k).err(),
@@ -255,7 +255,7 @@ mod tests {
                     residual: residual(&balance),
                     ..balance
                 };
-                watch.step(&balance, 1.0, || Rounding {
+                watch.add(&balance, 1.0, || Rounding {
                     residual: 0.0,
                     contact: 0.0,
                 });

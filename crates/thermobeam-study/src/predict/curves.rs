@@ -1,6 +1,7 @@
 //! Runs reduced to their curves: numbers over time, by any method, and the distance between two such runs.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use convergence_study::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::{self, Field};
@@ -8,10 +9,9 @@ use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
-use crate::run::Motion;
 use crate::run::dg::DgMotion;
-use crate::run::driver::Step;
-use crate::run::simulate;
+use crate::run::driver::Driver;
+use crate::run::{Motion, Report, run, simulate};
 use crate::scene::{Method, Scene};
 
 /// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the start may be shorter than the step.
@@ -245,6 +245,28 @@ pub(super) fn curves(
     Ok(curves)
 }
 
+/// Steps a motion to `until`, or to the step at which `read` gives a reason to end.
+fn run_within<M: Motion>(
+    motion: &mut M,
+    until: f64,
+    read: &mut dyn FnMut(&mut M) -> Result<(), Reason>,
+) -> Result<(), Reason> {
+    let mut reason = None;
+    let mut watch = |motion: &mut M, _: &Report| {
+        reason = read(motion).err();
+        Ok(if reason.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    };
+    let ended = run(motion, until, &[], &mut [&mut watch]);
+    match reason {
+        Some(reason) => Err(reason),
+        None => ended.map_err(Reason::of_run),
+    }
+}
+
 fn by_dg(
     scene: &Scene,
     stepping: dg::Stepping,
@@ -261,7 +283,7 @@ fn by_dg(
     let early = stepping.restart_dt / (stepping.growth - 1.0);
     let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
     let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
-    while motion.step(scene.t_end).map_err(Reason::of_run)?.is_some() {
+    let mut read = |motion: &mut DgMotion| {
         let simulation = motion.simulation();
         let done = simulation.work().solves;
         work.add((unknowns * (done - solves)) as f64)?;
@@ -273,12 +295,12 @@ fn by_dg(
                 rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
-            continue;
+            return Ok(());
         }
         let is_long = to - from >= stepping.dt && to < scene.t_end;
         long += usize::from(is_long);
         if is_long && !long.is_multiple_of(stride) {
-            continue;
+            return Ok(());
         }
         for instance in instances(simulation, early) {
             rows.of_dg(
@@ -290,10 +312,12 @@ fn by_dg(
             );
             curves.times.push(instance);
         }
-    }
+        Ok(())
+    };
+    run_within(&mut motion, scene.t_end, &mut read)?;
     curves.cost = Cost {
         work: (unknowns * solves) as f64,
-        seconds: motion.wall().as_secs_f64(),
+        seconds: motion.work().wall.as_secs_f64(),
         runs: 1,
     };
     Ok(curves)
@@ -335,10 +359,8 @@ fn by_one_step(
     let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
-    for n in 1..=steps {
-        let Step {
-            new, simulation, ..
-        } = driver.stepped().map_err(Reason::of_run)?;
+    let mut read = |driver: &mut Driver<'_>| {
+        let (simulation, new, n) = (driver.simulation(), driver.level(), driver.work().steps);
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {
@@ -361,11 +383,12 @@ fn by_one_step(
                 &mut curves.values,
             );
         }
-        work.add(elements as f64)?;
-    }
+        work.add(elements as f64)
+    };
+    run_within(&mut driver, scene.t_end, &mut read)?;
     curves.cost = Cost {
         work: (elements * steps) as f64,
-        seconds: driver.wall().as_secs_f64(),
+        seconds: driver.work().wall.as_secs_f64(),
         runs: 1,
     };
     Ok(curves)

@@ -3,25 +3,18 @@
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::Patience;
-use thermobeam::dg::{self, ContactEvent, Field, Phase};
+use thermobeam::dg::{self, Field, Phase};
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::solve::Level;
 
-use super::tally::EnergySize;
-use super::{Motion, Report, RunError, Sample, Solves};
+use super::snapshot::Snapshot;
+use super::{Motion, Report, RunError, Sample, Solves, Work};
 use crate::exact::any_order;
 use crate::exact::defect::Defect;
 use crate::exact::solution::Manufactured;
 use crate::scene::{Coefficients, Scene};
-
-/// Maximum number of times of a history by dG: more than a figure has columns.
-const ROWS: usize = 4000;
-
-/// Points of a frame by dG.
-const POINTS: usize = 141;
 
 /// A problem by dG.
 pub(crate) struct DgMotion {
@@ -134,20 +127,18 @@ impl Motion for DgMotion {
             Report {
                 dt: done.dt,
                 iterations: done.iterations,
+                contraction: None,
                 in_contact: phase != Phase::Free,
+                unsound: None,
             }
         }))
     }
 
-    fn t(&self) -> f64 {
-        self.simulation.t()
+    fn sample(&mut self) -> Sample {
+        self.inside(self.simulation.t())
     }
 
-    fn steps(&self) -> usize {
-        self.simulation.work().steps
-    }
-
-    fn at(&mut self, t: f64) -> Sample {
+    fn inside(&mut self, t: f64) -> Sample {
         let Self {
             simulation, level, ..
         } = self;
@@ -169,46 +160,6 @@ impl Motion for DgMotion {
         }
     }
 
-    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
-        let (from, to) = (self.simulation.old_level().t, self.simulation.t());
-        let time = |k: usize| {
-            if k == count {
-                t_end
-            } else {
-                t_end * k as f64 / count as f64
-            }
-        };
-        let first = (from / t_end * count as f64).floor() as usize;
-        (first.max(1)..=count)
-            .map(time)
-            .skip_while(|&t| t <= from)
-            .take_while(|&t| t <= to)
-            .collect()
-    }
-
-    fn rows(&self) -> usize {
-        ROWS
-    }
-
-    fn points(&self) -> Vec<f64> {
-        (0..POINTS)
-            .map(|i| i as f64 / (POINTS - 1) as f64)
-            .collect()
-    }
-
-    fn shape(&self, t: f64) -> Vec<f64> {
-        let u = |x: f64| self.simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
-        self.points().into_iter().map(u).collect()
-    }
-
-    fn on(&self, mesh: &Mesh) -> Level {
-        nodal(
-            self.simulation.space(),
-            self.simulation.level(),
-            mesh.nodes(),
-        )
-    }
-
     fn extremes(&self) -> [f64; 2] {
         self.simulation.tip_range()
     }
@@ -217,49 +168,25 @@ impl Motion for DgMotion {
         self.simulation.balance()
     }
 
-    fn energy_size(&self) -> EnergySize {
-        let [terms, rounding] = [self.simulation.energy_scale(), self.simulation.rounding()];
-        EnergySize { terms, rounding }
-    }
-
-    fn solves(&self) -> Solves {
+    fn work(&self) -> Work {
         let dg::Work {
+            steps,
             solves,
             factorizations,
             ..
         } = self.simulation.work();
-        Solves {
-            passes: solves,
-            factorizations,
+        Work {
+            t: self.simulation.t(),
+            steps,
+            solves: Solves {
+                passes: solves,
+                factorizations,
+            },
+            wall: self.wall,
         }
     }
 
-    fn wall(&self) -> Duration {
-        self.wall
+    fn snapshot(&self) -> Snapshot<'_> {
+        Snapshot::Dg(&self.simulation)
     }
-
-    fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
-        Some((self.simulation.phase(), self.simulation.events()))
-    }
-}
-
-/// A level of any order by its values at the nodes, without the contact force.
-pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
-    let mut nodal = Level {
-        u: Vec::with_capacity(nodes.len()),
-        v: Vec::with_capacity(nodes.len()),
-        phi: Vec::with_capacity(nodes.len()),
-        w: Vec::with_capacity(nodes.len()),
-        theta: Vec::with_capacity(nodes.len()),
-        contact_force: 0.0,
-    };
-    for &x in nodes {
-        let [u, phi, v, w, theta] = level.values_and_slopes(space, x).map(|(value, _)| value);
-        nodal.u.push(u);
-        nodal.phi.push(phi);
-        nodal.v.push(v);
-        nodal.w.push(w);
-        nodal.theta.push(theta);
-    }
-    nodal
 }

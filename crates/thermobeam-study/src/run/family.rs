@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use crate::exact::solution::{Factors, Manufactured};
 use crate::exact::sources::{Nodal, Sources};
-use crate::run::Motion;
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
+use crate::run::{Motion, Work};
 use crate::scene::{Coefficients, Scene, resampled};
 use convergence_study::study::CaseFailure;
 use thermobeam::dg;
@@ -36,9 +36,9 @@ impl Spent {
     /// The cost of a motion by a one-step scheme so far.
     pub(crate) fn of(motion: &impl Motion, elements: usize) -> Self {
         let elements = elements as f64;
-        let solves = motion.solves();
+        let Work { steps, solves, .. } = motion.work();
         Self {
-            node_steps: elements * motion.steps() as f64,
+            node_steps: elements * steps as f64,
             node_solves: elements * (solves.passes + solves.factorizations) as f64,
         }
     }
@@ -217,6 +217,11 @@ impl OnMesh<'_> {
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.problem.mesh
+    }
+
+    /// Final time.
+    pub(crate) fn t_end(&self) -> f64 {
+        self.of.t_end
     }
 
     /// Starts at t = 0 with a scheme and `steps` steps to do.

@@ -10,7 +10,7 @@ use thermobeam::energy::Balance;
 use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
-use super::{Motion, Report, RunError, Sample, Solves, Unsound, Watch};
+use super::{AnyMotion, Report, RunError, Sample, Solves, Unsound, Watch, Work};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -42,7 +42,7 @@ pub struct EnergySummary {
     pub largest_increase: f64,
     /// Largest defect of the exact discrete balance, over all steps.
     pub largest_balance_residual: f64,
-    /// Size of the energy at t = 0, see [`Motion::energy_size`].
+    /// Size of the energy at t = 0, see [`EnergySize`].
     #[serde(skip)]
     pub size: f64,
 }
@@ -279,13 +279,16 @@ impl Contact {
 impl Watch for Run {
     fn see(
         &mut self,
-        motion: &mut dyn Motion,
+        motion: &mut AnyMotion,
         report: &Report,
     ) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());
-        let unsound = |unsound| RunError::unsound(motion.steps(), motion.t(), report.dt, unsound);
-        self.add(report, &balance, extremes, || motion.energy_size())
-            .map_err(unsound)?;
+        let Work { t, steps, .. } = motion.work();
+        let unsound = |unsound| RunError::unsound(steps, t, report.dt, unsound);
+        self.add(report, &balance, extremes, || {
+            motion.snapshot().energy_size()
+        })
+        .map_err(unsound)?;
         Ok(ControlFlow::Continue(()))
     }
 }

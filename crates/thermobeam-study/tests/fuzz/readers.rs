@@ -8,10 +8,11 @@ use convergence_study::judge::{claims::Claim, verdict::Judge};
 use convergence_study::store::Baseline;
 use tempfile::TempDir;
 use thermobeam::dg;
-use thermobeam_study::kinds;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
 use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
+
+use crate::read_study;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -223,8 +224,9 @@ impl Bench {
             }
             Reading::Study => {
                 drop(
-                    kinds::read(&path)
+                    read_study(&path)
                         .map_err(|error| said(&error))?
+                        .study
                         .plan()
                         .cases(),
                 );

@@ -139,7 +139,7 @@ fn made(choice: &Choice) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     for index in 0..steps {
         run.step(f64::INFINITY).unwrap();
-        let errors = evaluator.measure(&run.on(on.mesh()), index, run.t());
+        let errors = evaluator.measure(&run.snapshot().on(on.mesh()), index, run.work().t);
         worst = [worst[0].max(errors.tip), worst[1].max(errors.norm)];
     }
     // The family is released with u(1) = 0.1, the scene with 1.

@@ -9,6 +9,8 @@
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
+use std::cell::RefCell;
+
 use convergence_study::judge::verdict::{Level as Error, judge};
 
 use super::Convergence;
@@ -79,45 +81,54 @@ impl<'a> Prepared<'a> {
             .formulas
             .map_or_else(|| formulas_of(refine.scheme), Ok)?;
         let obstacles = theory.obstacles.as_ref();
-        let (mut old, dt) = (Factors::default(), refine.dt(steps));
-        old.at(exact, 0.0);
-        let mut driver = self.start(&old, dt, solver, defect)?;
-        let (mut new, mut source, mut worst) = (old.clone(), old.clone(), Norms::ZERO);
-        for n in 1..=steps {
-            new.at(exact, n as f64 * dt);
+        let dt = refine.dt(steps);
+        let mut start = Factors::default();
+        start.at(exact, 0.0);
+        let driver = self.start(&start, dt, solver, defect)?;
+        // The exact solution at the end of the step whose loads are filled, for the watch too.
+        let reached = RefCell::new(start.clone());
+        let (mut old, mut source, mut n) = (start.clone(), start, 0.0);
+        let sources = &self.sources;
+        let fill = |_, load: &mut [[f64; 3]]| {
+            let mut new = reached.borrow_mut();
+            std::mem::swap(&mut old, &mut new);
+            n += 1.0;
+            new.at(exact, n * dt);
             let forces = if refine.isolates(Axis::Space) {
                 source.of_step(&old, &mut new, scheme.inertia(), dt);
                 if defect == Some(Defect::SourceAtNewLevel) {
                     source.u.value.clone_from(&new.u.value);
                 }
-                self.sources
-                    .forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
+                sources.forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
             } else {
                 let middle = if defect == Some(Defect::SourceAtNewLevel) {
-                    n as f64
+                    n
                 } else {
-                    n as f64 - 0.5
+                    n - 0.5
                 };
                 source.at(exact, middle * dt);
-                self.sources.forces(&source.u, obstacles, defect)
+                sources.forces(&source.u, obstacles, defect)
             };
-            driver.advance(|_, load| self.sources.fill(&source, forces, defect, load))?;
-            worst = worst.max(&self.meter.measure(driver.level(), &new));
-            std::mem::swap(&mut old, &mut new);
-        }
+            sources.fill(&source, forces, defect, load);
+        };
+        let meter = &mut self.meter;
+        let mut worst = Norms::ZERO;
+        run_to(&mut driver.loaded(fill), steps as f64 * dt, |driver, _| {
+            worst = worst.max(&meter.measure(driver.level(), &reached.borrow()));
+        })?;
         Ok(worst)
     }
 
     /// The solver at t = 0, and the lifting of its temperature in the error meter.
     ///
     /// * `factors`: those of the exact solution at t = 0; the rest as in [`Self::run`].
-    fn start(
+    fn start<'l>(
         &mut self,
         factors: &Factors,
         dt: f64,
         Coefficients { beam, obstacles }: Coefficients,
         defect: Option<Defect>,
-    ) -> Result<Driver, CaseFailure> {
+    ) -> Result<Driver<'l>, CaseFailure> {
         let Convergence { theory, refine, .. } = self.study;
         let exact_theta_a = theory.beam.theta_a;
         let mut initial = self
@@ -215,7 +226,7 @@ pub(in crate::kinds) fn verdicts<'a>(
 ) -> impl Iterator<Item = Verdict> + 'a {
     study.expect.iter().map(move |&(norm, claim)| {
         let error = |&((n, steps), errors): &((usize, usize), Norms)| Error {
-            step: study.step(n, steps),
+            step: study.step_size(n, steps),
             error: errors[norm],
         };
         judge(

@@ -179,7 +179,7 @@ impl Kind for Convergence {
 
 impl Convergence {
     /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
-    pub(crate) fn step(&self, elements: usize, steps: usize) -> f64 {
+    pub(crate) fn step_size(&self, elements: usize, steps: usize) -> f64 {
         match self.refine.axis {
             Axis::Space | Axis::Both => 1.0 / elements as f64,
             Axis::Time => self.refine.dt(steps),
@@ -198,7 +198,7 @@ impl Convergence {
         norm_levels(
             &self.refine,
             &self.expect,
-            |elements, steps| self.step(elements, steps),
+            |elements, steps| self.step_size(elements, steps),
             errors,
         )
     }

@@ -358,7 +358,7 @@ impl EnergyRun {
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
     fn run(&self) -> Result<Found, CaseFailure> {
         let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
-        let (simulation, level) = driver.present();
+        let (simulation, level) = (driver.simulation(), driver.level());
         let mut watch = EnergyWatch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
         let Energy {
@@ -391,19 +391,10 @@ impl EnergyRun {
         };
         found.of_bound = share(level, &energy);
         let (every, mut residual) = (self.steps.div_ceil(SAMPLES), 0.0);
-        for step in 1..=self.steps {
-            let Step {
-                report,
-                old,
-                new,
-                simulation,
-            } = match driver.stepped() {
-                Ok(step) => step,
-                Err(error) => {
-                    found.end = End::of(Some(&error))?;
-                    break;
-                }
-            };
+        let until = self.steps as f64 * self.stepping.dt;
+        let ended = run_to(&mut driver, until, |driver, report| {
+            let (simulation, old, new) = (driver.simulation(), driver.old_level(), driver.level());
+            let step = simulation.step();
             found.steps = step;
             found.contact_steps += usize::from(new.contact_force != 0.0);
             found.most_iterations = report.iterations.max(found.most_iterations);
@@ -414,7 +405,7 @@ impl EnergyRun {
                 0.0
             };
             let balance = simulation.balance(old, new);
-            watch.step(&balance, scale, || simulation.rounding(old, new));
+            watch.add(&balance, scale, || simulation.rounding(old, new));
             residual = max_or_nan(residual, balance.residual.abs() / initial_energy);
             if let Some(of_bound) = &mut found.of_bound {
                 let reached = share(new, &simulation.energy(new)).unwrap_or(f64::NAN);
@@ -431,7 +422,8 @@ impl EnergyRun {
                     drift,
                 });
             }
-        }
+        });
+        found.end = End::of(ended.err().as_ref())?;
         Ok(Found {
             worst: watch.worst,
             drift: watch.drift,

@@ -334,14 +334,12 @@ impl Experiments {
         };
         let mut recorder = Recorder::new(observed, &mut *motion);
         let mut windows = 0.0;
-        while motion.t() < self.t_max {
+        while motion.work().t < self.t_max {
             windows += 1.0;
             let end = (windows * self.window).min(self.t_max);
             // Summed from differences: the round-off of the total would hide a slow fall.
             let mut fall = 0.0;
-            while motion.step(end)?.is_some() {
-                fall -= recorder.add(&mut *motion);
-            }
+            run_to(&mut *motion, end, |motion, _| fall -= recorder.add(motion))?;
             if fall <= self.rate * self.window {
                 return measured(
                     &scene,
@@ -386,8 +384,8 @@ impl Experiments {
 /// The beam at its end.
 fn measured(scene: &Scene, trace: Trace, motion: &mut dyn Motion) -> Result<Measured, CaseFailure> {
     let nodes = compared(scene)?;
-    let t = motion.t();
-    let (level, last) = (motion.on(&nodes), motion.at(t));
+    let t = motion.work().t;
+    let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
     let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
     Ok(Measured {
         trace,

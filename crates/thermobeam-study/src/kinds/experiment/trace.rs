@@ -85,9 +85,9 @@ impl Recorder {
             points: vec![],
             frames: figures::Frames::default(),
         };
-        recorder.push(motion.at(0.0));
+        recorder.push(motion.sample());
         if observed.frames {
-            recorder.frames.points = motion.points();
+            recorder.frames.points = motion.snapshot().points();
             recorder.push_frame(motion, 0.0);
         }
         recorder
@@ -104,22 +104,19 @@ impl Recorder {
         let balance = motion.balance();
         self.largest_increase = max_or_nan(self.largest_increase, balance.change);
         self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
-        for t in motion.parts(t_end, levels) {
-            let sample = motion.at(t);
-            self.push(sample);
+        let times = motion.snapshot().parts(t_end, levels);
+        for t in times {
+            self.push(motion.inside(t));
         }
-        if t_max > t_end && motion.t() > t_end {
+        if t_max > t_end && motion.work().t > t_end {
             let later = (t_max / t_end * POINTS as f64 / FEWER).round() as usize;
-            for t in motion
-                .parts(t_max, later)
-                .into_iter()
-                .filter(|&t| t > t_end)
-            {
-                self.points.push(motion.at(t));
+            let times = motion.snapshot().parts(t_max, later);
+            for t in times.into_iter().filter(|&t| t > t_end) {
+                self.points.push(motion.inside(t));
             }
         }
         if frames {
-            for t in motion.parts(SPAN, PARTS) {
+            for t in motion.snapshot().parts(SPAN, PARTS) {
                 self.push_frame(motion, t);
             }
         }
@@ -140,7 +137,7 @@ impl Recorder {
 
     fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
         self.frames.times.push(t);
-        self.frames.u.push(motion.shape(t));
+        self.frames.u.push(motion.snapshot().shape(t));
     }
 
     /// When u(1) passes a value between two levels that `passes` accepts, interpolated.
@@ -159,7 +156,7 @@ impl Recorder {
         phase: Phase,
         obstacles: Obstacles,
     ) -> Option<f64> {
-        if let Some((_, events)) = motion.contact() {
+        if let Some((_, events)) = motion.snapshot().contact() {
             let touches =
                 |event: &&ContactEvent| event.to == phase && event.t <= self.observed.t_end;
             return events.iter().find(touches).map(|event| event.t);

@@ -290,34 +290,29 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
         ..scene.clone()
     })?;
     let (mut contraction, mut iterations, mut failed_at) = (None, 0, None);
-    for _ in 0..scene.steps() {
-        match driver.stepped() {
-            Ok(Step {
-                report, old, new, ..
-            }) => {
-                iterations += report.iterations;
-                // While the tip enters or leaves contact the law is not linear, and two increments show nothing.
-                let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
-                if let Some(found) = report.contraction.filter(|_| in_contact) {
-                    contraction =
-                        Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
-                }
-            }
-            Err(RunError::Step(error)) => {
-                contraction = match error.failure {
-                    StepFailure::Diverged { contraction, .. }
-                    | StepFailure::IterationLimit { contraction, .. } => {
-                        Some(contraction).filter(|contraction| contraction.is_finite())
-                    }
-                    _ => None,
-                };
-                failed_at = Some(error.step as f64 * error.dt);
-                break;
-            }
-            Err(other) => return Err(other.into()),
+    let ended = run_to(&mut driver, scene.t_end, |driver, report| {
+        iterations += report.iterations;
+        // While the tip enters or leaves contact the law is not linear, and two increments show nothing.
+        let in_contact = driver.old_level().contact_force != 0.0 && report.in_contact;
+        if let Some(measured) = report.contraction.filter(|_| in_contact) {
+            contraction = Some(contraction.map_or(measured, |most| max_or_nan(most, measured)));
         }
+    });
+    match ended {
+        Ok(()) => {}
+        Err(RunError::Step(error)) => {
+            contraction = match error.failure {
+                StepFailure::Diverged { contraction, .. }
+                | StepFailure::IterationLimit { contraction, .. } => {
+                    Some(contraction).filter(|contraction| contraction.is_finite())
+                }
+                _ => None,
+            };
+            failed_at = Some(error.step as f64 * error.dt);
+        }
+        Err(other) => return Err(other.into()),
     }
-    let mean_iterations = Some(iterations as f64 / driver.simulation().step().max(1) as f64);
+    let mean_iterations = Some(iterations as f64 / driver.work().steps.max(1) as f64);
     Ok(ShownImpact {
         alpha: Some(alpha(scene, &stepping)),
         contraction,

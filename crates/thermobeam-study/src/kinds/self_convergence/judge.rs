@@ -273,7 +273,8 @@ fn differences(
             look: norm.unwrap_or(Norm::ALL.len() + place),
         })
     };
-    let refinement = |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step(k));
+    let refinement =
+        |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step_size(k));
     Levels::new(
         study.axis,
         (0..count).map(refinement),
@@ -313,7 +314,7 @@ fn tip_at(ran: &[Ran<usize, Traced>], run: usize, k: usize) -> f64 {
 fn values(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
-    let ratio = study.step(before) / study.step(finest);
+    let ratio = study.step_size(before) / study.step_size(finest);
     let order = TIP.order(study.axis, study.order_in_time);
     let row = |k: usize| {
         let value = |run: usize| tip_at(ran, run, k);
@@ -401,7 +402,7 @@ fn values_guarded(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> [Quant
 
 impl SelfConvergence {
     /// h of a level, or dt where time alone is refined.
-    fn step(&self, level: usize) -> f64 {
+    fn step_size(&self, level: usize) -> f64 {
         match self.axis {
             Axis::Space | Axis::Both => resampled(&self.scene.mesh, self.levels[level].0)
                 .map_or(f64::NAN, |mesh| mesh.size()),

@@ -271,9 +271,13 @@ impl FixedPointStep {
             dt,
             loaded: false,
         };
-        let outcome = Driver::new(problem.clone(), stepping)?.advance(|_, _| ());
+        let mut driver = Driver::new(problem.clone(), stepping)?;
+        let mut reached = (0, None);
+        let outcome = run_to(&mut driver, dt, |_, report| {
+            reached = (report.iterations, report.contraction);
+        });
         let (iterations, contraction) = match &outcome {
-            Ok(report) => (report.iterations, report.contraction),
+            Ok(()) => reached,
             Err(RunError::Step(error)) => match error.failure {
                 StepFailure::Diverged {
                     iterations,

@@ -108,7 +108,7 @@ impl Grid {
             tip_load: (1.0 + n_value) * PRESSED + obstacles.force(PRESSED),
         };
         let [before, one, two] =
-            [iterations - 1, iterations, iterations + 1].map(|count| held.step(count));
+            [iterations - 1, iterations, iterations + 1].map(|count| held.iterate(count));
         let (before, one, two) = (before?, one?, two?);
         let mut expected = one.minus(&before);
         map.apply(&mut expected.v, &mut expected.w);
@@ -160,7 +160,7 @@ struct Velocities {
 
 impl Held {
     /// The iterate after this number of iterations.
-    fn step(&self, iterations: usize) -> Result<Velocities, CaseFailure> {
+    fn iterate(&self, iterations: usize) -> Result<Velocities, CaseFailure> {
         let stopping = Stopping::Iterations(iterations);
         let settings = Settings {
             solver: Solver::FixedPoint,
@@ -173,18 +173,22 @@ impl Held {
             dt: self.dt,
             loaded: true,
         };
-        let mut driver = Driver::new(self.problem.clone(), stepping)?;
-        let report = driver.advance(|_, load| {
+        let hold = |_, load: &mut [[f64; 3]]| {
             let n = load.len() - 1;
             let moment = -PRESSED / n as f64;
             load.iter_mut().for_each(|load| load[1] = moment);
             load[n] = [self.tip_load, 0.5 * moment, 0.0];
+        };
+        let mut driver = Driver::new(self.problem.clone(), stepping)?.loaded(hold);
+        let mut contraction = None;
+        run_to(&mut driver, self.dt, |_, report| {
+            contraction = report.contraction;
         })?;
         let Level { v, w, .. } = driver.level().clone();
         Ok(Velocities {
             v,
             w,
-            contraction: report.contraction.unwrap_or(f64::NAN),
+            contraction: contraction.unwrap_or(f64::NAN),
         })
     }
 }
@@ -429,7 +433,7 @@ impl Comparison {
                 fixed_point,
                 newton,
             } = both.step()?;
-            let t = both.fixed_point.t();
+            let t = both.fixed_point.work().t;
             agreement
                 .iterations
                 .push((t, fixed_point.iterations as f64));

@@ -225,8 +225,8 @@ impl Kind for Vibration {
         let zero = Level::new(elements + 1);
         let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
         let mut tip = vec![(0.0, driver.level().u[elements])];
-        for n in 1..=steps {
-            let Step { new, .. } = driver.stepped()?;
+        run_to(&mut driver, steps as f64 * dt, |driver, _| {
+            let (n, new) = (driver.work().steps, driver.level());
             if let Some(closed) = &mut closed {
                 closed(n, &mut factors);
                 let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];
@@ -236,7 +236,7 @@ impl Kind for Vibration {
             reference(n, &mut factors);
             errors = errors.max(&meter.measure(new, &factors));
             tip.push((n as f64 * dt, new.u[elements]));
-        }
+        })?;
         Ok(Vibrated {
             errors,
             closed_form: closed.map(|_| deviation / size),

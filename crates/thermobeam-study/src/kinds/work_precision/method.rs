@@ -196,12 +196,6 @@ pub fn no_clock() -> f64 {
     0.0
 }
 
-/// Does this number of steps.
-fn advance(motion: &mut impl Motion, steps: usize) -> Result<(), CaseFailure> {
-    (0..steps).try_for_each(|_| motion.step(f64::INFINITY).map(drop))?;
-    Ok(())
-}
-
 impl OneStep {
     /// Runs of unit size per step of the coarse run: 3 if a second run halves the step.
     pub fn runs(&self) -> f64 {
@@ -235,17 +229,18 @@ impl OneStep {
         let mut seconds = 0.0;
         for index in 0..observations {
             let begun = clock();
-            advance(&mut run, steps / observations)?;
+            let until = on.t_end() * (index + 1) as f64 / observations as f64;
+            run_to(&mut run, until, |_, _| ())?;
             if let Some(half) = &mut half {
-                advance(half, 2 * steps / observations)?;
+                run_to(half, until, |_, _| ())?;
             }
             seconds += clock() - begun;
             if let Some(evaluator) = &mut evaluator {
-                let mut level = run.on(on.mesh());
+                let mut level = run.snapshot().on(on.mesh());
                 if let Some(half) = &half {
-                    level = combine(&half.on(on.mesh()), &level, 2.0);
+                    level = combine(&half.snapshot().on(on.mesh()), &level, 2.0);
                 }
-                errors = errors.worst(evaluator.measure(&level, index, run.t()));
+                errors = errors.worst(evaluator.measure(&level, index, run.work().t));
             }
         }
         let mut spent = Spent::of(&run, on.mesh().elements());
@@ -325,9 +320,9 @@ impl Degrees {
         let mut level = motion.simulation().level().clone();
         let mut errors = Errors::default();
         let (mut index, mut seconds, mut begun) = (0, 0.0, clock());
-        while motion.step(family.t_end)?.is_some() {
-            if motion.t() < time(index + 1) {
-                continue;
+        run_to(&mut motion, family.t_end, |motion, _| {
+            if motion.work().t < time(index + 1) {
+                return;
             }
             seconds += clock() - begun;
             while index < times && motion.simulation().level_into(time(index + 1), &mut level) {
@@ -340,7 +335,7 @@ impl Degrees {
                 index += 1;
             }
             begun = clock();
-        }
+        })?;
         drop(evaluator);
         let spent = self.spent(&space, motion.simulation().work());
         let measurement = Measurement {

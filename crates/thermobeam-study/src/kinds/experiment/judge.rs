@@ -1,9 +1,9 @@
 //! The sentences of Section 5, each a check with its numbers.
 
 use super::plotted::{Plotted, U_TIP, largest_difference};
+use super::runs::{OfGroup, Runs};
 use super::{
-    AtRest, Experiment, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace,
-    straight_energy,
+    AtRest, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace, straight_energy,
 };
 use crate::kinds::prelude::*;
 use crate::kinds::steady::name_of;
@@ -40,49 +40,7 @@ const AFTER_BOUNCES: f64 = 1e-4;
 /// The same for numbers that depend on when an iteration stops: rounding decides where an increment is close to the tolerance.
 const OF_ITERATIONS: f64 = 1e-2;
 
-/// An experiment and its runs.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Runs<'r> {
-    pub(super) experiment: &'r Experiment,
-    /// By the first discretisation.
-    pub(super) first: &'r Measured,
-    /// By the second, which shows the error of the first.
-    pub(super) second: &'r Measured,
-    /// By the paper's algorithm, if the study runs that.
-    pub(super) paper: Option<&'r PaperRun>,
-}
-
-impl<'r> Runs<'r> {
-    /// `None` if a run is missing.
-    fn of(study: &'r Experiments, ran: &'r [Ran<Task, Found>], experiment: usize) -> Option<Self> {
-        let any_order = |discretisation: usize| {
-            let task = Task::AnyOrder {
-                experiment,
-                discretisation,
-            };
-            match found(ran, &task) {
-                Some(Found::Run(run)) => Some(&**run),
-                _ => None,
-            }
-        };
-        let paper = match found(ran, &Task::FixedPoint(experiment)) {
-            Some(Found::FixedPoint(run)) => Some(&**run),
-            _ => None,
-        };
-        let is_complete = paper.is_some() || study.fixed_point.is_none();
-        is_complete.then_some(Self {
-            experiment: &study.experiments[experiment],
-            first: any_order(0)?,
-            second: any_order(1)?,
-            paper,
-        })
-    }
-
-    /// The motion by which statements are judged: that of the paper's algorithm, if the study runs that.
-    pub(super) fn trace(&self) -> &'r Trace {
-        self.paper.map_or(&self.first.trace, |paper| &paper.trace)
-    }
-
+impl Runs<'_> {
     /// The largest error of u(1, t) by the paper's algorithm; `None` if the study does not run that.
     fn error_of_paper(&self) -> Option<f64> {
         let tip = |trace: &Trace| U_TIP.points(self.experiment, trace);
@@ -98,44 +56,6 @@ impl<'r> Runs<'r> {
         let mut readings = self.trace().readings(name);
         readings.extend(self.first.readings(name, bent));
         readings
-    }
-}
-
-/// The experiments of a group that completed.
-pub(super) struct OfGroup<'r> {
-    pub(super) runs: Vec<Runs<'r>>,
-    /// Whether all of them completed: otherwise no claim holds.
-    complete: bool,
-}
-
-impl<'r> OfGroup<'r> {
-    /// The experiments that belong to the group.
-    pub(super) fn of(
-        study: &'r Experiments,
-        ran: &'r [Ran<Task, Found>],
-        belongs: impl Fn(SectionGroup) -> bool,
-    ) -> Self {
-        let places: Vec<usize> = (0..study.experiments.len())
-            .filter(|&place| belongs(study.experiments[place].group))
-            .collect();
-        let runs: Vec<_> = places
-            .iter()
-            .filter_map(|&place| Runs::of(study, ran, place))
-            .collect();
-        Self {
-            complete: runs.len() == places.len() && !runs.is_empty(),
-            runs,
-        }
-    }
-
-    fn all(&self, holds: impl Fn(&Runs<'r>) -> bool) -> bool {
-        self.complete && self.runs.iter().all(holds)
-    }
-
-    fn list(&self, text: impl Fn(&Runs<'r>) -> String) -> String {
-        let one =
-            |runs: &Runs<'r>| format!("β = {}: {}", runs.experiment.scene.beam.beta, text(runs));
-        self.runs.iter().map(one).collect::<Vec<_>>().join("; ")
     }
 }
 

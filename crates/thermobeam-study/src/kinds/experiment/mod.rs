@@ -41,6 +41,7 @@
 mod judge;
 mod plotted;
 mod report;
+mod runs;
 mod trace;
 
 use super::prelude::*;

@@ -6,7 +6,7 @@ use convergence_study::plots::ruler::on_scale;
 use convergence_study::plots::style;
 use convergence_study::plots::xy::Curve;
 
-use super::judge::Runs;
+use super::runs::Runs;
 use super::{Experiment, Trace};
 use crate::kinds::prelude::*;
 

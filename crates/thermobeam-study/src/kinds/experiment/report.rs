@@ -1,7 +1,8 @@
 //! Tables, figures and guarded numbers.
 
-use super::judge::{self, OfGroup, Runs};
+use super::judge;
 use super::plotted::{ENERGY, Plotted, Quantity, U_TIP};
+use super::runs::{OfGroup, Runs};
 use super::trace::SPAN;
 use super::{Experiments, Found, SectionGroup, Task, straight_energy};
 use crate::kinds::prelude::*;

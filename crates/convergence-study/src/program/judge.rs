@@ -10,7 +10,9 @@ use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::until_decided::{self, Next};
-use crate::study::{Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Quantity, Ran, Table};
+use crate::study::{
+    Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Quantity, Ran, Subject, Table,
+};
 use crate::text::number::{error_text, plain_text, rate_text};
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
@@ -19,7 +21,8 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
             false,
             "every level answers its step, or none does",
             mixed.clone(),
-        );
+        )
+        .about(Subject::of("step"));
         return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
     }
     let levels = levels(study, ran);
@@ -132,11 +135,8 @@ fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
         let bound = expected.exact?;
         let (largest, is_exact) = claims::exact(ran.iter().map(|ran| number(ran, expected)), bound);
         let claim = format!("{} is exact: at most {}", expected.name, plain_text(bound));
-        Some(Check::that(
-            is_exact,
-            claim,
-            format!("largest {}", error_text(largest)),
-        ))
+        let evidence = format!("largest {}", error_text(largest));
+        Some(Check::that(is_exact, claim, evidence).about(Subject::of(&expected.name)))
     };
     study.expect.iter().filter_map(check).collect()
 }
@@ -281,12 +281,13 @@ fn of_values(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcom
         .map(|(column, estimate)| (name(column), estimate.judged.clone()))
         .collect();
     let value = |column: &ErrorColumn, level: usize| {
-        let name = format!("{}, {}", name(column), refinements[level].label);
+        let (value, label) = (name(column), &refinements[level].label);
         Quantity::new(
-            name,
+            format!("{value}, {label}"),
             column.errors[level].unwrap_or(f64::NAN),
             ERROR_TOLERANCE,
         )
+        .about(Subject::of(value).at(label))
     };
     let guarded = (0..refinements.len())
         .flat_map(|level| columns.iter().map(move |column| value(column, level)));
@@ -301,7 +302,9 @@ fn of_values(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcom
     Outcome {
         tables: limits.into_iter().chain(values).collect(),
         figures: figure.into_iter().collect(),
-        quantities: levels::rate_quantities(&rates).chain(guarded).collect(),
+        quantities: levels::rate_quantities(&rates, |name| Subject::of(name))
+            .chain(guarded)
+            .collect(),
         ..Outcome::new(summary.join("; "), rates, vec![])
     }
 }

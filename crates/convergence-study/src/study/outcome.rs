@@ -6,6 +6,7 @@
 use std::collections::HashSet;
 
 use super::coverage::{self, Coverage};
+use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::json;
@@ -25,6 +26,9 @@ pub struct Outcome {
     /// Judged rates, each with its norm.
     #[serde(with = "rates")]
     pub rates: Vec<(String, RateVerdict)>,
+    /// What rates are about, by their names, where that is more than the name.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rate_subjects: Vec<(String, Subject)>,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
     /// How many items of each sort were judged, and why not the others; empty in older records.
@@ -100,8 +104,11 @@ pub enum Origin {
 /// Something judged.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Check {
-    /// The claim.
+    /// The claim, without its case.
     pub claim: String,
+    /// What it is about; unknown in older records, whose claims begin with the case.
+    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    pub subject: Subject,
     /// The outcome.
     pub verdict: Verdict,
     /// The evidence, with numbers.
@@ -109,6 +116,9 @@ pub struct Check {
     /// Whose statement it is; [`Origin::Own`] in records that do not say.
     #[serde(default)]
     pub origin: Origin,
+    /// Ids of the other studies that do not pass, where it judges those.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_studies: Vec<String>,
 }
 
 impl Check {
@@ -118,9 +128,30 @@ impl Check {
         Self {
             claim: claim.into(),
             verdict,
+            subject: Subject::default(),
             evidence: evidence.into(),
             origin: Origin::Own,
+            other_studies: vec![],
         }
+    }
+
+    /// The same about a subject.
+    #[must_use]
+    pub fn about(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    /// The claim as it is printed: after its case, if it has one.
+    pub fn statement(&self) -> String {
+        match &self.subject.case {
+            Some(case) => format!("{case}: {}", self.claim),
+            None => self.claim.clone(),
+        }
+    }
+
+    /// What it is about; the claim stands in for a quantity that is not known.
+    pub fn quantity(&self) -> &str {
+        self.subject.quantity_or(&self.claim)
     }
 
     /// The same as somebody's statement.
@@ -185,6 +216,12 @@ impl Figure {
 pub struct Quantity {
     /// Name, unique within the study.
     pub name: String,
+    /// What it is about; unknown in older records.
+    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    pub subject: Subject,
+    /// Whether it is an error, a rate or another number.
+    #[serde(default)]
+    pub sort: Sort,
     /// Value.
     #[serde(deserialize_with = "json::nan")]
     pub value: f64,
@@ -194,13 +231,30 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// A number about the quantity of its name.
+    ///
     /// * `tolerance`: relative change tolerated.
     pub fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
+        let name = name.into();
         Self {
-            name: name.into(),
+            subject: Subject::of(&name),
+            name,
+            sort: Sort::Value,
             value,
             tolerance,
         }
+    }
+
+    /// The same about a subject.
+    #[must_use]
+    pub fn about(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    /// The same as an error or a rate.
+    #[must_use]
+    pub fn of_sort(self, sort: Sort) -> Self {
+        Self { sort, ..self }
     }
 }
 
@@ -259,6 +313,12 @@ mod rates {
 }
 
 impl Outcome {
+    /// What a rate is about: by default the error of its name.
+    pub fn subject_of_rate(&self, name: &str) -> Subject {
+        let known = self.rate_subjects.iter().find(|(of, _)| of == name);
+        known.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
+    }
+
     /// The errors of that name over their steps; NaN on a level without one.
     pub fn levels_of(&self, name: &str) -> Vec<Level> {
         let level = |level: &LevelErrors| Level {
@@ -284,6 +344,7 @@ impl Outcome {
             headline: String::new(),
             levels: vec![],
             rates,
+            rate_subjects: vec![],
             checks,
             coverage: vec![],
             tables: vec![],
@@ -297,6 +358,7 @@ impl Outcome {
         self.verdict = Verdict::worst([self.verdict, part.verdict]);
         self.levels.extend(part.levels);
         self.rates.extend(part.rates);
+        self.rate_subjects.extend(part.rate_subjects);
         self.checks.extend(part.checks);
         coverage::merge(&mut self.coverage, part.coverage);
         self.tables.extend(part.tables);
@@ -353,11 +415,14 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
         .for_each(|figure| figure.file = format!("{id}-{}", figure.file));
     let defects = defects(id, &outcome);
     if !defects.is_empty() {
-        outcome.checks.push(Check::that(
-            false,
-            "the outcome of the study is sound",
-            defects.join("; "),
-        ));
+        outcome.checks.push(
+            Check::that(
+                false,
+                "the outcome of the study is sound",
+                defects.join("; "),
+            )
+            .about(Subject::of("outcome")),
+        );
     }
     let claimed = outcome.verdict;
     let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
@@ -549,11 +614,7 @@ mod tests {
 
     #[test]
     fn every_defect_of_an_outcome_fails_and_is_named() {
-        let quantity = |value| Quantity {
-            name: "q".into(),
-            value,
-            tolerance: 0.1,
-        };
+        let quantity = |value| Quantity::new("q", value, 0.1);
         refused(
             Outcome {
                 quantities: vec![quantity(1.0), quantity(2.0)],

@@ -19,6 +19,7 @@ use convergence_study::judge::calibration::{
 };
 
 use super::prelude::*;
+use super::settings;
 use plots::Axis;
 
 /// The row of the table of kinds.
@@ -30,6 +31,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
              has its limit.",
     failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
+    settings: settings::of_harness,
 };
 
 /// A quantity that can be counted.
@@ -141,11 +143,9 @@ impl Expectation {
             let names = |sheet: &Sheet| format!("columns: {}", sheet.columns.join("; "));
             let there = found.map_or_else(|| "no such sheet".to_owned(), names);
             let row = row.as_deref().unwrap_or("each declared");
-            return vec![Check::that(
-                false,
-                format!("{sheet} has {column} of {row}"),
-                there,
-            )];
+            let claim = format!("{sheet} has {column} of {row}");
+            let check = Check::that(false, claim, there);
+            return vec![check.about(Subject::of(column).in_case(sheet))];
         };
         let bound = if least.is_finite() {
             format!("at least {least}")
@@ -156,9 +156,10 @@ impl Expectation {
             let value = row.values.get(place).copied().unwrap_or(f64::NAN);
             Check::that(
                 *least <= value && value <= *most,
-                format!("{sheet}, {}: {column}: {bound}", row.name),
+                format!("{column}: {bound}"),
                 text(value),
             )
+            .about(Subject::of(column).in_case(format!("{sheet}, {}", row.name)))
         };
         rows.into_iter().map(check).collect()
     }
@@ -233,7 +234,10 @@ fn guarded(sheet: &Sheet) -> Vec<Quantity> {
         .flat_map(|row| sheet.columns.iter().zip(&row.values));
     let true_passes = shares.filter(|(column, _)| column.starts_with("true pass"));
     true_passes
-        .map(|(column, share)| Quantity::new(format!("{}: {column}", sheet.key), *share, 0.01))
+        .map(|(column, share)| {
+            Quantity::new(format!("{}: {column}", sheet.key), *share, 0.01)
+                .about(Subject::of(column).in_case(sheet.key))
+        })
         .collect()
 }
 

@@ -26,7 +26,7 @@ pub mod vibration;
 mod watch;
 pub mod work_precision;
 
-pub use settings::{PLACES, settings};
+pub use settings::PLACES;
 pub use tables::TERMS;
 
 use convergence_study::input::InputError;
@@ -53,7 +53,10 @@ pub const KINDS: [KindRow; 18] = [
     rigid::ROW,
     work_precision::ROW,
     calibration::ROW,
-    program::ROW,
+    KindRow {
+        settings: settings::of_harness,
+        ..program::ROW
+    },
 ];
 
 /// Reads a study file of any of the beam's kinds.

@@ -84,7 +84,7 @@ impl Measured {
     /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
         let of = |reading: Reading, guard: &str, tolerance: f64| {
-            reading.guarded(format!("{name}: {guard}"), tolerance)
+            reading.guarded_in(name, guard, tolerance)
         };
         let ends = |reading: Reading, guard: &str| {
             if bent {
@@ -122,6 +122,11 @@ impl Measured {
             ends(
                 Reading::new("u(1) of the exact state", exact),
                 "exact_u_tip",
+            )
+            .about(
+                Subject::of("exact_u_tip")
+                    .in_case(name)
+                    .by(ItemMethod::Exact),
             ),
             Reading::new("contact force", self.contact_force),
             Reading::new("largest field", self.largest_field),
@@ -201,14 +206,17 @@ fn claims(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Check> {
         .runs
         .iter()
         .map(|(e, run)| format!("{} {:.1e}", e.scene.name, run.largest_increase));
-    let mut checks = vec![Check::that(
-        all.all(|_, run| run.largest_increase <= ROUND_OFF),
-        "the energy rises in none of the experiments",
-        format!(
-            "largest change in a step: {}",
-            increases.collect::<Vec<_>>().join(", ")
-        ),
-    )];
+    let mut checks = vec![
+        Check::that(
+            all.all(|_, run| run.largest_increase <= ROUND_OFF),
+            "the energy rises in none of the experiments",
+            format!(
+                "largest change in a step: {}",
+                increases.collect::<Vec<_>>().join(", ")
+            ),
+        )
+        .about(Subject::of("energy")),
+    ];
     checks.extend(ends_straight(&first, REMAINS * study.rate));
     checks.extend(moves(&first));
     // If a run is missing, the check of completion has failed.
@@ -237,17 +245,19 @@ fn ends_straight(first: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
     [
         Check::that(
             first.all(|scene, run| (run.energy - straight_energy(scene)).abs() <= allowed),
-            format!("θ_A = 0: the energy falls to β²/(4ρ), to {allowed:.1e}"),
+            format!("the energy falls to β²/(4ρ), to {allowed:.1e}"),
             energies,
-        ),
+        )
+        .about(Subject::of("energy at rest").in_case("θ_A = 0")),
         Check::that(
             first.all(|_, run| run.largest_field <= ARRIVED),
-            "θ_A = 0: the evolution is towards u = φ = θ = 0",
+            "the evolution is towards u = φ = θ = 0",
             format!(
                 "largest of the three fields: {}",
                 first.list(|_, run| format!("{:.1e}", run.largest_field))
             ),
-        ),
+        )
+        .about(Subject::of("fields at rest").in_case("θ_A = 0")),
     ]
 }
 
@@ -294,17 +304,20 @@ fn moves(first: &OfGroup<'_>) -> [Check; 3] {
             first.all(|scene, run| early(scene, run.first_upper) && early(scene, run.first_lower)),
             "at the beginning the beam touches both obstacles",
             format!("first contacts: {contacts}"),
-        ),
+        )
+        .about(Subject::of("first contact")),
         Check::that(
             several && grows,
             "the frequency of oscillation grows with β",
             format!("frequency of u(1), in the order of β, not of |β|: {frequencies}"),
-        ),
+        )
+        .about(Subject::of("frequency")),
         Check::that(
             several && is_largest,
             format!("the oscillations of φ(1) are largest for β = {beta}"),
             format!("largest minus smallest φ(1): {amplitudes}"),
-        ),
+        )
+        .about(Subject::of("phi_amplitude")),
     ]
 }
 
@@ -323,23 +336,22 @@ fn comes_to_rest(scene: &Scene, contact: Phase, run: &Measured) -> Check {
     let is_there = run.end.contact() == Some(contact);
     Check::that(
         presses && is_there && has_arrived(run),
-        format!(
-            "θ_A = {}, β = {}: at the steady state the beam is {place}",
-            beam.theta_a, beam.beta
-        ),
+        format!("at the steady state the beam is {place}"),
         at_rest(run),
+    )
+    .about(
+        Subject::of("contact at rest")
+            .in_case(format!("θ_A = {}, β = {}", beam.theta_a, beam.beta)),
     )
 }
 
 fn ends_bent(scene: &Scene, run: &Measured) -> Check {
     Check::that(
         run.end.tip[0].abs() > ARRIVED && has_arrived(run),
-        format!(
-            "β = {}: the stationary solution is not zero",
-            scene.beam.beta
-        ),
+        "the stationary solution is not zero",
         format!("{}, one of {} steady states", at_rest(run), run.end.count()),
     )
+    .about(Subject::of("end").in_case(format!("β = {}", scene.beam.beta)))
 }
 
 /// Whether the end is an exact, stable steady state.
@@ -380,7 +392,7 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
         } else {
             each.join("; ")
         };
-        Check::that(holds, text, evidence + more)
+        Check::that(holds, text, evidence + more).about(Subject::of(range.quantity()))
     };
     let bent = |rest: &AtRest| {
         rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable()
@@ -416,6 +428,15 @@ enum AxialForce {
 }
 
 impl AxialForce {
+    /// What is claimed of it, as a quantity.
+    fn quantity(self) -> &'static str {
+        match self {
+            Self::AsPrinted => "steady states as printed",
+            Self::Refuted => "steady states against the paper",
+            Self::BeyondBuckling => "steady states beyond buckling",
+        }
+    }
+
     /// `None` for NaN alone.
     fn of(beta: f64) -> Option<Self> {
         if beta > AS_PRINTED {

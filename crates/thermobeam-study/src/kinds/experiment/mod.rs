@@ -30,6 +30,7 @@ mod report;
 
 use super::prelude::*;
 use super::steady::{ToRest, listed_scene};
+use crate::kinds::settings;
 use thermobeam::simulation::Simulation;
 
 pub use super::steady::{AtRest, Nearest};
@@ -41,6 +42,7 @@ pub const ROW: KindRow = KindRow {
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds.",
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
+    settings: settings::of_experiments,
 };
 
 /// Approximate number of points of a curve in a figure: more than the figure has columns.

@@ -25,6 +25,7 @@ use thermobeam::simulation::Stepping as OneStep;
 use self::truth::{Trace, Truth, points};
 use super::energy::named_cases;
 use super::prelude::*;
+use crate::kinds::settings;
 use crate::predict::choice::{self, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{MOST_WORK, Unreachable, Work};
@@ -40,6 +41,7 @@ pub const ROW: KindRow = KindRow {
     judged: "No error of any number exceeds 1.3 times its estimate, no run the error asked for, no search is refused unless its data \
              are rough, and the error of linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
+    settings: settings::of_experiments,
 };
 
 /// An error may be this many times its estimate.
@@ -344,7 +346,8 @@ impl RandomErrors {
                     "the largest is {over_estimate:.2} of its estimate, of {} numbers",
                     8 * found.len()
                 ),
-            ),
+            )
+            .about(Subject::of("estimates")),
             Check::that(
                 over_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error",
@@ -352,34 +355,43 @@ impl RandomErrors {
                     "the largest is {over_target:.2} of it, of {} runs",
                     self.targets.len() * found.len()
                 ),
-            ),
+            )
+            .about(Subject::of("target errors")),
             Check::that(
                 over_norm_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error in the norm of Theorem 3.4",
                 format!("the largest is {over_norm_target:.2} of it"),
-            ),
+            )
+            .about(Subject::of("target errors in the norm")),
             Check::that(
                 refused.is_empty(),
                 "every search of smooth data ends with a run",
                 refused.join("; "),
-            ),
+            )
+            .about(Subject::of("refused searches")),
             Check::that(
                 rough
                     .iter()
                     .all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
                 "a search of rough data is refused only where no mesh resolves them, or because a finer run contradicts it",
                 format!("{} searches refused: {}", rough.len(), rough.join("; ")),
-            ),
+            )
+            .about(Subject::of("refused searches of rough data")),
         ];
         if self.refined > 0 {
-            checks.push(Check::that(
-                least >= FALL && !falls.is_empty(),
-                format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
-                format!(
-                    "with four times of both it falls at least {least:.1} times, of {} scenes",
-                    falls.len()
-                ),
-            ));
+            checks.push(
+                Check::that(
+                    least >= FALL && !falls.is_empty(),
+                    format!(
+                        "linear elements and steps of midpoint tend to the same motion: {fall}"
+                    ),
+                    format!(
+                        "with four times of both it falls at least {least:.1} times, of {} scenes",
+                        falls.len()
+                    ),
+                )
+                .about(Subject::of("linear elements")),
+            );
         }
         checks
     }

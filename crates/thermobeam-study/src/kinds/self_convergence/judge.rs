@@ -336,11 +336,14 @@ fn contact(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Option<Check>
         "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
         obstacles.g1, obstacles.g2
     );
-    Some(Check::that(
-        low < obstacles.g1 || high > obstacles.g2,
-        "the tip meets an obstacle",
-        evidence,
-    ))
+    Some(
+        Check::that(
+            low < obstacles.g1 || high > obstacles.g2,
+            "the tip meets an obstacle",
+            evidence,
+        )
+        .about(Subject::of("contact")),
+    )
 }
 
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
@@ -371,6 +374,7 @@ fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check
             .collect::<Vec<_>>()
             .join(", "),
     )
+    .about(Subject::of("reference"))
 }
 
 /// Values of the finest level.
@@ -383,7 +387,10 @@ fn values_guarded(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> [Quant
         (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
         ("tip max".to_owned(), tip_max),
     ]
-    .map(|(name, value)| Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE))
+    .map(|(name, value)| {
+        Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE)
+            .about(Subject::of(name).at("finest level"))
+    })
 }
 
 impl SelfConvergence {

@@ -219,10 +219,17 @@ fn rows(study: &WorkPrecision, ran: &[Ran<Runs, Vec<Measurement>>]) -> Vec<Metho
 }
 
 fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
-    let claim = format!("{}: the errors follow a law", row.name());
+    let claim = "the errors follow a law";
+    let subject = |quantity: &str| {
+        Subject::of(quantity)
+            .in_case(row.name())
+            .by(row.method.name)
+    };
     let law = match &row.cost {
         CostBy::Law(Ok(law)) => law,
-        CostBy::Law(Err(reason)) => return vec![Check::that(false, claim, reason)],
+        CostBy::Law(Err(reason)) => {
+            return vec![Check::that(false, claim, reason).about(subject("law"))];
+        }
         CostBy::Runs => return vec![],
         CostBy::Diagonal => {
             let falls: Vec<f64> = row
@@ -230,18 +237,22 @@ fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
                 .windows(2)
                 .map(|two| two[0].error / two[1].error)
                 .collect();
-            return vec![Check::that(
-                !falls.is_empty() && falls.iter().all(|fall| (FALL[0]..=FALL[1]).contains(fall)),
-                format!(
-                    "{}'s error falls fourfold with twice the elements and steps",
-                    row.method.name
-                ),
-                falls
-                    .iter()
-                    .map(|fall| format!("{fall:.2}"))
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            )];
+            return vec![
+                Check::that(
+                    !falls.is_empty()
+                        && falls.iter().all(|fall| (FALL[0]..=FALL[1]).contains(fall)),
+                    format!(
+                        "{}'s error falls fourfold with twice the elements and steps",
+                        row.method.name
+                    ),
+                    falls
+                        .iter()
+                        .map(|fall| format!("{fall:.2}"))
+                        .collect::<Vec<_>>()
+                        .join(", "),
+                )
+                .about(subject("diagonal")),
+            ];
         }
     };
     let rms = law.fit.rms;
@@ -252,14 +263,16 @@ fn check_law(row: &MethodRow, misfit: f64) -> Vec<Check> {
             rms <= misfit,
             claim,
             format!("misfit {rms:.4}, at most {misfit}"),
-        ),
+        )
+        .about(subject("law")),
         Check::that(
             undercut <= allowed,
-            format!("{}: no run is cheaper than the best path", row.name()),
+            "no run is cheaper than the best path",
             format!(
                 "cost on the best path over cost of a run with that error: {undercut:.2}, at most {allowed:.2}"
             ),
-        ),
+        )
+        .about(subject("best path")),
     ]
 }
 
@@ -297,6 +310,11 @@ fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
             note(of),
             note(over)
         ),
+    )
+    .about(
+        Subject::of(quantity.name())
+            .by(of.name)
+            .at(format!("{error:e}")),
     );
     (ratio, check)
 }
@@ -431,6 +449,11 @@ fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
             row.cost(1e-4)[0],
             COST_TOLERANCE,
         )
+        .about(
+            Subject::of(row.quantity.name())
+                .by(row.method.name)
+                .at("1e-4"),
+        )
     });
     let of_dg = ratios
         .iter()
@@ -452,7 +475,8 @@ fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
                 of.name,
                 over.name
             );
-            Quantity::new(name, *ratio, RATIO_TOLERANCE)
+            let subject = Subject::of(quantity.name()).by(of.name);
+            Quantity::new(name, *ratio, RATIO_TOLERANCE).about(subject)
         },
     ))
     .collect()

@@ -37,6 +37,7 @@ use std::sync::OnceLock;
 use crate::error::reference::{FINER, Traced, fine_mesh};
 use crate::error::{ErrorMeasure, Evaluator};
 use crate::kinds::prelude::*;
+use crate::kinds::settings;
 use crate::kinds::tables::Discretisation;
 use crate::run::dg::nodal;
 use method::{Degrees, GRADED, METHODS, Measurement, NamedMethod, OneStep, REFERENCE, worst};
@@ -49,6 +50,7 @@ pub const ROW: KindRow = KindRow {
           its cheapest path, and its cost for any error: a power of it. High orders pay little more for ten digits than for five.",
     judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
     failure: "A method has become more expensive for the same error, or its order is not what the law says.",
+    settings: settings::of_cost,
 };
 
 /// Times of observation if only u(1, t) is measured.

@@ -6,4 +6,5 @@ mod links;
 mod map;
 mod quick_tier;
 mod readme;
+mod texts;
 mod workflow;

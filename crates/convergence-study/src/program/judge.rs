@@ -9,6 +9,7 @@ use crate::plots::{self, Series};
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
+use crate::study::outcome::joined;
 use crate::study::until_decided::{self, Next};
 use crate::study::{
     Axis, Case, Check, Claim, Figure, LevelErrors, Outcome, Quantity, Ran, Subject, Table,
@@ -104,9 +105,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         figures.extend(work_precision(levels, ran));
     }
     let rates = [rates, values.rates].concat();
-    let summary = [levels::summary(&rates), values.summary]
-        .into_iter()
-        .filter(|text| !text.is_empty());
+    let summary = joined(&levels::summary(&rates), &values.summary);
     let outcome = Outcome {
         levels: if levels.columns.is_empty() {
             vec![]
@@ -116,7 +115,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         tables: values.tables,
         figures: [figures, values.figures].concat(),
         quantities,
-        ..Outcome::new(summary.collect::<Vec<_>>().join("; "), rates, checks)
+        ..Outcome::new(summary, rates, checks).summed_up_by_rates(values.summary)
     };
     match next(study, ran).zip(study.refine.budget) {
         Some((next, budget)) => until_decided::ended(outcome, next, levels, budget, "s"),

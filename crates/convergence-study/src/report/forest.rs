@@ -1,7 +1,7 @@
 //! The picture of all judged rates at the head of a report.
 
 use super::words::range;
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
 use crate::plots::{ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
@@ -91,11 +91,7 @@ fn failed(study: &Finished) -> String {
         rates.filter(|(_, rate)| rate.verdict == Verdict::Fail && rate.fitted.is_some()),
     );
     let one = |(order, rates): &(f64, Vec<_>)| {
-        format!(
-            "{}, claimed {}",
-            range(rates.iter().copied()),
-            order_text(*order)
-        )
+        against_claim(&range(rates.iter().copied()), &order_text(*order))
     };
     let more = if orders.len() > MOST_CLAIMS {
         "; \u{2026}"

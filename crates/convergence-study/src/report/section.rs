@@ -165,13 +165,7 @@ pub(super) fn front<'f>(
     let picture = findings.figures().find(|figure| figure.file == front.plot);
     let row = |(statement, study, name): &(&str, &Finished, &str)| {
         let rate = study.outcome.rates.iter().find(|(norm, _)| norm == name);
-        let rate = rate.map(|(_, rate)| {
-            format!(
-                "rate {}, claimed {}",
-                rate.rate_in_words(RATE_PLACES),
-                rate.claim()
-            )
-        });
+        let rate = rate.map(|(_, rate)| format!("rate {}", rate.against(RATE_PLACES)));
         vec![
             cell(statement),
             cell(&rate.unwrap_or_else(|| key_numbers(&study.outcome))),

@@ -97,7 +97,7 @@ impl Grid {
             }
             checks.push(self.judge_model(&column.name, misfits));
         }
-        Outcome::new(summary(&rates), rates, checks)
+        Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
     }
 
     /// The points without a result.

@@ -356,7 +356,7 @@ impl Levels {
             figures: figure.into_iter().collect(),
             quantities: self.quantities(&rates),
             rate_subjects: self.subjects.clone(),
-            ..Outcome::new(summary(&rates), rates, checks)
+            ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
         }
     }
 

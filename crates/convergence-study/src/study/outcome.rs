@@ -18,6 +18,9 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
+    /// What the summary says after the rates, if these sum up the study; `None` if it is in the study's own words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after_rates: Option<String>,
     /// The numbers to read first, in a few words; empty if the rates are the claim.
     #[serde(default)]
     pub headline: String,
@@ -341,6 +344,7 @@ impl Outcome {
         Self {
             verdict: Verdict::worst(verdicts),
             summary: summary.into(),
+            after_rates: None,
             headline: String::new(),
             levels: vec![],
             rates,
@@ -350,6 +354,23 @@ impl Outcome {
             tables: vec![],
             figures: vec![],
             quantities: vec![],
+        }
+    }
+
+    /// The same, whose summary is that of its rates and these words.
+    #[must_use]
+    pub fn summed_up_by_rates(self, more: impl Into<String>) -> Self {
+        Self {
+            after_rates: Some(more.into()),
+            ..self
+        }
+    }
+
+    /// Says more in the summary.
+    pub(super) fn add_to_summary(&mut self, words: &str) {
+        self.summary = joined(&self.summary, words);
+        if let Some(more) = &mut self.after_rates {
+            *more = joined(more, words);
         }
     }
 
@@ -429,21 +450,22 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     let parts = Verdict::worst(rates.chain(outcome.checks.iter().map(|check| check.verdict)));
     outcome.verdict = parts.max(claimed);
     if outcome.rates.is_empty() && outcome.checks.is_empty() {
-        outcome.summary = joined(&outcome.summary, "nothing was judged");
+        outcome.add_to_summary("nothing was judged");
     } else if outcome.verdict != claimed {
-        outcome.summary = joined(&outcome.summary, "but a rate or a check does not pass");
+        outcome.add_to_summary("but a rate or a check does not pass");
     }
     for left_out in coverage::incomplete(&outcome.coverage) {
-        outcome.summary = joined(&outcome.summary, &left_out);
+        outcome.add_to_summary(&left_out);
     }
     outcome
 }
 
-pub(super) fn joined(summary: &str, more: &str) -> String {
-    if summary.is_empty() {
-        more.to_owned()
-    } else {
-        format!("{summary}; {more}")
+/// Two parts of a summary; either may be empty.
+pub(crate) fn joined(summary: &str, more: &str) -> String {
+    match (summary, more) {
+        ("", more) => more.to_owned(),
+        (summary, "") => summary.to_owned(),
+        (summary, more) => format!("{summary}; {more}"),
     }
 }
 

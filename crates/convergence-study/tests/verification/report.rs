@@ -381,6 +381,7 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
     }
     finished.outcome.verdict = Verdict::Fail;
     finished.outcome.summary = levels::summary(&finished.outcome.rates);
+    finished.outcome.after_rates = Some(String::new());
     let studies = [finished];
     let together = "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
     let page = with(&studies, |findings| findings.readme());

@@ -400,7 +400,7 @@ impl AnyOrder {
         }
         Outcome {
             summary: summary(&all.rates),
-            ..all
+            ..all.summed_up_by_rates("")
         }
     }
 

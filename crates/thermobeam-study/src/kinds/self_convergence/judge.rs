@@ -160,7 +160,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Outc
         tables,
         figures: vec![to_reference(study, ran, &rates, &shown), tip(study, ran)],
         quantities,
-        ..Outcome::new(summary(&rates), rates, checks)
+        ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
     }
 }
 

@@ -11,7 +11,7 @@ use convergence_study::cli::{command_line, ended};
 use convergence_study::project::Project;
 use convergence_study::study::KindRow;
 use thermobeam_cli::{GROUPS, project};
-use thermobeam_study::kinds::KINDS;
+use thermobeam_study::kinds::{KINDS, settings};
 
 /// The beam under this command, and the calibration of the rule.
 const PROJECT: Project = Project {
@@ -21,7 +21,11 @@ const PROJECT: Project = Project {
 
 /// The kinds of the beam, and that which counts how often the rule errs: it is not published.
 const WITH_CALIBRATION: [KindRow; KINDS.len() + 1] = {
-    let mut kinds = [kind::ROW; KINDS.len() + 1];
+    let calibration = KindRow {
+        settings: settings::of_harness,
+        ..kind::ROW
+    };
+    let mut kinds = [calibration; KINDS.len() + 1];
     let mut place = 0;
     while place < KINDS.len() {
         kinds[place] = KINDS[place];

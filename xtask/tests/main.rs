@@ -7,4 +7,5 @@ mod links;
 mod map;
 mod quick_tier;
 mod readme;
+mod texts;
 mod workflow;

@@ -21,7 +21,7 @@ use convergence_study::plots::xy::Xy;
 use convergence_study::study::kind::completion;
 use convergence_study::study::{
     Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Table, reader,
+    Subject, Table, header, reader,
 };
 use plots::Axis;
 
@@ -41,6 +41,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
              has its limit.",
     failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
+    settings: header::of_file,
 };
 
 /// A quantity that can be counted.
@@ -151,11 +152,9 @@ impl Expectation {
             let columns = |sheet: &Sheet| format!("columns: {}", sheet.columns().join("; "));
             let there = sheet_of_key.map_or_else(|| "no such sheet".to_owned(), columns);
             let row = row.as_deref().unwrap_or("each declared");
-            return vec![Check::that(
-                false,
-                format!("{sheet} has {column} of {row}"),
-                there,
-            )];
+            let claim = format!("{sheet} has {column} of {row}");
+            let check = Check::that(false, claim, there);
+            return vec![check.about(Subject::of(column).in_case(sheet))];
         }
         let bound = if least.is_finite() {
             format!("at least {least}")
@@ -165,9 +164,10 @@ impl Expectation {
         let check = |(row, value): (&Row, f64)| {
             Check::that(
                 *least <= value && value <= *most,
-                format!("{sheet}, {}: {column}: {bound}", row.name),
+                format!("{column}: {bound}"),
                 text(value),
             )
+            .about(Subject::of(column).in_case(format!("{sheet}, {}", row.name)))
         };
         values.into_iter().map(check).collect()
     }
@@ -242,7 +242,10 @@ fn guarded(sheet: &Sheet) -> Vec<Quantity> {
         .iter()
         .filter_map(|column| Some((column, own?.value(column)?)));
     shares
-        .map(|(column, share)| Quantity::new(format!("{}: {column}", sheet.key), share, 0.01))
+        .map(|(column, share)| {
+            Quantity::new(format!("{}: {column}", sheet.key), share, 0.01)
+                .about(Subject::of(column).in_case(sheet.key))
+        })
         .collect()
 }
 

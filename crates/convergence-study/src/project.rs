@@ -1,7 +1,8 @@
 //! A project's description of itself for the harness.
 
+use crate::study::Exercised;
 use crate::study::header::{self, Setting};
-use crate::study::{Header, KindRow};
+use crate::study::{Header, KindRow, Subject};
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -24,8 +25,6 @@ pub struct Project {
     pub front_pictures: &'static [(&'static str, &'static str)],
     /// The beginning of the report of a passing run.
     pub front: Front,
-    /// What an item of a study exercises, by its name: a diagnosis distinguishes failing from passing items by these settings.
-    pub settings: fn(&Header, &str) -> Vec<Setting>,
     /// Where to look: a value of a setting or a field, and the place.
     pub places: &'static [(&'static str, &'static str)],
     /// The file of known mistakes, relative to the project's folder.
@@ -38,7 +37,6 @@ impl Project {
     /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` adds kinds.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
-        let settings = header::of_file;
         Self {
             name,
             command,
@@ -56,11 +54,18 @@ impl Project {
                 plot: "",
                 verified: "",
             },
-            settings,
             places: &[],
             fingerprints: None,
             seconds_per_cost: None,
         }
+    }
+}
+
+impl Project {
+    /// The settings that an item exercises, as its kind states them; those of the file for a kind that is not the project's.
+    pub fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let row = self.kinds.iter().find(|row| row.name == header.kind);
+        row.map_or(header::of_file as Exercised, |row| row.settings)(header, subject)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use convergence_study::program;
 use convergence_study::project::{Front, Project, Template};
-use thermobeam_study::kinds::{KINDS, PLACES, TERMS, settings};
+use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or `cargo xtask` in a checkout.
 pub const fn project(command: &'static str) -> Project {
@@ -28,7 +28,6 @@ pub const fn project(command: &'static str) -> Project {
         // Other pages show this picture, so its name must not depend on studies.
         front_pictures: &[("section-5-beam.svg", "beam.svg")],
         front: FRONT,
-        settings,
         places: &PLACES,
         fingerprints: Some("xtask/fingerprints.json"),
         seconds_per_cost: Some(NODE_STEP),

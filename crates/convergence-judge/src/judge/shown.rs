@@ -23,8 +23,8 @@ pub struct Shown<'a> {
 impl Shown<'_> {
     /// Rate and claim, with the reason unless it is a pass.
     pub fn found(&self) -> String {
-        let rate = self.rate.rate_in_words(MOST_PLACES);
         if self.rate.order.is_nan() {
+            let rate = self.rate.rate_in_words(MOST_PLACES);
             return format!("{rate}: no order is claimed");
         }
         let why = if self.rate.verdict.is_pass() {
@@ -32,7 +32,7 @@ impl Shown<'_> {
         } else {
             self.rate.because.clone()
         };
-        format!("{rate}, claimed {}: {why}", self.rate.claim())
+        format!("{}: {why}", self.rate.against(MOST_PLACES))
     }
 
     fn because(&self, level: usize) -> Option<Aside> {

@@ -7,7 +7,7 @@ use convergence_study::cli;
 use convergence_study::input::{InputError, Section};
 use convergence_study::program;
 use convergence_study::project::Project;
-use convergence_study::study::{Claim, Header, KindRow, Study, erased, levels};
+use convergence_study::study::{Claim, Header, KindRow, Study, erased, header, levels};
 
 /// The order claimed instead of 1.
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
@@ -20,6 +20,7 @@ const PROJECT: Project = Project {
             why: "",
             judged: "",
             failure: "",
+            settings: header::of_file,
         },
         program::ROW,
     ],

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::answer::{Answer, Expectation};
 use super::guard::Group;
-use super::output::{read_last_words, read_output};
+use super::output::{NoAnswer, read_last_words, read_output};
 use super::refine::Parameter;
 use crate::input::Misread;
 use crate::study::CaseFailure;
@@ -78,10 +78,13 @@ impl Invocation {
         if !status.success() {
             return Err(failed(format!("ended with {}{words}", ending(status))));
         }
-        let held = |_| "a process that it has started holds its standard output open".to_owned();
+        let held = |_| NoAnswer {
+            reason: "a process that it has started holds its standard output open".to_owned(),
+            last_line: String::new(),
+        };
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.map_err(|reason| CaseFailure {
-            advice: example(&reason, expected),
+        let object = object.map_err(|NoAnswer { reason, last_line }| CaseFailure {
+            advice: example(&last_line, expected),
             ..failed(format!("answered nothing: {reason}{words}"))
         })?;
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
@@ -160,14 +163,11 @@ fn in_background<S: Send + 'static, T: Send + 'static>(
     receive
 }
 
-/// An example of an answer, with the number that the last line quoted in `reason` has after the name, if it has one.
-fn example(reason: &str, expected: &[Expectation]) -> String {
+/// An example of an answer, with the number that the last line printed has after the name, if it has one.
+fn example(last: &str, expected: &[Expectation]) -> String {
     let Some(first) = expected.first() else {
         return String::new();
     };
-    let last = reason
-        .rsplit_once("the last line is `")
-        .map_or("", |(_, last)| last);
     let is_word = |text: Option<char>| text.is_some_and(char::is_alphanumeric);
     let after = last
         .match_indices(&first.name)
@@ -317,16 +317,13 @@ mod tests {
             ("L2", "done in 3.5", "0.0015"),
             ("L2", "L2 is nan", "0.0015"),
         ] {
-            let told = example(
-                &format!("no line is a JSON object; the last line is `{last}`"),
-                &expected(name),
-            );
+            let told = example(last, &expected(name));
             assert_eq!(
                 told,
                 format!("expected a last line such as {{\"errors\": {{\"{name}\": {number}}}}}"),
                 "{last}"
             );
         }
-        assert_eq!(example("its standard output is empty", &[]), "");
+        assert_eq!(example("", &[]), "");
     }
 }

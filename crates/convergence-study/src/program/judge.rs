@@ -7,8 +7,9 @@ use crate::plots::{self, Series};
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::levels::{self, ErrorColumn, Levels};
+use crate::study::outcome::joined;
 use crate::study::until_decided::{self, Next};
-use crate::study::{Axis, Case, Check, Figure, LevelErrors, Outcome, Ran};
+use crate::study::{Axis, Case, Check, Figure, LevelErrors, Outcome, Ran, Subject};
 use crate::text::number::{error_text, plain_text};
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
@@ -17,7 +18,8 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
             false,
             "every level answers its step, or none does",
             mixed.clone(),
-        );
+        )
+        .about(Subject::of("step"));
         return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
     }
     let levels = levels(study, ran);
@@ -99,9 +101,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         figures.extend(work_precision(levels, ran));
     }
     let rates = [rates, values.rates].concat();
-    let summary = [levels::summary(&rates), values.summary]
-        .into_iter()
-        .filter(|text| !text.is_empty());
+    let summary = joined(&levels::summary(&rates), &values.summary);
     let outcome = Outcome {
         levels: if levels.columns.is_empty() {
             vec![]
@@ -111,7 +111,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         tables: values.tables,
         figures: [figures, values.figures].concat(),
         quantities,
-        ..Outcome::new(summary.collect::<Vec<_>>().join("; "), rates, checks)
+        ..Outcome::new(summary, rates, checks).summed_up_by_rates(values.summary)
     };
     match next(study, ran).zip(study.refine.budget) {
         Some((next, budget)) => until_decided::ended(outcome, next, levels, budget, "s"),
@@ -130,11 +130,8 @@ fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
         let bound = expected.exact?;
         let (largest, is_exact) = claims::exact(ran.iter().map(|ran| number(ran, expected)), bound);
         let claim = format!("{} is exact: at most {}", expected.name, plain_text(bound));
-        Some(Check::that(
-            is_exact,
-            claim,
-            format!("largest {}", error_text(largest)),
-        ))
+        let evidence = format!("largest {}", error_text(largest));
+        Some(Check::that(is_exact, claim, evidence).about(Subject::of(&expected.name)))
     };
     study.expect.iter().filter_map(check).collect()
 }

@@ -4,7 +4,7 @@ use super::{Program, Run};
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
-use crate::study::{Claim, Figure, Outcome, Quantity, Table};
+use crate::study::{Claim, Figure, Outcome, Quantity, Subject, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a sentence.
@@ -25,12 +25,13 @@ pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) ->
         .map(|(column, estimate)| (name(column), estimate.judged.clone()))
         .collect();
     let value = |column: &ErrorColumn, level: usize| {
-        let name = format!("{}, {}", name(column), refinements[level].label);
+        let (value, label) = (name(column), &refinements[level].label);
         Quantity::new(
-            name,
+            format!("{value}, {label}"),
             column.errors[level].unwrap_or(f64::NAN),
             ERROR_TOLERANCE,
         )
+        .about(Subject::of(value).at(label))
     };
     let guarded = (0..refinements.len())
         .flat_map(|level| columns.iter().map(move |column| value(column, level)));
@@ -45,7 +46,9 @@ pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) ->
     Outcome {
         tables: limits.into_iter().chain(values).collect(),
         figures: figure.into_iter().collect(),
-        quantities: levels::rate_quantities(&rates).chain(guarded).collect(),
+        quantities: levels::rate_quantities(&rates, |name| Subject::of(name))
+            .chain(guarded)
+            .collect(),
         ..Outcome::new(summary.join("; "), rates, vec![])
     }
 }

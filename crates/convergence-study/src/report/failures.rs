@@ -13,8 +13,8 @@ use crate::input::visible;
 use crate::judge::verdict::{Cause, Reason, Verdict};
 use crate::run::Finished;
 use crate::store::{Change, Movement, Record, diagnosis::Diagnosis};
-use crate::study::kind::{COMPLETION, by_reason};
-use crate::study::outcome::Check;
+use crate::study::kind::by_reason;
+use crate::study::outcome::{Check, Origin};
 use crate::text::number::short_text;
 
 /// Most reasons listed for one study; its section has all of them.
@@ -71,15 +71,11 @@ fn names_another(
     }: &Finished,
     ids: &HashSet<&str>,
 ) -> bool {
-    let is_of_an_id = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-');
     let names = |check: &Check| {
-        let words = check
-            .evidence
-            .split(|c: char| !is_of_an_id(c))
-            .map(|word| word.trim_end_matches('.'));
-        words
-            .into_iter()
-            .any(|word| word != header.id && ids.contains(word))
+        let others = check.other_studies.iter();
+        others
+            .map(String::as_str)
+            .any(|id| id != header.id && ids.contains(id))
     };
     outcome
         .checks
@@ -112,12 +108,12 @@ fn reasons(
         .collect();
     let rates = rates.map(|(name, rate)| format!("{name}: {} ({})", rate.line(), rate.kind.code()));
     // The reasons already say that cases are missing.
-    let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
+    let is_said = |check: &Check| check.origin == Origin::Completion && !failed_cases.is_empty();
     let checks = outcome
         .checks
         .iter()
         .filter(|check| check.verdict != Verdict::Pass && !is_said(check));
-    let checks = checks.map(|check| format!("{}: {}", check.claim, check.evidence));
+    let checks = checks.map(|check| format!("{}: {}", check.statement(), check.evidence));
     // Missing cases first: they make rates and checks fail.
     let cases = by_reason(
         failed_cases

@@ -204,9 +204,8 @@ pub(super) fn front(
 /// The numbers of a study that answer a statement: the rate of this name, or its key numbers.
 fn answer(study: &Finished, name: &str) -> String {
     let mut rates = study.outcome.rates.iter();
-    let rate = rates.find(|(known, _)| known == name).map(|(_, rate)| {
-        let found = rate.rate_in_words(RATE_PLACES);
-        format!("rate {found}, claimed {}", rate.claim())
-    });
+    let rate = rates
+        .find(|(known, _)| known == name)
+        .map(|(_, rate)| format!("rate {}", rate.against(RATE_PLACES)));
     rate.unwrap_or_else(|| key_numbers(&study.outcome))
 }

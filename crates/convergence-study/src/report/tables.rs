@@ -97,7 +97,7 @@ fn levels(rate: &RateVerdict) -> String {
 fn checks(checks: &[Check]) -> Table {
     let row = |check: &Check| {
         vec![
-            check.claim.clone(),
+            check.statement(),
             check.verdict.name().to_owned(),
             check.evidence.clone(),
         ]

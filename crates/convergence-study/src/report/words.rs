@@ -1,12 +1,11 @@
 //! Verdicts in words, the same ones for report and terminal.
 
-use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
 use crate::study::coverage::incomplete;
-use crate::study::levels;
-use crate::study::outcome::Outcome;
+use crate::study::outcome::{Outcome, joined};
 use crate::text::lists::{self, and_more};
 use crate::text::number::{
     RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text,
@@ -172,15 +171,14 @@ pub fn key_numbers(outcome: &Outcome) -> String {
 
 /// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a table has each of them.
 pub fn summary(outcome: &Outcome) -> String {
-    let each = levels::summary(&outcome.rates);
-    if outcome
+    let all_pass = outcome
         .rates
         .iter()
-        .all(|(_, rate)| rate.verdict == Verdict::Pass)
-    {
-        return outcome.summary.clone();
+        .all(|(_, rate)| rate.verdict == Verdict::Pass);
+    match &outcome.after_rates {
+        Some(more) if !all_pass => joined(&grouped(&outcome.rates), more),
+        _ => outcome.summary.clone(),
     }
-    outcome.summary.replacen(&each, &grouped(&outcome.rates), 1)
 }
 
 /// The rates that do not pass, grouped by reason and claim: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
@@ -195,9 +193,10 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
         }
         let (found, why) = (range(group.iter().map(|(_, rate)| rate)), kind.brief());
         let count = format!("{} of {} rates", group.len(), rates.len());
+        let rates = against_claim(&found, claim);
         match kind {
-            Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {found}, claimed {claim}"),
-            _ => format!("{count}: {found}, claimed {claim}: {why}"),
+            Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {rates}"),
+            _ => format!("{count}: {rates}: {why}"),
         }
     };
     groups.iter().map(one).collect::<Vec<_>>().join("; ")

@@ -104,7 +104,12 @@ impl Finished {
             .iter()
             .filter(|check| check.verdict != Verdict::Pass)
         {
-            text += &format!("{}: {}: {}\n", check.claim, check.verdict, check.evidence);
+            text += &format!(
+                "{}: {}: {}\n",
+                check.statement(),
+                check.verdict,
+                check.evidence
+            );
         }
         text
     }

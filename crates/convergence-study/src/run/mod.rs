@@ -20,7 +20,9 @@ use thiserror::Error;
 use crate::judge::verdict::Verdict;
 use crate::study::kind::{plan, reasons};
 use crate::study::outcome::{self, NotFinite};
-use crate::study::{Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Untested};
+use crate::study::{
+    Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,
+};
 use caught::caught;
 use queue::{Counter, Done, Job};
 
@@ -348,11 +350,14 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     spent.busy += started.elapsed();
     // Whatever the study concludes: a failed case cannot pass.
     if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
-        outcome.checks.push(Check::that(
-            false,
-            "every case has a result",
-            format!("{} have none", failed_cases.len()),
-        ));
+        outcome.checks.push(
+            Check::that(
+                false,
+                "every case has a result",
+                format!("{} have none", failed_cases.len()),
+            )
+            .about(Subject::of("completion")),
+        );
     }
     let outcome = outcome::settle(&header.id, outcome);
     let not_finite = outcome.not_finite();
@@ -372,6 +377,6 @@ fn broken(what: &str, reason: &str) -> Outcome {
     Outcome::new(
         format!("the study cannot {what}: {reason}"),
         vec![],
-        vec![Check::that(false, claim, reason)],
+        vec![Check::that(false, claim, reason).about(Subject::of("study"))],
     )
 }

@@ -318,7 +318,7 @@ fn acceptable(
     }
     let cannot_be_met =
         |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
-    outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance }| {
+    outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance, .. }| {
         let refused =
             format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
         Err(Refusal(format!("not blessed: {refused}")))

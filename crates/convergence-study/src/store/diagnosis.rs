@@ -11,8 +11,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::header::field;
-use crate::study::kind::COMPLETION;
+use crate::study::{Check, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::short_text;
@@ -177,8 +176,8 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
     } in finished
     {
         let mut own: Vec<Vote> = vec![];
-        let mut count = |item: &str, fails: bool, counts: bool| {
-            let settings = (project.settings)(header, item);
+        let mut count = |subject: &Subject, fails: bool, counts: bool| {
+            let settings = project.settings(header, subject);
             let new = [usize::from(fails && counts), usize::from(counts)];
             match own.iter_mut().find(|vote| vote.settings == settings) {
                 Some(Vote {
@@ -194,15 +193,21 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
                 }),
             }
         };
-        outcome
-            .rates
-            .iter()
-            .for_each(|(norm, rate)| count(norm, !rate.verdict.is_pass(), any_judged));
+        outcome.rates.iter().for_each(|(norm, rate)| {
+            let subject = outcome.subject_of_rate(norm);
+            count(&subject, !rate.verdict.is_pass(), any_judged);
+        });
         let checks = outcome
             .checks
             .iter()
-            .filter(|check| check.claim != COMPLETION || !check.verdict.is_pass());
-        checks.for_each(|check| count(&check.claim, !check.verdict.is_pass(), any_judged));
+            .filter(|check| check.origin != Origin::Completion || !check.verdict.is_pass());
+        checks.for_each(|check| {
+            let subject = Subject {
+                quantity: check.quantity().to_owned(),
+                ..check.subject.clone()
+            };
+            count(&subject, !check.verdict.is_pass(), any_judged);
+        });
         let moved: Vec<&str> = numbers(changes, &header.id).map(|(name, _)| name).collect();
         let kept = outcome
             .quantities
@@ -212,28 +217,45 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
             .iter()
             .copied()
             .filter(|name| !outcome.quantities.iter().any(|known| known.name == *name));
-        kept.chain(gone)
-            .for_each(|name| count(name, moved.contains(&name), !any_judged));
+        kept.chain(gone).for_each(|name| {
+            let subject = subject_of_number(outcome, name);
+            count(&subject, moved.contains(&name), !any_judged);
+        });
         votes.append(&mut own);
     }
     votes
 }
 
-/// The claims of failing checks without the case before the colon, the commonest first.
+/// What a guarded number is about; its name stands in for a quantity that is not known.
+fn subject_of_number(outcome: &Outcome, name: &str) -> Subject {
+    let known = outcome.quantities.iter().find(|known| known.name == name);
+    let subject = known.map_or_else(Subject::default, |known| known.subject.clone());
+    Subject {
+        quantity: subject.quantity_or(name).to_owned(),
+        ..subject
+    }
+}
+
+/// The claim of several checks, if it is the same.
+fn common_claim<'c>(checks: &[&'c Check]) -> Option<&'c str> {
+    let (first, rest) = checks.split_first()?;
+    rest.iter()
+        .all(|check| check.claim == first.claim)
+        .then_some(&first.claim)
+}
+
+/// The quantities of failing checks, each with the number of checks, the commonest first; in the words of the claim if all of
+/// these claim the same.
 fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     let checks = failing
         .iter()
         .flat_map(|study| &study.outcome.checks)
         .filter(|check| !check.verdict.is_pass());
-    let claims = checks.map(|check| {
-        check
-            .claim
-            .rsplit_once(": ")
-            .map_or(check.claim.as_str(), |(_, rest)| rest)
-    });
-    let claims = grouped(claims.map(|claim| (claim, ()))).into_iter();
-    let mut claims: Vec<(String, usize)> = claims
-        .map(|(claim, count)| (claim.to_owned(), count.len()))
+    let groups = grouped(checks.map(|check| (check.quantity(), check)));
+    let mut claims: Vec<(String, usize)> = groups
+        .into_iter()
+        .map(|(quantity, checks)| (common_claim(&checks).unwrap_or(quantity), checks.len()))
+        .map(|(words, count)| (words.to_owned(), count))
         .collect();
     claims.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     claims.truncate(2 * NAMED);
@@ -269,19 +291,24 @@ fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
     let passing = finished
         .iter()
         .filter(|study| study.outcome.verdict == Verdict::Pass);
-    let moved = passing.flat_map(|Finished { header, .. }| {
-        numbers(changes, &header.id).map(|(name, movement)| {
-            let how = match movement {
-                Movement::Moved { from, to, .. } => {
-                    let change = 100.0 * (to - from) / from.abs();
-                    format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
-                }
-                Movement::Vanished { .. } => "gone".to_owned(),
-                _ => "another tolerance".to_owned(),
-            };
-            (format!("{} {how}", field(name)), header.id.as_str())
-        })
-    });
+    let moved = passing.flat_map(
+        |Finished {
+             header, outcome, ..
+         }| {
+            numbers(changes, &header.id).map(|(name, movement)| {
+                let how = match movement {
+                    Movement::Moved { from, to, .. } => {
+                        let change = 100.0 * (to - from) / from.abs();
+                        format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
+                    }
+                    Movement::Vanished { .. } => "gone".to_owned(),
+                    _ => "another tolerance".to_owned(),
+                };
+                let field = subject_of_number(outcome, name).quantity;
+                (format!("{field} {how}"), header.id.as_str())
+            })
+        },
+    );
     let mut groups = grouped(moved);
     groups.sort_by_key(|(_, studies)| std::cmp::Reverse(studies.len()));
     let line = |(group, mut studies): (String, Vec<&str>)| {

@@ -62,7 +62,7 @@ fn suite(
     for check in &outcome.checks {
         suite.add_test_case(case(
             &header.id,
-            &check.claim,
+            &check.statement(),
             check.verdict,
             &check.evidence,
         ));

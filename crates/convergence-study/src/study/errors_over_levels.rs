@@ -4,6 +4,7 @@ use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran, completion};
 use super::levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::outcome::{Check, Outcome};
+use super::subject::Subject;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
 
 /// The errors of one level, by name.
@@ -213,7 +214,7 @@ where
             );
             checks.push(Check {
                 verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, evidence)
+                ..Check::that(false, claim, evidence).about(Subject::of("claims"))
             });
         }
         levels.outcome("errors", None, "Errors over levels of refinement.", checks)

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::header::{DEFAULT_KIND, Header, NAME, Tier, is_name};
+use super::header::{DEFAULT_KIND, Exercised, Header, NAME, Tier, is_name};
 use super::kind::{Described, Kind, Study, erased};
 use super::levels::Claim;
 use crate::input::{self, Field, InputError, Section};
@@ -37,6 +37,8 @@ pub struct KindRow {
     pub judged: &'static str,
     /// What a failure would mean.
     pub failure: &'static str,
+    /// The settings that an item of such a study exercises: by these a diagnosis separates failing from passing items.
+    pub settings: Exercised,
 }
 
 /// A study file, read once.

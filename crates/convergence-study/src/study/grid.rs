@@ -4,6 +4,7 @@ use super::levels::{Claim, summary};
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, Outcome};
+use super::subject::Subject;
 use crate::judge::grid::{Adding, GridErrors};
 use crate::judge::verdict::Verdict;
 #[cfg(feature = "reports")]
@@ -53,7 +54,7 @@ impl Grid {
             let claim = "every mesh width is combined with the same time steps".to_owned();
             let check = Check {
                 verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, different)
+                ..Check::that(false, claim, different).about(Subject::of("steps"))
             };
             return Outcome::new("", vec![], vec![check]);
         }
@@ -90,12 +91,15 @@ impl Grid {
                 })),
                 // Readers of study files have already refused such a tolerance.
                 Err(error) => {
-                    checks.extend(names.map(|name| Check::that(false, name, error.to_string())));
+                    checks.extend(names.map(|name| {
+                        let subject = Subject::of(&name);
+                        Check::that(false, name, error.to_string()).about(subject)
+                    }));
                 }
             }
             checks.push(self.judge_model(&column.name, misfits));
         }
-        Outcome::new(summary(&rates), rates, checks)
+        Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
     }
 
     /// The points without a result.
@@ -191,9 +195,11 @@ impl Grid {
         let evidence = format!(
             "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"
         );
+        let subject = Subject::of("sum of errors").in_case(name);
         if self.squares_add {
-            let claim = format!("{name}: the squares of space and time error add");
-            return Check::that(squares < plain && squares <= MISFIT, claim, evidence);
+            let claim = "the squares of space and time error add";
+            let holds = squares < plain && squares <= MISFIT;
+            return Check::that(holds, claim, evidence).about(subject);
         }
         // Nobody claimed it: if it does not hold, the orders are unknown.
         let verdict = if plain.min(squares) <= MISFIT {
@@ -205,9 +211,10 @@ impl Grid {
             verdict,
             ..Check::that(
                 false,
-                format!("{name}: the errors of space and time add, or their squares"),
+                "the errors of space and time add, or their squares",
                 evidence,
             )
+            .about(subject)
         }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use super::coverage::{Coverage, NO_RESULT};
 use super::header::Header;
 use super::outcome::{Check, Origin, Outcome};
+use super::subject::Subject;
 use crate::text::lists::{and_more, grouped};
 
 /// One computation of a study.
@@ -173,9 +174,6 @@ pub fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
     outcome
 }
 
-/// The claim of the check of [`completion`].
-pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
-
 /// Number of reasons that a check of completion lists.
 const SHOWN: usize = 8;
 
@@ -216,9 +214,10 @@ pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String
     }
     Check::that(
         complaints.is_empty() && !ran.is_empty(),
-        COMPLETION,
+        "every case completes, with finite numbers",
         evidence,
     )
+    .about(Subject::of("completion"))
     .stated_by(Origin::Completion)
 }
 

@@ -6,6 +6,7 @@ use std::ops::Range;
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
+use super::subject::{Sort, Subject};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
@@ -162,6 +163,8 @@ pub struct Levels {
     pub columns: Vec<ErrorColumn>,
     /// Fine levels with errors up to this one are not used: a thousand times the round-off, where that is known.
     pub floor: f64,
+    /// What errors are about, by their names, where that is more than the name.
+    pub subjects: Vec<(String, Subject)>,
 }
 
 /// Rates that were judged, each with the name of its error.
@@ -183,6 +186,7 @@ impl Levels {
             refinements,
             columns,
             floor: 0.0,
+            subjects: vec![],
         }
     }
 
@@ -191,6 +195,16 @@ impl Levels {
     /// * `floor`: finite, at least 0.
     pub fn with_floor(self, floor: f64) -> Self {
         Self { floor, ..self }
+    }
+
+    /// The same where errors of these names are about more than their names.
+    pub fn with_subjects(self, subjects: Vec<(String, Subject)>) -> Self {
+        Self { subjects, ..self }
+    }
+
+    fn subject(&self, name: &str) -> Subject {
+        let known = self.subjects.iter().find(|(of, _)| of == name);
+        known.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
     }
 
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
@@ -341,7 +355,9 @@ impl Levels {
             ..column.clone()
         };
         let refinements = self.refinements.iter().take(levels).cloned();
-        Self::new(self.axis, refinements, self.columns.iter().map(column)).with_floor(self.floor)
+        Self::new(self.axis, refinements, self.columns.iter().map(column))
+            .with_floor(self.floor)
+            .with_subjects(self.subjects.clone())
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
@@ -364,7 +380,8 @@ impl Levels {
             levels: self.errors(),
             figures: figure.into_iter().collect(),
             quantities: self.quantities(&rates),
-            ..Outcome::new(summary(&rates), rates, checks)
+            rate_subjects: self.subjects.clone(),
+            ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
         }
     }
 
@@ -395,10 +412,13 @@ impl Levels {
             let name = |column: &ErrorColumn| format!("error {}, {}", column.name, level.label);
             let quantity = move |column| {
                 Quantity::new(name(column), number(&column.errors, i), ERROR_TOLERANCE)
+                    .about(self.subject(&column.name).at(&level.label))
+                    .of_sort(Sort::Error)
             };
             self.columns.iter().map(quantity)
         });
-        rate_quantities(rates).chain(errors).collect()
+        let subject = |name: &str| self.subject(name);
+        rate_quantities(rates, subject).chain(errors).collect()
     }
 }
 
@@ -420,13 +440,15 @@ fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
 }
 
 /// The observed rates, as numbers that the baseline guards.
-pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(|(name, rate)| {
-        Some(Quantity::new(
-            format!("rate {name}"),
-            rate.fitted?,
-            RATE_TOLERANCE,
-        ))
+///
+/// * `subject`: what the rate of that name is about.
+pub fn rate_quantities(
+    rates: &Rates,
+    subject: impl Fn(&str) -> Subject,
+) -> impl Iterator<Item = Quantity> {
+    rates.iter().filter_map(move |(name, rate)| {
+        let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
+        Some(guarded.about(subject(name)).of_sort(Sort::Rate))
     })
 }
 

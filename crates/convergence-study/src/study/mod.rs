@@ -14,16 +14,18 @@ pub mod kind;
 pub mod levels;
 pub mod outcome;
 pub mod readings;
+pub mod subject;
 pub mod until_decided;
 
 pub use coverage::Coverage;
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};
-pub use header::{Header, Tier};
+pub use header::{Exercised, Header, Tier};
 pub use kind::{
     Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here,
 };
 pub use levels::{Axis, Claim, Refinement};
 pub use outcome::{Check, Figure, LevelErrors, Origin, Outcome, Quantity, Table};
 pub use readings::Reading;
+pub use subject::{Sort, Subject};

@@ -8,7 +8,7 @@
 use crate::input::{Field, InputError, Section};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{Levels, Rates};
-use crate::study::outcome::{Outcome, joined};
+use crate::study::outcome::Outcome;
 
 /// Levels at the first look, each twice as fine as the previous one.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
@@ -79,16 +79,12 @@ pub fn ended(
     unit: &str,
 ) -> Outcome {
     let words = in_words(next, levels, &outcome.rates, budget, unit);
-    outcome.summary = joined(&outcome.summary, &words);
-    let first: Vec<String> = levels
-        .refinements
-        .iter()
-        .take(FIRST.len())
-        .map(|level| format!(", {}", level.label))
-        .collect();
+    outcome.add_to_summary(&words);
+    let first = &levels.refinements[..levels.refinements.len().min(FIRST.len())];
+    let is_of_first = |level: &String| first.iter().any(|first| first.label == *level);
     outcome
         .quantities
-        .retain(|quantity| first.iter().any(|label| quantity.name.ends_with(label)));
+        .retain(|quantity| quantity.subject.level.as_ref().is_some_and(is_of_first));
     outcome
 }
 

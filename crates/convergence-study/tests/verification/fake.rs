@@ -136,11 +136,7 @@ impl Kind for Fake {
             without: vec![],
         };
         let finest = *errors.last().unwrap();
-        let quantity = Quantity {
-            name: self.quantity.to_owned(),
-            value: finest,
-            tolerance: self.tolerance,
-        };
+        let quantity = Quantity::new(self.quantity, finest, self.tolerance);
         let table = Table {
             title: "Two | three".into(),
             head: vec!["a|b".into()],

@@ -9,4 +9,5 @@ mod page;
 mod record;
 mod report;
 mod runner;
+mod texts;
 mod whole;

@@ -29,6 +29,7 @@ use convergence_study::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::Stepping;
 
 use super::prelude::*;
+use super::settings;
 use super::tables::{Layout, control, manufactured};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
@@ -45,6 +46,7 @@ pub const ROW: KindRow = KindRow {
              must fall by the factor claimed for each degree until it reaches round-off.",
     failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \
               is stopped too early: look at the highest degree that still passes.",
+    settings: settings::of_any_order,
 };
 
 /// Steps of a run: at high degree a few hundred reach round-off.
@@ -398,7 +400,7 @@ impl AnyOrder {
         }
         Outcome {
             summary: summary(&all.rates),
-            ..all
+            ..all.summed_up_by_rates("")
         }
     }
 
@@ -425,12 +427,14 @@ impl AnyOrder {
             .map(|ran| ran.ok().map(|errors| errors.named.as_slice()))
             .collect();
         let mut columns = ErrorColumn::of(&claims, &errors);
-        columns.iter_mut().for_each(|column| {
+        let mut subjects = vec![];
+        for column in &mut columns {
+            let subject = Subject::of(&column.name).in_case(&name);
             // The degree is in the title.
-            let symbol = column.name.replace("u_t", "uₜ");
+            column.symbol = Some(column.name.replace("u_t", "uₜ"));
             column.name = format!("{name}, {}", column.name);
-            column.symbol = Some(symbol);
-        });
+            subjects.push((column.name.clone(), subject));
+        }
         let refinement = |ran: &Ran<Resolution, Errors>| {
             let Resolution {
                 degree,
@@ -458,7 +462,9 @@ impl AnyOrder {
         } else {
             Axis::Space
         };
-        Levels::new(axis, ran.iter().map(refinement), columns).with_floor(FLOOR)
+        Levels::new(axis, ran.iter().map(refinement), columns)
+            .with_floor(FLOOR)
+            .with_subjects(subjects)
     }
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
@@ -481,6 +487,8 @@ impl AnyOrder {
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));
             let guarded = |(p, error): &(f64, f64)| {
                 Quantity::new(format!("error fields, p = {p}"), *error, 1e-4)
+                    .about(Subject::of("fields").at(format!("p = {p}")))
+                    .of_sort(Sort::Error)
             };
             quantities.extend(measurable.map(guarded));
             let name = counted(series.runs[0].elements, "element");
@@ -533,7 +541,7 @@ fn projected(ran: &[Ran<Resolution, Errors>]) -> Check {
         .fold(0.0, max_or_nan);
     let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";
     let evidence = format!("largest moment on an element {largest:.1e}, allowed {PROJECTED:e}");
-    Check::that(largest <= PROJECTED, claim, evidence)
+    Check::that(largest <= PROJECTED, claim, evidence).about(Subject::of("initial projection"))
 }
 
 fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
@@ -558,11 +566,13 @@ fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
             fall >= factor && monotone,
             format!("the error falls with every degree, {factor} times on average"),
             format!("{fall:.1} times a degree, up to p = {end}"),
-        ),
+        )
+        .about(Subject::of("error over the degree")),
         Check::that(
             reached.is_some() && rest,
             format!("it reaches round-off, {ROUND_OFF:e}, and stays there"),
             format!("error at most {ROUND_OFF:e} from p = {end} on"),
-        ),
+        )
+        .about(Subject::of("round-off")),
     ]
 }

@@ -22,6 +22,7 @@
 use thermobeam::dg::ContactEvent;
 
 use super::prelude::*;
+use super::settings;
 use super::tables::{Discretisation, discretisations};
 use crate::run::object::phase_name;
 
@@ -34,6 +35,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Both must agree at each time listed within the tolerance, in the state of the free end and the energy, and on every \
              contact event. The energy must fall, its balance close to round-off.",
     failure: "One of the two is not resolved: raise the degrees or lower the steps of both and see which one moves.",
+    settings: settings::of_exact_experiments,
 };
 
 /// Times at which the free end is compared over the whole time.
@@ -444,22 +446,25 @@ impl<'r> OfScene<'r> {
 
     fn checks(&self, agreement: f64) -> [Check; 3] {
         let difference = self.difference();
-        let claim = format!(
-            "{}: two discretisations agree within {agreement:e}",
-            self.name
-        );
+        let claim = format!("two discretisations agree within {agreement:e}");
         let agree = Check::that(
             difference <= agreement,
             claim,
             format!("largest difference {difference:.1e}"),
-        );
+        )
+        .about(self.subject("agreement"));
         [agree, self.events_agree(agreement), self.balance()]
     }
 
+    fn subject(&self, quantity: &str) -> Subject {
+        Subject::of(quantity).in_case(self.name)
+    }
+
     fn events_agree(&self, agreement: f64) -> Check {
-        let claim = format!("{}: they agree on every contact event", self.name);
+        let claim = "they agree on every contact event";
+        let subject = self.subject("contact events");
         let [Some(one), Some(other)] = self.any_order else {
-            return Check::that(false, claim, "a run is missing");
+            return Check::that(false, claim, "a run is missing").about(subject);
         };
         let alike = one.events.len() == other.events.len()
             && one
@@ -483,7 +488,7 @@ impl<'r> OfScene<'r> {
         );
         // Times are of order 10, the other numbers of order 1.
         let close = apart.is_none_or(|apart| apart <= 10.0 * agreement);
-        Check::that(alike && close, claim, evidence)
+        Check::that(alike && close, claim, evidence).about(subject)
     }
 
     fn balance(&self) -> Check {
@@ -497,11 +502,11 @@ impl<'r> OfScene<'r> {
         Check::that(
             residual <= CLOSED && increase <= 0.0,
             format!(
-                "{}: the energy falls in every step and its balance closes within {CLOSED:e} of E0",
-                self.name
+                "the energy falls in every step and its balance closes within {CLOSED:e} of E0"
             ),
             format!("largest residual {residual:.1e} of E0, largest change {increase:.1e}"),
         )
+        .about(self.subject("energy and balance"))
     }
 
     /// The numbers, to the digits that both discretisations agree on and one more.
@@ -515,10 +520,10 @@ impl<'r> OfScene<'r> {
         let row = |state: &Sample| {
             let guard = |reading: Reading| {
                 let name = reading.name.replace('φ', "phi").replace('θ', "theta");
-                reading.fixed(decimals).guarded(
-                    format!("{}: {name} at t = {}", self.name, state.t),
-                    TOLERANCE,
-                )
+                let quantity = format!("{name} at t = {}", state.t);
+                reading
+                    .fixed(decimals)
+                    .guarded_in(self.name, quantity, TOLERANCE)
             };
             let apart = Reading::text("largest difference", format!("{apart:.0e}"));
             let numbers = numbers(state)

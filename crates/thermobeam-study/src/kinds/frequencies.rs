@@ -16,6 +16,7 @@
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::prelude::*;
+use super::settings;
 use super::tables::Layout;
 
 /// The row of the table of kinds.
@@ -27,6 +28,7 @@ pub const ROW: KindRow = KindRow {
     judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
              below the first must be met on the finest mesh.",
     failure: "Mass, stiffness or coupling of the discretisation is wrong.",
+    settings: settings::of_frequencies,
 };
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
@@ -243,6 +245,7 @@ impl Frequencies {
             "the exact frequencies solve the frequency equation 1 + C+ C- - ω² S+ S- = 0",
             format!("largest residual {worst:.1} rounding errors, allowed {ROUNDING_ERRORS}"),
         )
+        .about(Subject::of("frequency equation"))
     }
 
     /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
@@ -267,6 +270,7 @@ impl Frequencies {
             ),
             format!("largest relative error {worst:.1e}"),
         )
+        .about(Subject::of("low frequencies"))
     }
 
     fn lie_above(&self, levels: &Levels) -> Check {
@@ -285,6 +289,7 @@ impl Frequencies {
             ),
             format!("the smallest ω_h - ω of all levels and modes is {least:.3e}"),
         )
+        .about(Subject::of("sign of the errors"))
     }
 }
 

@@ -17,7 +17,7 @@ pub mod random_errors;
 pub mod rigid;
 pub mod scenes;
 pub mod self_convergence;
-mod settings;
+pub mod settings;
 mod side_by_side;
 pub mod solvers;
 mod steady;
@@ -26,7 +26,7 @@ pub mod vibration;
 mod watch;
 pub mod work_precision;
 
-pub use settings::{PLACES, settings};
+pub use settings::PLACES;
 pub use tables::TERMS;
 
 use convergence_study::input::InputError;
@@ -52,7 +52,10 @@ pub const KINDS: [KindRow; 17] = [
     random_errors::ROW,
     rigid::ROW,
     work_precision::ROW,
-    program::ROW,
+    KindRow {
+        settings: settings::of_harness,
+        ..program::ROW
+    },
 ];
 
 /// Reads a study file of any of the beam's kinds.

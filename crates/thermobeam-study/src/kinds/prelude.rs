@@ -14,8 +14,8 @@ pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
     Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
-    KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Study, Table, Untested,
-    read_claim, reader, readings,
+    KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
+    Untested, read_claim, reader, readings,
 };
 pub(crate) use convergence_study::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
@@ -31,6 +31,7 @@ pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam_exact::vibration::Mode;
 
+pub(crate) use super::settings::ItemMethod;
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};

@@ -29,6 +29,7 @@ use std::ops::ControlFlow;
 
 use super::energy::{End, named_cases};
 use super::prelude::*;
+use super::settings;
 use super::steady::exact_states;
 use super::tables::cost_of_run;
 use super::watch::SOLVED;
@@ -52,6 +53,7 @@ pub const ROW: KindRow = KindRow {
              run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
+    settings: settings::of_scenes,
 };
 
 /// Times of a history.
@@ -254,15 +256,17 @@ impl Most {
         let [steps, iterations, ..] = shown.counts;
         let mean = iterations as f64 / steps as f64;
         let of_iterations = self.iterations.map(|most| {
-            let claim = format!("{name}: a step takes at most {most} iterations on average");
+            let claim = format!("a step takes at most {most} iterations on average");
             Check::that(mean <= most, claim, format!("{mean:.2} in {steps} steps"))
+                .about(Subject::of("iterations").in_case(name))
         });
         let of_solution = self.unsolved.map(|most| {
             let share = shown.unsolved.unwrap_or(f64::NAN);
             let claim = format!(
-                "{name}: each step is at most {most} times the tolerance from the same step solved to round-off"
+                "each step is at most {most} times the tolerance from the same step solved to round-off"
             );
             Check::that(share <= most, claim, format!("{} times", short_text(share)))
+                .about(Subject::of("solved steps").in_case(name))
         });
         of_iterations.into_iter().chain(of_solution).collect()
     }
@@ -480,18 +484,18 @@ impl Whole {
         } else {
             format!("{} after {} steps", shown.end.name(), shown.counts[0])
         };
-        Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
+        Check::that(holds, self.claim.clone(), evidence)
+            .about(Subject::of("answer").in_case(&self.name))
     }
 
     /// All numbers and counts of a run, unless a run without a step has no change of the energy.
     fn readings(&self, shown: &Shown) -> Vec<Reading> {
-        let name = |of: &str| format!("{}: {of}", self.name);
         let numbers = NUMBERS
             .into_iter()
             .zip(shown.numbers)
             .filter(|(_, value)| value.is_finite());
-        let numbers =
-            numbers.map(|(of, value)| Reading::new(of, value).guarded(name(of), TOLERANCE));
+        let numbers = numbers
+            .map(|(of, value)| Reading::new(of, value).guarded_in(&self.name, of, TOLERANCE));
         let counts = COUNTS
             .into_iter()
             .zip(shown.counts)
@@ -499,7 +503,7 @@ impl Whole {
         let counts = counts.map(|(of, count)| {
             Reading::new(of, count)
                 .fixed(0)
-                .guarded(name(of), COUNT_TOLERANCE)
+                .guarded_in(&self.name, of, COUNT_TOLERANCE)
         });
         numbers.chain(counts).collect()
     }
@@ -596,6 +600,7 @@ fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
             apart.join(", ")
         ),
     )
+    .about(Subject::of("lanes"))
 }
 
 impl Shown {

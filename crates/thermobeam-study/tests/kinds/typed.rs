@@ -127,6 +127,12 @@ pub(crate) fn counted<'o>(outcome: &'o Outcome, items: &str) -> &'o Coverage {
 pub(crate) fn check_shape(outcome: &Outcome) {
     assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
     assert!(!outcome.quantities.is_empty());
+    for check in &outcome.checks {
+        assert!(!check.subject.quantity.is_empty(), "{}", check.claim);
+    }
+    for quantity in &outcome.quantities {
+        assert!(!quantity.subject.quantity.is_empty(), "{}", quantity.name);
+    }
     for figure in &outcome.figures {
         assert!(
             figure.file.len() > ".svg".len() && figure.file.ends_with(".svg"),
@@ -164,9 +170,9 @@ pub(crate) fn report(outcome: &Outcome) -> String {
         .rates
         .iter()
         .map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
-    let checks = outcome
-        .checks
-        .iter()
-        .map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));
+    let checks = outcome.checks.iter().map(|check| {
+        let statement = check.statement();
+        format!("{statement}: {} {}", check.verdict, check.evidence)
+    });
     rates.chain(checks).collect::<Vec<_>>().join("\n")
 }

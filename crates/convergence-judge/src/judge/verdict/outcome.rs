@@ -36,6 +36,11 @@ impl PowerLaw {
     }
 }
 
+/// A rate, or several, with the claim about it: the words of every report.
+pub fn against_claim(rate: &str, claim: &str) -> String {
+    format!("{rate}, claimed {claim}")
+}
+
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RateVerdict {
@@ -131,14 +136,16 @@ impl RateVerdict {
         format!("{}, not {}", order_text(self.order), others.join(" or "))
     }
 
+    /// The rate with a claim: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01`.
+    ///
+    /// * `most`: the largest number of decimals.
+    pub fn against(&self, most: usize) -> String {
+        against_claim(&self.rate_in_words(most), &self.claim())
+    }
+
     /// Rate, claim and reason on one line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        format!(
-            "{}, claimed {}: {}",
-            self.rate_in_words(RATE_PLACES),
-            self.claim(),
-            self.because
-        )
+        format!("{}: {}", self.against(RATE_PLACES), self.because)
     }
 
     /// What the reason means, its cause if one is known, and what to do; `None` for a pass.
@@ -229,11 +236,7 @@ impl RateVerdict {
 
     /// The same rate with a reason from another rule than that of its levels.
     pub fn with_reason(self, kind: Reason, because: &str) -> Self {
-        let rest = self
-            .reason
-            .strip_prefix(self.kind.text())
-            .unwrap_or_default();
-        let reason = format!("{because}{rest}");
+        let reason = format!("{because}{}", self.numbers());
         let cause = self.cause.filter(|_| !kind.verdict().is_pass());
         Self {
             verdict: kind.verdict(),
@@ -242,6 +245,20 @@ impl RateVerdict {
             reason,
             cause,
             ..self
+        }
+    }
+
+    /// What follows the reason: the interval and the claim; empty without an interval.
+    fn numbers(&self) -> String {
+        let Some(interval) = self.interval else {
+            return String::new();
+        };
+        let interval = interval_text(interval, RATE_PLACES);
+        let rate = format!("{interval} {}", self.levels_in_words());
+        if self.kind == Reason::ClaimUnusable {
+            format!(": {rate}")
+        } else {
+            format!(": {}", against_claim(&rate, &self.claim()))
         }
     }
 
@@ -268,12 +285,9 @@ impl RateVerdict {
         );
         let reason = match self.interval {
             Some(interval) => {
-                let rate = interval_text(interval, RATE_PLACES);
-                format!(
-                    "{lacking}; {rate} {}, claimed {}",
-                    self.levels_in_words(),
-                    self.claim()
-                )
+                let interval = interval_text(interval, RATE_PLACES);
+                let rate = format!("{interval} {}", self.levels_in_words());
+                format!("{lacking}; {}", against_claim(&rate, &self.claim()))
             }
             None => lacking.clone(),
         };
@@ -304,16 +318,7 @@ impl RateVerdict {
             reason: kind.text().to_owned(),
             cause: reading.cause(order).filter(|_| !kind.verdict().is_pass()),
         };
-        if let Some(interval) = found.interval {
-            found.reason += &format!(
-                ": {} {}",
-                interval_text(interval, RATE_PLACES),
-                found.levels_in_words()
-            );
-            if kind != Reason::ClaimUnusable {
-                found.reason += &format!(", claimed {}", found.claim());
-            }
-        }
+        found.reason += &found.numbers();
         found
     }
 }

@@ -12,7 +12,7 @@ use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict};
+use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict, against_claim};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit_of};
@@ -46,11 +46,8 @@ impl JudgedColumn<'_> {
                 } else {
                     &self.rate.because
                 };
-                format!(
-                    "{}, claimed {}: {why}",
-                    self.rate.rate_in_words(MOST_PLACES),
-                    self.claim
-                )
+                let rate = self.rate.rate_in_words(MOST_PLACES);
+                format!("{}: {why}", against_claim(&rate, &self.claim.to_string()))
             }
             _ => self.shown().found(),
         };

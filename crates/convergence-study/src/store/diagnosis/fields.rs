@@ -1,9 +1,9 @@
 //! Which fields moved, and how much of the movement each has.
 
-use super::{Field, numbers};
+use super::{Field, numbers, subject_of_number};
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::header::field;
+use crate::study::Sort;
 
 /// Fields by their share of the movement: within a study each is measured by its tolerance, on its
 /// finest level, where its own error has had the least time to mix with those of others.
@@ -44,12 +44,17 @@ struct MovedField {
 fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
     // Levels are in order: the last number of a field belongs to its finest level.
     let mut moved: Vec<MovedField> = vec![];
-    let errors = numbers(changes, &study.header.id).filter(|(name, _)| !name.starts_with("rate "));
+    let outcome = &study.outcome;
+    let is_rate = |name: &str| {
+        let known = outcome.quantities.iter().find(|known| known.name == name);
+        known.is_some_and(|known| known.sort == Sort::Rate)
+    };
+    let errors = numbers(changes, &study.header.id).filter(|(name, _)| !is_rate(name));
     for (name, movement) in errors {
         let Movement::Moved { from, to, .. } = movement else {
             continue;
         };
-        let name = field(name);
+        let name = subject_of_number(outcome, name).quantity;
         let factor = (to / from).abs();
         moved.retain(|known| known.name != name);
         moved.push(MovedField {
@@ -63,10 +68,13 @@ fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
             rate: None,
         });
     }
-    let rates = study.outcome.rates.iter();
+    let rates = outcome.rates.iter();
     let wrong: Vec<(String, Option<[f64; 2]>)> = rates
         .filter(|(_, rate)| !rate.verdict.is_pass())
-        .map(|(norm, rate)| (field(norm), rate.fitted.map(|fitted| [fitted, rate.order])))
+        .map(|(norm, rate)| {
+            let name = outcome.subject_of_rate(norm).quantity;
+            (name, rate.fitted.map(|fitted| [fitted, rate.order]))
+        })
         .collect();
     let unmoved: Vec<MovedField> = wrong
         .iter()

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::subject_of_number;
 use crate::run::Finished;
 use crate::store::{Change, Movement, read_if_there};
-use crate::study::header::field;
 
 /// Logarithm of the ratio that weighs as much as a failure.
 const LARGE: f64 = 2.0;
@@ -32,17 +32,15 @@ impl Fingerprint {
             let rates = outcome
                 .rates
                 .iter()
-                .map(|(norm, rate)| (norm, rate.verdict));
+                .map(|(norm, rate)| (outcome.subject_of_rate(norm).quantity, rate.verdict));
             let checks = outcome
                 .checks
                 .iter()
-                .map(|check| (&check.claim, check.verdict));
+                .map(|check| (check.quantity().to_owned(), check.verdict));
             let failing = rates
                 .chain(checks)
                 .filter(|(_, verdict)| !verdict.is_pass());
-            items.extend(
-                failing.map(|(name, _)| (format!("{}: {}{FAILS}", header.id, field(name)), 1.0)),
-            );
+            items.extend(failing.map(|(field, _)| (format!("{}: {field}{FAILS}", header.id), 1.0)));
         }
         for Change {
             study,
@@ -66,7 +64,14 @@ impl Fingerprint {
             } else {
                 (100.0 * size).round() / 100.0
             };
-            items.insert(format!("{study}: {}", field(name)), size);
+            let of_study = finished
+                .iter()
+                .find(|finished| finished.header.id == *study);
+            let field = of_study.map_or_else(
+                || name.clone(),
+                |finished| subject_of_number(&finished.outcome, name).quantity,
+            );
+            items.insert(format!("{study}: {field}"), size);
         }
         Self(items)
     }

@@ -48,6 +48,12 @@ impl<'r> DiagramOf<'r> {
         self.diagram.map_or(f64::NAN, |diagram| diagram.event[0])
     }
 
+    fn guarded_event(&self) -> Quantity {
+        let theta_a = format!("θ_A = {}", self.theta_a());
+        let name = format!("event at {theta_a}");
+        Quantity::new(name, self.event(), 1e-8).about(Subject::of("event").in_case(theta_a))
+    }
+
     /// β and u(1) at rest; NaN if the case failed.
     fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
         self.rests
@@ -75,23 +81,25 @@ impl<'r> DiagramOf<'r> {
             .iter()
             .map(|(_, rest)| rest.map_or(f64::NAN, AtRest::distance));
         let farthest = distances.fold(0.0, max_or_nan);
-        let off = list(
-            self.rests
-                .iter()
-                .filter(|(_, rest)| !rest.is_some_and(is_stable))
-                .map(|(beta, _)| *beta),
-        );
+        let elsewhere = self
+            .rests
+            .iter()
+            .filter(|(_, rest)| !rest.is_some_and(is_stable));
+        let elsewhere: Vec<f64> = elsewhere.map(|(beta, _)| *beta).collect();
         let count = self.rests.len();
         Check::that(
-            count > 0 && off == "none",
+            count > 0 && elsewhere.is_empty(),
+            "every moving beam comes to rest on a stable branch",
             format!(
-                "θ_A = {}: every moving beam comes to rest on a stable branch",
-                self.theta_a()
-            ),
-            format!(
-                "{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {off}"
+                "{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {}",
+                list(&elsewhere)
             ),
         )
+        .about(self.subject("ends of runs").by(ItemMethod::OneStep))
+    }
+
+    fn subject(&self, quantity: &str) -> Subject {
+        Subject::of(quantity).in_case(format!("θ_A = {}", self.theta_a()))
     }
 
     fn bent_below(&self) -> Check {
@@ -115,9 +123,10 @@ impl<'r> DiagramOf<'r> {
         let straight = straight.fold(f64::INFINITY, f64::min);
         Check::that(
             bent < straight && self.tips().all(as_expected),
-            "θ_A = 0: moving beams come to rest bent below β = -0.7116 and straight above",
+            "moving beams come to rest bent below β = -0.7116 and straight above",
             format!("bent up to β = {bent}, straight from β = {straight}"),
         )
+        .about(self.subject("bent ends of runs").by(ItemMethod::OneStep))
     }
 
     fn unambiguous(
@@ -131,29 +140,25 @@ impl<'r> DiagramOf<'r> {
         let claim = "contact, side and number of unstable directions tell all branches apart";
         Check::that(
             *ambiguous == 0 && !branches.is_empty(),
-            format!("θ_A = {}: {claim}", self.theta_a()),
+            claim,
             format!("{ambiguous} states could belong to two branches"),
         )
+        .about(self.subject("branches"))
     }
 
     fn one_state(&self, Diagram { counts, .. }: &Diagram) -> Check {
-        let several = list(
-            counts
-                .iter()
-                .filter(|(_, n)| *n != 1)
-                .map(|(beta, _)| *beta),
-        );
+        let several = counts.iter().filter(|(_, n)| *n != 1);
+        let several: Vec<f64> = several.map(|(beta, _)| *beta).collect();
         Check::that(
-            !counts.is_empty() && several == "none",
+            !counts.is_empty() && several.is_empty(),
+            "one steady state for every β of the diagram, even beyond buckling",
             format!(
-                "θ_A = {}: one steady state for every β of the diagram, even beyond buckling",
-                self.theta_a()
-            ),
-            format!(
-                "{} values of β, with another number of states: {several}",
-                counts.len()
+                "{} values of β, with another number of states: {}",
+                counts.len(),
+                list(&several)
             ),
         )
+        .about(self.subject("number of steady states"))
     }
 
     /// The whole diagram, and a close-up of the fork if there is one.
@@ -287,12 +292,8 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     };
     let levels = Levels::new(Axis::Space, study.meshes.iter().map(refinement), [column]);
     let rates = levels.judge();
-    let events = scenes
-        .iter()
-        .map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
-    let guarded = forces
-        .iter()
-        .map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
+    let events = scenes.iter().map(DiagramOf::guarded_event);
+    let guarded = forces.iter().map(guarded_force);
     let at: Vec<String> = scenes
         .iter()
         .map(|of| format!("{:.6}", of.event()))
@@ -322,6 +323,11 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     }
 }
 
+fn guarded_force((n, force): &(usize, f64)) -> Quantity {
+    let subject = Subject::of("buckling force").at(format!("n = {n}"));
+    Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11).about(subject)
+}
+
 fn numbers_not_finite(found: &Found) -> Vec<String> {
     not_finite(match found {
         Found::Diagram(Diagram {
@@ -333,8 +339,8 @@ fn numbers_not_finite(found: &Found) -> Vec<String> {
 }
 
 /// Numbers in words.
-fn list(betas: impl Iterator<Item = f64>) -> String {
-    let betas: Vec<String> = betas.map(|beta| beta.to_string()).collect();
+fn list(betas: &[f64]) -> String {
+    let betas: Vec<String> = betas.iter().map(f64::to_string).collect();
     if betas.is_empty() {
         "none".to_owned()
     } else {
@@ -357,6 +363,7 @@ fn discrete_limit(forces: &[(usize, f64)]) -> Check {
         "P1 elements buckle at -(π²/4)/(1 + π²/4) as the mesh is refined, to 1e-8",
         format!("extrapolated -{limit:.10} for -{BUCKLING:.10}"),
     )
+    .about(Subject::of("buckling force"))
 }
 
 fn buckles(diagram: &Diagram) -> Check {
@@ -365,12 +372,13 @@ fn buckles(diagram: &Diagram) -> Check {
     let holds = low <= -BUCKLING + BRACKET && -BUCKLING <= high + BRACKET && high - low <= BRACKET;
     Check::that(
         holds,
-        "θ_A = 0: the straight beam is the only steady state down to β = -(π²/4)/(1 + π²/4), and not below",
+        "the straight beam is the only steady state down to β = -(π²/4)/(1 + π²/4), and not below",
         format!(
             "several states up to {low:.10}, one from {high:.10}, for {:.10}",
             -BUCKLING
         ),
     )
+    .about(Subject::of("event").in_case("θ_A = 0"))
 }
 
 fn lifts_off(diagram: &Diagram) -> Check {
@@ -381,6 +389,7 @@ fn lifts_off(diagram: &Diagram) -> Check {
         claim,
         format!("between {low:.9} and {high:.9}"),
     )
+    .about(Subject::of("lift-off"))
 }
 
 fn force_table(forces: &[(usize, f64)]) -> Table {

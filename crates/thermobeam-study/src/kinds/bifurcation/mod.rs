@@ -13,6 +13,7 @@ use thermobeam::tridiagonal::TridiagonalFactor;
 use super::prelude::*;
 pub use super::steady::AtRest;
 use super::steady::{ToRest, exact_states, listed_scenes, meshes, tolerance};
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -22,6 +23,7 @@ pub const ROW: KindRow = KindRow {
           followed over beta, and stability is an exact count.",
     judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
     failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
+    settings: settings::of_branches,
 };
 
 /// Half the width of the close-up of a fork.

@@ -167,11 +167,10 @@ impl Kind for AnyOrderControls {
                 if fault == Fault::None {
                     honest = max_or_nan(honest, error);
                 } else if error.is_finite() {
-                    quantities.push(Quantity::new(
-                        guarded_name(fault, &study.header.id),
-                        error,
-                        TOLERANCE,
-                    ));
+                    let id = &study.header.id;
+                    let guarded = Quantity::new(guarded_name(fault, id), error, TOLERANCE);
+                    let subject = Subject::of(format!("error with {}", fault.name())).in_case(id);
+                    quantities.push(guarded.about(subject));
                 }
             }
             let cell = |judged: &Option<&Judged>| match judged {

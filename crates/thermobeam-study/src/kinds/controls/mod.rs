@@ -25,6 +25,7 @@ pub mod sensitivity;
 use super::convergence::design::verdicts;
 use super::convergence::{Convergence, Defect, Prepared};
 use super::prelude::*;
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -37,6 +38,7 @@ pub const ROW: KindRow = KindRow {
              coefficient some study must detect a relative error as small as the file says.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
+    settings: settings::of_controls,
 };
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in the file.
@@ -182,11 +184,15 @@ impl<'s> Matrix<'s> {
                 format!("; not {}", others.join(", "))
             };
             let evidence = format!("{} of {all} pass{not}", all - others.len());
-            self.checks.push(Check::that(
+            let honest = Check::that(
                 others.is_empty(),
                 "without a fault every study passes",
                 evidence,
-            ));
+            );
+            self.checks.push(Check {
+                other_studies: others.iter().map(|id| (*id).to_owned()).collect(),
+                ..honest.about(Subject::of("no fault"))
+            });
             return;
         }
         let failed = verdicts
@@ -200,11 +206,9 @@ impl<'s> Matrix<'s> {
         };
         let evidence = format!("{failed} of {all} studies notice it");
         self.detected.push(holds);
-        self.checks.push(Check::that(
-            holds,
-            format!("{} is detected{by}", fault.name()),
-            evidence,
-        ));
+        let claim = format!("{} is detected{by}", fault.name());
+        let detected = Check::that(holds, claim, evidence);
+        self.checks.push(detected.about(Subject::of(fault.name())));
     }
 
     /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the faults' column.

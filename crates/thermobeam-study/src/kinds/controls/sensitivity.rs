@@ -115,12 +115,11 @@ impl Kind for Sensitivity {
                 .map(|(smallest, _)| *smallest)
                 .fold(f64::INFINITY, min_or_nan);
             let claim = format!("{key} off by {:e} is detected", self.at_most);
-            checks.push(Check::that(
-                best <= self.at_most,
-                claim,
-                format!("detected from {best:.1e} on"),
-            ));
-            quantities.push(Quantity::new(format!("smallest {key} seen"), best, 0.2));
+            let evidence = format!("detected from {best:.1e} on");
+            let check = Check::that(best <= self.at_most, claim, evidence);
+            checks.push(check.about(Subject::of(key)));
+            let smallest = Quantity::new(format!("smallest {key} seen"), best, 0.2);
+            quantities.push(smallest.about(Subject::of(key)));
             rows.push(
                 std::iter::once(key.to_owned())
                     .chain(cells.into_iter().map(|(_, text)| text))

@@ -38,6 +38,7 @@ use super::prelude::*;
 use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::settings;
 pub use design::Prepared;
 
 /// The row of the table of kinds.
@@ -52,6 +53,7 @@ pub const ROW: KindRow = KindRow {
              within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
     failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
               wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
+    settings: settings::of_solution,
 };
 
 /// Preparing the space vectors of a mesh costs as much as this many steps.

@@ -27,6 +27,7 @@ use std::f64::consts::PI;
 
 use super::prelude::*;
 pub use super::watch::Worst;
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -39,6 +40,7 @@ pub const ROW: KindRow = KindRow {
              with its answer or, where the scene asks for it, with the failure that it names.",
     failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
               very step in which it happens. Run the scene named alone.",
+    settings: settings::of_energy,
 };
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.

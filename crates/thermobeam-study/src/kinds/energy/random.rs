@@ -287,12 +287,14 @@ impl Batch {
                 format!(
                     "{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"
                 ),
-            ),
+            )
+            .about(Subject::of("ends")),
             Check::that(
                 *refused == 0 && others == 0,
                 "a step is refused for an indefinite operator only, and never where β > -B (1 + 2ζ/dt)",
                 format!("{refused} definite operators refused, {others} other failures"),
-            ),
+            )
+            .about(Subject::of("refusals")),
             Check::that(
                 worst.risen <= 1.0,
                 "the energy never rises by more than the bound on rounding errors",
@@ -301,7 +303,8 @@ impl Batch {
                     worst.rise,
                     of_allowed(worst.risen)
                 ),
-            ),
+            )
+            .about(Subject::of("energy")),
             Check::that(
                 worst.open <= 1.0,
                 "the balance closes to 1e-12 of the energy, or to the bound on rounding errors",
@@ -310,12 +313,14 @@ impl Batch {
                     worst.residual,
                     of_allowed(worst.open)
                 ),
-            ),
+            )
+            .about(Subject::of("balance")),
             Check::that(
                 exceptions as f64 <= RARE * scenes as f64,
                 "at most 2 scenes in 1000 have a residual above 1e-12 of the energy",
                 format!("{exceptions} of {scenes} scenes"),
-            ),
+            )
+            .about(Subject::of("residuals above 1e-12")),
         ]
     }
 }

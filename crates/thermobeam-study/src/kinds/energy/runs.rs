@@ -497,7 +497,10 @@ impl EnergyRun {
             is_bounded = of_bound <= 1.0;
         }
         let holds = ended && closes && drifted && is_bounded;
-        Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
+        let subject = Subject::of("energy and balance")
+            .in_case(&self.name)
+            .by(ItemMethod::of_scheme(&self.stepping.scheme));
+        Check::that(holds, self.claim.clone(), evidence).about(subject)
     }
 
     fn readings(&self, found: &Found) -> Vec<Reading> {

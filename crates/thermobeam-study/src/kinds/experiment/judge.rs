@@ -97,9 +97,7 @@ impl Trace {
 impl PaperRun {
     /// * `name`: the experiment's.
     pub(super) fn readings(&self, name: &str) -> Vec<Reading> {
-        let of = |reading: Reading, guard: &str| {
-            reading.guarded(format!("{name}: {guard}"), OF_ITERATIONS)
-        };
+        let of = |reading: Reading, guard: &str| reading.guarded_in(name, guard, OF_ITERATIONS);
         let solvers = &self.solvers;
         let per_step = Reading::new("iterations per step", solvers.mean_iterations).fixed(4);
         let distance = Reading::new("distance to Newton's solution", solvers.distance);
@@ -122,7 +120,7 @@ impl Measured {
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
         let ends = |reading: Reading, guard: &str| {
             if bent {
-                reading.guarded(format!("{name}: {guard}"), SMOOTH)
+                reading.guarded_in(name, guard, SMOOTH)
             } else {
                 reading
             }
@@ -136,6 +134,11 @@ impl Measured {
             ends(
                 Reading::new("u(1) of the exact state", exact),
                 "exact_u_tip",
+            )
+            .about(
+                Subject::of("exact_u_tip")
+                    .in_case(name)
+                    .by(ItemMethod::Exact),
             ),
             Reading::new("contact force", self.contact_force),
             Reading::new("largest field", self.largest_field),
@@ -254,14 +257,17 @@ fn claims(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Check> {
         let increase = runs.trace().largest_increase;
         format!("{} {increase:.1e}", runs.experiment.scene.name)
     });
-    let mut checks = vec![Check::that(
-        all.all(|runs| runs.trace().largest_increase <= ROUND_OFF),
-        "the energy rises in none of the experiments",
-        format!(
-            "largest change in a step: {}",
-            increases.collect::<Vec<_>>().join(", ")
-        ),
-    )];
+    let mut checks = vec![
+        Check::that(
+            all.all(|runs| runs.trace().largest_increase <= ROUND_OFF),
+            "the energy rises in none of the experiments",
+            format!(
+                "largest change in a step: {}",
+                increases.collect::<Vec<_>>().join(", ")
+            ),
+        )
+        .about(Subject::of("energy")),
+    ];
     checks.extend(ends_straight(&first, REMAINS * study.rate));
     checks.extend(moves(&first));
     // If a run is missing, the check of completion has failed.
@@ -292,17 +298,19 @@ fn ends_straight(group: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
     [
         Check::that(
             group.all(|runs| remains(runs) <= allowed),
-            format!("θ_A = 0: the energy falls to β²/(4ρ), to {allowed:.1e}"),
+            format!("the energy falls to β²/(4ρ), to {allowed:.1e}"),
             energies,
-        ),
+        )
+        .about(Subject::of("energy at rest").in_case("θ_A = 0")),
         Check::that(
             group.all(|runs| runs.first.largest_field <= ARRIVED),
-            "θ_A = 0: the evolution is towards u = φ = θ = 0",
+            "the evolution is towards u = φ = θ = 0",
             format!(
                 "largest of the three fields: {}",
                 group.list(|runs| format!("{:.1e}", runs.first.largest_field))
             ),
-        ),
+        )
+        .about(Subject::of("fields at rest").in_case("θ_A = 0")),
     ]
 }
 
@@ -347,17 +355,20 @@ fn moves(group: &OfGroup<'_>) -> [Check; 3] {
             group.all(touches_both),
             "at the beginning the beam touches both obstacles",
             format!("first contacts: {contacts}"),
-        ),
+        )
+        .about(Subject::of("first contact")),
         Check::that(
             several && grows,
             "the frequency of oscillation grows with β",
             format!("frequency of u(1), in the order of β, not of |β|: {frequencies}"),
-        ),
+        )
+        .about(Subject::of("frequency")),
         Check::that(
             several && is_largest,
             format!("the oscillations of φ(1) are largest for β = {beta}"),
             format!("largest minus smallest φ(1): {amplitudes}"),
-        ),
+        )
+        .about(Subject::of("phi_amplitude")),
     ]
 }
 
@@ -377,11 +388,12 @@ fn comes_to_rest(runs: &Runs<'_>, contact: Phase) -> Check {
     let is_there = run.end.contact() == Some(contact);
     Check::that(
         presses && is_there && has_arrived(run),
-        format!(
-            "θ_A = {}, β = {}: at the steady state the beam is {place}",
-            beam.theta_a, beam.beta
-        ),
+        format!("at the steady state the beam is {place}"),
         at_rest(run),
+    )
+    .about(
+        Subject::of("contact at rest")
+            .in_case(format!("θ_A = {}, β = {}", beam.theta_a, beam.beta)),
     )
 }
 
@@ -389,12 +401,10 @@ fn ends_bent(runs: &Runs<'_>) -> Check {
     let run = runs.first;
     Check::that(
         run.end.tip[0].abs() > ARRIVED && has_arrived(run),
-        format!(
-            "β = {}: the stationary solution is not zero",
-            runs.experiment.scene.beam.beta
-        ),
+        "the stationary solution is not zero",
         format!("{}, one of {} steady states", at_rest(run), run.end.count()),
     )
+    .about(Subject::of("end").in_case(format!("β = {}", runs.experiment.scene.beam.beta)))
 }
 
 /// Whether the end is an exact, stable steady state.
@@ -435,7 +445,7 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
         } else {
             each.join("; ")
         };
-        Check::that(holds, text, evidence + more)
+        Check::that(holds, text, evidence + more).about(Subject::of(range.quantity()))
     };
     let bent = |rest: &AtRest| {
         rest.states >= 3 && rest.stable >= 2 && rest.tip[0].abs() > STRAIGHT && rest.is_stable()
@@ -471,6 +481,15 @@ enum AxialForce {
 }
 
 impl AxialForce {
+    /// What is claimed of it, as a quantity.
+    fn quantity(self) -> &'static str {
+        match self {
+            Self::AsPrinted => "steady states as printed",
+            Self::Refuted => "steady states against the paper",
+            Self::BeyondBuckling => "steady states beyond buckling",
+        }
+    }
+
     /// `None` for NaN alone.
     fn of(beta: f64) -> Option<Self> {
         if beta > AS_PRINTED {

@@ -45,6 +45,7 @@ mod runs;
 mod trace;
 
 use super::prelude::*;
+use super::settings;
 use super::side_by_side::SideBySide;
 use super::steady::{ToRest, compared, listed_scene};
 use super::tables::{Discretisation, discretisations};
@@ -62,6 +63,7 @@ pub const ROW: KindRow = KindRow {
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
              Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
+    settings: settings::of_experiments,
 };
 
 /// One of the experiments.

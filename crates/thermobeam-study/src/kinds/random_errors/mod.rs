@@ -25,6 +25,7 @@ use thermobeam::simulation::Stepping as OneStep;
 use self::truth::{Trace, Truth, points};
 use super::energy::named_cases;
 use super::prelude::*;
+use crate::kinds::settings;
 use crate::predict::choice::{self, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{MOST_WORK, Unreachable, Work};
@@ -40,6 +41,7 @@ pub const ROW: KindRow = KindRow {
     judged: "No error of any number exceeds 1.3 times its estimate, no run the error asked for, no search is refused unless its data \
              are rough, and the error of linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
+    settings: settings::of_experiments,
 };
 
 /// An error may be this many times its estimate.
@@ -91,6 +93,28 @@ struct Feature {
     width: f64,
 }
 
+/// Why a search was abandoned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// The search and the reason, in words.
+    pub words: String,
+    /// Whether data with features may be refused so: no mesh resolves them, or a finer run contradicts the search.
+    pub is_of_features: bool,
+}
+
+impl Refusal {
+    fn new(search: &str, why: &Unreachable) -> Self {
+        let is_of_features = matches!(
+            why,
+            Unreachable::Unresolved { .. } | Unreachable::Contradicted { .. }
+        );
+        Self {
+            words: format!("{search}: {why}"),
+            is_of_features,
+        }
+    }
+}
+
 /// The results of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
@@ -101,7 +125,7 @@ pub struct Found {
     /// The same in the norm.
     pub over_norm_target: f64,
     /// Why searches were abandoned.
-    pub refused: Vec<String>,
+    pub refused: Vec<Refusal>,
     /// Whether a search may be refused, because the data have features that no mesh resolves.
     pub may_be_refused: bool,
     /// Errors of linear elements, and of four times as many with four times the steps.
@@ -237,7 +261,7 @@ impl RandomErrors {
         &self,
         scene: &Scene,
         quantity: choice::Quantity,
-        refused: &mut Vec<String>,
+        refused: &mut Vec<Refusal>,
         work: &mut Work<'_>,
     ) -> Vec<(f64, Scene)> {
         let targets = if quantity == choice::Quantity::Tip {
@@ -249,7 +273,10 @@ impl RandomErrors {
         for &target in targets {
             match choose(scene, quantity, target, work) {
                 Ok(choice) => chosen.push((target, choice.scene)),
-                Err(reason) => refused.push(format!("{} {target:e}: {reason}", quantity.name())),
+                Err(why) => {
+                    let search = format!("{} {target:e}", quantity.name());
+                    refused.push(Refusal::new(&search, &why));
+                }
             }
         }
         chosen
@@ -262,8 +289,8 @@ impl RandomErrors {
         let work = &mut Work::new(MOST_WORK, &mut ignored);
         let mut refused = vec![];
         let estimates = estimate(&scene, work).map_or_else(
-            |reason: Unreachable| {
-                refused.push(format!("estimate: {reason}"));
+            |why: Unreachable| {
+                refused.push(Refusal::new("estimate", &why));
                 vec![]
             },
             |budget| budget.quantities,
@@ -335,6 +362,7 @@ impl RandomErrors {
         let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
         let fall = format!("their error falls {FALL} times or more");
         let [refused, rough] = [false, true].map(|is_rough| refusals(found, is_rough));
+        let [refused_words, rough_words] = [&refused, &rough].map(|refusals| in_words(refusals));
         let mut checks = vec![
             completion(ran, |found| readings::not_finite(&found.readings())),
             Check::that(
@@ -344,7 +372,8 @@ impl RandomErrors {
                     "the largest is {over_estimate:.2} of its estimate, of {} numbers",
                     8 * found.len()
                 ),
-            ),
+            )
+            .about(Subject::of("estimates")),
             Check::that(
                 over_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error",
@@ -352,34 +381,41 @@ impl RandomErrors {
                     "the largest is {over_target:.2} of it, of {} runs",
                     self.targets.len() * found.len()
                 ),
-            ),
+            )
+            .about(Subject::of("target errors")),
             Check::that(
                 over_norm_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error in the norm of Theorem 3.4",
                 format!("the largest is {over_norm_target:.2} of it"),
-            ),
+            )
+            .about(Subject::of("target errors in the norm")),
             Check::that(
                 refused.is_empty(),
                 "every search of smooth data ends with a run",
-                refused.join("; "),
-            ),
+                refused_words,
+            )
+            .about(Subject::of("refused searches")),
             Check::that(
-                rough
-                    .iter()
-                    .all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
+                rough.iter().all(|(_, refusal)| refusal.is_of_features),
                 "a search of rough data is refused only where no mesh resolves them, or because a finer run contradicts it",
-                format!("{} searches refused: {}", rough.len(), rough.join("; ")),
-            ),
+                format!("{} searches refused: {rough_words}", rough.len()),
+            )
+            .about(Subject::of("refused searches of rough data")),
         ];
         if self.refined > 0 {
-            checks.push(Check::that(
-                least >= FALL && !falls.is_empty(),
-                format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
-                format!(
-                    "with four times of both it falls at least {least:.1} times, of {} scenes",
-                    falls.len()
-                ),
-            ));
+            checks.push(
+                Check::that(
+                    least >= FALL && !falls.is_empty(),
+                    format!(
+                        "linear elements and steps of midpoint tend to the same motion: {fall}"
+                    ),
+                    format!(
+                        "with four times of both it falls at least {least:.1} times, of {} scenes",
+                        falls.len()
+                    ),
+                )
+                .about(Subject::of("linear elements")),
+            );
         }
         checks
     }
@@ -513,21 +549,24 @@ fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> Option<[f64; 3]> {
     (!found.is_empty()).then_some(largest)
 }
 
-/// Words of the refusals of rough data.
-const REFUSALS: [&str; 2] = ["do not resolve", "is contradicted by"];
-
 /// Why searches of smooth, or of rough, data were refused.
-fn refusals(found: &[(&Ran<Drawn, Found>, &Found)], is_rough: bool) -> Vec<String> {
+fn refusals<'r>(
+    found: &[(&'r Ran<Drawn, Found>, &'r Found)],
+    is_rough: bool,
+) -> Vec<(&'r str, &'r Refusal)> {
     let of = found
         .iter()
         .filter(|(_, found)| found.may_be_refused == is_rough);
     of.flat_map(|(ran, found)| {
-        found
-            .refused
-            .iter()
-            .map(|reason| format!("{}, {reason}", ran.case.label))
+        let refused = found.refused.iter();
+        refused.map(|refusal| (ran.case.label.as_str(), refusal))
     })
     .collect()
+}
+
+fn in_words(refusals: &[(&str, &Refusal)]) -> String {
+    let one = |(scene, refusal): &(&str, &Refusal)| format!("{scene}, {}", refusal.words);
+    refusals.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 /// A scene with moderate coefficients, obstacles that the beam hits, and smooth initial data, to one of which a feature is added.

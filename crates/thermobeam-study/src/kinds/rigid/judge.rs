@@ -96,10 +96,11 @@ impl<'r> Compliance<'r> {
     /// Penetrations and forces.
     fn forces(&self) -> Vec<Reading> {
         let guarded = |head: &str, run: Option<&ShownImpact>, name: &str| {
-            let name = format!("{name}, ε = {:.1e}", self.epsilon);
+            let epsilon = format!("ε = {:.1e}", self.epsilon);
             Reading::new(head, penetration(run))
                 .scientific(4)
-                .guarded(name, 1e-6)
+                .guarded(format!("{name}, {epsilon}"), 1e-6)
+                .about(Subject::of(name).at(epsilon))
         };
         let shown = |head: &str, value: f64| Reading::new(head, value).scientific(4);
         let force =
@@ -269,6 +270,7 @@ fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check
         "the peak penetration of an impact is 0.858 v (ε √ζ)^(2/3), to half a per cent",
         format!("{measured:.5} for {exact:.5} at ε = {epsilon:.0e}"),
     )
+    .about(Subject::of("peak penetration"))
 }
 
 fn newton_does_not_depend_on_epsilon(
@@ -277,13 +279,14 @@ fn newton_does_not_depend_on_epsilon(
     limit: Option<&ShownImpact>,
 ) -> Check {
     let claim = "Newton's iterations do not grow as the obstacles become rigid";
+    let subject = Subject::of("Newton's iterations");
     let bouncing: Vec<&ShownImpact> = all
         .iter()
         .filter_map(|of| of.bouncing)
         .chain(limit)
         .collect();
     let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
-        return Check::that(false, claim, "no bouncing beam was run to its end");
+        return Check::that(false, claim, "no bouncing beam was run to its end").about(subject);
     };
     let mean = |found: &ShownImpact| number(Some(found), |found| found.mean_iterations);
     let holds = |found: &&ShownImpact| {
@@ -304,6 +307,7 @@ fn newton_does_not_depend_on_epsilon(
         claim,
         evidence,
     )
+    .about(subject)
 }
 
 fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
@@ -333,6 +337,7 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
             name(first)
         ),
     )
+    .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
 }
 
 fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
@@ -352,6 +357,7 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
             ratios.len()
         ),
     )
+    .about(Subject::of("contraction").by(ItemMethod::FixedPoint))
 }
 
 /// The compliances that each statement judges; the orders have ranges of their own.

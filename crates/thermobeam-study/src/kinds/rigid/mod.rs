@@ -25,6 +25,7 @@ mod judge;
 
 use super::prelude::*;
 use super::steady::{listed_scene, settle, tolerance};
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -34,6 +35,7 @@ pub const ROW: KindRow = KindRow {
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
     failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
+    settings: settings::of_experiments,
 };
 
 /// The study.

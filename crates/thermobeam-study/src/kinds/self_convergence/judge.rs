@@ -169,7 +169,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Outc
         tables,
         figures: vec![to_reference(study, ran, &rates, &shown), tip(study, ran)],
         quantities,
-        ..Outcome::new(summary(&rates), rates, checks)
+        ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
     }
 }
 
@@ -350,11 +350,14 @@ fn contact(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Option<Check>
         "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
         obstacles.g1, obstacles.g2
     );
-    Some(Check::that(
-        low < obstacles.g1 || high > obstacles.g2,
-        "the tip meets an obstacle",
-        evidence,
-    ))
+    Some(
+        Check::that(
+            low < obstacles.g1 || high > obstacles.g2,
+            "the tip meets an obstacle",
+            evidence,
+        )
+        .about(Subject::of("contact")),
+    )
 }
 
 /// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
@@ -385,6 +388,7 @@ fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check
             .collect::<Vec<_>>()
             .join(", "),
     )
+    .about(Subject::of("reference"))
 }
 
 /// Values of the finest level.
@@ -397,7 +401,10 @@ fn values_guarded(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> [Quant
         (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
         ("tip max".to_owned(), tip_max),
     ]
-    .map(|(name, value)| Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE))
+    .map(|(name, value)| {
+        Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE)
+            .about(Subject::of(name).at("finest level"))
+    })
 }
 
 impl SelfConvergence {

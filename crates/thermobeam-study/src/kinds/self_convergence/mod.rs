@@ -48,6 +48,7 @@ use super::prelude::*;
 use super::tables::{Discretisation, Refine, claims, discretisations};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
+use crate::kinds::settings;
 use judge::Observable;
 
 /// The row of the table of kinds.
@@ -59,6 +60,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
     failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
               reference fail, scheme and reference solve different equations.",
+    settings: settings::of_experiments,
 };
 
 /// A study of rates without an exact solution.

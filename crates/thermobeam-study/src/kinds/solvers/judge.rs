@@ -93,6 +93,7 @@ impl Map {
             "both solvers were run at every point",
             format!("{found} of {expected}"),
         )
+        .about(Subject::of("points"))
     }
 
     /// Newton's method must converge wherever its operator is known to be definite.
@@ -118,12 +119,15 @@ impl Map {
                 failed - wrong
             ),
         )
+        .about(Subject::of("convergence of Newton's method"))
     }
 
     /// The contact's factor at the boundary found is 1, up to a share of γ.
     fn check_boundary(&self, value: f64, line: &Boundary) -> Check {
-        let (name, value) = (self.over.name(), plain_text(value));
-        let claim = format!("{name} = {value}: the fixed point fails from alpha = 1 on");
+        let subject = Subject::of("boundary")
+            .in_case(format!("{} = {}", self.over.name(), plain_text(value)))
+            .by(ItemMethod::FixedPoint);
+        let claim = "the fixed point fails from alpha = 1 on";
         let (
             FixedPointStep {
                 dt, alpha, gamma, ..
@@ -138,8 +142,9 @@ impl Map {
                 found: None,
                 predicted: None,
             } => {
-                let claim = format!("{name} = {value}: no boundary on the map, as predicted");
-                return Check::that(true, claim, "the fixed point behaves alike at both ends");
+                let claim = "no boundary on the map, as predicted";
+                return Check::that(true, claim, "the fixed point behaves alike at both ends")
+                    .about(subject);
             }
             Boundary { found, .. } => {
                 let [here, not] = if found.is_some() {
@@ -151,7 +156,8 @@ impl Map {
                     false,
                     claim,
                     format!("a boundary is {here} on the map, but none is {not}"),
-                );
+                )
+                .about(subject);
             }
         };
         let difference = 100.0 * (dt / predicted - 1.0);
@@ -163,6 +169,7 @@ impl Map {
             claim,
             evidence,
         )
+        .about(subject)
     }
 
     fn boundaries(&self, lines: &Lines<'_>) -> Table {
@@ -191,11 +198,17 @@ impl Map {
     fn quantities(&self, lines: &Lines<'_>, converged: f64) -> Vec<Quantity> {
         let found = |(value, line): &(f64, &Boundary)| {
             let name = format!("boundary at {} = {value:e}", self.over.name());
-            line.found.map(|at| Quantity::new(name, at.dt, 1e-2))
+            let subject = Subject::of("boundary")
+                .by(ItemMethod::FixedPoint)
+                .at(format!("{} = {value:e}", self.over.name()));
+            line.found
+                .map(|at| Quantity::new(name, at.dt, 1e-2).about(subject))
         };
         let mut quantities: Vec<Quantity> = lines.iter().filter_map(found).collect();
         // A point next to the boundary may fall on either side.
-        quantities.push(Quantity::new("points with a fixed point", converged, 1e-2));
+        let points = "points with a fixed point";
+        let subject = Subject::of(points).by(ItemMethod::FixedPoint);
+        quantities.push(Quantity::new(points, converged, 1e-2).about(subject));
         quantities
     }
 }
@@ -220,6 +233,7 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
         "the first step ends in contact",
         format!("least contact force {least:.2e}"),
     )
+    .about(Subject::of("contact"))
 }
 
 /// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict nothing.
@@ -263,6 +277,7 @@ fn as_predicted(rows: &MapRows<'_>) -> Check {
         claim,
         format!("{points}, {wrong} of them against the prediction"),
     )
+    .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
 }
 
 fn newton_is_quick(rows: &MapRows<'_>) -> Check {
@@ -272,6 +287,7 @@ fn newton_is_quick(rows: &MapRows<'_>) -> Check {
     });
     let claim = format!("Newton's method takes at most {MOST} iterations in any step");
     Check::that(most.is_some_and(|most| most <= MOST), claim, evidence)
+        .about(Subject::of("iterations of Newton's method"))
 }
 
 fn energy(rows: &MapRows<'_>) -> [Check; 2] {
@@ -294,12 +310,14 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
             "the energy never rises beyond rounding errors",
             |newton| newton.worst.rise,
             |newton| newton.worst.risen,
-        ),
+        )
+        .about(Subject::of("energy")),
         check(
             closes,
             |newton| newton.worst.residual,
             |newton| newton.worst.open,
-        ),
+        )
+        .about(Subject::of("balance")),
     ]
 }
 

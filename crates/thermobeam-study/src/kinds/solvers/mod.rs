@@ -35,6 +35,7 @@ mod parts;
 mod spectrum;
 
 use super::prelude::*;
+use crate::kinds::settings;
 
 pub use super::side_by_side::SolverComparison;
 pub use map::{Boundary, NewtonSteps, Point};
@@ -52,6 +53,7 @@ pub const ROW: KindRow = KindRow {
              and for Newton's method convergence, energy and balance at every point.",
     failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
+    settings: settings::of_solvers,
 };
 
 /// A study of the two solvers; it has at least one part.

@@ -297,23 +297,33 @@ fn contraction_checks(at: [f64; 3], point: &Contraction) -> Vec<Check> {
         deviation,
         ..
     } = *point;
-    let mut checks = vec![Check::that(
+    let subject = |quantity: &str| {
+        Subject::of(quantity)
+            .in_case(&name)
+            .by(ItemMethod::FixedPoint)
+    };
+    let linear = Check::that(
         deviation <= LINEAR,
-        format!("{name}: the last increment is that of the linearised iteration"),
+        "the last increment is that of the linearised iteration",
         format!("apart by {deviation:.1e} of it"),
-    )];
+    );
+    let mut checks = vec![linear.about(subject("increment"))];
     if point.is_settled() {
-        checks.push(Check::that(
+        let factor = Check::that(
             point.error() <= AGREEMENT,
-            format!("{name}: the contraction factor is the spectral radius"),
+            "the contraction factor is the spectral radius",
             format!("spectral radius {radius:.5}, measured {measured:.5}"),
-        ));
+        );
+        checks.push(factor.about(subject("contraction")));
     }
     checks
 }
 
 fn contraction_quantity(at: [f64; 3], point: &Contraction) -> Quantity {
-    Quantity::new(format!("contraction, {}", name(at)), point.measured, 1e-2)
+    let subject = Subject::of("contraction")
+        .by(ItemMethod::FixedPoint)
+        .at(name(at));
+    Quantity::new(format!("contraction, {}", name(at)), point.measured, 1e-2).about(subject)
 }
 
 fn contraction_table(found: &[([f64; 3], &Contraction)]) -> Table {
@@ -461,8 +471,13 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
         );
         Check::that(
             found.solvers.distance <= *eta,
-            format!("eta* = {eta:e}: the error is below eta*"),
+            "the error is below eta*",
             evidence,
+        )
+        .about(
+            Subject::of("distance to Newton's method")
+                .in_case(format!("eta* = {eta:e}"))
+                .by(ItemMethod::FixedPoint),
         )
     };
     let row = |(

@@ -9,6 +9,7 @@ use super::convergence::design::formulas_of;
 use super::prelude::*;
 use super::tables::{Refine, control, expectations, norm_levels, refine};
 use crate::exact::sources::Nodal;
+use crate::kinds::settings;
 use modes::Modes;
 
 /// The row of the table of kinds.
@@ -21,6 +22,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
     failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
               can be to blame.",
+    settings: settings::of_vibrations,
 };
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of the motion in the norm
@@ -300,6 +302,7 @@ fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
         "each step is the scheme's own step of each mode of the mesh, to round-off",
         format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
     )
+    .about(Subject::of("closed form"))
 }
 
 impl Vibration {

@@ -312,7 +312,7 @@ fn check_advantage(claim: &Advantage, rows: &[MethodRow]) -> (f64, Check) {
         ),
     )
     .about(
-        Subject::of(quantity.name())
+        Subject::of(format!("advantage, {}", quantity.name()))
             .by(of.name)
             .at(format!("{error:e}")),
     );
@@ -450,7 +450,7 @@ fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
             COST_TOLERANCE,
         )
         .about(
-            Subject::of(row.quantity.name())
+            Subject::of(format!("node-steps, {}", row.quantity.name()))
                 .by(row.method.name)
                 .at("1e-4"),
         )
@@ -475,7 +475,8 @@ fn guarded(rows: &[MethodRow], ratios: &[(&Advantage, f64)]) -> Vec<Quantity> {
                 of.name,
                 over.name
             );
-            let subject = Subject::of(quantity.name()).by(of.name);
+            let advantage = format!("advantage, {}", quantity.name());
+            let subject = Subject::of(advantage).by(of.name);
             Quantity::new(name, *ratio, RATIO_TOLERANCE).about(subject)
         },
     ))

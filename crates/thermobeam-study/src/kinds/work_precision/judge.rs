@@ -61,7 +61,15 @@ impl Ratio<'_> {
             side(&self.dear),
             side(&self.cheap)
         );
-        Check::that(ratio >= self.times && ratio.is_finite(), claim, evidence)
+        Check::that(ratio >= self.times && ratio.is_finite(), claim, evidence).about(self.subject())
+    }
+
+    /// The work of the dearer method, at the error of the target.
+    fn subject(&self) -> Subject {
+        let Target { measure, error, .. } = self.target;
+        Subject::of(format!("work, {}", measure.name()))
+            .by(self.dear.name)
+            .at(format!("{error:e}"))
     }
 }
 
@@ -264,7 +272,9 @@ fn guarded(
     ratios: &[Ratio<'_>],
     ran: &[Ran<Trial, Measurement>],
 ) -> Vec<Quantity> {
-    let ratio = |ratio: &Ratio<'_>| Quantity::new(ratio.name(), ratio.value(), RATIO_TOLERANCE);
+    let ratio = |ratio: &Ratio<'_>| {
+        Quantity::new(ratio.name(), ratio.value(), RATIO_TOLERANCE).about(ratio.subject())
+    };
     let mut quantities: Vec<Quantity> = ratios.iter().map(ratio).collect();
     for &measure in measures {
         let runs = costed(ran, measure);
@@ -272,7 +282,10 @@ fn guarded(
             let own = runs.iter().filter(|run| run.method == method.name);
             let smallest = own.map(|run| run.error).fold(f64::INFINITY, min_or_nan);
             let name = format!("smallest error, {}, {}", measure.name(), method.name);
-            quantities.push(Quantity::new(name, smallest, ERROR_TOLERANCE));
+            let subject = Subject::of(format!("smallest error, {}", measure.name()));
+            quantities.push(
+                Quantity::new(name, smallest, ERROR_TOLERANCE).about(subject.by(method.name)),
+            );
         }
     }
     quantities

@@ -10,8 +10,8 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 
-use super::snapshot::Snapshot;
-use super::tally::{EnergySize, EnergySummary};
+use super::snapshot::{EnergySize, Snapshot};
+use super::tally::EnergySummary;
 use super::{Motion, Report, RunError, Sample, Unsound, Work};
 
 /// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps a hundredth.

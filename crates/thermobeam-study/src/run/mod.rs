@@ -20,7 +20,7 @@ use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::MeshError;
 use thiserror::Error;
 
-pub use snapshot::Snapshot;
+pub use snapshot::{EnergySize, Snapshot};
 
 /// Observed quantities at one time; the JSON object of a run has them, except the contact force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

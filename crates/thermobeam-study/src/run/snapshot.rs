@@ -5,8 +5,6 @@ use thermobeam::mesh::Mesh;
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
 
-use super::tally::EnergySize;
-
 /// Maximum number of rows of a history: every step up to this number, then every second, third, ... step.
 pub(crate) const MOST_ROWS: usize = 200_000;
 
@@ -18,6 +16,15 @@ const DG_ROWS: usize = 4000;
 
 /// Points of a frame by dG.
 const DG_POINTS: usize = 141;
+
+/// What may explain an error of the energy at one level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergySize {
+    /// Sum of the absolute values of the energy's terms, without the constant β²/(4ρ).
+    pub terms: f64,
+    /// Bound on the rounding errors of a balance at this level.
+    pub rounding: f64,
+}
 
 /// The last step of a motion, as its method has it.
 #[derive(Clone, Copy)]

@@ -10,6 +10,7 @@ use thermobeam::energy::Balance;
 use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
+use super::snapshot::EnergySize;
 use super::{AnyMotion, Report, RunError, Sample, Solves, Unsound, Watch, Work};
 
 /// Iterations of all steps.
@@ -54,15 +55,6 @@ const UNEXPLAINED: f64 = 1e-3;
 
 /// Size of a motion, in units of the tolerance, below which fewer than three digits are sure.
 const RESOLVED: f64 = 1e3;
-
-/// What may explain an error of the energy at one level.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EnergySize {
-    /// Sum of the absolute values of the energy's terms, without the constant β²/(4ρ).
-    pub terms: f64,
-    /// Bound on the rounding errors of a balance at this level.
-    pub rounding: f64,
-}
 
 impl EnergySummary {
     /// Checks that the energy is finite, does not rise, and keeps its balance, allowing for rounding and tolerance.
@@ -283,8 +275,10 @@ impl Watch for Run {
         report: &Report,
     ) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());
-        let Work { t, steps, .. } = motion.work();
-        let unsound = |unsound| RunError::unsound(steps, t, report.dt, unsound);
+        let unsound = |unsound| {
+            let Work { t, steps, .. } = motion.work();
+            RunError::unsound(steps, t, report.dt, unsound)
+        };
         self.add(report, &balance, extremes, || {
             motion.snapshot().energy_size()
         })

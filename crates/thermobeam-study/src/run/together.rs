@@ -12,7 +12,7 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::simulate::{Run, problem};
-use super::tally::EnergySize;
+use super::snapshot::EnergySize;
 use super::{Report, RunError, Sample};
 use crate::scene::Scene;
 

@@ -165,7 +165,7 @@ fn print_list(chosen: &[&Regression]) -> Outcome {
 /// Where later runs of `verify` find the effects of these mistakes.
 const REPORT: &str = "reports/regressions.md";
 
-const FINGERPRINTS: &str = "xtask/fingerprints.json";
+pub(crate) const FINGERPRINTS: &str = "xtask/fingerprints.json";
 
 const HEAD: [&str; 4] = [
     "mistake",

@@ -229,6 +229,7 @@ fn solved(all: &OfGroup<'_>) -> Check {
         format!("η* causes at most {NEGLIGIBLE} of the error of u(1, t)"),
         all.runs.iter().map(evidence).collect::<Vec<_>>().join(", "),
     )
+    .about(Subject::of("distance to Newton's solution").by(ItemMethod::FixedPoint))
 }
 
 /// The figures are drawn from curves whose error cannot be seen.
@@ -242,6 +243,7 @@ fn thin_lines(plotted: &[Plotted]) -> Check {
             plotted.iter().map(of_figure).collect::<Vec<_>>().join(", ")
         ),
     )
+    .about(Subject::of("curves of the figures").by(ItemMethod::AnyOrder))
 }
 
 /// A time that may be missing.

@@ -173,7 +173,9 @@ fn all_compared(study: &WorkPrecision, target: &Target, ran: &[Ran<Trial, Measur
     } else {
         format!("left out: {}", left_out.join(", "))
     };
+    let subject = Subject::of(format!("methods, {}", target.measure.name()));
     Check::that(left_out.is_empty() && compared > 1, claim, evidence)
+        .about(subject.at(format!("{:e}", target.error)))
 }
 
 /// The dearest method over the cheapest.

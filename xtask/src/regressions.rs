@@ -1,9 +1,11 @@
-//! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and name each?
+//! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and
+//! name each?
 //!
-//! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as uniform.
-//! `xtask/regressions.toml` lists such mistakes, each with the study or the test that must notice it. Each is planted in a copy of the work
-//! tree below `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are kept, so an interrupted
-//! run continues where it stopped.
+//! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a
+//! graded mesh as uniform. `xtask/regressions.toml` lists such mistakes, each with the study or the
+//! test that must notice it. Each is planted in a copy of the work tree below
+//! `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are
+//! kept, so an interrupted run continues where it stopped.
 
 mod judged;
 mod list;

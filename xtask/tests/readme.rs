@@ -1,4 +1,5 @@
-//! The README of the project shows what the commands print, and no README shows output that no test compares.
+//! The README of the project shows what the commands print, and no README shows output that no test
+//! compares.
 
 #[path = "../../crates/convergence-study/tests/readme/blocks.rs"]
 mod blocks;
@@ -17,7 +18,8 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// The lines of `verify` that need no clock, as its report has them: verdict, and the key numbers of each study.
+/// The lines of `verify` that need no clock, as its report has them: verdict, and the key numbers
+/// of each study.
 ///
 /// * `line`: as printed: study, verdict, seconds, key numbers, or the last sentence.
 fn is_reported(line: &str, report: &str) -> bool {
@@ -47,7 +49,8 @@ fn every_block_of_output_is_what_the_command_prints() {
     assert_eq!(blocks.len(), 2);
     for Printed { command, lines } in blocks {
         assert_eq!(command[..2], ["cargo", "xtask"]);
-        // The studies take seconds when optimised: their report is what `verify` wrote, and each merge writes it anew.
+        // The studies take seconds when optimised: their report is what `verify` wrote, and each
+        // merge writes it anew.
         if command[2] == "verify" {
             let report = read("reports/README.md");
             let wrong: Vec<&String> = lines
@@ -138,7 +141,8 @@ fn the_error_of_the_papers_figures_is_that_of_the_record() {
     );
 }
 
-/// The table of run times in the README is that of the benchmark, row by row, and says how long a run may take.
+/// The table of run times in the README is that of the benchmark, row by row, and says how long a
+/// run may take.
 #[test]
 fn the_run_times_are_those_of_the_benchmark() {
     let readme = read("README.md");

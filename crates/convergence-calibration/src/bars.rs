@@ -1,4 +1,5 @@
-//! Error bars of values whose limit is known: how often they hold the error, alongside the grid convergence index.
+//! Error bars of values whose limit is known: how often they hold the error, alongside the grid
+//! convergence index.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::richardson::{Estimator, Value};
@@ -62,7 +63,8 @@ fn median(values: &[f64]) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// The sheets of error bars: *bars*, *noise*. The order claimed is the one that a law shows on coarse levels, with a tolerance of 0.1.
+/// The sheets of error bars: *bars*, *noise*. The order claimed is the one that a law shows on
+/// coarse levels, with a tolerance of 0.1.
 ///
 /// * `tables`: number of sequences of values for each law.
 ///

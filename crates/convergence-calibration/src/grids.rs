@@ -1,7 +1,10 @@
-//! Grids of h and dt with known orders: what the rule says about them, and about grids whose errors do not tend to zero.
+//! Grids of h and dt with known orders: what the rule says about them, and about grids whose errors
+//! do not tend to zero.
 //!
-//! `e^s = A(h)^s + B(dt)^s`, s = 1 or 2, with ratio 2, coarsest steps 1/8 to 1/2, `A = h^p (1 + a h^r)`, B likewise, p and q from 1/2 to 3, a and b in [-0.8, 2], r in [0.5, 2], and A / B
-//! from 1/30 to 30 in the middle. Where a lower order hides, `A = h^(p+1) + f h^p` with f from 0.01 to 1, and p + 1 is claimed. A constant is 10 to 300 % of the finest error, and is
+//! `e^s = A(h)^s + B(dt)^s`, s = 1 or 2, with ratio 2, coarsest steps 1/8 to 1/2,
+//! `A = h^p (1 + a h^r)`, B likewise, p and q from 1/2 to 3, a and b in [-0.8, 2], r in [0.5, 2],
+//! and A / B from 1/30 to 30 in the middle. Where a lower order hides, `A = h^(p+1) + f h^p` with f
+//! from 0.01 to 1, and p + 1 is claimed. A constant is 10 to 300 % of the finest error, and is
 //! added to the errors, of either sign, or its square to their squares.
 
 use convergence_study::judge::grid::{Adding, GridErrors};

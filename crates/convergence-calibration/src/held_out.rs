@@ -1,6 +1,8 @@
-//! Ten error laws with which nothing was tuned: they were written before the last constant of the rule was fixed, and are only measured.
+//! Ten error laws with which nothing was tuned: they were written before the last constant of the
+//! rule was fixed, and are only measured.
 //!
-//! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H on the finest, p uniform in [0.5, 4].
+//! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H
+//! on the finest, p uniform in [0.5, 4].
 
 use crate::laws::{Exponents, Group, Law, held_out, log_uniform};
 use convergence_study::judge::random::SplitMix;
@@ -58,7 +60,8 @@ fn layer(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_
     Box::new(move |h| h.powf(of.p) * (1.0 + a * (-h / h0).exp()))
 }
 
-/// An error that cannot exceed the solution, with a sharper bend than x / (1 + x). h0 from 0.1 to 10.
+/// An error that cannot exceed the solution, with a sharper bend than x / (1 + x). h0 from 0.1
+/// to 10.
 fn bounded(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
     let h0 = log_uniform([0.1, 10.0], random);
     Box::new(move |h| (h / h0).powf(of.p).tanh())
@@ -70,13 +73,15 @@ fn dispersion(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64
     Box::new(move |h| h.powf(of.p) * (1.0 + a * h.powf(of.p)))
 }
 
-/// One over the number of nodes taken for one over the number of elements. n from 2 to 20 nodes on the coarsest level.
+/// One over the number of nodes taken for one over the number of elements. n from 2 to 20 nodes on
+/// the coarsest level.
 fn nodes_for_elements(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
     let n = log_uniform([2.0, 20.0], random);
     Box::new(move |h| (h / (1.0 - h / n)).powf(of.p))
 }
 
-/// A lower order with a logarithm. The second term is 0.01 to 10 times the first on the finest level.
+/// A lower order with a logarithm. The second term is 0.01 to 10 times the first on the finest
+/// level.
 fn lower_order_with_a_logarithm(
     of: Exponents,
     random: &mut SplitMix,
@@ -86,7 +91,8 @@ fn lower_order_with_a_logarithm(
     Box::new(move |h| h.powf(of.p) + b * h.powf(lower) * h.ln().abs())
 }
 
-/// A lower order whose constant is another on each mesh. The second term is 0.01 to 10 times the first on the finest level.
+/// A lower order whose constant is another on each mesh. The second term is 0.01 to 10 times the
+/// first on the finest level.
 fn lower_order_at_random(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
     let lower = of.order.unwrap_or(of.p);
     let b = of.finest.powf(of.p - lower) * log_uniform([0.01, 10.0], random);

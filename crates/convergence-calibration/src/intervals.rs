@@ -12,7 +12,8 @@ use crate::{judge, wrong};
 /// Numbers of levels drawn: 3 to 8.
 pub(crate) const LEVEL_COUNTS: usize = 6;
 
-/// Laws that intervals are not made for: far from asymptotic, or with rates that wander too slowly or endlessly.
+/// Laws that intervals are not made for: far from asymptotic, or with rates that wander too slowly
+/// or endlessly.
 const NO_INTERVAL: [&str; 12] = [
     "h^p |1 + a h^r|, r 0.25 to 0.5, |a| < 0.5",
     "h^p (1 + a h^(1/3)), a 0.5 to 3",
@@ -36,7 +37,8 @@ pub(crate) fn is_declared(law: &Law, not: &[&str]) -> bool {
     law.group != Group::Stagnating && !not.contains(&law.name)
 }
 
-/// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in [1.4, 2.5] each time.
+/// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in
+/// [1.4, 2.5] each time.
 pub(crate) fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
     let fixed = [Some(2.0), Some(2.0), Some(1.5), Some(3.0), None][random.below(5)];
     let mut step = 1.0;

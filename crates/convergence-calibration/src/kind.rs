@@ -1,4 +1,5 @@
-//! The rules that judge rates, error bars and grids are judged themselves, on data whose order or limit is known.
+//! The rules that judge rates, error bars and grids are judged themselves, on data whose order or
+//! limit is known.
 //!
 //! ```toml
 //! [[measure]]            # what is counted
@@ -233,8 +234,8 @@ impl Kind for Calibration {
     }
 }
 
-/// The shares of true claims that our own rule passes. Every run draws the same tables, so these shares change only with the
-/// rule. A few verdicts may differ on another machine.
+/// The shares of true claims that our own rule passes. Every run draws the same tables, so these
+/// shares change only with the rule. A few verdicts may differ on another machine.
 fn guarded(sheet: &Sheet) -> Vec<Quantity> {
     let own = sheet.row(Rule::Ours.name());
     let columns = CLAIMS.map(|(tolerance, _)| true_pass(tolerance));
@@ -322,7 +323,8 @@ fn hidden(row: &Row) -> Vec<(f64, f64)> {
         .to_vec()
 }
 
-/// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order goes unnoticed.
+/// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order
+/// goes unnoticed.
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     let sheet = |key: &str| sheets.iter().find(|sheet| sheet.key == key);
     let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);

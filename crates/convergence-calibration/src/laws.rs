@@ -1,12 +1,17 @@
 //! Error laws whose order is known, on meshes that people use.
 //!
-//! Every law is a function of the step h, h = 1 on the coarsest of m levels and H on the finest; p is uniform in [0.5, 4] and all other numbers are
-//! drawn anew for each table (p in [1.5, 5] where a lower order emerges). Four groups of laws:
+//! Every law is a function of the step h, h = 1 on the coarsest of m levels and H on the finest; p
+//! is uniform in [0.5, 4] and all other numbers are drawn anew for each table (p in [1.5, 5] where
+//! a lower order emerges). Four groups of laws:
 //!
-//! * *polluted*: h^p times a factor that tends to a constant, or to a power of log h. The order is p.
-//! * *scattered*: h^p with log-normal scatter, an outlier, or oscillations that do not fade. The order is p.
-//! * *emerging*: h^p + b h^(p - 1/2) or h^(p - 1). The order is the lower one, whatever the levels show of it.
-//! * *stagnating*: plateaus, a wrong limit, growing round-off. There is no order, and every claim is wrong.
+//! * *polluted*: h^p times a factor that tends to a constant, or to a power of log h. The order is
+//!   p.
+//! * *scattered*: h^p with log-normal scatter, an outlier, or oscillations that do not fade. The
+//!   order is p.
+//! * *emerging*: h^p + b h^(p - 1/2) or h^(p - 1). The order is the lower one, whatever the levels
+//!   show of it.
+//! * *stagnating*: plateaus, a wrong limit, growing round-off. There is no order, and every claim
+//!   is wrong.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::judge::random::SplitMix;
@@ -75,9 +80,11 @@ enum Shape {
     OddEven,
     /// h^p (1 + a h^r cos(w + f log h)), a in [0.05, 0.5], f in [1, 8].
     Oscillation { r: [f64; 2] },
-    /// h^p + b h^(p - d), d = 1/2 or 1; the second term is 0.01 to 10 times the first on the finest level.
+    /// h^p + b h^(p - d), d = 1/2 or 1; the second term is 0.01 to 10 times the first on the finest
+    /// level.
     LowerOrder,
-    /// An error that does not tend to zero: of [h, H], h^p and f, f being a share of H^p and H the finest step.
+    /// An error that does not tend to zero: of [h, H], h^p and f, f being a share of H^p and H the
+    /// finest step.
     Stagnating {
         share: [f64; 2],
         error: fn([f64; 2], f64, f64) -> f64,
@@ -231,14 +238,16 @@ pub const LAWS: [Law; 29] = [
 pub struct Table {
     /// The errors, coarsest first.
     pub levels: Vec<Level>,
-    /// The exponent p of the law: the order that the coarse levels of an emerging or stagnating law show.
+    /// The exponent p of the law: the order that the coarse levels of an emerging or stagnating law
+    /// show.
     pub shown: f64,
     /// The order at h → 0; `None` if the errors do not tend to zero.
     pub order: Option<f64>,
 }
 
 impl Law {
-    /// Draws the numbers of the law and its errors on so many levels, each step this many times the next.
+    /// Draws the numbers of the law and its errors on so many levels, each step this many times the
+    /// next.
     pub(crate) fn draw(&self, levels: usize, ratio: f64, random: &mut SplitMix) -> Table {
         let steps: Vec<f64> = (0..levels).map(|k| ratio.powi(-(k as i32))).collect();
         self.draw_at(&steps, random)
@@ -271,7 +280,8 @@ impl Law {
     }
 }
 
-/// Draws the numbers of a law; the error is a function of the step, to be called once for each step, coarsest first.
+/// Draws the numbers of a law; the error is a function of the step, to be called once for each
+/// step, coarsest first.
 pub(crate) type Formula =
     for<'a> fn(Exponents, &'a mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + 'a>;
 
@@ -290,7 +300,8 @@ impl Shape {
     /// Draws the numbers of the formula.
     ///
     /// * `p`, `order`: exponent of h and order of the law.
-    /// * Returns the error as a function of the step, to be called once for each step, coarsest first.
+    /// * Returns the error as a function of the step, to be called once for each step, coarsest
+    ///   first.
     fn draw<'a>(
         self,
         p: f64,
@@ -385,9 +396,11 @@ pub(crate) fn log_uniform([low, high]: [f64; 2], random: &mut SplitMix) -> f64 {
 /// Shares of the finest error that a hidden term makes up.
 pub const HIDDEN_SHARES: [f64; 5] = [0.05, 0.07, 0.10, 0.15, 0.20];
 
-/// Errors h^p (1 + a h^r) with a term of lower order that is just about to show: b h^q, q = 0 (a plateau, or with b < 0 a wrong limit), p - 1 or p - 1/2.
+/// Errors h^p (1 + a h^r) with a term of lower order that is just about to show: b h^q, q = 0 (a
+/// plateau, or with b < 0 a wrong limit), p - 1 or p - 1/2.
 ///
-/// p is uniform in [1, 4], a = 0 in half of the tables and |a| < 0.5, r in [1, 4] in the other; the order claimed is p.
+/// p is uniform in [1, 4], a = 0 in half of the tables and |a| < 0.5, r in [1, 4] in the other; the
+/// order claimed is p.
 ///
 /// * `share`: of the finest error, made up by the term.
 pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> Table {
@@ -417,7 +430,8 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
     }
 }
 
-/// Eight errors of second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`: a in [-0.9, 3], r = 1 or 2, f from 1 to 90 % of the finest error.
+/// Eight errors of second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`: a in [-0.9, 3], r = 1
+/// or 2, f from 1 to 90 % of the finest error.
 pub(crate) fn wrong_limit(random: &mut SplitMix) -> Table {
     let (a, r) = (random.within([-0.9, 3.0]), [1.0, 2.0][random.below(2)]);
     let main = |h: f64| h * h * (1.0 + a * h.powf(r));
@@ -425,7 +439,8 @@ pub(crate) fn wrong_limit(random: &mut SplitMix) -> Table {
     eight(2.0, None, |h| (main(h) + f).abs())
 }
 
-/// Eight errors h^p (1 + a h) + b h^(p - 1): a and b of either sign, |a| from 0.1 to 10, the last term 10 to 22 % of the finest error of the others.
+/// Eight errors h^p (1 + a h) + b h^(p - 1): a and b of either sign, |a| from 0.1 to 10, the last
+/// term 10 to 22 % of the finest error of the others.
 pub(crate) fn three_terms(random: &mut SplitMix) -> Table {
     let (p, mut sign) = (random.within([1.0, 4.0]), || [1.0, -1.0][random.below(2)]);
     let (one, other) = (sign(), sign());
@@ -462,7 +477,8 @@ mod tests {
             for _ in 0..50 {
                 let table = hidden_term(8, share, &mut random);
                 let rates = pairwise_rates(&table.levels);
-                // Without other pollution (half of the tables), the first rate is p except for what is left of the term there.
+                // Without other pollution (half of the tables), the first rate is p except for what
+                // is left of the term there.
                 assert!(
                     table.levels.iter().all(|level| level.error > 0.0)
                         && rates.iter().all(|rate| rate.is_finite())

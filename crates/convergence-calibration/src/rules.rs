@@ -1,4 +1,5 @@
-//! This rule next to those that people use, and with levels added: wrong and true claims, and hidden terms.
+//! This rule next to those that people use, and with levels added: wrong and true claims, and
+//! hidden terms.
 
 use convergence_study::judge::fit::{Level, fit_line, pairwise_rates};
 use convergence_study::judge::verdict::{
@@ -305,7 +306,8 @@ impl AtLevels {
     }
 }
 
-/// Steps halved, at the default tolerance: a fixed number of levels, or levels added up to that number.
+/// Steps halved, at the default tolerance: a fixed number of levels, or levels added up to that
+/// number.
 pub(crate) fn levels(
     key: &'static str,
     laws: &[Law],

@@ -1,4 +1,5 @@
-//! What a test of a solver sees: a pass is silent; anything else prints the table, the rate, the reason and what to do.
+//! What a test of a solver sees: a pass is silent; anything else prints the table, the rate, the
+//! reason and what to do.
 
 use std::panic::catch_unwind;
 

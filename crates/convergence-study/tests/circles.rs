@@ -1,6 +1,8 @@
-//! Tests that no files of a crate form a circle, and that no folder uses one above it. The workspace is checked if it is present.
+//! Tests that no files of a crate form a circle, and that no folder uses one above it. The
+//! workspace is checked if it is present.
 //!
-//! A file uses those whose items its paths name, also through re-exports; items shared by a module and the files below it do not count.
+//! A file uses those whose items its paths name, also through re-exports; items shared by a module
+//! and the files below it do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -17,8 +19,8 @@ const CRATES: [&str; 7] = [
     "thermobeam-study",
 ];
 
-/// The modules of other crates from bottom to top, if they are ordered: each may use itself and those before it.
-/// `layering.rs` has the modules of this crate.
+/// The modules of other crates from bottom to top, if they are ordered: each may use itself and
+/// those before it. `layering.rs` has the modules of this crate.
 const ORDERS: [(&str, &[&str]); 5] = [
     (
         "convergence-calibration",

@@ -1,5 +1,5 @@
-//! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused with the command
-//! that reads it.
+//! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused
+//! with the command that reads it.
 //!
 //! With `BLESS_TABLES` set, results and `TABLES.md` are written anew; read them before committing.
 

@@ -4,7 +4,8 @@ use convergence_study::program;
 use convergence_study::project::{Front, Project, Template};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
 
-/// The beam's kinds of study and words, under the command that users type: `thermobeam`, or `cargo xtask` in a checkout.
+/// The beam's kinds of study and words, under the command that users type: `thermobeam`, or
+/// `cargo xtask` in a checkout.
 pub const fn project(command: &'static str) -> Project {
     Project {
         name: "thermobeam",
@@ -34,8 +35,8 @@ pub const fn project(command: &'static str) -> Project {
     }
 }
 
-/// Seconds that a one-step scheme takes for an element and a step: the unit of all costs. Measured: 20 ns (100 000 steps
-/// of 100 elements in 0.2 s).
+/// Seconds that a one-step scheme takes for an element and a step: the unit of all costs. Measured:
+/// 20 ns (100 000 steps of 100 elements in 0.2 s).
 pub(crate) const NODE_STEP: f64 = 2e-8;
 
 const FRONT: Front = Front {

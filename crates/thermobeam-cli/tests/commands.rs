@@ -22,7 +22,8 @@ fn thermobeam(root: &Path, arguments: &[&str]) -> Output {
     output(&mut command)
 }
 
-/// Unusable input: status 2, these words on standard error, nothing on standard output, nothing written.
+/// Unusable input: status 2, these words on standard error, nothing on standard output, nothing
+/// written.
 #[track_caller]
 fn unusable(root: &TempDir, arguments: &[&str], words: &str) {
     let output = thermobeam(root.path(), arguments);

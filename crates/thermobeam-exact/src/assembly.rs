@@ -1,7 +1,7 @@
 //! The matrices of (3.7) for the P1 hat functions N_0..N_n, tridiagonal, over all n + 1 nodes.
 //!
-//! The solver works element by element without them. The manufactured solutions that isolate the time error, the
-//! studies of vibrations, and tests use them.
+//! The solver works element by element without them. The manufactured solutions that isolate the
+//! time error, the studies of vibrations, and tests use them.
 
 use thermobeam::mesh::Mesh;
 
@@ -86,7 +86,8 @@ impl Tridiagonal {
 
 /// Consistent mass matrix, `M_ij = (N_j, N_i)`.
 ///
-/// Symmetric positive definite; its entries sum to 1, the beam's length. Source: first term of (3.7).
+/// Symmetric positive definite; its entries sum to 1, the beam's length. Source: first term of
+/// (3.7).
 pub fn mass(mesh: &Mesh) -> Tridiagonal {
     Tridiagonal::assemble(mesh, |h| [[h / 3.0, h / 6.0], [h / 6.0, h / 3.0]])
 }
@@ -100,7 +101,8 @@ pub fn stiffness(mesh: &Mesh) -> Tridiagonal {
 
 /// Coupling matrix, `C_ij = (N_j, N_i')`.
 ///
-/// `(φ, w_x) = wᵀ C φ` and `(u_x, χ) = χᵀ Cᵀ u`. Source: the coupling terms of (3.7) between u, φ and θ.
+/// `(φ, w_x) = wᵀ C φ` and `(u_x, χ) = χᵀ Cᵀ u`. Source: the coupling terms of (3.7) between u, φ
+/// and θ.
 pub fn coupling(mesh: &Mesh) -> Tridiagonal {
     Tridiagonal::assemble(mesh, |_| [[-0.5, -0.5], [0.5, 0.5]])
 }
@@ -109,7 +111,8 @@ pub fn coupling(mesh: &Mesh) -> Tridiagonal {
 mod tests {
     use super::*;
 
-    /// ∫ p q over the mesh for polynomials of low degree, by Simpson's rule on each element (exact to degree 3).
+    /// ∫ p q over the mesh for polynomials of low degree, by Simpson's rule on each element (exact
+    /// to degree 3).
     fn integral(mesh: &Mesh, f: impl Fn(f64) -> f64) -> f64 {
         mesh.nodes()
             .windows(2)
@@ -176,8 +179,8 @@ mod tests {
             for j in i.saturating_sub(1)..=(i + 1).min(n) {
                 let (ni, nj) = (hat(i), hat(j));
                 assert!((m.entry(i, j) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
-                // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i times the mean of
-                // N_j.
+                // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i
+                // times the mean of N_j.
                 let exact: f64 = x
                     .windows(2)
                     .map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1])))

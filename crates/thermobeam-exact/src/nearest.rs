@@ -2,7 +2,8 @@
 
 use strsim::osa_distance;
 
-/// The part of a message about an unknown name that suggests a known one; empty without a suggestion.
+/// The part of a message about an unknown name that suggests a known one; empty without a
+/// suggestion.
 pub fn did_you_mean(suggestion: &Option<String>) -> String {
     suggestion
         .as_ref()
@@ -12,9 +13,10 @@ pub fn did_you_mean(suggestion: &Option<String>) -> String {
 
 /// The candidate closest to `name`; `None` if none is close enough to be a typing error.
 ///
-/// The distance is that of optimal string alignment, ignoring case: the number of insertions, deletions, replacements
-/// and swaps of neighbours. It must be at most a third of the length of `name`, or 1, and less than the length of the
-/// candidate. The first of equally close candidates is returned.
+/// The distance is that of optimal string alignment, ignoring case: the number of insertions,
+/// deletions, replacements and swaps of neighbours. It must be at most a third of the length of
+/// `name`, or 1, and less than the length of the candidate. The first of equally close candidates
+/// is returned.
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // The computation of the distance takes time proportional to the product of both lengths.
     const LONGEST: usize = 40;

@@ -1,14 +1,18 @@
-//! Stumpff functions: cosine, sine and their divided remainders, smooth for arguments of either sign.
+//! Stumpff functions: cosine, sine and their divided remainders, smooth for arguments of either
+//! sign.
 //!
-//! `c_k(x) = Σ_i (-x)^i / (k + 2i)!`, so that `c_0(k²) = cos k`, `c_0(-k²) = cosh k`, `c_1(k²) = sin k / k` and
-//! `c_{k+2} = (1/k! - c_k)/x`. All are entire. In terms of them the solution of a beam equation whose characteristic
-//! roots pass from real to imaginary needs no case distinction and no division by zero.
+//! `c_k(x) = Σ_i (-x)^i / (k + 2i)!`, so that `c_0(k²) = cos k`, `c_0(-k²) = cosh k`,
+//! `c_1(k²) = sin k / k` and `c_{k+2} = (1/k! - c_k)/x`. All are entire. In terms of them the
+//! solution of a beam equation whose characteristic roots pass from real to imaginary needs no case
+//! distinction and no division by zero.
 //!
-//! Each has an error of a few units of round-off of 1/k!, its size near x = 0. c_3 and c_5 are meant for x > -10.
+//! Each has an error of a few units of round-off of 1/k!, its size near x = 0. c_3 and c_5 are
+//! meant for x > -10.
 //!
 //! Source: K. Stumpff, *Himmelsmechanik* I (1959), chapter V.
 
-/// Up to this |x| the series of c_3 and c_5 lose no digits, and beyond it the recurrence loses none.
+/// Up to this |x| the series of c_3 and c_5 lose no digits, and beyond it the recurrence loses
+/// none.
 const SERIES_UP_TO: f64 = 10.0;
 
 /// Number of terms: the last is below 1e-40 for |x| <= 10.

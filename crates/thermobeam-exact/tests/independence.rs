@@ -1,5 +1,6 @@
-//! What judges calls nothing of what is judged: the sources of this crate, and of the studies that evaluate exact solutions by a
-//! scheme, are read and refused if they use the solver's formulas. THEORY.md, "What both sides of a comparison share".
+//! What judges calls nothing of what is judged: the sources of this crate, and of the studies that
+//! evaluate exact solutions by a scheme, are read and refused if they use the solver's formulas.
+//! THEORY.md, "What both sides of a comparison share".
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,8 @@ const ALLOWED: [&str; 11] = [
 /// The frequencies of a mesh judge the matrices of its elements, which they use.
 const OF_A_MESH: (&str, [&str; 2]) = ("vibration/discrete.rs", ["dg::MAX_DEGREE", "dg::element"]);
 
-/// The files of the studies that evaluate exact solutions by a scheme, or errors against a reference.
+/// The files of the studies that evaluate exact solutions by a scheme, or errors against a
+/// reference.
 const STUDIES: [&str; 4] = [
     "kinds/convergence/design.rs",
     "run/family.rs",
@@ -66,7 +68,8 @@ fn is_of_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// What follows the word `thermobeam` wherever it occurs: a path, each with the braces after it resolved.
+/// What follows the word `thermobeam` wherever it occurs: a path, each with the braces after it
+/// resolved.
 fn paths(code: &str) -> Vec<String> {
     let mut found = vec![];
     for (at, word) in code.match_indices("thermobeam") {
@@ -110,7 +113,8 @@ fn methods() -> Vec<String> {
     names
 }
 
-/// The formulas of the solver that a code uses: its methods, rows of schemes, norms of P1 functions.
+/// The formulas of the solver that a code uses: its methods, rows of schemes, norms of P1
+/// functions.
 fn uses_of_formulas(code: &str) -> Vec<String> {
     let mut found: Vec<String> = methods()
         .into_iter()

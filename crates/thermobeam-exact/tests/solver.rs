@@ -103,7 +103,8 @@ fn tip(simulation: &dg::Simulation, field: Field) -> f64 {
         .expect("the present time")
 }
 
-/// Errors of u(1), φ(1) and the contact force in the steady state with the given number of elements.
+/// Errors of u(1), φ(1) and the contact force in the steady state with the given number of
+/// elements.
 fn errors(beta: f64, contact: Phase, elements: usize) -> [f64; 3] {
     let problem = paper(beta, elements);
     let states = equilibria(&problem.beam, problem.obstacles.as_ref()).unwrap();
@@ -243,7 +244,8 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
     }
 }
 
-/// The scheme is not L-stable: a step much longer than all periods multiplies u by (ζ - τ/2)/(ζ + τ/2) for q = 0.
+/// The scheme is not L-stable: a step much longer than all periods multiplies u by (ζ - τ/2)/(ζ +
+/// τ/2) for q = 0.
 #[test]
 fn stiff_modes_are_damped_by_viscosity_alone() {
     let mode = Mode::new(0);

@@ -1,4 +1,5 @@
-//! The parts of the loads: the boundary loads, the nodal values, the factors and the forces of a step. `loads.rs` has the loads.
+//! The parts of the loads: the boundary loads, the nodal values, the factors and the forces of a
+//! step. `loads.rs` has the loads.
 
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};

@@ -86,7 +86,8 @@ fn frequencies_are_the_zeros_of_the_determinant() {
 
 #[test]
 fn no_frequency_is_missed() {
-    // P1 frequencies are larger than the exact ones by about ω³h²/24, which identifies each by its index.
+    // P1 frequencies are larger than the exact ones by about ω³h²/24, which identifies each by its
+    // index.
     let elements = 128;
     let dense = dense_frequencies(elements);
     for (i, omega) in frequencies(24).into_iter().enumerate() {

@@ -41,7 +41,8 @@ fn code(text: &str) -> String {
     text.lines().map(without_comment).collect()
 }
 
-/// Calls of `step` with an argument, of `advance` and of `stepped`; a call of `step()` reads a number.
+/// Calls of `step` with an argument, of `advance` and of `stepped`; a call of `step()` reads a
+/// number.
 fn calls(code: &str) -> usize {
     let rest = |name: &str| {
         let uses = code.match_indices(name);

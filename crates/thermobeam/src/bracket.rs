@@ -1,15 +1,15 @@
 //! Bisection for a root in a bracket.
 //!
-//! It is slow and cannot fail. It is used where the bracket comes from a proof; a faster method would save only
-//! microseconds and need safeguards.
+//! It is slow and cannot fail. It is used where the bracket comes from a proof; a faster method
+//! would save only microseconds and need safeguards.
 
 /// More bisections than any bracket of two floats allows: exponent range and mantissa.
 const HALVINGS: usize = 2200;
 
 /// The point between `lo` and `hi` where f changes sign, to two neighbouring floats.
 ///
-/// * f must be positive at one end and zero or negative at the other. Zero counts as negative: for a function that
-///   vanishes on one side of the point, the boundary of the zero set is returned.
+/// * f must be positive at one end and zero or negative at the other. Zero counts as negative: for
+///   a function that vanishes on one side of the point, the boundary of the zero set is returned.
 /// * `lo` may be larger than `hi`. f is evaluated at `lo` and inside the bracket, not at `hi`.
 /// * Returns one of the two floats between which the sign changes.
 pub fn bisect(mut f: impl FnMut(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {

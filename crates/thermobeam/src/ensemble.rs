@@ -1,8 +1,8 @@
 //! Several simulations in parallel lanes: for sweeps, maps and random scenes.
 //!
-//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers instead of one. The
-//! results of a case are bitwise those of a single run. A case that fails keeps its last level and does not affect the
-//! others.
+//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers
+//! instead of one. The results of a case are bitwise those of a single run. A case that fails keeps
+//! its last level and does not affect the others.
 
 use crate::energy::Balance;
 use crate::error::{SetupError, StepError, StepFailure};
@@ -13,14 +13,15 @@ use crate::solve::newton::newton;
 use crate::solve::stepper::Batch;
 use crate::solve::{Level, Settings, StepReport, Work};
 
-/// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the registers of AVX2.
+/// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the
+/// registers of AVX2.
 const WIDTH: usize = 4;
 
-/// Simulations by Newton's method with the same number of elements, the same scheme and the same settings.
-/// Coefficients, obstacles, meshes, initial data and time steps may differ.
+/// Simulations by Newton's method with the same number of elements, the same scheme and the same
+/// settings. Coefficients, obstacles, meshes, initial data and time steps may differ.
 ///
-/// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group costs as much as a full
-/// one.
+/// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group
+/// costs as much as a full one.
 pub struct Ensemble {
     cases: Vec<Case>,
     /// Up to [`WIDTH`] cases each; unused lanes repeat the last case.
@@ -40,8 +41,9 @@ impl Ensemble {
     /// * `dt`: the time step of each problem.
     ///
     /// # Errors
-    /// [`SetupError`] as for a single simulation, for the first invalid case; [`SetupError::Length`] if the numbers of
-    /// elements differ, if there is no problem, or if the number of time steps differs from that of the problems.
+    /// [`SetupError`] as for a single simulation, for the first invalid case;
+    /// [`SetupError::Length`] if the numbers of elements differ, if there is no problem, or if the
+    /// number of time steps differs from that of the problems.
     pub fn new(
         mut problems: Vec<Problem>,
         dt: &[f64],
@@ -117,14 +119,17 @@ impl Ensemble {
         })
     }
 
-    /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
+    /// Copies the current level of case k into `level`; if the case has failed, the last level
+    /// before the failure.
     pub fn observe(&self, k: usize, level: &mut Level) {
         self.groups[k / WIDTH].read(k % WIDTH, level);
     }
 
-    /// The energy [`Balance`] of the last step of every case; NaN for failed cases and before the first step.
+    /// The energy [`Balance`] of the last step of every case; NaN for failed cases and before the
+    /// first step.
     ///
-    /// Bitwise that of a single run; no level is copied, and the sums run over all lanes of a group at once.
+    /// Bitwise that of a single run; no level is copied, and the sums run over all lanes of a group
+    /// at once.
     ///
     /// * `balances`: overwritten and resized.
     pub fn balances(&self, balances: &mut Vec<Balance>) {
@@ -134,7 +139,8 @@ impl Ensemble {
         groups.for_each(|(group, balances)| group.balances(balances));
     }
 
-    /// u(1) at the current level of case k; if the case has failed, at the last level before the failure.
+    /// u(1) at the current level of case k; if the case has failed, at the last level before the
+    /// failure.
     pub fn tip(&self, k: usize) -> f64 {
         self.groups[k / WIDTH].tip(k % WIDTH)
     }

@@ -12,7 +12,8 @@ pub struct TridiagonalFactor {
 }
 
 impl TridiagonalFactor {
-    /// An uninitialised factorisation for the nodes 1..=last; `last` is n, or n - 1 for a prescribed value at the tip.
+    /// An uninitialised factorisation for the nodes 1..=last; `last` is n, or n - 1 for a
+    /// prescribed value at the tip.
     pub fn new(last: usize) -> Self {
         Self {
             multiplier: vec![0.0; last + 1],

@@ -1,6 +1,7 @@
 //! `bench`: run time against error, and times of steps, on this machine. No verdict depends on it.
 //!
-//! The runs are kept in a record, [`record::FILE`], so that the benchmark can be made in pieces; report and figures come from it.
+//! The runs are kept in a record, [`record::FILE`], so that the benchmark can be made in pieces;
+//! report and figures come from it.
 
 mod page;
 mod record;
@@ -42,8 +43,9 @@ const RECIPE: &str = "CVODE is run by hand: `apt-get install libsundials-dev`, c
 
 /// Run time against error, and time per step, on this machine
 ///
-/// Takes half an hour of CPU time, or a piece of it with --only. With --out it keeps the runs in DIR/bench/runs.json, and writes
-/// DIR/bench.md and its figures from all runs that are there; this project's is in reports.
+/// Takes half an hour of CPU time, or a piece of it with --only. With --out it keeps the runs in
+/// DIR/bench/runs.json, and writes DIR/bench.md and its figures from all runs that are there; this
+/// project's is in reports.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Makes only the runs of this method, of this problem (a study), or `steps`; again for more
@@ -52,7 +54,8 @@ pub(crate) struct Arguments {
     /// Keeps the runs of an earlier piece, and makes only those that it lacks
     #[arg(long, requires = "out")]
     resume: bool,
-    /// CPU seconds that a run may take; for all pieces the same, since a dash means that it was not enough
+    /// CPU seconds that a run may take; for all pieces the same, since a dash means that it was not
+    /// enough
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     limit: f64,
     /// Output of studies/programs/cvode.cpp on this machine
@@ -63,7 +66,8 @@ pub(crate) struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// CPU seconds of this thread: on a machine with other load the time of the clock on the wall means little.
+/// CPU seconds of this thread: on a machine with other load the time of the clock on the wall means
+/// little.
 #[cfg(unix)]
 fn cpu_seconds() -> f64 {
     use nix::time::{ClockId, clock_gettime};

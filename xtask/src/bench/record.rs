@@ -1,4 +1,5 @@
-//! The runs of the benchmark as JSON, so that it can be made in pieces, and that tables and figures come from what was measured.
+//! The runs of the benchmark as JSON, so that it can be made in pieces, and that tables and figures
+//! come from what was measured.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -58,7 +59,8 @@ pub(super) enum Cost {
 pub(super) struct Record {
     /// CPU seconds that a run was allowed.
     pub limit: f64,
-    /// For each problem, how far apart its two references are: in the norm of Theorem 3.4, and in u(1, t). Zero: exact solution.
+    /// For each problem, how far apart its two references are: in the norm of Theorem 3.4, and in
+    /// u(1, t). Zero: exact solution.
     pub references: BTreeMap<String, [f64; 2]>,
     /// The runs.
     pub runs: Vec<Timed>,

@@ -1,8 +1,9 @@
 //! Which discretisations of a method are run.
 //!
-//! Elements and steps of a one-step method: as long as runs are cheap, either is doubled, whichever lowers the error more. Then
-//! both grow so that the errors of space and time shrink by the same factor, by the orders of the method, until the next run
-//! would exceed the limit of time. The orders choose what is run; every number of the benchmark is measured.
+//! Elements and steps of a one-step method: as long as runs are cheap, either is doubled, whichever
+//! lowers the error more. Then both grow so that the errors of space and time shrink by the same
+//! factor, by the orders of the method, until the next run would exceed the limit of time. The
+//! orders choose what is run; every number of the benchmark is measured.
 
 use std::collections::HashMap;
 
@@ -186,7 +187,8 @@ impl<'s> Search<'s> {
         (grid, error)
     }
 
-    /// A grid whose errors of space and time are both smaller by the same factor: by four or two, or by its root for half a part.
+    /// A grid whose errors of space and time are both smaller by the same factor: by four or two,
+    /// or by its root for half a part.
     fn finer(&self, grid: Grid, scheme: OneStep, measure: ErrorMeasure, part: f64) -> Grid {
         let space = match measure {
             ErrorMeasure::Theorem34 => 1.0,

@@ -1,7 +1,8 @@
-//! Time per element and step: for ways to solve a step, for features of a scene, and over the number of elements.
+//! Time per element and step: for ways to solve a step, for features of a scene, and over the
+//! number of elements.
 //!
-//! Times vary, so they never enter a committed record; the counts of work next to them are exact. Every time is the best
-//! of several runs, since other load on the machine only slows a run.
+//! Times vary, so they never enter a committed record; the counts of work next to them are exact.
+//! Every time is the best of several runs, since other load on the machine only slows a run.
 
 use std::hint::black_box;
 

@@ -7,7 +7,8 @@ use tempfile::TempDir;
 
 use super::{Ended, ended, program, xtask};
 
-/// Builds a `verify` that passes if `src/a.rs` holds a 1, and otherwise prints the findings of the study `s`.
+/// Builds a `verify` that passes if `src/a.rs` holds a 1, and otherwise prints the findings of the
+/// study `s`.
 const CARGO: &str = r#"#!/bin/sh
 while [ $# -gt 0 ]; do [ "$1" = --target-dir ] && out="$2"; shift; done
 grep -q '{' src/a.rs && { echo "mismatched brackets" >&2; exit 101; }

@@ -16,7 +16,8 @@ pub struct Shown<'a> {
     pub levels: &'a [Level],
     /// Its judgement.
     pub rate: &'a RateVerdict,
-    /// How many levels later its rates begin than those of errors: 1 for values, whose differences have the rates.
+    /// How many levels later its rates begin than those of errors: 1 for values, whose differences
+    /// have the rates.
     pub late: usize,
 }
 
@@ -68,7 +69,8 @@ impl Shown<'_> {
     }
 }
 
-/// Names, then step and each error with its mark and rate, coarsest level first, then the meaning of the marks.
+/// Names, then step and each error with its mark and rate, coarsest level first, then the meaning
+/// of the marks.
 ///
 /// * `step`: the name of the step.
 /// * `floor`: of the rule that judged; 0 if it had none, or several.

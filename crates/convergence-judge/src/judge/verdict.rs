@@ -26,10 +26,12 @@ pub const FEWEST_LEVELS: usize = 3;
 /// Upper bound on tolerances: half the distance between two integer orders would accept either.
 pub const WIDEST_TOLERANCE: f64 = 0.5;
 
-/// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and from 2.5.
+/// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and
+/// from 2.5.
 pub const DEFAULT_TOLERANCE: f64 = 0.25;
 
-/// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order changes no rate.
+/// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order
+/// changes no rate.
 pub const LEAST_SPAN: f64 = 1.5;
 
 /// A setting of [`Judge`] that would make every verdict meaningless.
@@ -64,7 +66,8 @@ impl Default for Judge {
 }
 
 impl Judge {
-    /// The rule without a floor: multiplying all errors by a number changes neither verdict nor interval.
+    /// The rule without a floor: multiplying all errors by a number changes neither verdict nor
+    /// interval.
     ///
     /// * `tolerance`: half-width of the band about the order, 0 < tolerance < [`WIDEST_TOLERANCE`].
     pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
@@ -80,10 +83,12 @@ impl Judge {
         })
     }
 
-    /// The same rule with another floor, in the unit of the errors: fine levels with errors up to the floor are not used. 0 drops no level.
+    /// The same rule with another floor, in the unit of the errors: fine levels with errors up to
+    /// the floor are not used. 0 drops no level.
     ///
-    /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
-    /// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the data. [`RateVerdict::set_aside`] names the levels.
+    /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as
+    /// much. [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated
+    /// from the data. [`RateVerdict::set_aside`] names the levels.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         if floor >= 0.0 && floor.is_finite() {
             Ok(Self { floor, ..self })
@@ -107,7 +112,8 @@ impl Judge {
         self.judge_rounded(levels, order, 0.0)
     }
 
-    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`: its interval is wider by that at either end.
+    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`:
+    /// its interval is wider by that at either end.
     pub fn judge_rounded(&self, levels: &[Level], order: f64, doubt: f64) -> RateVerdict {
         let mut reading = self.read(levels);
         reading.widen(doubt);
@@ -134,8 +140,9 @@ impl Judge {
         RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
-    /// What the levels, coarsest first, say by themselves: it depends on neither claim nor tolerance, and is held
-    /// against several claims by [`Judge::judge_read`] and [`Judge::decide`], also of judges with other tolerances.
+    /// What the levels, coarsest first, say by themselves: it depends on neither claim nor
+    /// tolerance, and is held against several claims by [`Judge::judge_read`] and
+    /// [`Judge::decide`], also of judges with other tolerances.
     pub fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
         Reading::new(levels, self.floor)
     }
@@ -159,7 +166,8 @@ impl Judge {
     }
 }
 
-/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is inconclusive, but the rate is still given.
+/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is
+/// inconclusive, but the rate is still given.
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
     let refused = match Judge::new(tolerance) {
         Ok(judge) => return judge.judge(levels, order),

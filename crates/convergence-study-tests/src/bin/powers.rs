@@ -28,7 +28,8 @@ const PROJECT: Project = Project {
     ..Project::new("powers", "powers")
 };
 
-/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no baseline.
+/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no
+/// baseline.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
     let exponent = root

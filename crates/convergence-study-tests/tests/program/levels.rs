@@ -264,7 +264,8 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         (5..=8).contains(&levels) && summary.contains("; 4 were enough for L1"),
         "{out}"
     );
-    // The same levels are listed; a listed study of them has the same rate, and is undecided with one level fewer.
+    // The same levels are listed; a listed study of them has the same rate, and is undecided with
+    // one level fewer.
     let listed = |levels: usize| {
         let counts: Vec<String> = (0..levels).map(|level| (8 << level).to_string()).collect();
         place.write_text(&auto.replace("\"auto\"", &format!("[{}]", counts.join(", "))));

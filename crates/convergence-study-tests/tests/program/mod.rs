@@ -16,7 +16,8 @@ const HARNESS: &str = env!("CARGO_BIN_EXE_powers");
 
 const SOLVER: &str = env!("CARGO_BIN_EXE_solver");
 
-/// A folder with the study `s.toml` of the solver in this mode; the path of the folder marks its processes.
+/// A folder with the study `s.toml` of the solver in this mode; the path of the folder marks its
+/// processes.
 pub(crate) struct Place {
     pub(crate) folder: TempDir,
     /// More keys of `[program]`.

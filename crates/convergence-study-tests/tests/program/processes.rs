@@ -63,7 +63,8 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
             && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"),
         "{out}"
     );
-    // Children that outlive their program, inside or outside its group, harm neither this case nor the others.
+    // Children that outlive their program, inside or outside its group, harm neither this case nor
+    // the others.
     for mode in ["fork", "leave"] {
         let place = Place::new(mode, "");
         let (status, out, err) = place.study(&[]);

@@ -13,9 +13,10 @@ use crate::text::columns::Columns;
 
 /// List the studies: tier, last verdict, cost, claim
 ///
-/// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or that of a selection in
-/// reports/local/. The work is the study's own estimate, in millions of the units of cost that its kind counts in. Seconds are those of all threads
-/// in the last `verify` on this machine. On a terminal claims are cut to its width; elsewhere they are whole.
+/// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or
+/// that of a selection in reports/local/. The work is the study's own estimate, in millions of the
+/// units of cost that its kind counts in. Seconds are those of all threads in the last `verify` on
+/// this machine. On a terminal claims are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Only the studies that `verify --tier` would run; full includes quick

@@ -35,7 +35,8 @@ fn name(text: &str) -> Result<String, String> {
     }
 }
 
-/// The command line with the templates of a project as values of `WHAT`; without templates, the command is hidden.
+/// The command line with the templates of a project as values of `WHAT`; without templates, the
+/// command is hidden.
 pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap::Command {
     // A changed argument moves behind the others: hence the positions, `index`, above.
     let values = project
@@ -85,7 +86,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
                 .replace("BELOW", &below),
         )?;
     }
-    // Reports are written below the folder that the commands run in: the current one, if the files are below it.
+    // Reports are written below the folder that the commands run in: the current one, if the files
+    // are below it.
     let ignored = if directory == "." {
         folder
     } else {
@@ -113,8 +115,8 @@ fn next_steps(project: &Project, template: &Template, file: &str) -> String {
     steps.map(line).collect()
 }
 
-/// The folder that the command runs in as seen from the files, and theirs as seen from there, both with a trailing
-/// slash. For a folder that is not below it, the folder that contains both.
+/// The folder that the command runs in as seen from the files, and theirs as seen from there, both
+/// with a trailing slash. For a folder that is not below it, the folder that contains both.
 fn places(folder: &Path) -> (String, String) {
     let parts: Vec<Component<'_>> = folder
         .components()

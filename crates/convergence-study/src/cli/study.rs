@@ -1,4 +1,5 @@
-//! `study`: runs study files from anywhere, compares with no baseline and writes only what `--out` requests.
+//! `study`: runs study files from anywhere, compares with no baseline and writes only what `--out`
+//! requests.
 
 use std::path::PathBuf;
 

@@ -35,7 +35,8 @@ pub struct Arguments {
     /// Why; required for a changed claim, and kept in the baseline with the change
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
-    /// Accept only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as 'heat-*:rate *'
+    /// Accept only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as
+    /// 'heat-*:rate *'
     #[arg(long, value_name = "PATTERN", requires = "reason")]
     only: Vec<String>,
     /// Every study even if some fail, and every number that moved, not only the worst of each study
@@ -179,8 +180,8 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     }
 }
 
-/// For a run that passes: the table of studies and the verdict. For any other: the verdict, its cause, and the clearest
-/// failures first, all visible at once.
+/// For a run that passes: the table of studies and the verdict. For any other: the verdict, its
+/// cause, and the clearest failures first, all visible at once.
 ///
 /// * `took`: from start to end.
 fn text(
@@ -239,8 +240,8 @@ fn text(
     parts.join("\n\n") + "\n"
 }
 
-/// The changes, without those of failing studies unless `verbose`: such a study has already said why, and its numbers
-/// moved for the same reason.
+/// The changes, without those of failing studies unless `verbose`: such a study has already said
+/// why, and its numbers moved for the same reason.
 fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
     let failed = |id: &str| {
         let mut studies = record.studies.iter();
@@ -280,7 +281,8 @@ fn blessed(project: &Project, found: &Verification) -> String {
     }
 }
 
-/// The table of studies if all pass or all are wanted, otherwise how many more fail, and where the reports are.
+/// The table of studies if all pass or all are wanted, otherwise how many more fail, and where the
+/// reports are.
 fn overview(
     found: &Verification,
     request: &Request,
@@ -365,7 +367,8 @@ const SLOWEST: usize = 10;
 /// Changes listed one by one; more are grouped by their cause.
 const LISTED: usize = 6;
 
-/// Changed claims, under a head, after the numbers, one line each if they are few or all are wanted.
+/// Changed claims, under a head, after the numbers, one line each if they are few or all are
+/// wanted.
 fn moved_lines(changes: &[Change], all: bool) -> String {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) = changes
         .iter()

@@ -8,7 +8,8 @@ use super::style;
 /// Curves closer than this everywhere look like one, in px.
 const CLOSE: f64 = 3.0;
 
-/// A note for each set of coinciding data curves: compared by points if they have equally many, else as lines.
+/// A note for each set of coinciding data curves: compared by points if they have equally many,
+/// else as lines.
 pub(super) fn notes(curves: &[Curve], x: &Ruler, y: &Ruler) -> Vec<String> {
     let is_shown = |curve: &&Curve| curve.is_data && curve.points.len() > 1;
     let data: Vec<&Curve> = curves.iter().filter(is_shown).collect();
@@ -67,7 +68,8 @@ fn coincide(a: &Curve, b: &Curve, x: &Ruler, y: &Ruler) -> bool {
     begin_and_end && follows(&a, &b) && follows(&b, &a)
 }
 
-/// Whether every point lies on the line, which is straight from point to point and level beyond its ends; x ascending.
+/// Whether every point lies on the line, which is straight from point to point and level beyond its
+/// ends; x ascending.
 fn follows(points: &[Point], line: &[Point]) -> bool {
     let height = |x: f64| {
         let next = line.partition_point(|p| p.0 < x).min(line.len() - 1);

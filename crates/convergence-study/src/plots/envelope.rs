@@ -4,8 +4,9 @@ use super::canvas::Point;
 
 /// Lines through positions, broken where a position is missing.
 ///
-/// A series longer than four positions per column is reduced to first, lowest, highest and last of each column of
-/// pixels, in their order; no eye can see the difference. Positions must then run along x.
+/// A series longer than four positions per column is reduced to first, lowest, highest and last of
+/// each column of pixels, in their order; no eye can see the difference. Positions must then run
+/// along x.
 pub(super) fn lines(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
     if positions.len() <= 4 * columns {
         let runs = positions
@@ -37,7 +38,8 @@ fn envelope(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
         {
             extend_with_extremes(&mut lines, &group);
             group.clear();
-            // A gap is drawn only if it is as wide as a column: narrower ones would cost more bytes than they show.
+            // A gap is drawn only if it is as wide as a column: narrower ones would cost more bytes
+            // than they show.
             if missing > positions.len() / columns {
                 lines.push(Vec::new());
             }

@@ -14,7 +14,8 @@ use super::{Axis, Scale, Series};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Half the width of the only cell of an axis with one value, in decades (or units, on a linear axis).
+/// Half the width of the only cell of an axis with one value, in decades (or units, on a linear
+/// axis).
 const ALONE: f64 = 0.25;
 
 /// Values over two parameters, as coloured cells.
@@ -38,7 +39,8 @@ pub struct Surface {
     pub marked: Vec<Vec<bool>>,
     /// The meaning of the mark, for example `"diverged"`.
     pub marked_label: String,
-    /// Boundary curves on top: the first solid, the second dashed, and so on; for example the predicted one first.
+    /// Boundary curves on top: the first solid, the second dashed, and so on; for example the
+    /// predicted one first.
     pub boundaries: Vec<Series>,
 }
 
@@ -177,7 +179,8 @@ fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The values of an axis that it can show: position on the scale and index, ascending, each position once.
+/// The values of an axis that it can show: position on the scale and index, ascending, each
+/// position once.
 fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
     let mut order: Vec<(f64, usize)> = values
         .iter()
@@ -257,7 +260,8 @@ fn entries(figure: &Surface) -> Vec<Entry> {
     entries
 }
 
-/// Whether a boundary is known only at a few points: a line between them would suggest points that were not computed.
+/// Whether a boundary is known only at a few points: a line between them would suggest points that
+/// were not computed.
 fn is_sparse(series: &Series) -> bool {
     series.points.len() < FEWEST_FOR_A_LINE
 }
@@ -281,7 +285,8 @@ fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usiz
     });
 }
 
-/// All rims before all lines: if two boundaries agree, the other shows through the gaps of the dashed one.
+/// All rims before all lines: if two boundaries agree, the other shows through the gaps of the
+/// dashed one.
 fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {

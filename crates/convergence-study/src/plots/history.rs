@@ -35,7 +35,8 @@ pub fn iterations(series: &[Series]) -> Xy {
     }
 }
 
-/// Errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is better.
+/// Errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is
+/// better.
 ///
 /// * `cost`, `error`: the labels of the axes.
 pub fn work_precision(cost: &str, error: impl Into<String>, series: &[Series]) -> Xy {

@@ -37,7 +37,8 @@ pub(super) struct Entry {
     pub(super) label: String,
 }
 
-/// As many equal columns as fit on the page, rows filled evenly: their number, and their width in px.
+/// As many equal columns as fit on the page, rows filled evenly: their number, and their width in
+/// px.
 pub(super) fn arranged(entries: &[Entry]) -> (usize, f64) {
     let width = style::WIDTH - 2.0 * EDGE;
     let widest = entries

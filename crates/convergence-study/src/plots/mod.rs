@@ -1,8 +1,9 @@
 //! Figures: plain data in, a self-contained SVG document out.
 //!
-//! Every figure is a struct of numbers and labels and a pure function from it to a `String`. Figures know nothing about
-//! the solver, read and write no files, and give the same bytes for the same data. Bad data never stop a figure: points
-//! that are not finite, or not positive on a logarithmic axis, are left out and counted in a note under the plot.
+//! Every figure is a struct of numbers and labels and a pure function from it to a `String`.
+//! Figures know nothing about the solver, read and write no files, and give the same bytes for the
+//! same data. Bad data never stop a figure: points that are not finite, or not positive on a
+//! logarithmic axis, are left out and counted in a note under the plot.
 //!
 //! | figure | shows |
 //! | --- | --- |
@@ -16,10 +17,12 @@
 //! | [`forest`] | judged rates with their intervals, relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
-//! The drawing can be read back: `canvas` writes names and values into the picture, for a page that shows them.
+//! The drawing can be read back: `canvas` writes names and values into the picture, for a page that
+//! shows them.
 //!
-//! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
-//! laid-out page; `xy`, `heat` and `space_time` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
+//! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a
+//! `sheet`, which is a laid-out page; `xy`, `heat` and `space_time` draw on the sheet; the sheet's
+//! `canvas` is the one place that emits SVG.
 //!
 //! ```
 //! use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};

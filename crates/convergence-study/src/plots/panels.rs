@@ -8,7 +8,8 @@ use super::xy::Xy;
 
 /// Draws figures one below the other, in one document.
 ///
-/// Each keeps its own title, axes, legend and notes, and its names and values for a page that reads them.
+/// Each keeps its own title, axes, legend and notes, and its names and values for a page that reads
+/// them.
 ///
 /// * `description`: of the whole, as read out by screen readers.
 pub fn panels(description: &str, figures: &[Xy]) -> String {

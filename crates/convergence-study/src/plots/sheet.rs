@@ -1,4 +1,5 @@
-//! A laid-out page: plot area, axes, grid, notes, and the legend below the plot, in aligned columns, never on the data.
+//! A laid-out page: plot area, axes, grid, notes, and the legend below the plot, in aligned
+//! columns, never on the data.
 
 use super::Guide;
 use super::canvas::{self, Anchor, Canvas, Layer, Pen, Point, Rect};

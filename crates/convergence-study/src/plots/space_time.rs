@@ -7,7 +7,8 @@ use super::ruler::{Ruler, on_scale};
 use super::sheet::Layout;
 use super::xy::left_out;
 
-/// Most cells of the picture along time and along space: even noise, in which no neighbours are equal, stays below 400 kB.
+/// Most cells of the picture along time and along space: even noise, in which no neighbours are
+/// equal, stays below 400 kB.
 const FINEST: (usize, usize) = (200, 110);
 
 /// A field over space and time.
@@ -64,8 +65,8 @@ fn even(ruler: &Ruler, cells: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, linearly interpolated in
-/// space.
+/// Values in the middle of the picture's cells, row by row: averaged over the cell in time,
+/// linearly interpolated in space.
 fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec<Vec<f64>> {
     if figure.times.is_empty() || figure.nodes.is_empty() {
         return Vec::new();

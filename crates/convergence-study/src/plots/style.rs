@@ -2,14 +2,16 @@
 
 use plotters::style::RGBColor;
 
-/// Page width in px. Figures are read at full and at half width, and the text sizes below allow for that.
+/// Page width in px. Figures are read at full and at half width, and the text sizes below allow for
+/// that.
 pub const WIDTH: f64 = 900.0;
 /// Room between the edge of the page and everything on it, in px.
 pub const EDGE: f64 = 16.0;
 /// Height of the plot area in px; the page grows with its legend, the plot does not shrink.
 pub const PLOT_HEIGHT: f64 = 430.0;
 
-/// Helvetica and its metric twins first: the estimates of [`text_width`] use the widest, DejaVu Sans.
+/// Helvetica and its metric twins first: the estimates of [`text_width`] use the widest, DejaVu
+/// Sans.
 pub const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 /// Text size of titles, in px.
 pub const TITLE_SIZE: f64 = 22.0;
@@ -40,7 +42,8 @@ pub const THIN: f64 = 1.2;
 /// Width of curves, in px.
 pub const LINE: f64 = 2.2;
 
-/// Lengths of dashes and gaps in turn, in px; without any the line is solid. The patterns are distinct in black and white.
+/// Lengths of dashes and gaps in turn, in px; without any the line is solid. The patterns are
+/// distinct in black and white.
 pub type Dash = &'static [f64];
 /// No gaps.
 pub const SOLID: Dash = &[];

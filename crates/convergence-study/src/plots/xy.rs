@@ -31,7 +31,8 @@ pub struct Outline {
 /// A figure with curves.
 #[derive(Clone, Default)]
 pub struct Xy {
-    /// Set above the plot: what the reader should see. `None`: the vertical axis over the horizontal one.
+    /// Set above the plot: what the reader should see. `None`: the vertical axis over the
+    /// horizontal one.
     pub title: Option<String>,
     /// The horizontal axis.
     pub x: Axis,
@@ -80,7 +81,8 @@ impl Xy {
         self.y_ruler_of(&self.extent())
     }
 
-    /// The width of a curve's line, measured on the vertical axis; in decades if that is logarithmic.
+    /// The width of a curve's line, measured on the vertical axis; in decades if that is
+    /// logarithmic.
     pub fn line_width(&self) -> f64 {
         let ruler = self.y_ruler();
         (ruler.hi - ruler.lo) * style::LINE / style::PLOT_HEIGHT

@@ -55,7 +55,8 @@ pub(super) fn read(
     })
 }
 
-/// The folder in which the program runs, as an absolute path: the program's name is relative to it, too.
+/// The folder in which the program runs, as an absolute path: the program's name is relative to it,
+/// too.
 fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError> {
     let here = if folder.as_os_str().is_empty() {
         Path::new(".")
@@ -183,7 +184,8 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
     })
 }
 
-/// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that should vanish.
+/// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that
+/// should vanish.
 ///
 /// * `plain`: whether only an order can be claimed, as for values and grids.
 fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f64>), InputError> {

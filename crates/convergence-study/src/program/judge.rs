@@ -1,4 +1,5 @@
-//! From answers to an outcome: errors, and values without a known error, with their rate, their limit and the distance to it.
+//! From answers to an outcome: errors, and values without a known error, with their rate, their
+//! limit and the distance to it.
 
 use super::answer::{Answer, Expectation};
 use super::{Program, Run, values};
@@ -28,8 +29,8 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     } else {
         along_path(study, ran, &levels)
     };
-    // Answered numbers are finite. An answer may lack some numbers, and a failed case fails its check; the baseline
-    // notices a guarded number that is missing.
+    // Answered numbers are finite. An answer may lack some numbers, and a failed case fails its
+    // check; the baseline notices a guarded number that is missing.
     outcome
         .quantities
         .retain(|quantity| quantity.value.is_finite());
@@ -156,7 +157,8 @@ fn completion(ran: &[Run]) -> Check {
     kind::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
 
-/// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace the missing ones.
+/// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace
+/// the missing ones.
 fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
     let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
     let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {

@@ -1,8 +1,9 @@
 //! Studies whose cases are runs of another program, in any language.
 //!
-//! A case is one resolution. The program is started with it, without a shell. Its answer is the last line of its standard output that is a
-//! JSON object: errors by name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a
-//! one-line reason; none of its processes outlives it.
+//! A case is one resolution. The program is started with it, without a shell. Its answer is the
+//! last line of its standard output that is a JSON object: errors by name, values, its own step,
+//! its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
+//! none of its processes outlives it.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -67,7 +68,8 @@ pub const TEMPLATE: Template = Template {
     next: &["study", "explain"],
 };
 
-/// The project of the program `convergence-study`: studies of any program, in the folder that it runs in.
+/// The project of the program `convergence-study`: studies of any program, in the folder that it
+/// runs in.
 pub const PROJECT: Project = Project {
     kinds: &[ROW],
     templates: &[TEMPLATE],

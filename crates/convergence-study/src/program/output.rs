@@ -88,7 +88,8 @@ fn shown(line: &str) -> String {
     }
 }
 
-/// Calls `each` for every line, and for the text after the last line end, with whether the line is whole. A failing stream has ended.
+/// Calls `each` for every line, and for the text after the last line end, with whether the line is
+/// whole. A failing stream has ended.
 fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
     let mut buffer = [0; 1 << 16];
     let mut line = Vec::new();

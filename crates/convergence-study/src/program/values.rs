@@ -7,7 +7,8 @@ use crate::study::levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinemen
 use crate::study::{Claim, Figure, Outcome, Quantity, Subject, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
 
-/// The findings on the values of a study: the rates of their differences, and the limits in a sentence.
+/// The findings on the values of a study: the rates of their differences, and the limits in a
+/// sentence.
 ///
 /// * `refinements`: one for each of `ran`, with its step.
 pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcome {
@@ -58,7 +59,8 @@ fn name(column: &ErrorColumn) -> String {
     format!("value {}", column.name)
 }
 
-/// `None` if nothing is claimed about the value. A level without a result makes the verdict fail; the estimate uses the others.
+/// `None` if nothing is claimed about the value. A level without a result makes the verdict fail;
+/// the estimate uses the others.
 fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
     let Claim {
         order, tolerance, ..
@@ -89,7 +91,8 @@ fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate
     })
 }
 
-/// The differences of neighbouring levels, each at the finer of its steps, with the lines of their rates.
+/// The differences of neighbouring levels, each at the finer of its steps, with the lines of their
+/// rates.
 fn differences(
     study: &Program,
     estimates: &[(&ErrorColumn, Estimate)],
@@ -134,7 +137,8 @@ const HEAD: [&str; 9] = [
     "GCI's order, factor",
 ];
 
-/// Limit, error bar and grid convergence index of each value with a claimed order, or why they are missing.
+/// Limit, error bar and grid convergence index of each value with a claimed order, or why they are
+/// missing.
 fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
     let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
         let finest = column
@@ -201,7 +205,8 @@ fn width(estimate: &Estimate) -> f64 {
         .map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
 }
 
-/// A number with enough decimals to show two digits of `width`; with an exponent if that takes more than 15.
+/// A number with enough decimals to show two digits of `width`; with an exponent if that takes more
+/// than 15.
 fn digits(value: f64, width: f64) -> String {
     let places = 1.0 - width.log10().floor();
     if (0.0..=15.0).contains(&places) {
@@ -250,7 +255,8 @@ fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table
     Table::new("Values", head, refinements.iter().enumerate().map(row))
 }
 
-/// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates says what is wrong.
+/// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates
+/// says what is wrong.
 fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
     let bar = estimate
         .bar

@@ -1,5 +1,6 @@
-//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the terminal. Then, in Markdown, what differs
-//! from the baseline: claims first and in full, then the worst number of each study.
+//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the
+//! terminal. Then, in Markdown, what differs from the baseline: claims first and in full, then the
+//! worst number of each study.
 
 use std::cmp::Reverse;
 use std::collections::HashSet;
@@ -44,8 +45,8 @@ impl NotPassed {
     }
 }
 
-/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that did not pass because
-/// others did not.
+/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that
+/// did not pass because others did not.
 pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed> {
     in_order(finished).into_iter().map(reasons).collect()
 }
@@ -217,7 +218,8 @@ pub(super) fn html(record: &Record) -> String {
 
 /// The same in plain text; empty if everything passed.
 ///
-/// * `clearest`: the studies to show, with their first reasons; `None` for all studies with all their reasons.
+/// * `clearest`: the studies to show, with their first reasons; `None` for all studies with all
+///   their reasons.
 pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let text = |study: NotPassed| {
         let lines: String = study
@@ -285,8 +287,8 @@ pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     )
 }
 
-/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may be empty, otherwise
-/// it ends with an empty line.
+/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may
+/// be empty, otherwise it ends with an empty line.
 ///
 /// * `link`: a study's id in Markdown, with a link if the text can have one.
 pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Vec<String> {
@@ -376,7 +378,8 @@ fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
         .max_by(|a, b| a.movement.weight().total_cmp(&b.movement.weight()))
 }
 
-/// By how many times its tolerance a number has moved, with two digits; a dash if that is undefined.
+/// By how many times its tolerance a number has moved, with two digits; a dash if that is
+/// undefined.
 fn times(movement: &Movement) -> String {
     let weight = movement.weight();
     if weight == 0.0 || !weight.is_finite() {

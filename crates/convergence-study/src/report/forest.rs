@@ -10,13 +10,15 @@ use crate::text::number::{RATE_PLACES, interval_text, rate_text};
 
 /// The name of its file.
 ///
-/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's figure.
+/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's
+/// figure.
 pub(super) const FILE: &str = "rates.svg";
 
 /// Most rates in the picture.
 const MOST: usize = 10;
 
-/// The judged rates that do not pass, then those whose intervals are the widest, in tolerances; `None` if no rate was judged.
+/// The judged rates that do not pass, then those whose intervals are the widest, in tolerances;
+/// `None` if no rate was judged.
 pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
     let mut rates: Vec<(&str, &str, &RateVerdict)> = finished
         .iter()
@@ -78,7 +80,8 @@ fn row((study, name, rate): (&str, &str, &RateVerdict)) -> ForestRow {
     }
 }
 
-/// Studies by the property they claim, in the project's order of groups; those of unknown groups last.
+/// Studies by the property they claim, in the project's order of groups; those of unknown groups
+/// last.
 pub(super) fn grouped<'f>(
     project: &Project,
     finished: &'f [Finished],

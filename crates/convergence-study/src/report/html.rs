@@ -1,7 +1,8 @@
 //! Markdown of the report as HTML.
 //!
-//! Texts of studies are already escaped in Markdown. If one of them slips through as markup, it stops here: tags that
-//! the report does not write itself are shown as text, and pictures are those of the study.
+//! Texts of studies are already escaped in Markdown. If one of them slips through as markup, it
+//! stops here: tags that the report does not write itself are shown as text, and pictures are those
+//! of the study.
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 

@@ -1,5 +1,5 @@
-//! The section of one study, and the head of the report of a passing run: sentences of the project, one plot, and its
-//! statements, each with the numbers that answer it.
+//! The section of one study, and the head of the report of a passing run: sentences of the project,
+//! one plot, and its statements, each with the numbers that answer it.
 
 use super::Findings;
 use super::html::phrase;
@@ -75,7 +75,8 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
     head + &parts.join("\n")
 }
 
-/// A whole section except heading and claim, nothing left out: verdict in words, tables, figures, and how to run the study again.
+/// A whole section except heading and claim, nothing left out: verdict in words, tables, figures,
+/// and how to run the study again.
 pub(super) fn body(finished: &Finished, again: &str) -> String {
     let Finished {
         header, outcome, ..

@@ -94,7 +94,8 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     }
 }
 
-/// The command that blesses these changes: for the full tier if a study changed that was not run, with a reason if a claim did.
+/// The command that blesses these changes: for the full tier if a study changed that was not run,
+/// with a reason if a claim did.
 ///
 /// * `command`: the command that was run.
 pub fn blessing(
@@ -136,8 +137,8 @@ pub fn can_be_blessed(finished: &[Finished]) -> bool {
         .all(|finished| finished.outcome.verdict == Verdict::Pass)
 }
 
-/// The numbers to read first: the study's own, or the rate that decides against its order; then the failures, and how much was
-/// not judged.
+/// The numbers to read first: the study's own, or the rate that decides against its order; then the
+/// failures, and how much was not judged.
 pub fn key_numbers(outcome: &Outcome) -> String {
     let Outcome {
         headline,
@@ -169,7 +170,8 @@ pub fn key_numbers(outcome: &Outcome) -> String {
     parts.join("; ")
 }
 
-/// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a table has each of them.
+/// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a
+/// table has each of them.
 pub fn summary(outcome: &Outcome) -> String {
     let all_pass = outcome
         .rates
@@ -181,7 +183,8 @@ pub fn summary(outcome: &Outcome) -> String {
     }
 }
 
-/// The rates that do not pass, grouped by reason and claim: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
+/// The rates that do not pass, grouped by reason and claim:
+/// `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
 fn grouped(rates: &[(String, RateVerdict)]) -> String {
     let missed = rates
         .iter()
@@ -202,7 +205,8 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
     groups.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// From the lowest to the highest of several rates, with digits that all of them have in their table.
+/// From the lowest to the highest of several rates, with digits that all of them have in their
+/// table.
 pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
     let known: Vec<(f64, usize)> = rates
         .filter_map(|rate| {

@@ -1,5 +1,5 @@
-//! What a failing run says about its cause: which settings separate failing from passing items, which fields moved
-//! first, which known mistake it resembles, and where to look.
+//! What a failing run says about its cause: which settings separate failing from passing items,
+//! which fields moved first, which known mistake it resembles, and where to look.
 
 mod contrast;
 mod fields;
@@ -26,7 +26,8 @@ const NAMED: usize = 3;
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is named, and no place.
+    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is
+    /// named, and no place.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
     /// Which settings separate failing from passing items.
@@ -244,8 +245,8 @@ fn common_claim<'c>(checks: &[&'c Check]) -> Option<&'c str> {
         .then_some(&first.claim)
 }
 
-/// The quantities of failing checks, each with the number of checks, the commonest first; in the words of the claim if all of
-/// these claim the same.
+/// The quantities of failing checks, each with the number of checks, the commonest first; in the
+/// words of the claim if all of these claim the same.
 fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     let checks = failing
         .iter()
@@ -262,7 +263,8 @@ fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     claims
 }
 
-/// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then studies with failing checks.
+/// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then
+/// studies with failing checks.
 fn clearest(failing: &[&Finished]) -> Vec<String> {
     let distance = |study: &Finished| {
         let missed = study
@@ -286,7 +288,8 @@ fn clearest(failing: &[&Finished]) -> Vec<String> {
         .collect()
 }
 
-/// Moved numbers of passing studies: those of the same field that changed by the same factor have one cause.
+/// Moved numbers of passing studies: those of the same field that changed by the same factor have
+/// one cause.
 fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
     let passing = finished
         .iter()

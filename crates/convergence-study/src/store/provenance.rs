@@ -1,4 +1,5 @@
-//! Where a record comes from: machine, tools, revision and times. Everything that varies between two runs is here.
+//! Where a record comes from: machine, tools, revision and times. Everything that varies between
+//! two runs is here.
 
 use std::path::Path;
 use std::process::Command;

@@ -1,4 +1,5 @@
-//! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in one way.
+//! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in
+//! one way.
 
 use super::levels::{Claim, summary};
 #[cfg(feature = "reports")]
@@ -27,7 +28,8 @@ pub struct GridColumn {
     pub space: Claim,
     /// The order in dt.
     pub time: f64,
-    /// The errors, for each point of the grid; NaN without a result: the fit then uses the others, and a check fails.
+    /// The errors, for each point of the grid; NaN without a result: the fit then uses the others,
+    /// and a check fails.
     pub errors: Vec<f64>,
 }
 
@@ -40,14 +42,15 @@ pub struct Grid {
     pub times: usize,
     /// The errors.
     pub columns: Vec<GridColumn>,
-    /// Whether theory says that the squares of the contributions of space and time add, which are then orthogonal; otherwise it is
-    /// not known, and they or their squares are taken to add, whichever describes the errors better.
+    /// Whether theory says that the squares of the contributions of space and time add, which are
+    /// then orthogonal; otherwise it is not known, and they or their squares are taken to add,
+    /// whichever describes the errors better.
     pub squares_add: bool,
 }
 
 impl Grid {
-    /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by [`judge::grid`](crate::judge::grid); for each error a check
-    /// of how the contributions add.
+    /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
+    /// [`judge::grid`](crate::judge::grid); for each error a check of how the contributions add.
     pub fn judge(&self) -> Outcome {
         let [h, dt] = self.steps();
         if let Some(different) = self.off_grid(&h, &dt) {
@@ -147,7 +150,8 @@ impl Grid {
     }
 
     #[cfg(feature = "reports")]
-    /// Each error over the mesh width, with a line for each time step, as a picture `over-h-<name>.svg`.
+    /// Each error over the mesh width, with a line for each time step, as a picture
+    /// `over-h-<name>.svg`.
     ///
     /// * `label`: an error, by its name, as the vertical axis shows it.
     pub fn figures(&self, label: impl Fn(&str) -> String) -> Vec<Figure> {

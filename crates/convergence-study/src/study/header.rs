@@ -1,5 +1,5 @@
-//! The table `[study]`, which every kind of study file has; and the settings that a judged item exercises, pairs of text by which a
-//! diagnosis separates failing from passing items.
+//! The table `[study]`, which every kind of study file has; and the settings that a judged item
+//! exercises, pairs of text by which a diagnosis separates failing from passing items.
 
 use super::subject::Subject;
 
@@ -48,8 +48,9 @@ pub struct Header {
     /// The group under which reports list the study, by the property claimed; by default the kind.
     #[serde(default)]
     pub group: String,
-    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of `input::Section::settings`: the
-    /// baseline keeps them, so that no claim changes unnoticed. Empty for a study without a file.
+    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of
+    /// `input::Section::settings`: the baseline keeps them, so that no claim changes unnoticed.
+    /// Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
 }
@@ -57,7 +58,8 @@ pub struct Header {
 impl Header {
     /// The header of a study without a file: of the quick tier, of the kind `convergence`.
     ///
-    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part of file names.
+    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part
+    ///   of file names.
     /// * `claim`: one line of text.
     pub fn new(id: impl Into<String>, claim: impl Into<String>) -> Self {
         Self {
@@ -83,7 +85,8 @@ pub fn is_name(text: &str) -> bool {
         && text.chars().all(|c| plain(c) || c == '.' || c == '-')
 }
 
-/// A setting: its key, and its value in words that can stand alone, such as `axis` and `refined in space`.
+/// A setting: its key, and its value in words that can stand alone, such as `axis` and
+/// `refined in space`.
 pub type Setting = (String, String);
 
 /// The settings that an item exercises, by the header of its study and what it is about.
@@ -97,7 +100,8 @@ pub fn study(header: &Header) -> Setting {
     (STUDY.to_owned(), format!("{} alone", header.id))
 }
 
-/// The settings of an item that exist in any project: study, kind, field, and every value of the study's file.
+/// The settings of an item that exist in any project: study, kind, field, and every value of the
+/// study's file.
 ///
 /// * `subject`: what the item is about; its quantity is known.
 pub fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {

@@ -1,4 +1,5 @@
-//! A kind of study: typed for its author, erased for the runner; its computations, and the result of each or the reason why it is missing.
+//! A kind of study: typed for its author, erased for the runner; its computations, and the result
+//! of each or the reason why it is missing.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -13,7 +14,8 @@ use crate::text::lists::{and_more, grouped};
 pub struct Case<D> {
     /// What distinguishes it from the study's other cases, such as `n = 64, 20 steps`.
     pub label: String,
-    /// Estimate of the work, in a unit common to all studies of a project: the runner starts with the costliest case.
+    /// Estimate of the work, in a unit common to all studies of a project: the runner starts with
+    /// the costliest case.
     pub cost: f64,
     /// The input of the computation.
     pub data: D,
@@ -46,12 +48,14 @@ impl<D, F> Ran<D, F> {
     }
 }
 
-/// Why a case has no result: an error of the computation, a panic caught by the runner, or the time limit.
+/// Why a case has no result: an error of the computation, a panic caught by the runner, or the time
+/// limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseFailure {
     /// In words, with step, time and numbers.
     pub reason: String,
-    /// What to do about it, which a study says once, with its first case that has any; may be empty.
+    /// What to do about it, which a study says once, with its first case that has any; may be
+    /// empty.
     pub advice: String,
 }
 
@@ -86,7 +90,8 @@ pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
     failures.into_iter().enumerate().map(reason).collect()
 }
 
-/// Cases without a result in words, `label: reason`; those with the same reason share one line, which counts them.
+/// Cases without a result in words, `label: reason`; those with the same reason share one line,
+/// which counts them.
 ///
 /// * `failed`: label and reason of each.
 pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
@@ -99,7 +104,8 @@ pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>
 
 /// A study of one kind, read and validated: its cases, how to compute one, how to judge all.
 ///
-/// A case is a pure function of its data, so the study has the same outcome for any number of threads.
+/// A case is a pure function of its data, so the study has the same outcome for any number of
+/// threads.
 pub trait Kind: Send + Sync {
     /// The input of a case.
     type Data: Clone + Send + Sync;
@@ -109,8 +115,8 @@ pub trait Kind: Send + Sync {
     /// The computations, in the order in which they are judged.
     fn cases(&self) -> Vec<Case<Self::Data>>;
 
-    /// Another case after all earlier ones have run, such as a finer level while the rates decide nothing; called
-    /// repeatedly until it returns `None`.
+    /// Another case after all earlier ones have run, such as a finer level while the rates decide
+    /// nothing; called repeatedly until it returns `None`.
     ///
     /// * `ran`: all results so far, in the order of the cases.
     fn more(&self, _ran: &[Ran<Self::Data, Self::Found>]) -> Option<Case<Self::Data>> {
@@ -120,12 +126,14 @@ pub trait Kind: Send + Sync {
     /// Computes one case: the same result on every thread, at every time.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Why a result counts as a failed case although part of it counts: a required number is missing. `None` for a complete one.
+    /// Why a result counts as a failed case although part of it counts: a required number is
+    /// missing. `None` for a complete one.
     fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
         None
     }
 
-    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
+    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must
+    /// show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
     /// What this study does, for `explain`: paragraphs, each with its title.
@@ -133,7 +141,8 @@ pub trait Kind: Send + Sync {
         vec![]
     }
 
-    /// What a passing study fails to test, found by trial; only `study` requests it, because it may take longer than the study.
+    /// What a passing study fails to test, found by trial; only `study` requests it, because it may
+    /// take longer than the study.
     fn untested(&self) -> Vec<Untested> {
         vec![]
     }
@@ -241,7 +250,8 @@ pub trait Plan: Send + Sync {
     /// Label and cost of each case.
     fn cases(&self) -> Vec<Case<()>>;
 
-    /// Adds the case that [`Kind::more`] requests after all others have run; its number, or `None` if there are enough.
+    /// Adds the case that [`Kind::more`] requests after all others have run; its number, or `None`
+    /// if there are enough.
     fn more(&self) -> Option<usize>;
 
     /// Runs case number `index` and keeps its result.

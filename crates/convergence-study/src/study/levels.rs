@@ -1,4 +1,5 @@
-//! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all kinds of study.
+//! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
+//! kinds of study.
 
 #[cfg(feature = "reports")]
 use std::ops::Range;
@@ -21,8 +22,8 @@ use crate::text::number::{
 #[cfg(feature = "reports")]
 const LINES: &str = " Lines: the rates observed, each through the finest error that it uses.";
 
-/// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by at
-/// most 1e-8, a change of the computation by more.
+/// Relative change of an error that the baseline tolerates: another processor or mathematical
+/// library changes it by at most 1e-8, a change of the computation by more.
 pub const ERROR_TOLERANCE: f64 = 1e-6;
 
 /// The same for an observed rate.
@@ -88,7 +89,8 @@ pub struct ErrorColumn {
 }
 
 impl ErrorColumn {
-    /// A column for every error claimed or found: claimed ones first, then the others in order of occurrence.
+    /// A column for every error claimed or found: claimed ones first, then the others in order of
+    /// occurrence.
     ///
     /// * `found`: the errors of each level by name, coarse to fine; `None` if the case failed.
     pub fn of<N: AsRef<str>, M: AsRef<str>>(
@@ -161,7 +163,8 @@ pub struct Levels {
     pub refinements: Vec<Refinement>,
     /// The errors.
     pub columns: Vec<ErrorColumn>,
-    /// Fine levels with errors up to this one are not used: a thousand times the round-off, where that is known.
+    /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
+    /// that is known.
     pub floor: f64,
     /// What errors are about, by their names, where that is more than the name.
     pub subjects: Vec<(String, Subject)>,
@@ -244,7 +247,8 @@ impl Levels {
             .collect()
     }
 
-    /// One verdict for each error with a claimed order. A level without a result makes it fail; the rate is that of the others.
+    /// One verdict for each error with a claimed order. A level without a result makes it fail; the
+    /// rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
         let labels: Vec<&str> = self
             .refinements
@@ -259,7 +263,8 @@ impl Levels {
         let verdict = |column: &ErrorColumn| {
             let claim = column.claim?;
             let points = self.points(column);
-            // No verdict can be based on such a tolerance; readers of study files have already refused it.
+            // No verdict can be based on such a tolerance; readers of study files have already
+            // refused it.
             let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
             let judged = judge.map(|judge| claim.judge(&judge, &points));
             let judged =
@@ -284,10 +289,12 @@ impl Levels {
     }
 
     #[cfg(feature = "reports")]
-    /// The judged errors, each with the line of its rate if that is known, and triangles for the orders claimed.
+    /// The judged errors, each with the line of its rate if that is known, and triangles for the
+    /// orders claimed.
     ///
     /// * `subject`: what has these errors, for the title, which says what one should see.
-    /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there are any.
+    /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there
+    ///   are any.
     pub fn figure(
         &self,
         what: &str,
@@ -360,7 +367,8 @@ impl Levels {
             .with_subjects(self.subjects.clone())
     }
 
-    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
+    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and
+    /// the figure `what`.
     ///
     /// * `subject`, `caption`: as in [`figure`](Self::figure).
     pub fn outcome(
@@ -452,7 +460,8 @@ pub fn rate_quantities(
     })
 }
 
-/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide nothing.
+/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
+/// nothing.
 pub fn rate_table(title: &str, rates: &Rates) -> Table {
     let row = |(name, rate): &(String, RateVerdict)| {
         let pairwise: Vec<String> = rate
@@ -495,7 +504,8 @@ fn rate_in(rate: &RateVerdict) -> String {
     }
 }
 
-/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with its reason.
+/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with
+/// its reason.
 pub fn summary(rates: &Rates) -> String {
     let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
     let shown = rates

@@ -1,8 +1,9 @@
 //! A study: what it claims, its cases, and what it found.
 //!
-//! A study is a TOML file: data. Its [`Kind`] says what its cases are (pure computations, run on any thread in any
-//! order) and how their results become an [`Outcome`]: checks with verdicts, rates, tables, figures, and the numbers
-//! that the baseline guards. Only the runner uses threads, and only the report writes Markdown.
+//! A study is a TOML file: data. Its [`Kind`] says what its cases are (pure computations, run on
+//! any thread in any order) and how their results become an [`Outcome`]: checks with verdicts,
+//! rates, tables, figures, and the numbers that the baseline guards. Only the runner uses threads,
+//! and only the report writes Markdown.
 
 pub mod coverage;
 mod errors_over_levels;

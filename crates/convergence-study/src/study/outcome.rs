@@ -1,7 +1,8 @@
 //! The findings of a study: studies of every kind reach record, baseline and report in this form.
 //!
-//! Requirements on every outcome, whatever the kind of study: its verdict is not better than those of its rates and checks, nothing
-//! passes on numbers that are not finite, and names used as keys by record, baseline and report are unique.
+//! Requirements on every outcome, whatever the kind of study: its verdict is not better than those
+//! of its rates and checks, nothing passes on numbers that are not finite, and names used as keys
+//! by record, baseline and report are unique.
 
 use std::collections::HashSet;
 
@@ -18,7 +19,8 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
-    /// What the summary says after the rates, if these sum up the study; `None` if it is in the study's own words.
+    /// What the summary says after the rates, if these sum up the study; `None` if it is in the
+    /// study's own words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub after_rates: Option<String>,
     /// The numbers to read first, in a few words; empty if the rates are the claim.
@@ -194,7 +196,8 @@ impl Table {
 /// A picture.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Figure {
-    /// File name without folder: `<what>.svg`, and `<id>-<what>.svg` once the study's outcome is settled.
+    /// File name without folder: `<what>.svg`, and `<id>-<what>.svg` once the study's outcome is
+    /// settled.
     pub file: String,
     /// What the figure shows, in a sentence: caption and alternative text.
     pub caption: String,
@@ -427,8 +430,9 @@ impl Outcome {
     }
 }
 
-/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a failing check if it does not
-/// meet the requirements. Its summary says how many items were not judged, if any.
+/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
+/// failing check if it does not meet the requirements. Its summary says how many items were not
+/// judged, if any.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     outcome
         .figures

@@ -1,4 +1,5 @@
-//! Numbers that a case finds, each declared once: shown in tables, checked for NaN, guarded by the baseline.
+//! Numbers that a case finds, each declared once: shown in tables, checked for NaN, guarded by the
+//! baseline.
 
 use super::outcome::{Quantity, Table};
 use super::subject::Subject;

@@ -1,8 +1,9 @@
-//! Levels until there is a decision: a study begins with four and adds the next finer one while its rates decide
-//! nothing, another level can help, and its cost fits the budget.
+//! Levels until there is a decision: a study begins with four and adds the next finer one while its
+//! rates decide nothing, another level can help, and its cost fits the budget.
 //!
-//! Looking again causes few wrong passes: the rule stands by its interval at every look, and a wrong claim fails at one
-//! of them. `rule-calibration` has a row that measures this. A limit on the number of levels keeps it so.
+//! Looking again causes few wrong passes: the rule stands by its interval at every look, and a
+//! wrong claim fails at one of them. `rule-calibration` has a row that measures this. A limit on
+//! the number of levels keeps it so.
 
 #[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
@@ -53,7 +54,8 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     }
 }
 
-/// The same with time as cost: the next level takes longer by the same factor as the last one did, and by at least two.
+/// The same with time as cost: the next level takes longer by the same factor as the last one did,
+/// and by at least two.
 ///
 /// * `seconds`: time of each level; at least two.
 pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
@@ -69,8 +71,8 @@ pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
     )
 }
 
-/// The outcome of a study that adds levels: it says how the study ended, and guards only its first levels, because
-/// another machine may afford others.
+/// The outcome of a study that adds levels: it says how the study ended, and guards only its first
+/// levels, because another machine may afford others.
 pub fn ended(
     mut outcome: Outcome,
     next: Next,
@@ -151,7 +153,8 @@ pub fn is_auto(field: &Field<'_>) -> bool {
 /// * `allowed`: what a budget may be, in words.
 ///
 /// # Errors
-/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`, or a budget without it.
+/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`,
+/// or a budget without it.
 #[cfg(feature = "files")]
 pub fn budget(
     section: &Section<'_>,

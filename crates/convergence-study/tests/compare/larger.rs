@@ -62,7 +62,8 @@ fn noise_and_errors_at_the_floor_differ_from_nothing() {
         )
     };
     assert_eq!(compared(0.1).change, Shift::Same, "{:?}", compared(0.1));
-    // Errors at the same step are deterministic: with 3 % of scatter some have changed by more than 1 %.
+    // Errors at the same step are deterministic: with 3 % of scatter some have changed by more than
+    // 1 %.
     assert_eq!(found(&compared(WITHIN)), [("L2", Shift::Worse)]);
 }
 
@@ -107,7 +108,8 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
         compared(unclaimed(before), unclaimed([1.009; 6])).change,
         Shift::Same
     );
-    // A claim whose interval has become too wide: two finest errors 1.5 times, or the finest 3 times larger.
+    // A claim whose interval has become too wide: two finest errors 1.5 times, or the finest 3
+    // times larger.
     for factor in [1.5, 3.0] {
         let larger = |h: f64| smooth(1.0, 2.0)(h) * if h < 0.01 { factor } else { 1.0 };
         let new = study("a", &COUNTS, larger, smooth(3.0, 1.0));
@@ -155,7 +157,8 @@ fn no_error_is_too_small_to_be_compared() {
     }
 }
 
-/// Round-off is another on another machine: a study that states its floor has set those levels aside.
+/// Round-off is another on another machine: a study that states its floor has set those levels
+/// aside.
 #[test]
 fn levels_at_the_floor_of_the_study_are_not_compared() {
     let with_floor = |floor: f64, round_off: f64| {

@@ -1,4 +1,5 @@
-//! Laws that every figure obeys, whatever its data: for the generic figures here and for those of other crates of the workspace.
+//! Laws that every figure obeys, whatever its data: for the generic figures here and for those of
+//! other crates of the workspace.
 
 use convergence_study::plots::style;
 use roxmltree::{Document, Node};
@@ -26,7 +27,8 @@ pub(crate) fn number(node: Node<'_, '_>, attribute: &str) -> f64 {
         .unwrap_or_else(|| panic!("{attribute} in {node:?}"))
 }
 
-/// Left, top, right, bottom of a text in page units; widths a tenth below those of the layout, which are generous.
+/// Left, top, right, bottom of a text in page units; widths a tenth below those of the layout,
+/// which are generous.
 pub(crate) fn bounds(node: Node<'_, '_>) -> [f64; 4] {
     let size = number(node, "font-size");
     let width = 0.9 * style::text_width(node.text().unwrap_or("").trim(), size);
@@ -164,7 +166,8 @@ pub(crate) fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most
     }
 }
 
-/// What distinguishes the sample of a legend's entry from the others: shapes, colours and dashes, without positions.
+/// What distinguishes the sample of a legend's entry from the others: shapes, colours and dashes,
+/// without positions.
 fn sample(entry: Node<'_, '_>) -> Vec<String> {
     let shapes = entry
         .descendants()

@@ -263,7 +263,8 @@ fn a_spike_in_a_long_history_is_drawn() {
     let highest = heights
         .filter_map(|p| p.split_once(',')?.1.parse::<f64>().ok())
         .fold(f64::INFINITY, f64::min);
-    // The top of the plot is 48 px down the page, and 1/22 of the plot's 430 px stays free above the data.
+    // The top of the plot is 48 px down the page, and 1/22 of the plot's 430 px stays free above
+    // the data.
     assert!(highest < UNITS * (48.0 + 430.0 / 20.0), "{highest}");
 }
 
@@ -538,7 +539,8 @@ fn lines_that_coincide_are_noted_whatever_the_points_that_draw_them() {
             .any(|text| text == "fine and coarse coincide")
     };
     assert!(note(sampled(150, &wave)));
-    // A different curve, one that ends early, and one with the right points but wrong lines between them.
+    // A different curve, one that ends early, and one with the right points but wrong lines between
+    // them.
     assert!(!note(sampled(150, &|t| wave(t) + 0.05)));
     assert!(!note(sampled(150, &wave)[..130].to_vec()));
     assert!(!note(sampled(8, &wave)));

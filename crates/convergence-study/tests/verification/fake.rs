@@ -32,7 +32,8 @@ pub(crate) enum Does {
     Fail,
     /// First order, but the second case panics.
     Panic,
-    /// First order, but the second case runs until its time limit stops it, and then returns its error regardless.
+    /// First order, but the second case runs until its time limit stops it, and then returns its
+    /// error regardless.
     Dawdle,
     /// Judging the results panics.
     PanicAtTheEnd,

@@ -1,4 +1,5 @@
-//! From studies to reports: runner, baseline, record, report and its files, with studies of a prescribed behaviour.
+//! From studies to reports: runner, baseline, record, report and its files, with studies of a
+//! prescribed behaviour.
 
 mod baseline;
 mod browser;

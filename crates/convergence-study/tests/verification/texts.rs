@@ -1,4 +1,5 @@
-//! The wording of findings decides nothing: verdicts, order, diagnosis and comparison are those of the data next to it.
+//! The wording of findings decides nothing: verdicts, order, diagnosis and comparison are those of
+//! the data next to it.
 
 use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::report::not_passed;
@@ -36,7 +37,8 @@ impl Words {
     }
 }
 
-/// Studies with failing rates, checks and cases, checks of several cases, and a check of other studies.
+/// Studies with failing rates, checks and cases, checks of several cases, and a check of other
+/// studies.
 fn failing() -> Vec<Finished> {
     let mut studies = finished(vec![
         study("a-controls", Does::Converge),

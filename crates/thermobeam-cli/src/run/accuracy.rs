@@ -1,4 +1,5 @@
-//! `run SCENE --target-error E` and `--estimate-error`: a run chosen by its error, and the error of a run.
+//! `run SCENE --target-error E` and `--estimate-error`: a run chosen by its error, and the error of
+//! a run.
 
 use clap::ValueEnum;
 use convergence_study::cli::{exit, running};

@@ -116,7 +116,8 @@ fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
     }
 }
 
-/// Scenes whose steps are far from solved, and what is found: an open balance by the midpoint rule, a rise by dG.
+/// Scenes whose steps are far from solved, and what is found: an open balance by the midpoint rule,
+/// a rise by dG.
 pub(super) const UNSOLVED: [(&str, &str); 2] = [
     (
         "[beam]\nrho = 5000.0\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\nt_end = 10.0\n\

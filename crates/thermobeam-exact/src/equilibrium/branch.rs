@@ -6,18 +6,22 @@ use super::scan::{Position, Root};
 use super::shape::Shape;
 use super::{BUCKLING_VALUES, Equilibrium, EquilibriumError, Phase};
 
-/// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its terms.
+/// Tolerance of `N = β + ρ‖u'‖²` in a returned state, relative to one plus the largest of its
+/// terms.
 const CONSISTENCY: f64 = 1e-9;
 
-/// For ρ = 0: a determinant smaller than this, relative to the sum of its terms, is zero to round-off.
+/// For ρ = 0: a determinant smaller than this, relative to the sum of its terms, is zero to
+/// round-off.
 const RESONANCE: f64 = 1e-13;
 
-/// Whether a state with this N is returned: an interval above N = -1 is omitted, see [`super::equilibria`].
+/// Whether a state with this N is returned: an interval above N = -1 is omitted, see
+/// [`super::equilibria`].
 fn is_listed(n_value: f64) -> bool {
     n_value <= -1.0 || 1.0 + n_value > free_buckling(BUCKLING_VALUES + 1)
 }
 
-/// One state of contact: its law, and the solutions of that law, whether or not they press the obstacle.
+/// One state of contact: its law, and the solutions of that law, whether or not they press the
+/// obstacle.
 pub(super) struct Branch {
     /// The state of contact.
     pub(super) contact: Phase,
@@ -82,7 +86,8 @@ impl Branch {
         self.state(self.law.beta, Shape::line(0.0), unstable, at_bifurcation)
     }
 
-    /// Without load: the straight state, and a pair of buckled states at each buckling value above β.
+    /// Without load: the straight state, and a pair of buckled states at each buckling value above
+    /// β.
     fn straight_and_buckled(&self) -> Result<Vec<Equilibrium>, EquilibriumError> {
         // With a support at 0 the straight beam touches without pressing: the free law returns it.
         let mut states = if self.law.support.is_none() {
@@ -312,8 +317,8 @@ mod tests {
         }
     }
 
-    /// A determinant counts as zero below 1e-13 of the sum of the sizes of its terms, and N as a pole within 1e-13 of
-    /// it.
+    /// A determinant counts as zero below 1e-13 of the sum of the sizes of its terms, and N as a
+    /// pole within 1e-13 of it.
     #[test]
     fn resonance_is_detected_to_round_off() {
         let is_resonant = |beta: f64, support: Option<Support>| {

@@ -1,8 +1,9 @@
 //! Whether the list of steady states is complete.
 //!
-//! The list lacks only states with 0 < s < s*, where s = 1 + N and s* is the last free buckling value searched. Such a
-//! state is a root of `f(s) = s - (1 + β) - ρS(s)`, S = ‖u'‖², so there is none if `ρS >= s* - (1 + β)` for all these s.
-//! With D = aθ_A, k² = (1 - s)/s, τ = tan(k)/k and b = s - εs(1 - s), the law of the state gives
+//! The list lacks only states with 0 < s < s*, where s = 1 + N and s* is the last free buckling
+//! value searched. Such a state is a root of `f(s) = s - (1 + β) - ρS(s)`, S = ‖u'‖², so there is
+//! none if `ρS >= s* - (1 + β)` for all these s. With D = aθ_A, k² = (1 - s)/s, τ = tan(k)/k and
+//! b = s - εs(1 - s), the law of the state gives
 //!
 //! ```text
 //! u' = A (cos(k(1 - x))/cos k - s) - D,      u(1) = A (τ - s) - D,      S = u(1)² + A² V(τ),
@@ -10,13 +11,15 @@
 //! A = D/(1 - s) without a support,           A = G/(τ - b),  G = g + D (1 + εs),  with one at g.
 //! ```
 //!
-//! *Without a support* the least S over τ is `D² (3/2 - 9/(8k²))/(1 - s)²`, at least 3/2 D². It is reached between any two
-//! buckling values and tends to 3/2 D² for s → 0, so that for 1 + β + 3/2 ρD² < 0 infinitely many intervals have roots.
-//! There u(1) → -D: only obstacles with g₁ <= -D <= g₂ admit these states. Without a load, D = 0, the pairs of bent states
-//! at all N_k > β are states, and u(1) → 0.
+//! *Without a support* the least S over τ is `D² (3/2 - 9/(8k²))/(1 - s)²`, at least 3/2 D². It is
+//! reached between any two buckling values and tends to 3/2 D² for s → 0, so that for 1 + β + 3/2
+//! ρD² < 0 infinitely many intervals have roots. There u(1) → -D: only obstacles with g₁ <= -D <=
+//! g₂ admit these states. Without a load, D = 0, the pairs of bent states at all N_k > β are
+//! states, and u(1) → 0.
 //!
-//! *With a support* the least quotient `V(τ)/(τ - b)²` over τ is `(k² - 9/4)/(4 V(b))`, so S is at least G² times that: it
-//! grows like (g + D)²/(2s) for s → 0, and the number of states is finite unless g = -D.
+//! *With a support* the least quotient `V(τ)/(τ - b)²` over τ is `(k² - 9/4)/(4 V(b))`, so S is at
+//! least G² times that: it grows like (g + D)²/(2s) for s → 0, and the number of states is finite
+//! unless g = -D.
 
 use super::law::{Law, Support, free_buckling};
 use super::{BUCKLING_VALUES, laws};
@@ -36,7 +39,8 @@ pub enum Completeness {
 
 /// Whether [`equilibria`](super::equilibria) returns every steady state.
 ///
-/// [`Completeness::Complete`] and [`Completeness::Infinite`] are proven; the list is complete for every β > -0.9996.
+/// [`Completeness::Complete`] and [`Completeness::Infinite`] are proven; the list is complete for
+/// every β > -0.9996.
 pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness {
     let last = free_buckling(BUCKLING_VALUES + 1);
     let moment = beam.a * beam.theta_a;

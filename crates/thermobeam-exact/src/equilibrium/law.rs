@@ -6,8 +6,8 @@ use thermobeam::bracket::bisect;
 
 /// Axial force and load of the beam, and support of its tip.
 ///
-/// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in compression: the caller
-/// checks whether the state presses the obstacle.
+/// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in
+/// compression: the caller checks whether the state presses the obstacle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Law {
     /// The thermal moment aθ_A.
@@ -70,8 +70,8 @@ impl Law {
         }
     }
 
-    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first for α without a
-    /// support.
+    /// Determinant of the two conditions `φ(0) = 0` and `εc + u(1) = g` for (α, c); of the first
+    /// for α without a support.
     pub(super) fn determinant(&self, q: f64) -> f64 {
         use crate::stumpff::{c0, c1, c2, c3};
         let x = q - 1.0;
@@ -110,11 +110,12 @@ impl Law {
         }
     }
 
-    /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is singular; k counts from
-    /// 1.
+    /// `1 + N` at the k-th buckling value of this law above N = -1, where the linear problem is
+    /// singular; k counts from 1.
     ///
-    /// A support adds a stiffness of rank one, so its values interlace with those without: the k-th lies strictly
-    /// between the k-th and the (k+1)-st of the free beam, strictly because u(1) ≠ 0 in every free buckling mode.
+    /// A support adds a stiffness of rank one, so its values interlace with those without: the k-th
+    /// lies strictly between the k-th and the (k+1)-st of the free beam, strictly because u(1) ≠ 0
+    /// in every free buckling mode.
     pub(super) fn buckling(&self, k: usize) -> f64 {
         if self.support.is_none() {
             return free_buckling(k);
@@ -129,7 +130,8 @@ impl Law {
     pub(super) fn buckling_below_minus_one(&self) -> Option<f64> {
         let Support { epsilon, .. } = self.support?;
         let excess = |s: f64| epsilon + flexibility(1.0 / s);
-        // The flexibility is about 1/s for large -s and -1/√-s near s = 0: the two ends bracket the root.
+        // The flexibility is about 1/s for large -s and -1/√-s near s = 0: the two ends bracket the
+        // root.
         let far = -4.0 - 4.0 / epsilon;
         let near = -1e-3 * (1.0 + epsilon).powi(-2);
         Some(bisect(excess, far, near))
@@ -163,7 +165,8 @@ impl Law {
         }
     }
 
-    /// Sign of the mode in the solution just above the buckling value s; just below it is the opposite.
+    /// Sign of the mode in the solution just above the buckling value s; just below it is the
+    /// opposite.
     pub(super) fn sign_above(&self, s: f64) -> f64 {
         let step = 1e-6 * s.abs();
         let (numerator, slope) = if s > 0.0 {

@@ -7,7 +7,8 @@ const SECTIONS: usize = 90;
 
 /// Golden section search for the maximum of a unimodal function f between `lo` and `hi`.
 ///
-/// * Returns the point and f there. Near a smooth maximum the point has an error of √ε, the value one of ε.
+/// * Returns the point and f there. Near a smooth maximum the point has an error of √ε, the value
+///   one of ε.
 pub(super) fn maximize(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let at = |x: f64| (x, f(x));

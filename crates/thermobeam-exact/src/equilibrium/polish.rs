@@ -1,12 +1,12 @@
 //! Newton's method on the pole-free system for (N, α, c), from an approximate state.
 //!
-//! The f of the scan has poles: near a pole, the distance to it, and with it the amplitude, has a relative error of
-//! round-off divided by that distance. The three conditions
+//! The f of the scan has poles: near a pole, the distance to it, and with it the amplitude, has a
+//! relative error of round-off divided by that distance. The three conditions
 //!
 //! `φ(0) = 0`, `εc + u(1) = g` (or c = 0), `N = β + ρ‖u'‖²`
 //!
-//! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below N = -1 the shape
-//! satisfies φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
+//! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below
+//! N = -1 the shape satisfies φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
 
 use super::law::{Law, Support};
 use super::shape::Shape;
@@ -14,7 +14,8 @@ use super::shape::Shape;
 /// Iteration limit; the convergence is quadratic up to the error of the difference quotients.
 const STEPS: usize = 12;
 
-/// Relative step of the central differences, which are exact in α and c: the conditions are quadratic in them.
+/// Relative step of the central differences, which are exact in α and c: the conditions are
+/// quadratic in them.
 const DIFFERENCE: f64 = 1e-5;
 
 /// A larger first relative step indicates a fold, where the result of the scan is more accurate.

@@ -1,31 +1,35 @@
 //! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, and a proof that none is missed.
 //!
-//! Write the law as `(B + N K) w = ℓ`, with B the elastic form (support included, positive definite) and K that of
-//! ‖u'‖². In the eigenbasis of K against B,
+//! Write the law as `(B + N K) w = ℓ`, with B the elastic form (support included, positive
+//! definite) and K that of ‖u'‖². In the eigenbasis of K against B,
 //!
 //! `S(N) = ‖u'‖² = Σ_j a_j / (N - N_j)²`, a_j >= 0,
 //!
-//! whose poles are the buckling values N_j (in general an integral over the spectrum, which apart from the N_j is the
-//! point N = -1). So S is convex and f strictly concave between neighbouring poles:
+//! whose poles are the buckling values N_j (in general an integral over the spectrum, which apart
+//! from the N_j is the point N = -1). So S is convex and f strictly concave between neighbouring
+//! poles:
 //!
 //! * above the largest pole S decreases and f increases to ∞: exactly one root;
 //! * between two poles: none, two, or one double root, decided by the maximum of f;
-//! * in an interval below N = -1: the same. Next to -1, S stays finite for the free law and for a support at -aθ_A:
-//!   there exactly one root if f(-1⁻) > 0. For any other support S → ∞, and the interval is like the others;
+//! * in an interval below N = -1: the same. Next to -1, S stays finite for the free law and for a
+//!   support at -aθ_A: there exactly one root if f(-1⁻) > 0. For any other support S → ∞, and the
+//!   interval is like the others;
 //! * below β: none, since ρS >= 0.
 //!
-//! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ b bᵀ, so by
-//! Sylvester's law it has as many negative directions as there are poles above N, less one if f' = 1 - ρS' < 0.
+//! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ
+//! b bᵀ, so by Sylvester's law it has as many negative directions as there are poles above N, less
+//! one if f' = 1 - ρS' < 0.
 
 use super::law::Law;
 use super::maximum::maximize;
 use std::cmp::Ordering;
 use thermobeam::bracket::bisect;
 
-/// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead of N.
+/// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead
+/// of N.
 ///
-/// Large against round-off, so that the sign of f is certain at this distance, and small enough that the pole's N gives
-/// the amplitude to eleven digits.
+/// Large against round-off, so that the sign of f is certain at this distance, and small enough
+/// that the pole's N gives the amplitude to eleven digits.
 const POLE_GAP: f64 = 1e-11;
 
 /// Bound on |max f| for a double root, in units of the largest term of f.
@@ -39,7 +43,8 @@ const MINUS_ONE_GAP: f64 = 1e-14;
 pub(super) enum Position {
     /// At this `s = 1 + N`.
     Between(f64),
-    /// Within round-off of the buckling value s: the solution is the mode with an amplitude of this sign.
+    /// Within round-off of the buckling value s: the solution is the mode with an amplitude of this
+    /// sign.
     Buckling(f64, f64),
 }
 
@@ -278,7 +283,8 @@ mod tests {
         }
     }
 
-    /// At a fold the maximum of f is zero; the tolerance is 32 units of round-off of the sum of its terms.
+    /// At a fold the maximum of f is zero; the tolerance is 32 units of round-off of the sum of its
+    /// terms.
     #[test]
     fn zero_one_and_two_roots_are_distinguished_to_round_off() {
         for (law, rho) in laws().into_iter().zip([6.0, 4.0, 3.0, 20.0]) {

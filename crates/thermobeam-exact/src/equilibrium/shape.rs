@@ -2,12 +2,15 @@
 
 use crate::stumpff::{c0, c1, c2, c3, c5};
 
-/// A solution of the static equations in the interior and at x = 1; notation as in [`super`], y = 1 - x.
+/// A solution of the static equations in the interior and at x = 1; notation as in [`super`], y =
+/// 1 - x.
 ///
-/// * N > -1: `φ = α c_0(Xy²) - d y² c_2(Xy²)` with X = q - 1. Entire in q: N = 0 and the buckling values are no special cases.
-/// * N < -1: `φ = d (1 - cosh ky / cosh k) / k²` with k² = 1 - q > 1. It satisfies φ(0) = 0. Only ratios of hyperbolic
-///   functions occur, so k may be arbitrarily large.
-/// * q = ∞, N = -1: the line `u = -aθ_A x` with φ = 0 and c = 0. Without load it is the straight beam, for every N.
+/// * N > -1: `φ = α c_0(Xy²) - d y² c_2(Xy²)` with X = q - 1. Entire in q: N = 0 and the buckling
+///   values are no special cases.
+/// * N < -1: `φ = d (1 - cosh ky / cosh k) / k²` with k² = 1 - q > 1. It satisfies φ(0) = 0. Only
+///   ratios of hyperbolic functions occur, so k may be arbitrarily large.
+/// * q = ∞, N = -1: the line `u = -aθ_A x` with φ = 0 and c = 0. Without load it is the straight
+///   beam, for every N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shape {
     /// `q = 1 / (1 + N)`.
@@ -52,8 +55,8 @@ impl Shape {
 
     /// `q/k²`: for N < -1, `u' = (q/k²) (aθ_A + c - d cosh ky / cosh k)`.
     ///
-    /// In `u' = q (φ + c)` the stress would cancel near N = -1, where it dominates φ; here it is cancelled
-    /// analytically.
+    /// In `u' = q (φ + c)` the stress would cancel near N = -1, where it dominates φ; here it is
+    /// cancelled analytically.
     fn factor(&self) -> f64 {
         self.q / (1.0 - self.q)
     }

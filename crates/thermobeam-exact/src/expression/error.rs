@@ -12,7 +12,8 @@ use crate::nearest::did_you_mean;
 pub struct ExpressionError {
     /// The whole text.
     pub source_text: String,
-    /// Byte offset of the error in the text; the length of the text if something is missing at its end.
+    /// Byte offset of the error in the text; the length of the text if something is missing at its
+    /// end.
     pub offset: usize,
     /// The cause.
     pub problem: ExpressionProblem,
@@ -74,7 +75,8 @@ pub enum ExpressionProblem {
 }
 
 impl ExpressionError {
-    /// Two lines: the text, and a caret below the error. A long text is cut to the part around the error.
+    /// Two lines: the text, and a caret below the error. A long text is cut to the part around the
+    /// error.
     pub fn excerpt(&self) -> String {
         const BEFORE: usize = 48;
         const AFTER: usize = 24;

@@ -6,7 +6,8 @@ use super::syntax::{FUNCTIONS, Function, Node, Operator};
 use super::token::{Token, TokenKind, next_token};
 use crate::nearest::nearest;
 
-/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds their stack.
+/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds
+/// their stack.
 const MAX_DEPTH: usize = 256;
 
 /// Precedence of a sign: above a product, below a power.

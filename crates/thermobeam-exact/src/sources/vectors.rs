@@ -7,10 +7,12 @@ use crate::solution::Product;
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 
-/// Additional quadrature points per element beyond the degree p: the loads are exact to round-off for smooth functions.
+/// Additional quadrature points per element beyond the degree p: the loads are exact to round-off
+/// for smooth functions.
 const EXTRA_POINTS: usize = 12;
 
-/// The space integrals of one product, tested with the functions of an equation: (X, N_i), (X', N_i), and the weak second derivative.
+/// The space integrals of one product, tested with the functions of an equation: (X, N_i), (X',
+/// N_i), and the weak second derivative.
 #[derive(Clone)]
 pub(super) struct Vectors {
     pub(super) value: Vec<f64>,
@@ -51,7 +53,8 @@ impl Vectors {
         }
     }
 
-    /// The integrals by quadrature, with the basis functions of one equation on elements of any degree.
+    /// The integrals by quadrature, with the basis functions of one equation on elements of any
+    /// degree.
     pub(super) fn any_order(product: &Product, space: &Space, field: Field) -> Self {
         let points = Space::gauss(space.degree() + EXTRA_POINTS);
         let tested = |f: &dyn Fn([f64; 3]) -> f64| {

@@ -4,10 +4,12 @@ use thermobeam::parameters::{ParameterError, check};
 
 /// The factor T of a damped mode: `T'' + ζω² T' + ω² T = 0` with T(0) and T'(0) given.
 ///
-/// With a [`Mode`](super::Mode), `u = U(x) T(t)`, `φ = Φ(x) T(t)` is an exact solution of (1.1) for a = β = ρ = 0, θ = 0.
+/// With a [`Mode`](super::Mode), `u = U(x) T(t)`, `φ = Φ(x) T(t)` is an exact solution of (1.1) for
+/// a = β = ρ = 0, θ = 0.
 ///
-/// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (oscillation), equal for ζω = 2, and real for ζω > 2
-/// (overdamped), as for all high modes with ζ > 0. The mode may be one of the beam or of a mesh, each with its own ω.
+/// The roots of λ² + ζω²λ + ω² = 0 are complex for ζω < 2 (oscillation), equal for ζω = 2, and real
+/// for ζω > 2 (overdamped), as for all high modes with ζ > 0. The mode may be one of the beam or of
+/// a mesh, each with its own ω.
 ///
 /// ```
 /// use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -98,7 +100,8 @@ impl TimeFactor {
             };
             return (-gamma * t).exp() * (value * angle.cos() + (slope + gamma * value) * t * sinc);
         }
-        // The root of smaller size by Vieta's formula: -γ + √(γ² - ω²) would cancel. For ω = 0 both roots are 0, and T is linear.
+        // The root of smaller size by Vieta's formula: -γ + √(γ² - ω²) would cancel. For ω = 0 both
+        // roots are 0, and T is linear.
         let slow = if omega == 0.0 {
             0.0
         } else {

@@ -28,17 +28,20 @@ pub enum SpectrumError {
 
 /// The `count` lowest ω of the semi-discrete beam, `(K - ω² M) x = 0`, in increasing order.
 ///
-/// K and M are the matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on elements of degree p, with exact integration and
-/// with u and φ clamped at node 0; for p = 1 as in (3.7) with a = β = ρ = ζ = 0. As Rayleigh-Ritz values they lie above the
-/// exact ones, by O(h^2p); on a uniform mesh of linear elements `ω_h - ω ≈ ω³h²/24` for high modes.
+/// K and M are the matrices of `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on elements of degree p,
+/// with exact integration and with u and φ clamped at node 0; for p = 1 as in (3.7) with a = β =
+/// ρ = ζ = 0. As Rayleigh-Ritz values they lie above the exact ones, by O(h^2p); on a uniform mesh
+/// of linear elements `ω_h - ω ≈ ω³h²/24` for high modes.
 ///
-/// Method: the block LDLᵀ pivots of K - λM have as many negative eigenvalues as the pencil has eigenvalues below λ
-/// (Sylvester). In each element the degrees from p down to 2 are eliminated first, then the nodes from left to right.
-/// Bisection on that count separates eigenvalues at any distance. The error of a frequency is at most round-off times
-/// the condition number, about `ε n²/ω²` for linear elements, and usually far smaller.
+/// Method: the block LDLᵀ pivots of K - λM have as many negative eigenvalues as the pencil has
+/// eigenvalues below λ (Sylvester). In each element the degrees from p down to 2 are eliminated
+/// first, then the nodes from left to right. Bisection on that count separates eigenvalues at any
+/// distance. The error of a frequency is at most round-off times the condition number, about
+/// `ε n²/ω²` for linear elements, and usually far smaller.
 ///
 /// # Errors
-/// [`SpectrumError`] if `count` is more than 2np, or the degree is not one from 1 to [`MAX_DEGREE`].
+/// [`SpectrumError`] if `count` is more than 2np, or the degree is not one from 1 to
+/// [`MAX_DEGREE`].
 pub fn discrete_frequencies(
     mesh: &Mesh,
     degree: usize,
@@ -48,7 +51,8 @@ pub fn discrete_frequencies(
     Ok(whole.unwrap_or_else(|never| match never {}))
 }
 
-/// As [`discrete_frequencies`], but calls `may_go_on` before each count of the bisection, which takes O(n p³) operations.
+/// As [`discrete_frequencies`], but calls `may_go_on` before each count of the bisection, which
+/// takes O(n p³) operations.
 ///
 /// * `may_go_on(i)`: i frequencies are known; its error ends the computation.
 /// * Returns the frequencies, or the error of `may_go_on`.
@@ -90,8 +94,9 @@ pub fn discrete_frequencies_until<E>(
     Ok((0..count).map(&mut below).collect())
 }
 
-/// An upper bound of all ω: `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`, and on each element `‖w'‖² <= p (p + 1)² (p + 2)/h² ‖w‖²`, the sum
-/// of the squares of the slopes of orthonormal Legendre polynomials.
+/// An upper bound of all ω: `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`, and on each element
+/// `‖w'‖² <= p (p + 1)² (p + 2)/h² ‖w‖²`, the sum of the squares of the slopes of orthonormal
+/// Legendre polynomials.
 fn spectral_bound(lengths: &[f64], degree: usize) -> f64 {
     let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
     let inverse = (degree * (degree + 1).pow(2) * (degree + 2)) as f64;
@@ -122,7 +127,8 @@ fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
     negative + invert(node).0
 }
 
-/// K - λM of one element, in 2 x 2 blocks of (u, φ), one for each function of the basis: the hats, then degrees 2 to p.
+/// K - λM of one element, in 2 x 2 blocks of (u, φ), one for each function of the basis: the hats,
+/// then degrees 2 to p.
 struct Element {
     blocks: usize,
     entries: Vec<[[f64; 2]; 2]>,
@@ -158,7 +164,8 @@ impl Element {
             .sum()
     }
 
-    /// Updates the blocks up to `last` after the elimination of `pivot`; counts its negative eigenvalues.
+    /// Updates the blocks up to `last` after the elimination of `pivot`; counts its negative
+    /// eigenvalues.
     fn eliminate(&mut self, pivot: usize, last: usize) -> usize {
         let (negative, [[a, b], [_, d]]) = invert(self.block(pivot));
         for row in (0..=last).filter(|&row| row != pivot) {
@@ -183,12 +190,13 @@ impl Element {
     }
 }
 
-/// Number of negative eigenvalues of a symmetric block, whose entry below the diagonal is not read, and its inverse.
+/// Number of negative eigenvalues of a symmetric block, whose entry below the diagonal is not read,
+/// and its inverse.
 fn invert([[a, b], [_, d]]: [[f64; 2]; 2]) -> (usize, [[f64; 2]; 2]) {
     let mut determinant = a * d - b * b;
     if determinant == 0.0 {
-        // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding errors do for other
-        // λ.
+        // λ is an eigenvalue of a leading part. A relative shift by round-off decides, as rounding
+        // errors do for other λ.
         determinant =
             (f64::EPSILON * f64::EPSILON * (a * a + d * d + b * b)).max(f64::MIN_POSITIVE);
     }

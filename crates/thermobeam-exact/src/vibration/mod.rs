@@ -2,8 +2,9 @@
 //!
 //! # Separation
 //!
-//! Both equations of (1.1) then have the form w_tt = L(w + ζ w_t) with the elastic operator L, and (1.3) contains the
-//! same combination w + ζ w_t. So a solution is an undamped mode, L(U, Φ) = -ω²(U, Φ), times a factor T(t) with
+//! Both equations of (1.1) then have the form w_tt = L(w + ζ w_t) with the elastic operator L, and
+//! (1.3) contains the same combination w + ζ w_t. So a solution is an undamped mode, L(U,
+//! Φ) = -ω²(U, Φ), times a factor T(t) with
 //!
 //! `T'' + ζω² T' + ω² T = 0`:
 //!
@@ -16,9 +17,10 @@
 //!
 //! # Frequencies
 //!
-//! The exponential e^{px} solves the equations if `(p² + ω²)(p² + ω² - 1) + p² = 0`, that is, `p² = -ω² ± ω`. With
-//! `κ±² = ω² ∓ ω`, C±(x) = cos κ± x and S±(x) = sin κ± x / κ± (the first pair is hyperbolic for ω < 1, linear for ω =
-//! 1; as functions of κ±² both are entire), the two solutions that are clamped at x = 0 are
+//! The exponential e^{px} solves the equations if `(p² + ω²)(p² + ω² - 1) + p² = 0`, that is,
+//! `p² = -ω² ± ω`. With `κ±² = ω² ∓ ω`, C±(x) = cos κ± x and S±(x) = sin κ± x / κ± (the first pair
+//! is hyperbolic for ω < 1, linear for ω = 1; as functions of κ±² both are entire), the two
+//! solutions that are clamped at x = 0 are
 //!
 //! ```text
 //! U = A [(1 - ω) S+ - (1 + ω) S-] + B [C+ - C-],
@@ -32,7 +34,8 @@
 //! -(C+ + C-) A + ω (S- - S+) B = 0,
 //! ```
 //!
-//! with determinant `2 (1 + C+ C- - ω² S+ S-)`. For ω <= 1 it is at least 0.1, so there is no frequency. For ω > 1 let
+//! with determinant `2 (1 + C+ C- - ω² S+ S-)`. For ω <= 1 it is at least 0.1, so there is no
+//! frequency. For ω > 1 let
 //!
 //! ```text
 //! ω = (E + 1/E)/2, E > 1,     s = (κ+ + κ-)/2 = √(E² + 1)/2,     (κ- - κ+)/2 = s/E.
@@ -44,11 +47,13 @@
 //!
 //! # No frequency is missed
 //!
-//! r decreases from 0.76 (s = 1/√2, ω = 1) to 0, and |r'| < 0.7 < 0.87 < |sin s| at every root with s >= 1; for s < 1,
+//! r decreases from 0.76 (s = 1/√2, ω = 1) to 0, and |r'| < 0.7 < 0.87 < |sin s| at every root with
+//! s >= 1; for s < 1,
 //! |cos s| > r. So each interval of length π/2 between neighbouring zeros of sin s and cos s contains exactly one root, and
-//! it is simple; this includes the first interval, which is searched from s = 1. The i-th frequency is computed in its
-//! own interval. High frequencies come in pairs, ω ≈ (n - 1/2)π + (1/8 ∓ cos(1/2)/2)/ω, that is -0.314/ω and +0.564/ω (s is
-//! ω - 1/(8ω)), at which the determinant itself has nearly double roots: a scan of its sign would miss them.
+//! it is simple; this includes the first interval, which is searched from s = 1. The i-th frequency
+//! is computed in its own interval. High frequencies come in pairs, ω ≈ (n - 1/2)π + (1/8 ∓
+//! cos(1/2)/2)/ω, that is -0.314/ω and +0.564/ω (s is ω - 1/(8ω)), at which the determinant itself
+//! has nearly double roots: a scan of its sign would miss them.
 //!
 //! ```
 //! use thermobeam_exact::vibration::{Mode, TimeFactor};
@@ -79,8 +84,8 @@ pub fn frequencies(count: usize) -> Vec<f64> {
 /// The frequency with index 0, 1, ..., with an error of a few units of round-off.
 fn frequency(index: usize) -> f64 {
     let excess = |s: f64| s.cos().abs() - (s / e(s)).cos() / e(s);
-    // There is no root below s = 1, where the quotient has a zero at ω = 1 (s = 1/√2) that the determinant does not
-    // have.
+    // There is no root below s = 1, where the quotient has a zero at ω = 1 (s = 1/√2) that the
+    // determinant does not have.
     let (from, to) = (FRAC_PI_2 * index as f64, FRAC_PI_2 * (index + 1) as f64);
     let e = e(bisect(excess, from.max(1.0), to));
     0.5 * (e + 1.0 / e)
@@ -102,8 +107,8 @@ pub struct Mode {
 impl Mode {
     /// The mode with the given index; index 0 has the lowest frequency.
     ///
-    /// U and Φ have an error of round-off times ω, because at high frequencies they are differences of two almost equal
-    /// waves.
+    /// U and Φ have an error of round-off times ω, because at high frequencies they are differences
+    /// of two almost equal waves.
     pub fn new(index: usize) -> Self {
         let omega = frequency(index);
         let [plus, minus] = squares(omega);
@@ -117,7 +122,8 @@ impl Mode {
             (sum, -shear)
         };
         let unscaled = Self { omega, a, b };
-        // U(1) ≠ 0: otherwise three conditions at the tip and two at the clamped end would exclude the mode.
+        // U(1) ≠ 0: otherwise three conditions at the tip and two at the clamped end would exclude
+        // the mode.
         let tip = unscaled.u(1.0);
         Self {
             omega,

@@ -107,7 +107,8 @@ fn two_states_merge_in_a_fold_and_vanish() {
         (count(three * (1.0 - 1e-12)), count(one * (1.0 + 1e-12))),
         (3, 1)
     );
-    // At a relative distance δ from the fold the two states differ by √δ; one is stable, the other is not.
+    // At a relative distance δ from the fold the two states differ by √δ; one is stable, the other
+    // is not.
     let nearby = states(&loaded(-0.8, 1.0, three * (1.0 - 1e-10)), None);
     assert!((nearby[1].u_tip - nearby[0].u_tip).abs() < 1e-4);
     assert_eq!(nearby.iter().filter(|state| state.stable).count(), 2);
@@ -181,7 +182,8 @@ fn sixteen_buckled_pairs_are_listed_for_any_beta() {
             (beta, None)
         );
     }
-    // A load splits each pair into one state above and one below N_k; of N_17 only the upper one is listed.
+    // A load splits each pair into one state above and one below N_k; of N_17 only the upper one is
+    // listed.
     let split = states(&loaded(-1.5, 1.0, 1e-6), None);
     let above_minus_one: Vec<f64> = split
         .iter()
@@ -221,9 +223,11 @@ fn undecidable_equilibria_are_errors() {
     );
 }
 
-/// f, u(1) and the contact force of the law at k, for the root function f(N) = N - β - ρ‖u'‖² with 1 + N = 1/(1 + k²), by Simpson's rule.
+/// f, u(1) and the contact force of the law at k, for the root function f(N) = N - β - ρ‖u'‖² with
+/// 1 + N = 1/(1 + k²), by Simpson's rule.
 ///
-/// φ'' + k² φ + d = 0, φ(0) = φ'(1) = 0, u' = q (φ + c), q = 1 + k², d = aθ_A + cq: linear in c, which the support determines.
+/// φ'' + k² φ + d = 0, φ(0) = φ'(1) = 0, u' = q (φ + c), q = 1 + k², d = aθ_A + cq: linear in c,
+/// which the support determines.
 fn root_function(beam: [f64; 3], support: Option<[f64; 2]>, k: f64) -> [f64; 3] {
     let [beta, rho, moment] = beam;
     let q = 1.0 + k * k;
@@ -257,7 +261,8 @@ fn root_function(beam: [f64; 3], support: Option<[f64; 2]>, k: f64) -> [f64; 3] 
     ]
 }
 
-/// Whether the law has a state between buckling values: a root of f that the obstacles admit, or a maximum of f above 0.
+/// Whether the law has a state between buckling values: a root of f that the obstacles admit, or a
+/// maximum of f above 0.
 fn has_state_beyond_the_list(
     beam: [f64; 3],
     gap: Option<Obstacles>,
@@ -312,7 +317,8 @@ fn a_list_is_complete_where_no_beam_has_another_state() {
         let [beta, rho, moment] = beam;
         let found = completeness(&loaded(beta, rho, moment), gap.as_ref());
         assert_eq!(found, expected, "{beam:?} {gap:?}");
-        // The formula of the textbook agrees, on intervals that are not searched. (Roots without a load are the N_k.)
+        // The formula of the textbook agrees, on intervals that are not searched. (Roots without a
+        // load are the N_k.)
         if rho > 0.0 && moment != 0.0 && expected != Completeness::Unknown {
             let found = has_state_beyond_the_list(beam, gap, 18..24);
             assert_eq!(

@@ -177,8 +177,8 @@ fn any_obstacles() -> impl Strategy<Value = Option<Obstacles>> {
 proptest! {
     #![proptest_config(at_least(1000))]
 
-    /// The energy is coercive, so its gradient has degree 1: a state missed or found twice changes the sum.
-    /// A missed pair does not; the fine scan covers that case.
+    /// The energy is coercive, so its gradient has degree 1: a state missed or found twice changes
+    /// the sum. A missed pair does not; the fine scan covers that case.
     #[test]
     fn the_indices_of_all_states_add_up_to_one(beam in any_beam(), obstacles in any_obstacles()) {
         let found = states(&beam, obstacles.as_ref());
@@ -200,7 +200,8 @@ proptest! {
         }
     }
 
-    /// For all coefficients the states are finite, satisfy N = β + ρ‖u'‖², and one of them is stable.
+    /// For all coefficients the states are finite, satisfy N = β + ρ‖u'‖², and one of them is
+    /// stable.
     #[test]
     fn equilibria_are_found_for_extreme_coefficients(
         beta in prop_oneof![-1e6..1e6_f64, -5.0..1.0_f64, -1.01..-0.99_f64],

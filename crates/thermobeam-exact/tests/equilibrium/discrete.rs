@@ -49,8 +49,8 @@ fn variations(
     (first, second)
 }
 
-/// Tip of the discrete state on n elements by Newton's method from the exact state, and its number of negative
-/// eigenvalues.
+/// Tip of the discrete state on n elements by Newton's method from the exact state, and its number
+/// of negative eigenvalues.
 fn discrete_state(
     beam: &Beam,
     obstacles: Option<&Obstacles>,

@@ -1,4 +1,5 @@
-//! Steady states against reference values, the strong form, a discretisation, and the degree of the energy's gradient.
+//! Steady states against reference values, the strong form, a discretisation, and the degree of the
+//! energy's gradient.
 
 mod buckling;
 mod completeness;
@@ -44,7 +45,8 @@ fn close(found: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// Scenes of all kinds: buckled or not, pushed up and down, hard, soft and no obstacles, strong stretching.
+/// Scenes of all kinds: buckled or not, pushed up and down, hard, soft and no obstacles, strong
+/// stretching.
 fn scenes() -> Vec<(Beam, Option<Obstacles>)> {
     let paper = Some(Obstacles::default());
     vec![

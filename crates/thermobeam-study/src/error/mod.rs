@@ -1,6 +1,7 @@
 //! The errors of a discrete level: in the norm of Theorem 3.4, and at the tip.
 //!
-//! Against an exact solution, or against a run of any order ([`Polynomials`]), whose own error is negligible.
+//! Against an exact solution, or against a run of any order ([`Polynomials`]), whose own error is
+//! negligible.
 
 pub mod free_vibration;
 pub mod polynomials;
@@ -80,7 +81,8 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Measures against `reference`, or against the family's exact solution if there is no reference.
+    /// Measures against `reference`, or against the family's exact solution if there is no
+    /// reference.
     ///
     /// # Errors
     /// [`CaseFailure`] if there is neither.

@@ -1,8 +1,10 @@
-//! Errors against a run of any order in the norm of Theorem 3.4, as functions: the reference's polynomials are never
-//! interpolated, so a mesh of the measured run may have any nodes and any number of elements.
+//! Errors against a run of any order in the norm of Theorem 3.4, as functions: the reference's
+//! polynomials are never interpolated, so a mesh of the measured run may have any nodes and any
+//! number of elements.
 //!
-//! The square of the norm is a sum over Gauss points. The error of a linear element is nearly quadratic, its slope nearly
-//! linear, so that few points suffice; between polynomials of degrees p and P the rule is exact.
+//! The square of the norm is a sum over Gauss points. The error of a linear element is nearly
+//! quadratic, its slope nearly linear, so that few points suffice; between polynomials of degrees p
+//! and P the rule is exact.
 
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
@@ -12,7 +14,8 @@ use thermobeam::solve::Level;
 
 use crate::error::Errors;
 
-/// Gauss points in each linear element, exact to degree 11: coarse elements see polynomials of high degree.
+/// Gauss points in each linear element, exact to degree 11: coarse elements see polynomials of high
+/// degree.
 const COARSE_POINTS: usize = 6;
 /// The same on fine meshes, exact to degree 5.
 const FINE_POINTS: usize = 3;
@@ -56,7 +59,8 @@ impl Polynomials {
         tip(&self.space, &self.levels[index])
     }
 
-    /// The largest distances between two runs over their common times of observation; NaN if those differ.
+    /// The largest distances between two runs over their common times of observation; NaN if those
+    /// differ.
     pub(crate) fn distance(&self, other: &Self) -> Errors {
         if self.levels.len() != other.levels.len() || self.levels.is_empty() {
             return Errors::NAN;

@@ -1,4 +1,5 @@
-//! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document out.
+//! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document
+//! out.
 
 mod animation;
 
@@ -37,8 +38,9 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     })
 }
 
-/// The [`look`](convergence_study::plots::look::look) of each scene of a figure: an experiment of the paper has its own; any
-/// other scene gets, by its place in the figure, one that no experiment has.
+/// The [`look`](convergence_study::plots::look::look) of each scene of a figure: an experiment of
+/// the paper has its own; any other scene gets, by its place in the figure, one that no experiment
+/// has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
     let look = |(place, name): (usize, &str)| {
         PAPER
@@ -52,8 +54,8 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
 /// The values of β in the paper's experiments.
 const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
 
-/// The [`look`](convergence_study::plots::look::look) of a value of β, the same in all figures whose curves are its values; of other
-/// values the next one.
+/// The [`look`](convergence_study::plots::look::look) of a value of β, the same in all figures
+/// whose curves are its values; of other values the next one.
 pub(crate) fn look_of_beta(beta: f64) -> usize {
     BETAS
         .iter()
@@ -68,8 +70,9 @@ pub(crate) fn beta_label(beam: &Beam) -> String {
 }
 
 impl Run {
-    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip displacement with the obstacles, tip
-    /// rotation, energy with its limit β²/(4ρ). None if no frames were kept.
+    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip
+    /// displacement with the obstacles, tip rotation, energy with its limit β²/(4ρ). None if no
+    /// frames were kept.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
         let Some(history) = self
             .history
@@ -254,8 +257,8 @@ pub struct ContractionFactors {
     pub estimates: Series,
 }
 
-/// Draws measured over predicted contraction, log-log, with the identity and the region where the iteration diverges. Markers
-/// there are open.
+/// Draws measured over predicted contraction, log-log, with the identity and the region where the
+/// iteration diverges. Markers there are open.
 pub fn contraction(factors: &ContractionFactors) -> String {
     let measured = &factors.measured;
     let mut xy = Xy {

@@ -52,13 +52,15 @@ pub const ROW: KindRow = KindRow {
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;
 
-/// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors are smaller.
+/// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors
+/// are smaller.
 const INSIDE: [f64; 2] = [0.13, 0.61];
 
 /// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
 const ROUND_OFF: f64 = 2e-12;
 
-/// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities of order 1.
+/// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities
+/// of order 1.
 const FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 
 /// What is refined.
@@ -85,8 +87,9 @@ pub struct Resolution {
     pub steps: usize,
 }
 
-/// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the initial data divided by h: 4e-13 for
-/// 256 elements. A quadrature that is too coarse for the projection leaves 3e-7 and more.
+/// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the
+/// initial data divided by h: 4e-13 for 256 elements. A quadrature that is too coarse for the
+/// projection leaves 3e-7 and more.
 const PROJECTED: f64 = 1e-11;
 
 /// The judged errors of one run.
@@ -94,7 +97,8 @@ const PROJECTED: f64 = 1e-11;
 pub struct Errors {
     /// Each with its name; errors in the fields at the end come first.
     pub named: Vec<(&'static str, f64)>,
-    /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the projection (3.6).
+    /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the
+    /// projection (3.6).
     pub start: f64,
 }
 
@@ -186,7 +190,8 @@ impl FromFile for AnyOrder {
     }
 }
 
-/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement of 0.1.
+/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement
+/// of 0.1.
 fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
     const AMPLITUDE: f64 = 0.1;
     section.allow(&["zeta", "modes"])?;
@@ -206,7 +211,8 @@ fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputErro
 }
 
 impl Over {
-    /// The keys of a table `[[series]]`: the refined parameter, the fixed one, and the criterion. The rest is in `[run]`.
+    /// The keys of a table `[[series]]`: the refined parameter, the fixed one, and the criterion.
+    /// The rest is in `[run]`.
     fn keys(self) -> (&'static str, &'static [&'static str], &'static str) {
         match self {
             Over::Space => ("elements", &["degree"], "tolerance"),
@@ -285,8 +291,9 @@ impl Kind for AnyOrder {
             .collect()
     }
 
-    /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes. A study over time has the
-    /// largest L2 errors of u and u_t inside steps instead of the slopes.
+    /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their
+    /// slopes. A study over time has the largest L2 errors of u and u_t inside steps instead of the
+    /// slopes.
     fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
         let mut motion = self.motion(*resolution)?;
         // The solver's temperature: its unknown is lifted by the solver's own θ_A.
@@ -467,7 +474,8 @@ impl AnyOrder {
             .with_subjects(subjects)
     }
 
-    /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
+    /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the
+    /// one that reaches round-off.
     fn over_degrees(
         &self,
         runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])],
@@ -532,7 +540,8 @@ impl AnyOrder {
     }
 }
 
-/// Whether every run starts from the projection (3.6) of its initial data; with none, completion fails.
+/// Whether every run starts from the projection (3.6) of its initial data; with none, completion
+/// fails.
 fn projected(ran: &[Ran<Resolution, Errors>]) -> Check {
     let largest = ran
         .iter()

@@ -1,8 +1,9 @@
 //! The ends of long runs, compared with exact steady states, which no source term keeps in place.
 //!
-//! A beam at rest solves the discrete static problem to round-off for any time step. What remains is the error of P1 elements, O(h²) at
-//! the nodes in u and in φ; with elements of high degree and dG(q) it nearly vanishes. A straight steady state has no such error: the
-//! beam is only checked to end straight, up to the remaining motion.
+//! A beam at rest solves the discrete static problem to round-off for any time step. What remains
+//! is the error of P1 elements, O(h²) at the nodes in u and in φ; with elements of high degree and
+//! dG(q) it nearly vanishes. A straight steady state has no such error: the beam is only checked to
+//! end straight, up to the remaining motion.
 
 use super::prelude::*;
 use super::settings;
@@ -27,7 +28,8 @@ pub const ROW: KindRow = KindRow {
 /// Order of the elements in u and φ.
 const ORDER: f64 = 2.0;
 
-/// Remaining share of the tip's error after extrapolation from two meshes: the next term of the expansion, and the motion.
+/// Remaining share of the tip's error after extrapolation from two meshes: the next term of the
+/// expansion, and the motion.
 const EXTRAPOLATED: f64 = 1e-2;
 
 /// Errors below this multiple of the velocity at rest are motion.
@@ -303,7 +305,8 @@ impl<'a> Ends<'a> {
         last + richardson::correction(before, last, fine as f64 / coarse as f64, ORDER)
     }
 
-    /// The end of a run, which either the run or the exact state may miss: other items tell the methods apart.
+    /// The end of a run, which either the run or the exact state may miss: other items tell the
+    /// methods apart.
     fn end(&self) -> Subject {
         Subject::of("end")
             .in_case(&self.scene.name)
@@ -313,7 +316,8 @@ impl<'a> Ends<'a> {
     fn check(&self) -> Check {
         let allowed = self.study.error;
         let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip()[0]));
-        // The beam may buckle to either side, but errors are comparable only if it is the same side on all meshes.
+        // The beam may buckle to either side, but errors are comparable only if it is the same side
+        // on all meshes.
         let contact = self.finest().and_then(AtRest::contact);
         let same_side = self
             .ends

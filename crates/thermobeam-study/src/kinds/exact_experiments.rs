@@ -1,7 +1,9 @@
-//! The experiments of Section 5 by the scheme of any order: values to ten decimals, and the error of the paper's own scheme.
+//! The experiments of Section 5 by the scheme of any order: values to ten decimals, and the error
+//! of the paper's own scheme.
 //!
-//! Two different discretisations (degree, elements, degree in time, steps) of one scene must agree. What they agree on is
-//! then the reference for the scene's own scheme at its own resolution, over the whole time.
+//! Two different discretisations (degree, elements, degree in time, steps) of one scene must agree.
+//! What they agree on is then the reference for the scene's own scheme at its own resolution, over
+//! the whole time.
 //!
 //! ```toml
 //! [experiments]
@@ -111,7 +113,8 @@ impl FromFile for ExactExperiments {
     }
 }
 
-/// Refuses scenes whose time levels do not include the times of comparison: a difference in time would pass for an error.
+/// Refuses scenes whose time levels do not include the times of comparison: a difference in time
+/// would pass for an error.
 fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
     for scene in scenes {
         let steps = |t: &f64| t / scene.dt();
@@ -129,7 +132,8 @@ fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<
 }
 
 impl Kind for ExactExperiments {
-    /// A scene, by its place in the list, and the number of the discretisation that it is run by; `None`: its own scheme, mesh and steps.
+    /// A scene, by its place in the list, and the number of the discretisation that it is run by;
+    /// `None`: its own scheme, mesh and steps.
     type Data = (usize, Option<usize>);
     type Found = ShownStates;
 
@@ -220,7 +224,8 @@ impl Kind for ExactExperiments {
 }
 
 impl ExactExperiments {
-    /// No statement is made about the scenes' own schemes: their errors are measured. `None` if the study does not run them.
+    /// No statement is made about the scenes' own schemes: their errors are measured. `None` if the
+    /// study does not run them.
     fn own_schemes(&self) -> Option<Coverage> {
         let reason = Some("measured, without a claim");
         self.compare
@@ -322,7 +327,8 @@ impl ExactExperiments {
         figures
     }
 
-    /// A panel for the experiments without heating and one for those with, if there are any; a curve for each β.
+    /// A panel for the experiments without heating and one for those with, if there are any; a
+    /// curve for each β.
     fn over_time(
         &self,
         scenes: &[OfScene<'_>],
@@ -561,7 +567,8 @@ impl<'r> OfScene<'r> {
         let (Some(own), Some(exact)) = (self.own, self.any_order[0]) else {
             return vec![];
         };
-        // The history of the exact run begins at t = 0. The reader has made sure that both have the same times.
+        // The history of the exact run begins at t = 0. The reader has made sure that both have the
+        // same times.
         own.tip
             .iter()
             .zip(&exact.tip)

@@ -1,7 +1,8 @@
 //! Frequencies of the beam on elements of degree p against the exact ones: order 2p, from above.
 //!
-//! Rayleigh-Ritz: the frequencies of a subspace lie above those of the beam, and their error is the square of the
-//! modes' error in the energy norm, h^2p. On linear elements `ω_h - ω` is `ω³h²/24` to leading order for high modes.
+//! Rayleigh-Ritz: the frequencies of a subspace lie above those of the beam, and their error is the
+//! square of the modes' error in the energy norm, h^2p. On linear elements `ω_h - ω` is `ω³h²/24`
+//! to leading order for high modes.
 //!
 //! ```toml
 //! [frequencies]
@@ -33,7 +34,8 @@ pub const ROW: KindRow = KindRow {
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
-/// Between frequencies the determinant is of order 1, as is its slope near one: 16 rounding errors mean 14 digits.
+/// Between frequencies the determinant is of order 1, as is its slope near one: 16 rounding errors
+/// mean 14 digits.
 const ROUNDING_ERRORS: f64 = 16.0;
 
 /// Allowed relative error of frequencies without a judged rate.
@@ -293,7 +295,8 @@ impl Frequencies {
     }
 }
 
-/// `1 + C+ C- - ω² S+ S-` at x = 1 for ω > 1, half the determinant of the boundary conditions, by plain sines.
+/// `1 + C+ C- - ω² S+ S-` at x = 1 for ω > 1, half the determinant of the boundary conditions, by
+/// plain sines.
 fn determinant(omega: f64) -> f64 {
     let [plus, minus] = [omega * omega - omega, omega * omega + omega].map(f64::sqrt);
     1.0 + plus.cos() * minus.cos() - omega * omega * (plus.sin() / plus) * (minus.sin() / minus)

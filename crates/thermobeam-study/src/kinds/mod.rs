@@ -1,7 +1,8 @@
 //! The kinds of study of the beam: one file each, or a folder if the mathematics is long.
 //!
-//! A study is data in a TOML file. Its kind reads the file (`from_document`), lists and computes its cases, and judges their
-//! results: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
+//! A study is data in a TOML file. Its kind reads the file (`from_document`), lists and computes
+//! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
+//! numbers that the baseline guards.
 
 pub mod any_order;
 pub mod bifurcation;

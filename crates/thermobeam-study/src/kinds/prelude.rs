@@ -44,7 +44,8 @@ pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator, driver};
 pub(crate) use crate::run::{AnyMotion, Motion, Report, RunError, Sample, run, run_to};
 pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
 
-/// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect result.
+/// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect
+/// result.
 pub(crate) fn largest_of(numbers: impl IntoIterator<Item = f64>) -> Option<f64> {
     numbers.into_iter().reduce(max_or_nan)
 }

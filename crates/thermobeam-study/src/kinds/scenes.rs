@@ -1,7 +1,9 @@
-//! Whole scenes, read and run as `run` does it, against the answers of an independent implementation.
+//! Whole scenes, read and run as `run` does it, against the answers of an independent
+//! implementation.
 //!
-//! Studies of orders take loads and initial data from an exact solution; everything else that a scene says, from its initial rotation
-//! to its stopping criterion, is tested here. The work of a run is guarded as well.
+//! Studies of orders take loads and initial data from an exact solution; everything else that a
+//! scene says, from its initial rotation to its stopping criterion, is tested here. The work of a
+//! run is guarded as well.
 //!
 //! ```toml
 //! [[case]]
@@ -59,8 +61,8 @@ pub const ROW: KindRow = KindRow {
 /// Times of a history.
 const TIMES: usize = 200;
 
-/// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10 or more, and may stop one
-/// earlier where rounding differs.
+/// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10
+/// or more, and may stop one earlier where rounding differs.
 const TOLERANCE: f64 = 1e-7;
 
 /// The same of a count: below 50 it must be equal.
@@ -90,7 +92,8 @@ struct Whole {
 struct Most {
     /// On the mean number of iterations of a step.
     iterations: Option<f64>,
-    /// On the distance of a step to the same step solved to round-off, in the norm of (3.14) and in units of the tolerance.
+    /// On the distance of a step to the same step solved to round-off, in the norm of (3.14) and in
+    /// units of the tolerance.
     unsolved: Option<f64>,
 }
 
@@ -139,11 +142,13 @@ const MOST_WORK: f64 = 2e8;
 pub struct Shown {
     /// How it ended.
     pub end: End,
-    /// The last level, the free end's range and the energy's largest change, in the order of [`NUMBERS`].
+    /// The last level, the free end's range and the energy's largest change, in the order of
+    /// [`NUMBERS`].
     pub numbers: [f64; NUMBERS.len()],
     /// Counts, in the order of [`COUNTS`].
     pub counts: [usize; COUNTS.len()],
-    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it can only run alone.
+    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it
+    /// can only run alone.
     pub alike_in_lanes: Option<bool>,
     /// `(t, u(1, t))`.
     pub tip: Vec<(f64, f64)>,
@@ -151,7 +156,8 @@ pub struct Shown {
     pub contact: Vec<(f64, f64)>,
     /// Predictions and steady states, where the answer has them.
     others: Expected,
-    /// Distance of the least solved step to its solution over the tolerance, where the case bounds it.
+    /// Distance of the least solved step to its solution over the tolerance, where the case bounds
+    /// it.
     pub unsolved: Option<f64>,
 }
 
@@ -168,7 +174,8 @@ pub const NUMBERS: [&str; 9] = [
     "largest_increase",
 ];
 
-/// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any order.
+/// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any
+/// order.
 pub const COUNTS: [&str; 6] = [
     "steps",
     "iterations",
@@ -532,8 +539,8 @@ impl Whole {
     }
 }
 
-/// The largest distance of a step to the same step solved to round-off from the same level, in the norm of (3.14), over the
-/// tolerance of the scene.
+/// The largest distance of a step to the same step solved to round-off from the same level, in the
+/// norm of (3.14), over the tolerance of the scene.
 fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
     let stepping = scene.one_step()?;
     let tolerance = stepping.settings.stopping.tolerance();

@@ -1,4 +1,5 @@
-//! The settings that an item of a study exercises; by these a diagnosis separates failing from passing items.
+//! The settings that an item of a study exercises; by these a diagnosis separates failing from
+//! passing items.
 //!
 //! Each kind of study says in its row what its items exercise: the group of statements, and the
 //! method that computes them. What an item is about is data of its [`Subject`].
@@ -101,7 +102,8 @@ impl Group {
         }
     }
 
-    /// Whether its studies take the beam and the obstacles of the paper, from scenes in other files.
+    /// Whether its studies take the beam and the obstacles of the paper, from scenes in other
+    /// files.
     fn has_the_papers_beam(self) -> bool {
         matches!(
             self,
@@ -162,7 +164,8 @@ pub fn of_harness(header: &Header, subject: &Subject) -> Vec<Setting> {
     exercised(header, subject, Group::Harness, ItemMethod::OneStep)
 }
 
-/// Of errors against a manufactured solution, or a vibration where the file has one, by one-step schemes.
+/// Of errors against a manufactured solution, or a vibration where the file has one, by one-step
+/// schemes.
 pub(super) fn of_solution(header: &Header, subject: &Subject) -> Vec<Setting> {
     exercised(header, subject, solution(header), ItemMethod::OneStep)
 }
@@ -378,7 +381,8 @@ impl Of<'_> {
         ]
     }
 
-    /// The active terms of the equations; scenes in other files are those of the paper, whose beam is the default.
+    /// The active terms of the equations; scenes in other files are those of the paper, whose beam
+    /// is the default.
     fn beam(&self) -> [(&'static str, &'static str); 5] {
         let free = self.group == Group::Vibrations;
         let default = if free {

@@ -1,7 +1,8 @@
 //! The paper's fixed point and Newton's method on one scene, step by step side by side.
 //!
-//! The fixed point stops when the increment of its last iteration, in the norm of (3.14), is at most η*. Newton's method
-//! solves the same equations (3.7)-(3.8) to round-off, so the distance of both is the error that η* leaves.
+//! The fixed point stops when the increment of its last iteration, in the norm of (3.14), is at
+//! most η*. Newton's method solves the same equations (3.7)-(3.8) to round-off, so the distance of
+//! both is the error that η* leaves.
 
 use super::prelude::*;
 use crate::exact::norm::TheoremSquares;
@@ -95,7 +96,8 @@ impl SideBySide {
         Ok(stepped)
     }
 
-    /// Distance of both levels in the norm of Theorem 3.4, without allocating: a run has many thousand steps.
+    /// Distance of both levels in the norm of Theorem 3.4, without allocating: a run has many
+    /// thousand steps.
     fn distance(&mut self) -> f64 {
         let (one, other) = (self.fixed_point.level(), self.newton.level());
         self.difference.set_difference(one, other);

@@ -1,4 +1,5 @@
-//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they should end.
+//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they
+//! should end.
 
 use std::ops::ControlFlow;
 
@@ -53,8 +54,8 @@ enum MethodToRest {
     AnyOrder(Discretisation),
 }
 
-/// Elements of the mesh on whose nodes a run by dG is compared with speeds and steady states: more than two nodes for each half
-/// wave of a polynomial of degree 12.
+/// Elements of the mesh on whose nodes a run by dG is compared with speeds and steady states: more
+/// than two nodes for each half wave of a polynomial of degree 12.
 const COMPARED: usize = 32;
 
 impl ToRest {
@@ -244,11 +245,13 @@ impl AtRest {
     }
 }
 
-/// A beam is at rest when it has been slow for this time: at the turning points of an oscillation it is slow for a moment,
-/// and near buckling the slowest oscillation differs from rest by its speed alone.
+/// A beam is at rest when it has been slow for this time: at the turning points of an oscillation
+/// it is slow for a moment, and near buckling the slowest oscillation differs from rest by its
+/// speed alone.
 const QUIET: f64 = 5.0;
 
-/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and level.
+/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and
+/// level.
 ///
 /// * `scene`: by any method; a run by dG is observed at the nodes of its mesh of comparison.
 ///

@@ -1,8 +1,10 @@
-//! Runs chosen by accuracy: the cheapest run with at most the wanted error, or such a run by the scene's own scheme.
+//! Runs chosen by accuracy: the cheapest run with at most the wanted error, or such a run by the
+//! scene's own scheme.
 //!
-//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: the error of any other run could only be found by
-//! comparison with such a run. The scene's own scheme starts coarse; two more runs, one with twice the elements and one with half
-//! of dt, show the parts of space and time in its error, and the larger part is halved until the target is met.
+//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: the error of
+//! any other run could only be found by comparison with such a run. The scene's own scheme starts
+//! coarse; two more runs, one with twice the elements and one with half of dt, show the parts of
+//! space and time in its error, and the larger part is halved until the target is met.
 //!
 //! ```
 //! use thermobeam_study::predict::choice::{Quantity, choose};
@@ -124,7 +126,8 @@ pub fn choose(
     })
 }
 
-/// The scene's own scheme with the required elements and steps; its error is the difference to a run of any order.
+/// The scene's own scheme with the required elements and steps; its error is the difference to a
+/// run of any order.
 ///
 /// # Errors
 /// As [`choose`].
@@ -236,7 +239,8 @@ struct Own {
 }
 
 impl Own {
-    /// * `nodes`: of the reference, whose polynomials may be steep where the scene's mesh is coarse.
+    /// * `nodes`: of the reference, whose polynomials may be steep where the scene's mesh is
+    ///   coarse.
     fn run(
         scene: &Scene,
         quantity: Quantity,
@@ -292,8 +296,8 @@ impl Parts {
         })
     }
 
-    /// Halves h or dt, whichever has the larger part: the factors of elements and steps. The part that remains follows from its
-    /// order until it is measured again.
+    /// Halves h or dt, whichever has the larger part: the factors of elements and steps. The part
+    /// that remains follows from its order until it is measured again.
     fn halve_larger(&mut self) -> [f64; 2] {
         let larger = usize::from(self.errors[1] > self.errors[0]);
         self.errors[larger] *= 0.5_f64.powf(self.orders[larger]);

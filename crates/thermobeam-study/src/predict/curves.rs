@@ -1,4 +1,5 @@
-//! Runs reduced to their curves: numbers over time, by any method, and the distance between two such runs.
+//! Runs reduced to their curves: numbers over time, by any method, and the distance between two
+//! such runs.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -14,7 +15,8 @@ use crate::run::driver::Driver;
 use crate::run::{Motion, Report, run, simulate};
 use crate::scene::{Method, Scene};
 
-/// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the start may be shorter than the step.
+/// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the
+/// start may be shorter than the step.
 const POINTS: usize = 12;
 
 /// Maximum number of compared steps of the largest length; longer runs skip steps evenly.
@@ -23,10 +25,12 @@ const MOST_LONG_STEPS: f64 = 20_000.0;
 /// Maximum number of times at which a one-step scheme is read.
 const TIMES: usize = 4000;
 
-/// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest length by dG.
+/// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest
+/// length by dG.
 const MOST_KEPT: usize = 4_000_000;
 
-/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the norm.
+/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the
+/// norm.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wanted {
     pub(super) rows: Rows,
@@ -40,7 +44,8 @@ pub(super) enum Rows {
     Tip,
     /// u(1), φ(1) and the energy.
     Numbers,
-    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of a weight.
+    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of
+    /// a weight.
     Norm(Vec<(f64, f64)>),
 }
 
@@ -57,8 +62,8 @@ impl Rows {
         Self::Norm(points.collect())
     }
 
-    /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares of its polynomials' errors of
-    /// degree p + 1, whose zeros are no points.
+    /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares
+    /// of its polynomials' errors of degree p + 1, whose zeros are no points.
     pub(super) fn on(&self, scene: &Scene) -> Self {
         match self {
             Self::Norm(_) => Self::of_norm(scene.mesh.nodes(), scene.degree + 2),
@@ -75,7 +80,8 @@ impl Rows {
         }
     }
 
-    /// The distance of two rows in units of a tolerance: the largest for single numbers, or that of the norm.
+    /// The distance of two rows in units of a tolerance: the largest for single numbers, or that of
+    /// the norm.
     fn distance(&self, one: &[f64], other: &[f64], tolerance: &[f64; 3]) -> f64 {
         let differences = one.iter().zip(other).map(|(a, b)| a - b);
         match self {
@@ -173,7 +179,8 @@ pub(super) struct Instance {
     pub(super) t: f64,
     /// Time since the start or the last contact event; 0 for a one-step scheme.
     pub(super) since: f64,
-    /// Whether the step is longer than normal steps at that distance from the last event: a smaller `restart_dt` shortens it.
+    /// Whether the step is longer than normal steps at that distance from the last event: a smaller
+    /// `restart_dt` shortens it.
     pub(super) early: bool,
 }
 
@@ -226,8 +233,9 @@ impl Curves {
 
 /// Runs a scene.
 ///
-/// * `at`: increasing times of reading, for a one-step scheme ends of steps. `None` selects the run's own times: by dG also inside
-///   steps, by a one-step scheme the last level and at most [`TIMES`] evenly spaced levels before.
+/// * `at`: increasing times of reading, for a one-step scheme ends of steps. `None` selects the
+///   run's own times: by dG also inside steps, by a one-step scheme the last level and at most
+///   [`TIMES`] evenly spaced levels before.
 ///
 /// # Errors
 /// The scene is refused, a step fails, or the limit of time or work is reached.
@@ -408,7 +416,8 @@ pub(super) struct Apart {
 }
 
 impl Apart {
-    /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not match.
+    /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not
+    /// match.
     pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
             return Self {

@@ -38,7 +38,8 @@ impl DgMotion {
 
     /// A manufactured solution at t = 0.
     ///
-    /// * `loads`: the coefficients of the loads that keep it in place; a free vibration of a cold beam needs none.
+    /// * `loads`: the coefficients of the loads that keep it in place; a free vibration of a cold
+    ///   beam needs none.
     /// * `defect`: a mistake in loads and initial data, for a negative control.
     /// * `solver`: the solver's own coefficients.
     ///
@@ -53,7 +54,8 @@ impl DgMotion {
         degree: usize,
         by: dg::Stepping,
     ) -> Result<Self, SetupError> {
-        // A clamped end that is too hot is so from the start: the initial data must match it, or the first step fails.
+        // A clamped end that is too hot is so from the start: the initial data must match it, or
+        // the first step fails.
         let exact_theta_a = loads.map_or(0.0, |theory| theory.beam.theta_a);
         let shift = beam.theta_a - exact_theta_a;
         let start = any_order::initial(exact);
@@ -63,7 +65,8 @@ impl DgMotion {
         } else {
             0.0
         };
-        // The value at x = 0 stays: the solver refuses initial data that contradict the boundary conditions.
+        // The value at x = 0 stays: the solver refuses initial data that contradict the boundary
+        // conditions.
         let planted =
             move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
         let initial = dg::Initial {

@@ -14,10 +14,12 @@ use super::snapshot::{EnergySize, Snapshot};
 use super::tally::EnergySummary;
 use super::{Motion, Report, RunError, Sample, Unsound, Work};
 
-/// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps a hundredth.
+/// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps
+/// a hundredth.
 const CHECKED: usize = 16;
 
-/// Rounding errors of an energy, relative to it: of sums over at most millions of elements, whose errors mostly cancel.
+/// Rounding errors of an energy, relative to it: of sums over at most millions of elements, whose
+/// errors mostly cancel.
 const ROUNDED: f64 = 1e-12;
 
 /// A running simulation.
@@ -127,10 +129,11 @@ impl<'l> Driver<'l> {
         Ok(report)
     }
 
-    /// What is wrong with the current level: an energy that is not finite or has risen since t = 0, where no exactly solved
-    /// step raises it. A load may.
+    /// What is wrong with the current level: an energy that is not finite or has risen since t = 0,
+    /// where no exactly solved step raises it. A load may.
     ///
-    /// Looks at the energy after 1, 2, 4, 8 steps and every [`CHECKED`] steps, and wherever u(1) is not finite.
+    /// Looks at the energy after 1, 2, 4, 8 steps and every [`CHECKED`] steps, and wherever u(1) is
+    /// not finite.
     fn unsound(&self) -> Option<Unsound> {
         let n = self.simulation.step();
         let is_due = n.is_multiple_of(CHECKED) || n.is_power_of_two();
@@ -248,7 +251,8 @@ impl Sample {
             phi_t_tip: level.w[tip],
             // The lifting θ_A (1 - x) is linear, so adding its midpoint value is exact on any mesh.
             theta_mid: middle(mesh, &level.theta) + 0.5 * theta_a,
-            // For a free tip the solver returns a zero with the sign of the displacement: -0 + 0 is 0.
+            // For a free tip the solver returns a zero with the sign of the displacement: -0 + 0
+            // is 0.
             contact_force: level.contact_force + 0.0,
             energy,
         }
@@ -296,7 +300,8 @@ mod tests {
         assert!((t + dt - 0.1 * step as f64).abs() < 1e-9, "{step} {t} {dt}");
     }
 
-    /// For ρ s² = 5000 a motion of size s is s times that of size 1, exactly: powers of 2 change no rounding.
+    /// For ρ s² = 5000 a motion of size s is s times that of size 1, exactly: powers of 2 change no
+    /// rounding.
     #[test]
     fn a_small_motion_ends_at_the_same_step_as_a_large_one() {
         let ended = |exponent: i32| {

@@ -1,8 +1,10 @@
-//! One problem on any mesh and with any step: the basis of everything that trades cost against error.
+//! One problem on any mesh and with any step: the basis of everything that trades cost against
+//! error.
 //!
-//! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its loads, or a free
-//! vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step. The caller steps the [`Motion`], so
-//! that several can proceed together and be compared at common times. Its cost is counted: [`Spent`].
+//! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its
+//! loads, or a free vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step.
+//! The caller steps the [`Motion`], so that several can proceed together and be compared at common
+//! times. Its cost is counted: [`Spent`].
 
 use std::sync::Arc;
 
@@ -27,8 +29,8 @@ use thermobeam::solve::Settings;
 pub struct Spent {
     /// Elements times time steps.
     pub node_steps: f64,
-    /// Elements times solves of a step's linear system and factorisations: Newton's method factorises hardly ever, the fixed
-    /// point factorises the equation of u in each iteration.
+    /// Elements times solves of a step's linear system and factorisations: Newton's method
+    /// factorises hardly ever, the fixed point factorises the equation of u in each iteration.
     pub node_solves: f64,
 }
 
@@ -75,7 +77,8 @@ pub struct Family {
 }
 
 impl Family {
-    /// The problem of a scene; its dt and number of elements have no influence, the grading of its mesh is kept.
+    /// The problem of a scene; its dt and number of elements have no influence, the grading of its
+    /// mesh is kept.
     pub fn of_scene(scene: &Scene) -> Self {
         let nodes = scene.mesh.nodes();
         let n = scene.mesh.elements() as f64;

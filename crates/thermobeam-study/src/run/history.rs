@@ -15,7 +15,8 @@ const FRAMES: usize = 440;
 pub struct Row {
     /// The state.
     pub sample: Sample,
-    /// The terms of the energy's balance, summed over the steps since the previous row; zeros at the start and without pictures.
+    /// The terms of the energy's balance, summed over the steps since the previous row; zeros at
+    /// the start and without pictures.
     pub balance: Balance,
 }
 
@@ -44,7 +45,8 @@ pub struct RunHistory {
 }
 
 impl RunHistory {
-    /// * `parts`: approximate number of rows after the first; `None` chooses one for the method, and adds frames.
+    /// * `parts`: approximate number of rows after the first; `None` chooses one for the method,
+    ///   and adds frames.
     pub(super) fn new(
         start: &Snapshot<'_>,
         t_end: f64,

@@ -1,4 +1,5 @@
-//! A beam in motion, by any method: what a step does, what can be read from it, and why it ends early.
+//! A beam in motion, by any method: what a step does, what can be read from it, and why it ends
+//! early.
 
 pub(crate) mod dg;
 pub mod driver;
@@ -37,7 +38,8 @@ pub struct Sample {
     pub phi_t_tip: f64,
     /// The physical temperature at x = 1/2.
     pub theta_mid: f64,
-    /// The contact force, positive on the upper obstacle: g(u(1)); for a one-step scheme that of the last step.
+    /// The contact force, positive on the upper obstacle: g(u(1)); for a one-step scheme that of
+    /// the last step.
     #[serde(skip)]
     pub contact_force: f64,
     /// The energy (3.9), with the term of θ_A.
@@ -71,9 +73,11 @@ pub struct Report {
     pub iterations: usize,
     /// Ratio of the last two increments, if the method has measured it.
     pub contraction: Option<f64>,
-    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout a step of dG.
+    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout
+    /// a step of dG.
     pub in_contact: bool,
-    /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at it.
+    /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at
+    /// it.
     pub unsound: Option<Unsound>,
 }
 
@@ -156,8 +160,8 @@ pub struct Work {
 
 /// A beam in motion, one step at a time. Observed values are computed only on request.
 pub trait Motion {
-    /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until` is the end of a step.
-    /// Only [`run`] calls it.
+    /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until`
+    /// is the end of a step. Only [`run`] calls it.
     ///
     /// # Errors
     /// [`RunError`]; the state is then unchanged.
@@ -203,7 +207,8 @@ where
     }
 }
 
-/// Steps a motion to `until` and shows every step to one observer, which cannot end it: see [`run`].
+/// Steps a motion to `until` and shows every step to one observer, which cannot end it: see
+/// [`run`].
 ///
 /// # Errors
 /// [`RunError`] of the failed step; the motion then stands at the last level.
@@ -221,12 +226,14 @@ pub(crate) fn run_to<M: Motion + ?Sized>(
 
 /// Steps a motion to `until`, or until a watch ends it.
 ///
-/// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of steps.
+/// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of
+///   steps.
 ///
 /// Every watch sees the step that ends the run, also one whose state is [unsound](Report::unsound).
 ///
 /// # Errors
-/// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at the last level.
+/// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at
+/// the last level.
 pub fn run<M: Motion + ?Sized>(
     motion: &mut M,
     until: f64,

@@ -1,10 +1,12 @@
 //! A scene, run from its initial state to its end, by any method.
 //!
-//! Every step is observed: the energy's balance, its change and the extremes cover the whole time, whatever a report shows. The
-//! clock runs only during steps, so the time is that of the solver alone; reading the clock twice a step adds some 50 ns.
+//! Every step is observed: the energy's balance, its change and the extremes cover the whole time,
+//! whatever a report shows. The clock runs only during steps, so the time is that of the solver
+//! alone; reading the clock twice a step adds some 50 ns.
 //!
-//! A run ends early at a step that fails, at a step that violates the law of the energy, and at a [limit on its
-//! time](convergence_study::run::time_limit). The results so far are kept: [`Run::failure`] says why it ended.
+//! A run ends early at a step that fails, at a step that violates the law of the energy, and at a
+//! [limit on its time](convergence_study::run::time_limit). The results so far are kept:
+//! [`Run::failure`] says why it ended.
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
@@ -40,16 +42,18 @@ pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
-    /// This number of equidistant rows, without pictures; for a one-step scheme at most this number, at its levels.
+    /// This number of equidistant rows, without pictures; for a one-step scheme at most this
+    /// number, at its levels.
     Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`].
     History,
 }
 
-/// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
+/// The solver's view of a scene: initial data at the nodes, which in one dimension is the
+/// projection (3.6).
 ///
-/// Boundary values are set exactly. The scene has checked that its functions satisfy them up to their round-off, which
-/// for a function such as sin(1000πx) exceeds what the solver accepts.
+/// Boundary values are set exactly. The scene has checked that its functions satisfy them up to
+/// their round-off, which for a function such as sin(1000πx) exceeds what the solver accepts.
 pub fn problem(scene: &Scene) -> Problem {
     Problem {
         beam: scene.beam,
@@ -152,7 +156,8 @@ impl Simulator {
         self.watched(recording, times, &mut watch).finished()
     }
 
-    /// The same as [`Simulator::run`] with an additional watch; a step ends at each of the times `ends`, see [`run`].
+    /// The same as [`Simulator::run`] with an additional watch; a step ends at each of the times
+    /// `ends`, see [`run`].
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.sample();

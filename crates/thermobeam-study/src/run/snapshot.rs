@@ -5,7 +5,8 @@ use thermobeam::mesh::Mesh;
 use thermobeam::simulation::Simulation;
 use thermobeam::solve::Level;
 
-/// Maximum number of rows of a history: every step up to this number, then every second, third, ... step.
+/// Maximum number of rows of a history: every step up to this number, then every second, third, ...
+/// step.
 pub(crate) const MOST_ROWS: usize = 200_000;
 
 /// Maximum number of nodes of a frame: twice the rows of a picture over space and time.
@@ -45,8 +46,9 @@ pub enum Snapshot<'m> {
 }
 
 impl Snapshot<'_> {
-    /// Those ends of `count` equal parts of the time to `t_end` that lie in the step; the first is `t_end / count`. A one-step
-    /// scheme shows levels at equal numbers of steps, at most `count` of them.
+    /// Those ends of `count` equal parts of the time to `t_end` that lie in the step; the first is
+    /// `t_end / count`. A one-step scheme shows levels at equal numbers of steps, at most `count`
+    /// of them.
     pub(crate) fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
         match self {
             Self::OneStep { simulation, .. } => {
@@ -161,7 +163,8 @@ impl Snapshot<'_> {
         }
     }
 
-    /// What the free end touches, and where contact began and ended; `None` if the method does not locate events.
+    /// What the free end touches, and where contact began and ended; `None` if the method does not
+    /// locate events.
     pub(crate) fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
         match self {
             Self::OneStep { .. } => None,

@@ -1,4 +1,5 @@
-//! Scenes that run together in lanes, twice as fast as one after the other, each with the same bits as on its own.
+//! Scenes that run together in lanes, twice as fast as one after the other, each with the same bits
+//! as on its own.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -41,13 +42,15 @@ impl Together {
     }
 }
 
-/// Runs scenes that agree in [`Together::of`] to their ends, as [`Simulator::run`](super::simulate::Simulator::run) does with
-/// each, without a history. A scene that fails does not affect the others.
+/// Runs scenes that agree in [`Together::of`] to their ends, as
+/// [`Simulator::run`](super::simulate::Simulator::run) does with each, without a history. A scene
+/// that fails does not affect the others.
 ///
 /// The time of a run is its share of their total time.
 ///
 /// # Errors
-/// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree; [`RunError::TimeUp`].
+/// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree;
+/// [`RunError::TimeUp`].
 pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let Some(common) = scenes.first().and_then(Together::of) else {
         return Ok(vec![]);
@@ -213,7 +216,8 @@ impl EnsembleDriver {
         Ok(())
     }
 
-    /// Does at most `steps` steps and shows each with the energy balances, until `see` ends them or all simulations have failed.
+    /// Does at most `steps` steps and shows each with the energy balances, until `see` ends them or
+    /// all simulations have failed.
     ///
     /// # Errors
     /// As [`EnsembleDriver::advance`].
@@ -233,7 +237,8 @@ impl EnsembleDriver {
         Ok(())
     }
 
-    /// Does one step of every simulation that has not failed, and returns it with the energy balances; `None` if all have failed.
+    /// Does one step of every simulation that has not failed, and returns it with the energy
+    /// balances; `None` if all have failed.
     ///
     /// # Errors
     /// As [`EnsembleDriver::advance`].

@@ -40,7 +40,8 @@ fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_on
         "{}",
         report(&study.judge(&SOUND))
     );
-    // One of the two studies has no heating at the end; no fault can be planted in a term that is absent.
+    // One of the two studies has no heating at the end; no fault can be planted in a term that is
+    // absent.
     let pairs = counted(&study.judge(&SOUND), "pairs of a study and a fault").clone();
     assert!(0 < pairs.judged && pairs.judged < pairs.asked, "{pairs}");
     // The wrong rho gets the errors of the run without a fault.

@@ -130,7 +130,8 @@ fn each_claim_of_a_case_can_fail() {
     assert_eq!(study.judge(&unmoved).headline, "no step");
 }
 
-/// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam reaches nearly the same share of it.
+/// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam
+/// reaches nearly the same share of it.
 #[test]
 fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
     let study = runs("corollary-3.2.toml");

@@ -1,4 +1,5 @@
-//! Laws of the paper's experiments to ten digits: two discretisations must agree, and planted differences fail.
+//! Laws of the paper's experiments to ten digits: two discretisations must agree, and planted
+//! differences fail.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind};
@@ -9,7 +10,8 @@ use super::refused::refusal;
 use super::typed::{changed, counted, passes_but_not_without_each_case, report};
 use super::{file, text};
 
-/// The first scene alone, over its first second: two contact events and the first moments of a third phase.
+/// The first scene alone, over its first second: two contact events and the first moments of a
+/// third phase.
 fn study(change: impl Fn(String) -> String) -> ExactExperiments {
     let all = text("experiments-exact.toml");
     let (before, rest) = all.split_once("scenes = [").expect("scenes");

@@ -207,7 +207,8 @@ fn the_papers_algorithm_is_judged_beside_newtons_method() {
         let quantity = outcome.quantities.iter().find(|of| of.name == name);
         quantity.unwrap_or_else(|| panic!("no {name}")).value
     };
-    // Two iterations are the least that can show convergence, and no step of these needs more than five.
+    // Two iterations are the least that can show convergence, and no step of these needs more than
+    // five.
     let iterations = guarded("iterations_per_step");
     assert!((2.0..5.0).contains(&iterations), "{iterations}");
     assert!(guarded("distance_to_newton") > 0.0);
@@ -254,7 +255,8 @@ fn files_with_errors_are_refused() {
     }
 }
 
-/// Completion is no statement, the refuted one is named, and a list that may lack states gives a least number.
+/// Completion is no statement, the refuted one is named, and a list that may lack states gives a
+/// least number.
 #[test]
 fn the_headline_counts_statements_by_whose_they_are() {
     let study = study("section-5.toml");

@@ -1,4 +1,5 @@
-//! Kinds of study, each tested with its own files and with planted defects: a check that cannot fail proves nothing.
+//! Kinds of study, each tested with its own files and with planted defects: a check that cannot
+//! fail proves nothing.
 
 mod any_order;
 mod any_order_controls;

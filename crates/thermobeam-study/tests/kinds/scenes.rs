@@ -1,4 +1,5 @@
-//! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in some case.
+//! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in
+//! some case.
 
 use convergence_study::input::Complaint;
 use convergence_study::judge::verdict::Verdict;
@@ -74,7 +75,8 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
     assert_eq!(counted(&outcome, "scenes against an answer").judged, 8);
 }
 
-/// The keys known to the readers of scenes, table by table: their messages about other keys list them.
+/// The keys known to the readers of scenes, table by table: their messages about other keys list
+/// them.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
     let allowed = |text: &str| match Scene::parse(text, "s.toml").map_err(|error| *error.complaint)
     {

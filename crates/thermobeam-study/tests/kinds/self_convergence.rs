@@ -163,7 +163,8 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
         let outcome = study.judge(&planted);
         assert_ne!(outcome.verdict, Verdict::Pass, "{name}");
         for (quantity, rate) in &outcome.rates {
-            // In the theorem's norm the interpolation error, of first order in h, hides such a small defect.
+            // In the theorem's norm the interpolation error, of first order in h, hides such a
+            // small defect.
             let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
             let expected = hidden || quantity.ends_with("successive");
             assert_eq!(

@@ -1,4 +1,5 @@
-//! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them fail.
+//! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them
+//! fail.
 
 use super::file;
 use super::typed::passes_but_not_without_each_case;

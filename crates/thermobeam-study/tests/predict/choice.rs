@@ -180,7 +180,8 @@ fn a_scheme_that_is_kept_makes_the_error_asked_for_at_little_cost() {
                 "{context}, estimated {:e}",
                 choice.error
             );
-            // Neither space nor time takes nearly all of the error: that would cost more. (Coarser runs are not tried.)
+            // Neither space nor time takes nearly all of the error: that would cost more. (Coarser
+            // runs are not tried.)
             let ([space, time], is_coarsest) = (choice.parts, choice.scene.mesh.elements() == 16);
             let is_balanced =
                 (0.2..=0.8).contains(&(space / (space + time))) && space + time <= 1.5 * target;

@@ -13,7 +13,8 @@ use super::{
 
 #[test]
 fn the_layer_at_the_start_keeps_the_error_asked_for() {
-    // Initial data that violate the condition at x = 1: the error of u(1, t) peaks inside the first step.
+    // Initial data that violate the condition at x = 1: the error of u(1, t) peaks inside the first
+    // step.
     for (zeta, target) in [(0.01, 1e-9), (0.1, 1e-8)] {
         let scene = parsed(&format!(
             "[beam]\nzeta = {zeta}\nbeta = -0.5\n[initial]\nu_t = \"2*x*sin(3*x)\"\ntheta = \"sin(pi*x)\"\n\
@@ -87,7 +88,8 @@ fn short_waves_that_grow_while_the_axial_force_is_below_minus_one_do_not_exceed_
     assert!(made <= 1.3 * total, "{made:e} in {budget}");
 }
 
-/// The scene by dG on nodes that crowd at some points, down to a distance: a discretisation that no search tries.
+/// The scene by dG on nodes that crowd at some points, down to a distance: a discretisation that no
+/// search tries.
 fn crowded(scene: &Scene, points: &[f64], least: f64, degree: usize, stepping: Stepping) -> Scene {
     let distances = || {
         std::iter::successors(Some(least), |distance| Some(2.0 * distance)).take_while(|d| *d < 0.2)
@@ -137,7 +139,8 @@ fn blows() -> [(Scene, Scene); 2] {
     })
 }
 
-/// The largest distance of two runs by dG in the norm of Theorem 3.4, inside the steps of the first.
+/// The largest distance of two runs by dG in the norm of Theorem 3.4, inside the steps of the
+/// first.
 fn distance_in_norm(scene: &Scene, exact: &Scene) -> f64 {
     let begun = |scene: &Scene| {
         dg::Simulation::new(scene.dg_problem(), scene.dg_stepping()).expect("a problem")

@@ -1,5 +1,5 @@
-//! Laws of error estimates and chosen runs, tested against exact answers, and with contact against much finer runs that share
-//! neither mesh nor steps with the tested ones.
+//! Laws of error estimates and chosen runs, tested against exact answers, and with contact against
+//! much finer runs that share neither mesh nor steps with the tested ones.
 
 mod choice;
 mod data;

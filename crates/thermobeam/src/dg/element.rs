@@ -4,9 +4,10 @@
 //! N_0 = (1 - ξ)/2,   N_1 = (1 + ξ)/2,   N_m = (P_m - P_{m-2})/√(2(2m - 1)) for m >= 2,
 //! ```
 //!
-//! so that `N_m' = √((2m - 1)/2) P_{m-1}` are orthonormal. The stiffness of the N_m is the identity, their mass couples m
-//! with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The hats couple with N_2 and N_3 only. Source: Szabó and
-//! Babuška, *Finite Element Analysis*, section 6.2.
+//! so that `N_m' = √((2m - 1)/2) P_{m-1}` are orthonormal. The stiffness of the N_m is the
+//! identity, their mass couples m with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The
+//! hats couple with N_2 and N_3 only. Source: Szabó and Babuška, *Finite Element Analysis*, section
+//! 6.2.
 
 use super::legendre;
 

@@ -1,4 +1,5 @@
-//! The bilinear forms of the weak form on a space, with coefficients given block by block by a closure.
+//! The bilinear forms of the weak form on a space, with coefficients given block by block by a
+//! closure.
 
 use super::block::Block;
 use super::space::{Coupling, Space, degrees};

@@ -1,4 +1,5 @@
-//! The phase of the free end in a step of a [`Simulation`]: where the step leaves it, and whether the contact force agrees.
+//! The phase of the free end in a step of a [`Simulation`]: where the step leaves it, and whether
+//! the contact force agrees.
 
 use super::contact_event::{ContactEvent, Fall, Polynomial, bounds};
 use super::simulation::Simulation;
@@ -8,18 +9,22 @@ use crate::error::{StepError, StepFailure};
 /// Rounding errors of the free end's position, relative to the numbers from which it is computed.
 pub(super) const TIP_SLACK: f64 = 4.0 * f64::EPSILON;
 
-/// Rounding errors of the free end's position, in units of its slack, below which a length cannot be improved.
+/// Rounding errors of the free end's position, in units of its slack, below which a length cannot
+/// be improved.
 const COLLAPSED: f64 = 64.0;
 
-/// Force of the wrong sign at which contact contradicts the motion, for an axial force of at most 1. If rounding errors of the free
-/// end's position are a larger force, the balance of momentum decides instead ([`Simulation::is_blurred`]).
+/// Force of the wrong sign at which contact contradicts the motion, for an axial force of at
+/// most 1. If rounding errors of the free end's position are a larger force, the balance of
+/// momentum decides instead ([`Simulation::is_blurred`]).
 const WRONG_FORCE: f64 = 1e-2;
 
-/// Force of the wrong sign, for an axial force of at most 1, at which contact ends by the balance of momentum: it exceeds the error
-/// of the iteration, and moves the end of contact by less than a millionth.
+/// Force of the wrong sign, for an axial force of at most 1, at which contact ends by the balance
+/// of momentum: it exceeds the error of the iteration, and moves the end of contact by less than a
+/// millionth.
 const WRONG_BALANCE: f64 = 1e-6;
 
-/// Attempts to end a step on an obstacle: the method is safeguarded by bisection and never needs them all.
+/// Attempts to end a step on an obstacle: the method is safeguarded by bisection and never needs
+/// them all.
 const ATTEMPTS: usize = 100;
 
 /// Number of contact events within the smallest step after which a simulation fails.
@@ -28,7 +33,8 @@ const CROWD: usize = 64;
 /// A bound of the phase in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PhaseBound {
-    /// What is positive in the phase: the distance of the free end from the bound, or the force that keeps it on the obstacle.
+    /// What is positive in the phase: the distance of the free end from the bound, or the force
+    /// that keeps it on the obstacle.
     pub(super) distance: Polynomial,
     /// Its rounding errors.
     slack: f64,
@@ -39,8 +45,8 @@ pub(super) struct PhaseBound {
 impl Simulation {
     /// Whether the phase of the free end agrees with the step just found.
     ///
-    /// A free end must not penetrate, and closed contact must not pull. If ε is so small that the position does not
-    /// determine the force, the balance of momentum does.
+    /// A free end must not penetrate, and closed contact must not pull. If ε is so small that the
+    /// position does not determine the force, the balance of momentum does.
     pub(super) fn check_contact(&self, h: f64) -> Result<(), StepFailure> {
         let Some(obstacles) = &self.obstacles else {
             return Ok(());
@@ -75,7 +81,8 @@ impl Simulation {
         }
     }
 
-    /// Whether rounding errors of the free end's position are so large a force that its position does not show when contact ends.
+    /// Whether rounding errors of the free end's position are so large a force that its position
+    /// does not show when contact ends.
     fn is_blurred(&self, slack: f64) -> bool {
         let least = WRONG_FORCE * self.stages.axial_force().abs().max(1.0);
         self.phase != Phase::Free
@@ -84,7 +91,8 @@ impl Simulation {
                 .is_some_and(|obstacles| slack / obstacles.epsilon > least)
     }
 
-    /// The force of the obstacle over the step just found, by the balance of momentum, positive where it pushes.
+    /// The force of the obstacle over the step just found, by the balance of momentum, positive
+    /// where it pushes.
     fn pressure(&self) -> Polynomial {
         let mut force = self.stages.contact_force();
         if self.phase == Phase::Lower {
@@ -98,8 +106,8 @@ impl Simulation {
         TIP_SLACK * self.level.rates[self.space.tip()][0].abs() / h
     }
 
-    /// Errors of the contact force by the balance of momentum: of the iteration, and rounding errors of the free end's velocity and
-    /// position over the step.
+    /// Errors of the contact force by the balance of momentum: of the iteration, and rounding
+    /// errors of the free end's velocity and position over the step.
     fn rounding_of_force(&self, h: f64) -> f64 {
         let position = self.level.places[self.space.tip()][0].abs();
         WRONG_BALANCE * self.stages.axial_force().abs().max(1.0)
@@ -116,8 +124,8 @@ impl Simulation {
         TIP_SLACK * (obstacles + size)
     }
 
-    /// The bounds of the phase in the step just found, of length h: of the free end's position, or of its contact force where
-    /// rounding errors blur the position.
+    /// The bounds of the phase in the step just found, of length h: of the free end's position, or
+    /// of its contact force where rounding errors blur the position.
     fn phase_bounds(&self, h: f64) -> [Option<PhaseBound>; 2] {
         let Some(obstacles) = &self.obstacles else {
             return [None; 2];
@@ -134,7 +142,8 @@ impl Simulation {
                 })
             });
         }
-        // The first step of a contact holds the impulse of the impact, whose projection oscillates; `check_contact` sees its mean.
+        // The first step of a contact holds the impulse of the impact, whose projection oscillates;
+        // `check_contact` sees its mean.
         if self.last_phase != self.phase || self.last_dt == 0.0 {
             return [None; 2];
         }
@@ -146,7 +155,8 @@ impl Simulation {
         of_position.map(|bound| bound.map(of_force))
     }
 
-    /// Where the step just found, of length h, first leaves its phase, and the phase that it enters.
+    /// Where the step just found, of length h, first leaves its phase, and the phase that it
+    /// enters.
     pub(super) fn first_fall(&self, h: f64) -> Option<(Fall, Phase)> {
         let falls = self.phase_bounds(h).into_iter().flatten();
         let falls = falls.filter_map(
@@ -159,10 +169,11 @@ impl Simulation {
         falls.min_by(|(one, _), (other, _)| one.crossing.total_cmp(&other.crossing))
     }
 
-    /// Finds the length of a step that ends on the obstacle, between 0 and the point where the polynomial of a longer
-    /// step was clearly beyond it.
+    /// Finds the length of a step that ends on the obstacle, between 0 and the point where the
+    /// polynomial of a longer step was clearly beyond it.
     ///
-    /// Returns length, iterations, and the phase beyond; that phase is `None` if a shorter step does not reach the obstacle.
+    /// Returns length, iterations, and the phase beyond; that phase is `None` if a shorter step
+    /// does not reach the obstacle.
     pub(super) fn meet(
         &mut self,
         whole: f64,
@@ -197,14 +208,16 @@ impl Simulation {
                 // Round-off cannot distinguish these lengths.
                 return Ok((h, iterations, Some(next)));
             }
-            // The first rate is the velocity of the free end, up to the error of the step; then secants are used.
+            // The first rate is the velocity of the free end, up to the error of the step; then
+            // secants are used.
             let rate = match before {
                 Some((other, its_miss)) => (miss - its_miss) / (h - other),
                 None => distance.derivative().at(1.0) / h,
             };
             before = Some((h, miss));
             let guess = h - miss / rate;
-            // Occasional bisections ensure that the bracket shrinks for any guesses; before that, a bracket is needed.
+            // Occasional bisections ensure that the bracket shrinks for any guesses; before that, a
+            // bracket is needed.
             h = if attempt % 4 != 0 && guess > low && guess < high {
                 guess
             } else if !beyond {

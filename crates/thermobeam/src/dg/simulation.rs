@@ -12,7 +12,8 @@ use crate::contact::Phase;
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::parameters::{Beam, Obstacles};
 
-/// Maximum number of cuts of one step: at a crossing, at an earlier one that the shorter step shows, and so on.
+/// Maximum number of cuts of one step: at a crossing, at an earlier one that the shorter step
+/// shows, and so on.
 const CUTS: usize = 64;
 
 /// Initial capacity of the list of contact events.
@@ -59,13 +60,14 @@ impl Simulation {
     /// Checks all data once and starts at t = 0.
     ///
     /// # Errors
-    /// [`SetupError`] for coefficients, degrees or settings out of range, and for initial data that are not finite or
-    /// violate a boundary condition.
+    /// [`SetupError`] for coefficients, degrees or settings out of range, and for initial data that
+    /// are not finite or violate a boundary condition.
     pub fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         Self::build(problem, stepping, |_| None)
     }
 
-    /// The same with loads on the right-hand sides of the equations; `load` creates them for the elements.
+    /// The same with loads on the right-hand sides of the equations; `load` creates them for the
+    /// elements.
     ///
     /// # Errors
     /// Those of [`Self::new`].
@@ -120,7 +122,8 @@ impl Simulation {
     /// Does steps until t_end, which the last step meets exactly.
     ///
     /// # Errors
-    /// [`StepError`] with step, time and numbers; the simulation then remains at the start of that step.
+    /// [`StepError`] with step, time and numbers; the simulation then remains at the start of that
+    /// step.
     pub fn advance(&mut self, t_end: f64) -> Result<(), StepError> {
         while self.step(t_end)?.is_some() {}
         Ok(())
@@ -128,7 +131,8 @@ impl Simulation {
 
     /// Does one step that does not exceed `limit`; allocates nothing up to 1024 contact events.
     ///
-    /// A step that fails is repeated with at most half of its length, down to a thousandth of `restart_dt`.
+    /// A step that fails is repeated with at most half of its length, down to a thousandth of
+    /// `restart_dt`.
     ///
     /// Returns `None` if the simulation has reached the limit.
     ///
@@ -145,7 +149,8 @@ impl Simulation {
             self.events.truncate(events);
             self.crowd = crowd;
             self.smooth = false;
-            // Shorter steps may succeed after a failure; otherwise the first failure is the most informative.
+            // Shorter steps may succeed after a failure; otherwise the first failure is the most
+            // informative.
             let error = first.get_or_insert(error);
             if !self.lengths.shorten() {
                 self.lengths.next = rung;
@@ -184,7 +189,8 @@ impl Simulation {
                     .map_err(|failure| self.failed(h, failure))?;
                 return self.finish(h, limit, iterations, None).map(Some);
             } else if self.lengths.descend() {
-                // It leaves the other phase as well: polynomials of this length are too coarse to decide.
+                // It leaves the other phase as well: polynomials of this length are too coarse to
+                // decide.
                 h = self.propose(remaining);
             } else {
                 // It grazes the obstacle, by less than the shortest step can resolve.
@@ -200,7 +206,8 @@ impl Simulation {
         Err(self.failed(h, StepFailure::EventNotFound { miss }))
     }
 
-    /// Finds the polynomials of a step of length τ (`h`) in another phase; `None` if the free end leaves that phase too.
+    /// Finds the polynomials of a step of length τ (`h`) in another phase; `None` if the free end
+    /// leaves that phase too.
     fn stays(&mut self, phase: Phase, h: f64) -> Result<Option<usize>, StepError> {
         let present = std::mem::replace(&mut self.phase, phase);
         let outcome = self.attempt(h);

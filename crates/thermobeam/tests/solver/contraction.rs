@@ -1,4 +1,5 @@
-//! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds one.
+//! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds
+//! one.
 
 use super::scenes::{advance, graded, simulate, stepping, uniform};
 use crate::p1_matrices::P1Matrices;
@@ -84,7 +85,8 @@ fn in_contact_the_fixed_point_contracts_by_alpha() {
 
 #[test]
 fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
-    // In the midpoint rule a tip at rest would leave the obstacle within such a step; a fast tip does not.
+    // In the midpoint rule a tip at rest would leave the obstacle within such a step; a fast tip
+    // does not.
     for (scheme, dt, speed) in [
         (EULER_CRANK_NICOLSON, 5e-3, 0.0),
         (EULER_CRANK_NICOLSON, 2e-2, 0.0),
@@ -339,8 +341,8 @@ fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
         .fold(0.0, max_or_nan)
 }
 
-/// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial force; the problem's u
-/// is both the old and the new level.
+/// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial
+/// force; the problem's u is both the old and the new level.
 fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DenseIteration {
     let P1Matrices {
         mass: m,
@@ -449,7 +451,8 @@ fn the_linearised_iteration_is_the_dense_matrix() {
     }
 }
 
-/// Whether a linear beam in lasting contact stays bounded with this number of iterations in each step; both obstacles stand at 0.
+/// Whether a linear beam in lasting contact stays bounded with this number of iterations in each
+/// step; both obstacles stand at 0.
 fn is_stable(iterations: usize, dt: f64) -> bool {
     let mesh = uniform(20);
     let mut initial = Initial::at_rest(&mesh, 0.0);
@@ -486,7 +489,8 @@ fn is_stable(iterations: usize, dt: f64) -> bool {
     (0..4000).all(|_| simulation.advance().is_ok()) && simulation.level().u[20].abs() < 1.0
 }
 
-/// α = 1 is at dt = 5.22e-3 here. The limits are those of the table in THEORY.md, ζ = 0.1, with 2 % on either side.
+/// α = 1 is at dt = 5.22e-3 here. The limits are those of the table in THEORY.md, ζ = 0.1, with 2 %
+/// on either side.
 #[test]
 fn a_single_iteration_is_stable_for_twice_the_step_of_convergence() {
     for (iterations, limit) in [(1, 1.039e-2), (2, 5.224e-3), (3, 7.016e-3), (4, 5.224e-3)] {

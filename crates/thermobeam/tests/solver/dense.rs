@@ -1,6 +1,7 @@
 //! The scheme (3.7)-(3.8) and its semi-discrete limit as dense systems, written from the equations.
 //!
-//! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in this order.
+//! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in
+//! this order.
 
 use crate::p1_matrices::over_all_nodes;
 use nalgebra::{DMatrix, DVector};
@@ -160,8 +161,8 @@ impl Dense {
         }
     }
 
-    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the consistent one is
-    /// returned.
+    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the
+    /// consistent one is returned.
     pub(crate) fn step(
         &self,
         scheme: &Scheme,
@@ -228,8 +229,8 @@ impl Step<'_> {
             .find_map(|tip| self.solve_from(tip, side))
     }
 
-    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method needs a start near the
-    /// root, or on the side from which it does not overshoot.
+    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method
+    /// needs a start near the root, or on the side from which it does not overshoot.
     fn starts(&self, side: Side) -> Vec<f64> {
         let old = self.old.u[self.dense.n - 1];
         let Some(o) = self.dense.obstacles else {
@@ -278,7 +279,8 @@ impl Step<'_> {
         0.5 * (self.dense.axial_force(u) + self.dense.axial_force(&self.old.u))
     }
 
-    /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and the third equation.
+    /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and
+    /// the third equation.
     fn residual(&self, y: &DVector<f64>, side: Side) -> DVector<f64> {
         let Dense {
             beam,

@@ -50,23 +50,31 @@ pub struct RateVerdict {
     /// Half-width of the band about the order.
     #[serde(deserialize_with = "nan")]
     pub tolerance: f64,
-    /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next to a level without a result.
+    /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next
+    /// to a level without a result.
     #[serde(deserialize_with = "nans")]
     pub pairwise: Vec<f64>,
-    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): present whenever three levels above the floor have positive errors,
-    /// whatever the verdict. If the asymptotic range is shorter, it is the rate of the three finest of them.
+    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): present whenever
+    /// three levels above the floor have positive errors, whatever the verdict. If the asymptotic
+    /// range is shorter, it is the rate of the three finest of them.
     pub fitted: Option<f64>,
-    /// The constant C of error = C step^rate for that rate: the curve passes through the error of the finest level `used`.
+    /// The constant C of error = C step^rate for that rate: the curve passes through the error of
+    /// the finest level `used`.
     pub constant: Option<f64>,
-    /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is another one.
+    /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is
+    /// another one.
     #[serde(deserialize_with = "nan_pair")]
     pub interval: Option<[f64; 2]>,
-    /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the interval; it is not judged.
+    /// Limit of the finest pairwise rates,
+    /// [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the
+    /// interval; it is not judged.
     pub extrapolated: Option<f64>,
-    /// Indices of the levels that the fit used; empty if there was no fit. Levels without a result in this range were not used.
+    /// Indices of the levels that the fit used; empty if there was no fit. Levels without a result
+    /// in this range were not used.
     #[serde(default)]
     pub used: Range<usize>,
-    /// Levels that the fit did not use, coarsest first, each with the reason: a table of errors should mark them.
+    /// Levels that the fit did not use, coarsest first, each with the reason: a table of errors
+    /// should mark them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
     /// The outcome.
@@ -93,8 +101,8 @@ impl RateVerdict {
         })
     }
 
-    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is narrow; `None` without
-    /// one. The levels follow unless all were used.
+    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is
+    /// narrow; `None` without one. The levels follow unless all were used.
     ///
     /// * `most`: the largest number of decimals.
     pub fn found(&self, most: usize) -> Option<String> {
@@ -188,7 +196,8 @@ impl RateVerdict {
         format!("from levels {first} to {last} of {levels}")
     }
 
-    /// Extends the verdict on the levels with a result to all levels: levels without one make it fail, and the rate is that of the others.
+    /// Extends the verdict on the levels with a result to all levels: levels without one make it
+    /// fail, and the rate is that of the others.
     ///
     /// * `self`: the verdict on the levels with a result.
     /// * `names`: of all levels.

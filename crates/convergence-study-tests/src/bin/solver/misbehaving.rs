@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use nix::sys::signal::{SigSet, Signal};
 
-/// `solver TOKEN MODE N [DT]`; the token marks the processes of one test. Only the case n = 16 misbehaves.
+/// `solver TOKEN MODE N [DT]`; the token marks the processes of one test. Only the case n = 16
+/// misbehaves.
 pub(crate) fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [token, mode, n, rest @ ..] = &arguments[..] else {

@@ -138,7 +138,8 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     text + "\n" + &last
 }
 
-/// What the reason means for a column, and what to do, using its numbers if they show more than the reason.
+/// What the reason means for a column, and what to do, using its numbers if they show more than the
+/// reason.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
     let general = rate.advice().unwrap_or_default();
@@ -275,8 +276,8 @@ fn sentence(findings: &Judgement<'_>) -> String {
     }
 }
 
-/// What `rates --format json` prints in addition to the verdict: rates as in `study --format json`, with the column's
-/// name as the norm's.
+/// What `rates --format json` prints in addition to the verdict: rates as in `study --format json`,
+/// with the column's name as the norm's.
 pub(super) fn object(findings: &Judgement<'_>) -> Value {
     let rate = |judged: &JudgedColumn<'_>| {
         let mut object = json!(judged.rate);
@@ -311,7 +312,8 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
     })
 }
 
-/// Writes figure, Markdown and JUnit XML, each atomically, and appends to the job summary of GitHub.
+/// Writes figure, Markdown and JUnit XML, each atomically, and appends to the job summary of
+/// GitHub.
 ///
 /// # Errors
 /// The error of the operating system, with the name of the file.

@@ -4,7 +4,8 @@ use super::names::Word;
 use super::number::{is_dash, number};
 use super::pairs::{self, RawTable};
 
-/// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh ended lines with \r.
+/// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
+/// ended lines with \r.
 const MARKS: [(&str, &str); 9] = [
     ("\u{feff}", ""),
     ("\r\n", "\n"),
@@ -60,7 +61,8 @@ pub(super) fn plain(text: &str) -> String {
     }
 }
 
-/// Finds the table in a text that has been made [`plain`]: names with numbers after them, or rows below names.
+/// Finds the table in a text that has been made [`plain`]: names with numbers after them, or rows
+/// below names.
 pub(super) fn read(text: &str) -> RawTable<'_> {
     if let Some(table) = pairs::read(text, true) {
         return table;
@@ -100,7 +102,8 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     {
         None if is_turned(&rows) => turned(&rows, width, table),
         names => {
-            // If the number of words is not that of the columns, it says how many columns there should be.
+            // If the number of words is not that of the columns, it says how many columns there
+            // should be.
             let words = heads
                 .iter()
                 .map(|head| split(head, separator).len())
@@ -195,7 +198,8 @@ fn sorted(text: &str) -> Lines<'_> {
     }
 }
 
-/// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two cells.
+/// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
+/// cells.
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     // A frame has an edge on either side; without one, the last cell may be blank.
     let framed = line
@@ -231,7 +235,8 @@ fn cell(text: &str) -> &str {
         .trim()
 }
 
-/// The cells of a line in which each number is in quotes, if some stand above a number without: they are names.
+/// The cells of a line in which each number is in quotes, if some stand above a number without:
+/// they are names.
 fn names_in_quotes<'t>(
     line: &'t str,
     below: &str,
@@ -255,7 +260,8 @@ fn names_in_quotes<'t>(
     (is_head && names.iter().rev().zip(cells.iter().rev()).any(is_above)).then_some(names)
 }
 
-/// The separator of a table: the first that leaves no two numbers in one cell of its first row; `None` for blanks.
+/// The separator of a table: the first that leaves no two numbers in one cell of its first row;
+/// `None` for blanks.
 fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) -> Option<char> {
     let is_number = |text: &str| number(text, true).is_some();
     let leads = |line: &&str| {
@@ -290,9 +296,11 @@ fn is_rule(line: &str) -> bool {
             > 2
 }
 
-/// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns below which they stand.
+/// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns
+/// below which they stand.
 ///
-/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many times as long as the text.
+/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many
+/// times as long as the text.
 fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
     let span = |line: &str, cell: &str| {
         [0, cell.len()].map(|end| cell.as_ptr() as usize - line.as_ptr() as usize + end)
@@ -369,8 +377,8 @@ fn splits(line: &str, separator: Option<char>) -> [Vec<&str>; 4] {
     ]
 }
 
-/// The nearest line above the rows with a name for each column. Columns of rates, which begin or end with a dash, and
-/// the first column may have none.
+/// The nearest line above the rows with a name for each column. Columns of rates, which begin or
+/// end with a dash, and the first column may have none.
 fn names<'t>(
     heads: &[&'t str],
     rows: &[Vec<&str>],
@@ -397,7 +405,8 @@ fn names<'t>(
     let mut first = "";
     for line in heads.iter().rev() {
         let splits = splits(line, separator);
-        // Between words of several names there are single blanks: no word is the name of a rate then.
+        // Between words of several names there are single blanks: no word is the name of a rate
+        // then.
         let is_worded = separator.is_none() && (2..splits[0].len()).contains(&splits[3].len());
         let fits = |mask: &[usize], cells: &&Vec<&str>| {
             let is_sure = !is_worded
@@ -434,7 +443,8 @@ fn names<'t>(
     None
 }
 
-/// Whether columns stand as rows: words before them and none above, two rows of numbers, or the steps in the first one.
+/// Whether columns stand as rows: words before them and none above, two rows of numbers, or the
+/// steps in the first one.
 fn is_turned(rows: &[Vec<&str>]) -> bool {
     // Numbers with a constant ratio are those of a step.
     let is_even = |cells: &[&str]| {

@@ -5,9 +5,11 @@ use crate::plots::canvas::{Anchor, Canvas, Layer, Rect};
 use crate::plots::sheet::{Layout, Page, guide_margin};
 use crate::plots::style::{self, NOTE_SIZE};
 
-/// A small figure in the plot of a larger one: an enlarged part of its curves, or the same curves on another scale.
+/// A small figure in the plot of a larger one: an enlarged part of its curves, or the same curves
+/// on another scale.
 ///
-/// It has no legend: its curves look like those of the same names in the larger figure. Its title is the label of its vertical axis.
+/// It has no legend: its curves look like those of the same names in the larger figure. Its title
+/// is the label of its vertical axis.
 #[derive(Clone)]
 pub struct Inset {
     /// The small figure.
@@ -16,7 +18,8 @@ pub struct Inset {
     pub place: Place,
 }
 
-/// A part of a plot, with the labels of its axes, in fractions of the plot from its upper left corner.
+/// A part of a plot, with the labels of its axes, in fractions of the plot from its upper left
+/// corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Left edge.

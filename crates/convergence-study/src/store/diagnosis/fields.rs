@@ -32,7 +32,8 @@ pub(super) fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
 /// A field of one study whose errors moved or whose rate does not pass.
 struct MovedField {
     name: String,
-    /// How far its error on the finest level moved, in tolerances, as a logarithm; 1 if only the rate is wrong.
+    /// How far its error on the finest level moved, in tolerances, as a logarithm; 1 if only the
+    /// rate is wrong.
     weight: f64,
     /// By what its error on the finest level was multiplied.
     factor: f64,

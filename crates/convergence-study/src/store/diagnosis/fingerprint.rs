@@ -1,4 +1,5 @@
-//! The effect of a mistake on a run: which items fail, which fields move, and in which direction. Similar runs agree in these.
+//! The effect of a mistake on a run: which items fail, which fields move, and in which direction.
+//! Similar runs agree in these.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -22,7 +23,8 @@ const FAILS: &str = " fails";
 pub struct Fingerprint(BTreeMap<String, f64>);
 
 impl Fingerprint {
-    /// That of a run: 1 for each field with a rate or check that does not pass; for a moved field the logarithm of its ratio.
+    /// That of a run: 1 for each field with a rate or check that does not pass; for a moved field
+    /// the logarithm of its ratio.
     pub fn of(finished: &[Finished], changes: &[Change]) -> Self {
         let mut items = BTreeMap::new();
         for Finished {
@@ -116,7 +118,8 @@ pub struct Known {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fingerprints {
-    /// Found by leaving each one out: above this, the nearest is more often than not in the same file.
+    /// Found by leaving each one out: above this, the nearest is more often than not in the same
+    /// file.
     pub threshold: f64,
     /// The mistakes.
     pub known: Vec<Known>,
@@ -140,7 +143,8 @@ impl Fingerprints {
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }
 
-    /// The two most alike, if they are alike enough. Where nothing fails in the run, those that move numbers alike.
+    /// The two most alike, if they are alike enough. Where nothing fails in the run, those that
+    /// move numbers alike.
     pub fn nearest(&self, run: &Fingerprint) -> Vec<Resembling> {
         let only_moves = run.numbers() == *run;
         let likeness = |of: &Fingerprint| {
@@ -176,7 +180,8 @@ mod tests {
         )
     }
 
-    /// Most of what the mistake does in the dictionary are failures; a run with only its moved numbers resembles it all the same.
+    /// Most of what the mistake does in the dictionary are failures; a run with only its moved
+    /// numbers resembles it all the same.
     #[test]
     fn moved_numbers_are_compared_with_the_moved_numbers_of_mistakes_that_also_fail() {
         let moves = [("s: u", 0.5), ("s: v", -0.2)];

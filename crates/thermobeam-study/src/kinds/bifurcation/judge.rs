@@ -1,5 +1,5 @@
-//! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches; tables, figures
-//! and guarded numbers.
+//! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable
+//! branches; tables, figures and guarded numbers.
 
 use std::cmp::Ordering;
 

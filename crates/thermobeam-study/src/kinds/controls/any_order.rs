@@ -1,7 +1,9 @@
-//! Faults in the solver of any order: each study named must fail for every perturbed coefficient and for every defect.
+//! Faults in the solver of any order: each study named must fail for every perturbed coefficient
+//! and for every defect.
 //!
-//! The loads are derived with the study's own coefficients; the solver uses a changed value of one of them, or a defect is
-//! planted in the loads. The study itself gives the verdict, on the errors of its own runs.
+//! The loads are derived with the study's own coefficients; the solver uses a changed value of one
+//! of them, or a defect is planted in the loads. The study itself gives the verdict, on the errors
+//! of its own runs.
 //!
 //! ```toml
 //! [any-order]

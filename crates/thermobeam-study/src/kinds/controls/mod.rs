@@ -1,6 +1,7 @@
 //! Planted faults: solver or sources are wrong on purpose, and a convergence study must fail.
 //!
-//! A check that cannot fail proves nothing. The study file asks its question by one of three tables:
+//! A check that cannot fail proves nothing. The study file asks its question by one of three
+//! tables:
 //!
 //! | table | question |
 //! | --- | --- |
@@ -8,9 +9,10 @@
 //! | `[any-order]` | the same for studies of kind any-order: does each fail for every coefficient and defect named? |
 //! | `[sensitivity]` | what is the smallest relative error of each coefficient for which a study fails? |
 //!
-//! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while the sources keep the exact one;
-//! each [`Defect`] in turn is planted in the sources. Sources and solver share no function, so it stands for the same mistake in
-//! the solver. Without a fault every study must pass, since otherwise its failures would prove nothing.
+//! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while
+//! the sources keep the exact one; each [`Defect`] in turn is planted in the sources. Sources and
+//! solver share no function, so it stands for the same mistake in the solver. Without a fault every
+//! study must pass, since otherwise its failures would prove nothing.
 //!
 //! ```toml
 //! [controls]
@@ -41,7 +43,8 @@ pub const ROW: KindRow = KindRow {
     settings: settings::of_controls,
 };
 
-/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in the file.
+/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
+/// the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
     match only_table(root, ["controls", "any-order", "sensitivity"], allowed)? {
@@ -80,7 +83,8 @@ impl Fault {
         }
     }
 
-    /// The solver's coefficients and the defect of the sources; `None` if the study lacks what is wrong, or it is zero.
+    /// The solver's coefficients and the defect of the sources; `None` if the study lacks what is
+    /// wrong, or it is zero.
     ///
     /// * `relative`: relative error of a coefficient.
     fn plant(self, theory: Coefficients, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
@@ -211,7 +215,8 @@ impl<'s> Matrix<'s> {
         self.checks.push(detected.about(Subject::of(fault.name())));
     }
 
-    /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the faults' column.
+    /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the
+    ///   faults' column.
     fn outcome(self, faults: &str, more: &str, title: &str, first: &str) -> Outcome {
         let detected = self.detected.iter().filter(|detected| **detected).count();
         let headline = format!("{detected} of {} {faults} detected", self.detected.len());
@@ -251,7 +256,8 @@ impl FromFile for Controls {
 }
 
 impl Kind for Controls {
-    /// Index of a study, with the elements and steps of one of its levels, on which every fault is planted.
+    /// Index of a study, with the elements and steps of one of its levels, on which every fault is
+    /// planted.
     type Data = (usize, (usize, usize));
     /// One run for each fault that can be planted, with its errors; NaN if it broke down.
     type Found = Vec<(Fault, Norms)>;
@@ -325,7 +331,8 @@ impl Kind for Controls {
 }
 
 impl Controls {
-    /// The verdict of one study under one fault, the worst over its norms; `None` if the fault cannot be planted.
+    /// The verdict of one study under one fault, the worst over its norms; `None` if the fault
+    /// cannot be planted.
     fn verdict(&self, study: usize, fault: Fault, ran: &[RanOnLevel]) -> Option<Verdict> {
         let spec = &self.studies[study].kind;
         fault.plant(spec.theory, self.relative)?;

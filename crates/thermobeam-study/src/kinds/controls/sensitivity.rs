@@ -41,7 +41,8 @@ impl FromFile for Sensitivity {
 }
 
 impl Kind for Sensitivity {
-    /// Index of a study, and a coefficient; coefficients that a study lacks or has zero are left out.
+    /// Index of a study, and a coefficient; coefficients that a study lacks or has zero are left
+    /// out.
     type Data = (usize, &'static str);
     /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
@@ -164,8 +165,8 @@ fn not_judged(
     }
 }
 
-/// The smallest error that a study detects, and its table cell: NaN if the case failed, infinite if the study lacks the
-/// coefficient or the range does not bracket it.
+/// The smallest error that a study detects, and its table cell: NaN if the case failed, infinite if
+/// the study lacks the coefficient or the range does not bracket it.
 fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> (f64, String) {
     let case = ran.iter().find(|ran| ran.case.data == (study, key));
     match case.map(|case| &case.found) {

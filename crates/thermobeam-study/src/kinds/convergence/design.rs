@@ -1,11 +1,12 @@
 //! The three designs of a convergence study: coupled, space isolated, time isolated.
 //!
 //! * **Coupled**: loads from the strong form at t_{n-½}, errors against the exact solution at t_n.
-//! * **Space isolated**: the exact solution is replaced by its own time sequence `U^n = Σ X_j T_j(t_n)` with the
-//!   velocities of the scheme, and the loads are the time-discrete operator applied to it, with space still exact. The
-//!   time error is then exactly zero for every dt.
-//! * **Time isolated**: the exact solution is replaced by its nodal interpolant and the loads use the discrete matrices.
-//!   The space error is then exactly zero on every mesh.
+//! * **Space isolated**: the exact solution is replaced by its own time sequence
+//!   `U^n = Σ X_j T_j(t_n)` with the velocities of the scheme, and the loads are the time-discrete
+//!   operator applied to it, with space still exact. The time error is then exactly zero for every
+//!   dt.
+//! * **Time isolated**: the exact solution is replaced by its nodal interpolant and the loads use
+//!   the discrete matrices. The space error is then exactly zero on every mesh.
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
 
@@ -135,7 +136,8 @@ impl<'a> Prepared<'a> {
             .nodal
             .initial(&self.mesh, factors, exact_theta_a, beam.theta_a);
         if defect == Some(Defect::StartNotLifted) {
-            // Without the ends: the solver refuses initial data that contradict the boundary conditions.
+            // Without the ends: the solver refuses initial data that contradict the boundary
+            // conditions.
             let inner = 1..self.mesh.elements();
             for (theta, x) in initial.theta[inner.clone()]
                 .iter_mut()
@@ -244,8 +246,9 @@ const OFF: f64 = 1e-4;
 /// Errors that are round-off on every level.
 const ROUND_OFF: f64 = 1e-12;
 
-/// What a study that passes does not test: coefficients whose error it would miss, and norms without any error. The study is
-/// repeated with a small error in each coefficient of the solver; if it still passes, it does not test that coefficient.
+/// What a study that passes does not test: coefficients whose error it would miss, and norms
+/// without any error. The study is repeated with a small error in each coefficient of the solver;
+/// if it still passes, it does not test that coefficient.
 ///
 /// Empty if it fails, if it is wrong on purpose, or if it has a grid of meshes and steps.
 pub(super) fn untested(study: &Convergence) -> Vec<Untested> {

@@ -1,7 +1,8 @@
 //! Convergence studies: a manufactured solution, levels of refinement, orders expected.
 //!
-//! `[refine]` selects one of three shapes: one axis, a path on which both are refined together (h = dt), or the full grid of (h, dt)
-//! with `e² = A(h)² + B(dt)²`, where each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
+//! `[refine]` selects one of three shapes: one axis, a path on which both are refined together (h =
+//! dt), or the full grid of (h, dt) with `e² = A(h)² + B(dt)²`, where each order is judged by
+//! itself. The step of a level is 1/n, the mean mesh width, or dt.
 //!
 //! ```toml
 //! [study]
@@ -205,7 +206,8 @@ impl Convergence {
         )
     }
 
-    /// The next action of a study that adds levels; `None` if the levels are listed or a case has failed.
+    /// The next action of a study that adds levels; `None` if the levels are listed or a case has
+    /// failed.
     fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
         let budget = self
             .refine
@@ -223,7 +225,8 @@ impl Convergence {
         ))
     }
 
-    /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is judged by itself.
+    /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is
+    /// judged by itself.
     fn judge_grid(
         &self,
         ran: &[Ran<(usize, usize), Norms>],

@@ -1,10 +1,12 @@
-//! Random scenes by the thousand: every coefficient over its whole range, strongly graded meshes, rough data, steps up to 10.
+//! Random scenes by the thousand: every coefficient over its whole range, strongly graded meshes,
+//! rough data, steps up to 10.
 //!
 //! Newton's method runs eight scenes in lanes.
 //!
-//! A step may be refused only because its operator is not definite. With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, where B is the
-//! buckling force, it is definite if `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every
-//! scene with `β > -B (1 + 2 ζ/dt)` must finish with an answer.
+//! A step may be refused only because its operator is not definite. With
+//! `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, where B is the buckling force, it is definite if
+//! `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every scene with
+//! `β > -B (1 + 2 ζ/dt)` must finish with an answer.
 //!
 //! ```toml
 //! [random]
@@ -56,8 +58,8 @@ pub struct Batch {
     pub not_finite_levels: usize,
     /// Largest rise and residual of a step.
     pub worst: Worst,
-    /// For each scene the time step and the shortest element, which determine its rounding errors most, and its largest
-    /// residual in units of the energy.
+    /// For each scene the time step and the shortest element, which determine its rounding errors
+    /// most, and its largest residual in units of the energy.
     pub scenes: Vec<[f64; 3]>,
 }
 
@@ -142,7 +144,8 @@ impl Kind for RandomScenes {
 }
 
 impl RandomScenes {
-    /// The scenes that are judged to their last step; the others are judged up to the step that fails.
+    /// The scenes that are judged to their last step; the others are judged up to the step that
+    /// fails.
     fn coverage(&self, total: &Batch) -> Coverage {
         let [answers, indefinite, others] = total.ended();
         let ended = answers + indefinite + others;
@@ -198,7 +201,8 @@ impl RandomScenes {
         Ok(())
     }
 
-    /// The largest residuals, with the causes of rounding errors: dt, the axial stiffness, and short elements.
+    /// The largest residuals, with the causes of rounding errors: dt, the axial stiffness, and
+    /// short elements.
     fn table(&self, exceptions: &[(usize, f64)]) -> Table {
         let row = |&(scene, residual): &(usize, f64)| {
             let (problem, dt) = self.problem(scene).ok()?;
@@ -224,7 +228,8 @@ impl RandomScenes {
     }
 }
 
-/// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and residual.
+/// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and
+/// residual.
 fn exceptions(ran: &[Ran<usize, Batch>]) -> Vec<(usize, f64)> {
     let batches = ran
         .iter()

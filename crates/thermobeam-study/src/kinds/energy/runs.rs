@@ -45,7 +45,8 @@ const SCALED: usize = 8;
 #[derive(Clone)]
 pub struct EnergyRuns {
     runs: Vec<EnergyRun>,
-    /// Whether the figures show energy and residual over time; else they show the sum of the residuals over the steps.
+    /// Whether the figures show energy and residual over time; else they show the sum of the
+    /// residuals over the steps.
     histories: bool,
 }
 
@@ -60,8 +61,8 @@ struct EnergyRun {
     /// In words.
     claim: String,
     end: End,
-    /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the bound on the rounding errors
-    /// of the step.
+    /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the
+    /// bound on the rounding errors of the step.
     share: Option<f64>,
     /// Bound of the sum of all residuals, in units of the energy.
     drift: Option<f64>,
@@ -87,7 +88,8 @@ pub struct Found {
     pub worst: Worst,
     /// Sum of all residuals with their signs, in units of the energy.
     pub drift: f64,
-    /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is claimed.
+    /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is
+    /// claimed.
     pub of_bound: Option<f64>,
     /// The term of the balance that does not close, and the factor of it that is left over.
     pub open_term: Option<(&'static str, f64)>,
@@ -284,7 +286,8 @@ impl Kind for EnergyRuns {
     type Found = Found;
 
     fn cases(&self) -> Vec<Case<usize>> {
-        // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
+        // Observing a step costs three times its solution, and a step some 100 ns in addition to
+        // its elements.
         let cost =
             |run: &EnergyRun| run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
         let case = |(data, run): (usize, &EnergyRun)| Case::new(run.name.clone(), cost(run), data);
@@ -468,7 +471,8 @@ impl EnergyRun {
         }
     }
 
-    /// The end that is claimed, and the bounds of every step before; a run without a step has nothing to bound.
+    /// The end that is claimed, and the bounds of every step before; a run without a step has
+    /// nothing to bound.
     fn check(&self, found: &Found) -> Check {
         let Found {
             end,
@@ -553,7 +557,8 @@ impl Found {
     }
 }
 
-/// The constant c of Corollary 3.2, by the energy E^0 at t = 0 (THEORY.md derives it); `None` where nothing is stated.
+/// The constant c of Corollary 3.2, by the energy E^0 at t = 0 (THEORY.md derives it); `None` where
+/// nothing is stated.
 fn stability(beam: &Beam, obstacles: Option<&Obstacles>, initial_energy: f64) -> Option<f64> {
     let Beam {
         beta, rho, theta_a, ..
@@ -618,7 +623,8 @@ impl EnergyRuns {
         vec![Figure::new("energy", caption, energy.draw())]
     }
 
-    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve shows no more.
+    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve
+    /// shows no more.
     fn balance(&self, found: &[(&EnergyRun, &Found)]) -> Option<Table> {
         let row = |(run, found): &(&EnergyRun, &Found)| {
             vec![
@@ -638,7 +644,8 @@ impl EnergyRuns {
     }
 }
 
-/// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.
+/// Without values of exactly zero, such as that of the start: they have no place on a logarithmic
+/// axis.
 fn not_zero(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
     series
         .iter_mut()

@@ -11,12 +11,12 @@ use crate::kinds::steady::name_of;
 /// A first contact within this share of the figures' span counts as "at the beginning".
 const BEGINNING: f64 = 0.1;
 
-/// Distance from the exact steady state within which an experiment has arrived: the error of a hundred elements and the
-/// remaining motion, a hundredth of the distance between the obstacles.
+/// Distance from the exact steady state within which an experiment has arrived: the error of a
+/// hundred elements and the remaining motion, a hundredth of the distance between the obstacles.
 const ARRIVED: f64 = 1e-3;
 
-/// The energy that remains, in units of its last fall per unit of time: no mode of these beams, including heat
-/// conduction, decays more slowly than exp(-t/50).
+/// The energy that remains, in units of its last fall per unit of time: no mode of these beams,
+/// including heat conduction, decays more slowly than exp(-t/50).
 const REMAINS: f64 = 50.0;
 
 /// Largest change of the energy in a step: the round-off of an energy of order 1 to 10.
@@ -28,20 +28,24 @@ const NEGLIGIBLE: f64 = 0.02;
 /// The β below which the paper's text claims several steady states.
 const AS_PRINTED: f64 = -0.5;
 
-/// A beam with a tip closer to zero than this is straight: bent tips start at some 0.01, the lower obstacle.
+/// A beam with a tip closer to zero than this is straight: bent tips start at some 0.01, the lower
+/// obstacle.
 const STRAIGHT: f64 = 1e-6;
 
-/// Tolerance of a number that depends smoothly on the data: far above round-off, below any change of method.
+/// Tolerance of a number that depends smoothly on the data: far above round-off, below any change
+/// of method.
 const SMOOTH: f64 = 1e-6;
 
 /// The same if many bounces lie between the data and the number: each amplifies a perturbation.
 const AFTER_BOUNCES: f64 = 1e-4;
 
-/// The same for numbers that depend on when an iteration stops: rounding decides where an increment is close to the tolerance.
+/// The same for numbers that depend on when an iteration stops: rounding decides where an increment
+/// is close to the tolerance.
 const OF_ITERATIONS: f64 = 1e-2;
 
 impl Runs<'_> {
-    /// The largest error of u(1, t) by the paper's algorithm; `None` if the study does not run that.
+    /// The largest error of u(1, t) by the paper's algorithm; `None` if the study does not run
+    /// that.
     fn error_of_paper(&self) -> Option<f64> {
         let tip = |trace: &Trace| U_TIP.points(self.experiment, trace);
         let paper = tip(&self.paper?.trace);
@@ -116,7 +120,8 @@ impl PaperRun {
 }
 
 impl Measured {
-    /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those of the remaining motion.
+    /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those
+    ///   of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
         let ends = |reading: Reading, guard: &str| {
             if bent {
@@ -213,7 +218,8 @@ pub(super) fn checks(
 
 /// The tolerance η* of the paper's algorithm leaves an error that does not matter.
 ///
-/// With ‖φ‖ <= (2/π) ‖φ_x‖, the norm d of (3.14) bounds |u(1)| <= ‖u_x‖ <= ‖u_x - φ‖ + ‖φ‖ <= (1 + 4/π²)^½ d.
+/// With ‖φ‖ <= (2/π) ‖φ_x‖, the norm d of (3.14) bounds |u(1)| <= ‖u_x‖ <= ‖u_x - φ‖ + ‖φ‖ <= (1 +
+/// 4/π²)^½ d.
 fn solved(all: &OfGroup<'_>) -> Check {
     let of_tip = |runs: &Runs<'_>| {
         let distance = runs.paper.map_or(f64::NAN, |paper| paper.solvers.distance);
@@ -423,7 +429,8 @@ fn at_rest(run: &Measured) -> String {
     format!("u(1) = {u:.9}, {force}; the exact state has u(1) = {exact:.9}")
 }
 
-/// The paper's last sentence: how many steady states there are below β = -1/2, and in which a moving beam comes to rest.
+/// The paper's last sentence: how many steady states there are below β = -1/2, and in which a
+/// moving beam comes to rest.
 ///
 /// * `complete`: whether every β has a result; otherwise no claim holds.
 fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
@@ -469,9 +476,10 @@ fn counts(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
 
 /// Where an axial force at rest lies, which decides what is claimed of it.
 ///
-/// At β = -1/2 the paper claims nothing, and the straight beam is the only steady state, as above. The same holds at
-/// β = -B: the quadratic part of the potential energy is not negative there, and vanishes only along the buckling mode,
-/// along which ρ/4 ‖u_x‖⁴ is strictly convex. So both ends belong to the range between them.
+/// At β = -1/2 the paper claims nothing, and the straight beam is the only steady state, as above.
+/// The same holds at β = -B: the quadratic part of the potential energy is not negative there, and
+/// vanishes only along the buckling mode, along which ρ/4 ‖u_x‖⁴ is strictly convex. So both ends
+/// belong to the range between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum AxialForce {
     /// β > -1/2: one steady state, as the paper says.
@@ -511,7 +519,8 @@ mod tests {
     use super::*;
     use thermobeam_exact::equilibrium::equilibria;
 
-    /// The number of steady states is that of the claim, at both ends of each range and next to them.
+    /// The number of steady states is that of the claim, at both ends of each range and next to
+    /// them.
     #[test]
     fn each_axial_force_falls_under_the_claim_that_is_true_of_it() {
         let rows = [

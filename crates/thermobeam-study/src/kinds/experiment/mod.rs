@@ -1,5 +1,5 @@
-//! The paper's Section 5, sentence by sentence: seven experiments are run until they are steady, the claims of the text are
-//! judged, its figures redrawn.
+//! The paper's Section 5, sentence by sentence: seven experiments are run until they are steady,
+//! the claims of the text are judged, its figures redrawn.
 //!
 //! # Which method shows what
 //!
@@ -10,8 +10,8 @@
 //! | with a table `[fixed_point]`: the paper's algorithm (4.1)-(4.5) with η*, at the scene's own h and dt, and Newton's method beside it | t_end | statements about the motion, in place of dG; iterations per step; distance to Newton's solution |
 //! | dG, for each β of `[steady]` | rest | the number of steady states |
 //!
-//! The paper leaves open in which "appropriate norm" the increments fall below η*. Here it is that of (3.14), for the reasons in
-//! THEORY.md, "The norm of the stopping test".
+//! The paper leaves open in which "appropriate norm" the increments fall below η*. Here it is that
+//! of (3.14), for the reasons in THEORY.md, "The norm of the stopping test".
 //!
 //! # What is measured, and how
 //!
@@ -28,15 +28,17 @@
 //!
 //! # Where the paper's text goes too far
 //!
-//! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But between
-//! -0.7116 and -1/2 it is wrong. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating, steady states are the critical points of
+//! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But
+//! between -0.7116 and -1/2 it is wrong. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating,
+//! steady states are the critical points of
 //!
 //! ```text
 //! ½ (‖u_x - φ‖² + ‖φ_x‖² + β ‖u_x‖²) + ρ/4 ‖u_x‖⁴ + G(u(1)),
 //! ```
 //!
-//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so the straight beam is the only one. The
-//! study shows this twice: by the list of all exact steady states, and by where moving beams come to rest.
+//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so the straight beam
+//! is the only one. The study shows this twice: by the list of all exact steady states, and by
+//! where moving beams come to rest.
 
 mod judge;
 mod plotted;
@@ -94,8 +96,8 @@ pub struct Experiments {
     fixed_point: Option<f64>,
     /// A longer run fails.
     t_max: f64,
-    /// Span over which the energy's fall is measured: longer than an oscillation, because the beam stands still at
-    /// turning points.
+    /// Span over which the energy's fall is measured: longer than an oscillation, because the beam
+    /// stands still at turning points.
     window: f64,
     /// Fall of the energy per unit of time below which the state is steady.
     rate: f64,
@@ -240,8 +242,8 @@ impl Kind for Experiments {
     type Data = Task;
     type Found = Found;
 
-    /// The experiments by both discretisations and, where asked for, by the paper's algorithm; then for each β a moving beam
-    /// until it rests.
+    /// The experiments by both discretisations and, where asked for, by the paper's algorithm; then
+    /// for each β a moving beam until it rests.
     fn cases(&self) -> Vec<Case<Task>> {
         let places = 0..self.experiments.len();
         let first = places.clone().map(|k| self.any_order_case(k, 0));
@@ -311,7 +313,8 @@ impl Experiments {
         Case::new(label, cost, Task::FixedPoint(experiment))
     }
 
-    /// The experiment that is shown in motion: the middle one of the first group, which has no axial force at rest.
+    /// The experiment that is shown in motion: the middle one of the first group, which has no
+    /// axial force at rest.
     fn animated(&self) -> usize {
         let first = |experiment: &&Experiment| experiment.group == SectionGroup::First;
         self.experiments.iter().filter(first).count() / 2
@@ -320,7 +323,8 @@ impl Experiments {
     /// Runs an experiment by dG until its energy is steady.
     ///
     /// # Errors
-    /// A step that fails, steady states that cannot be found, or a beam that still moves at `t_max`.
+    /// A step that fails, steady states that cannot be found, or a beam that still moves at
+    /// `t_max`.
     fn run_until_steady(
         &self,
         experiment: usize,
@@ -357,7 +361,8 @@ impl Experiments {
         )))
     }
 
-    /// Runs an experiment by the paper's algorithm at its own resolution, with Newton's method beside it.
+    /// Runs an experiment by the paper's algorithm at its own resolution, with Newton's method
+    /// beside it.
     ///
     /// # Errors
     /// A step that fails.
@@ -399,7 +404,8 @@ fn measured(scene: &Scene, trace: Trace, motion: &mut dyn Motion) -> Result<Meas
     })
 }
 
-/// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a constant.
+/// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a
+/// constant.
 fn straight_energy(scene: &Scene) -> f64 {
     figures::energy_at_rest(&scene.beam).unwrap_or(f64::NAN)
 }

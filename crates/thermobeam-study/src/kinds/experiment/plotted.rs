@@ -1,4 +1,5 @@
-//! The figures as data: curves by the first discretisation, their errors by the second, the paper's algorithm on top.
+//! The figures as data: curves by the first discretisation, their errors by the second, the paper's
+//! algorithm on top.
 
 use convergence_study::plots::inset::{Inset, Place};
 use convergence_study::plots::look::{Look, look};
@@ -104,12 +105,14 @@ impl Plotted {
         });
     }
 
-    /// The largest difference of the two discretisations, over the width of the line: below 1 it cannot be seen. NaN without curves.
+    /// The largest difference of the two discretisations, over the width of the line: below 1 it
+    /// cannot be seen. NaN without curves.
     pub(super) fn error(&self) -> f64 {
         self.over_width(&|curve| Some(&curve.second))
     }
 
-    /// The largest difference to other runs, over the width of the line, in the figure and its inset; NaN if some are missing.
+    /// The largest difference to other runs, over the width of the line, in the figure and its
+    /// inset; NaN if some are missing.
     fn over_width(&self, other: &dyn Fn(&PlottedCurve) -> Option<&Points>) -> f64 {
         let scale = self.xy.y.scale;
         let difference = |curve: &PlottedCurve| {
@@ -137,7 +140,8 @@ impl Plotted {
         [exact].into_iter().chain(paper).collect()
     }
 
-    /// The largest difference to the paper's algorithm, over the width of the line; `None` where that was not run.
+    /// The largest difference to the paper's algorithm, over the width of the line; `None` where
+    /// that was not run.
     fn error_of_paper(&self) -> Option<f64> {
         let is_there = self.curves.iter().any(|curve| curve.paper.is_some());
         is_there.then(|| self.over_width(&|curve| curve.paper.as_ref()))

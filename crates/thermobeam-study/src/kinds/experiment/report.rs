@@ -8,7 +8,8 @@ use super::{Experiments, Found, SectionGroup, Task, straight_energy};
 use crate::kinds::prelude::*;
 use convergence_study::plots::inset::Place;
 
-/// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can be followed.
+/// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can
+/// be followed.
 const SECONDS: f64 = 16.0;
 
 pub(super) fn outcome(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
@@ -58,8 +59,8 @@ fn names_of(runs: &Runs<'_>) -> Vec<String> {
     vec![beam.theta_a.to_string(), beam.beta.to_string()]
 }
 
-/// How many statements hold: the paper's as printed, what holds in place of one that does not, and ours. That every case
-/// completes is no statement.
+/// How many statements hold: the paper's as printed, what holds in place of one that does not, and
+/// ours. That every case completes is no statement.
 fn headline(checks: &[Check]) -> String {
     let count = |origin: Origin| checks.iter().filter(|check| check.origin == origin).count();
     let holding = |origin: Origin| {
@@ -116,7 +117,8 @@ fn animation(study: &Experiments, ran: &[Ran<Task, Found>]) -> Option<Figure> {
     Some(Figure::new("beam", caption, svg))
 }
 
-/// Where the inset of Figure 2 lies: the energy falls so soon that the middle of the figure is empty.
+/// Where the inset of Figure 2 lies: the energy falls so soon that the middle of the figure is
+/// empty.
 const MIDDLE: Place = Place {
     left: 0.4,
     top: 0.34,
@@ -176,7 +178,8 @@ fn plotted(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Plotted> {
     plotted
 }
 
-/// Figure 2. Two of its limits lie too close together for labels: the inset shows the distance to each.
+/// Figure 2. Two of its limits lie too close together for labels: the inset shows the distance to
+/// each.
 fn energies(runs: &[Runs<'_>]) -> Plotted {
     let inset = axis(plots::Axis::log("E − β²/(4ρ)"));
     let xy = energy("Without heating, the energy falls to its limit β²/(4ρ)");

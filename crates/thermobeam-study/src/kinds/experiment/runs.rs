@@ -45,7 +45,8 @@ impl<'r> Runs<'r> {
         })
     }
 
-    /// The motion by which statements are judged: that of the paper's algorithm, if the study runs that.
+    /// The motion by which statements are judged: that of the paper's algorithm, if the study runs
+    /// that.
     pub(super) fn trace(&self) -> &'r Trace {
         self.paper.map_or(&self.first.trace, |paper| &paper.trace)
     }

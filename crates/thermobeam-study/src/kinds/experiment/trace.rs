@@ -7,7 +7,8 @@ use super::*;
 /// Intervals of a curve in a figure: more than the figure has columns.
 pub(super) const POINTS: usize = 4000;
 
-/// Intervals at whose ends a run of fixed steps is observed; passings are interpolated between them.
+/// Intervals at whose ends a run of fixed steps is observed; passings are interpolated between
+/// them.
 pub(super) const LEVELS: usize = 5 * POINTS;
 
 /// After t_end only slow, smooth motion is left: this many times fewer points.
@@ -16,7 +17,8 @@ const FEWER: f64 = 10.0;
 /// The time that an animation shows: the beam hits both obstacles several times.
 pub(super) const SPAN: f64 = 6.0;
 
-/// Number of intervals of that time, with a frame at each end; the motion between frames is interpolated.
+/// Number of intervals of that time, with a frame at each end; the motion between frames is
+/// interpolated.
 const PARTS: usize = 100;
 
 /// The motion of a beam within the figures' span, and its energy until the end of the run.
@@ -36,7 +38,7 @@ pub struct Trace {
     pub largest_increase: f64,
     /// Largest residual of the energy's balance in a step.
     pub largest_residual: f64,
-    /// Free end and energy over time, at [`POINTS`] intervals of the figures' span, and beyond.
+    /// Free end and energy over time, at 4000 equal steps of the figures' span, and beyond.
     pub points: Vec<Sample>,
     /// u in the first seconds, of the experiment that is shown in motion.
     pub frames: figures::Frames,
@@ -149,7 +151,8 @@ impl Recorder {
             .collect()
     }
 
-    /// When the free end first touches an obstacle in the span: located by the method, or interpolated.
+    /// When the free end first touches an obstacle in the span: located by the method, or
+    /// interpolated.
     fn first_contact(
         &self,
         motion: &dyn Motion,

@@ -1,8 +1,9 @@
-//! Errors of random and of given scenes with contact: their estimates, and the runs chosen for an accuracy, against runs that share
-//! neither mesh nor steps with the search, at times and in a norm that are not those of the search.
+//! Errors of random and of given scenes with contact: their estimates, and the runs chosen for an
+//! accuracy, against runs that share neither mesh nor steps with the search, at times and in a norm
+//! that are not those of the search.
 //!
-//! Such runs would not reveal a mistake that all dG runs share. So for some scenes linear elements and steps of `midpoint` are refined
-//! in addition: they must converge to the chosen run.
+//! Such runs would not reveal a mistake that all dG runs share. So for some scenes linear elements
+//! and steps of `midpoint` are refined in addition: they must converge to the chosen run.
 //!
 //! ```toml
 //! [random-errors]
@@ -47,7 +48,8 @@ pub const ROW: KindRow = KindRow {
 /// An error may be this many times its estimate.
 const EXCEEDED: f64 = 1.3;
 
-/// Required ratio of linear elements' errors for four times the elements and steps: contact costs first order.
+/// Required ratio of linear elements' errors for four times the elements and steps: contact costs
+/// first order.
 const FALL: f64 = 4.0;
 
 /// Elements of the coarsest linear mesh, and its steps per unit of time.
@@ -98,7 +100,8 @@ struct Feature {
 pub struct Refusal {
     /// The search and the reason, in words.
     pub words: String,
-    /// Whether data with features may be refused so: no mesh resolves them, or a finer run contradicts the search.
+    /// Whether data with features may be refused so: no mesh resolves them, or a finer run
+    /// contradicts the search.
     pub is_of_features: bool,
 }
 
@@ -194,7 +197,8 @@ impl RandomErrors {
         })
     }
 
-    /// Twelve elements of degree 14 or 11, shorter towards x = 1 and towards a feature, and short steps.
+    /// Twelve elements of degree 14 or 11, shorter towards x = 1 and towards a feature, and short
+    /// steps.
     fn independent(&self, scene: &Scene, feature: Option<&Feature>) -> Result<Scene, CaseFailure> {
         let mut nodes = vec![
             0.0, 0.125, 0.25, 0.375, 0.5, 0.65, 0.8, 0.9, 0.96, 0.985, 0.995, 0.999, 1.0,
@@ -207,7 +211,8 @@ impl RandomErrors {
             restart_dt *= 1e-3;
             let distances =
                 || std::iter::successors(Some(width), |d| Some(3.0 * d)).take_while(|d| *d < 0.1);
-            // A function may have no value at its jump; a kink is between the innermost nodes, 1e-5 apart.
+            // A function may have no value at its jump; a kink is between the innermost nodes, 1e-5
+            // apart.
             let around = distances().flat_map(|d| [x - d, x + d]);
             nodes.retain(|node| *node == 0.0 || *node == 1.0 || (node - x).abs() > 0.03);
             nodes.extend(around.filter(|node| 0.0 < *node && *node < 1.0));
@@ -533,7 +538,8 @@ impl Found {
     }
 }
 
-/// The largest errors in units of their estimates, of the targets, and of those in the norm; `None` without a scene.
+/// The largest errors in units of their estimates, of the targets, and of those in the norm; `None`
+/// without a scene.
 fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> Option<[f64; 3]> {
     let of: [fn(&Found) -> f64; 3] = [
         |found| found.over_estimate,
@@ -569,7 +575,8 @@ fn in_words(refusals: &[(&str, &Refusal)]) -> String {
     refusals.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// A scene with moderate coefficients, obstacles that the beam hits, and smooth initial data, to one of which a feature is added.
+/// A scene with moderate coefficients, obstacles that the beam hits, and smooth initial data, to
+/// one of which a feature is added.
 fn random_scene(
     random: &mut SplitMix,
     number: usize,

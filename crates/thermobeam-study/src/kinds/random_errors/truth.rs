@@ -1,6 +1,8 @@
-//! True errors: runs against one run by dG on a mesh and with steps that no search tries, at own times and in an own norm.
+//! True errors: runs against one run by dG on a mesh and with steps that no search tries, at own
+//! times and in an own norm.
 //!
-//! Nothing here comes from the searches, so a mistake in their times, their norm or their extremes shows.
+//! Nothing here comes from the searches, so a mistake in their times, their norm or their extremes
+//! shows.
 
 use thermobeam::dg::{self, Field};
 
@@ -260,7 +262,8 @@ impl Truth {
     }
 }
 
-/// The largest value of a curve: that of the parabola through the largest of its points and both neighbours.
+/// The largest value of a curve: that of the parabola through the largest of its points and both
+/// neighbours.
 fn largest(curve: Vec<(f64, f64)>) -> f64 {
     let most = curve
         .iter()

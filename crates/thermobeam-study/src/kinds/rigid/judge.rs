@@ -1,4 +1,5 @@
-//! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline guards.
+//! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline
+//! guards.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::text::number::rate_text;
@@ -7,10 +8,12 @@ use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
 use crate::figures::{ContractionFactors, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
-/// Contraction above which a time step averages over the whole impact, so that the penetration is of order 1.
+/// Contraction above which a time step averages over the whole impact, so that the penetration is
+/// of order 1.
 const AVERAGED: f64 = 5.0;
 
-/// Compliance below which an obstacle is stiff: the layer of an impact is then short compared with the beam.
+/// Compliance below which an obstacle is stiff: the layer of an impact is then short compared with
+/// the beam.
 const STIFF: f64 = 1e-3;
 
 /// Contraction above which the fixed point may need more iterations than allowed.
@@ -29,7 +32,8 @@ struct Compliance<'r> {
     fixed_point: Option<&'r ShownImpact>,
     rest: Option<&'r ShownImpact>,
     impact: Option<&'r ShownImpact>,
-    /// Largest distance over time between the free ends of the bouncing beam and of the beam with rigid obstacles.
+    /// Largest distance over time between the free ends of the bouncing beam and of the beam with
+    /// rigid obstacles.
     distance: f64,
 }
 
@@ -73,8 +77,8 @@ impl<'r> Compliance<'r> {
         number(self.fixed_point, |found| found.alpha)
     }
 
-    /// Whether a time step averages over the impact. The predicted α tells; if the case failed it is NaN, which must not drop a
-    /// level.
+    /// Whether a time step averages over the impact. The predicted α tells; if the case failed it
+    /// is NaN, which must not drop a level.
     fn is_averaged(&self) -> bool {
         !(self.alpha() < AVERAGED)
     }
@@ -384,7 +388,8 @@ fn coverage(all: &[Compliance<'_>]) -> Vec<Coverage> {
     ]
 }
 
-/// The first figure omits the distance to the rigid limit: on its scale it coincides with the largest penetration.
+/// The first figure omits the distance to the rigid limit: on its scale it coincides with the
+/// largest penetration.
 fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
     let of_fixed_point = |label: &str, converges: bool| {
         let runs = all.iter().filter(|of| {

@@ -1,4 +1,5 @@
-//! The verdict: rates of both readings where an order is claimed, and contact where the study is one of contact.
+//! The verdict: rates of both readings where an order is claimed, and contact where the study is
+//! one of contact.
 
 use convergence_study::study::LevelErrors;
 use convergence_study::study::levels::{Rates, rate_table};
@@ -17,7 +18,8 @@ const VALUE_TOLERANCE: f64 = 1e-8;
 /// The part of the finest level's error that the two references may differ by.
 const KNOWN: f64 = 1e-2;
 
-/// A difference of two runs, the second on a mesh that is the first's or nested in it; each the maximum over the times compared.
+/// A difference of two runs, the second on a mesh that is the first's or nested in it; each the
+/// maximum over the times compared.
 #[derive(Debug)]
 pub(super) struct Observable {
     /// The name in study files and tables.
@@ -51,7 +53,8 @@ static OBSERVABLES: [Observable; 7] = [
         in_space: 2.0,
         of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
     },
-    // The largest defect of the energy balance in a step; of a fixed number of iterations it has an order of its own.
+    // The largest defect of the energy balance in a step; of a fixed number of iterations it has an
+    // order of its own.
     Observable {
         name: "balance",
         symbol: "defect of the balance",
@@ -107,8 +110,9 @@ fn last(values: &[f64]) -> f64 {
 }
 
 impl Observable {
-    /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
-    /// 3.4 are the same, and the balance of solved steps closes to round-off.
+    /// Those that a refinement of this axis tells apart: without refinement in space both distances
+    /// in the norm of Theorem 3.4 are the same, and the balance of solved steps closes to
+    /// round-off.
     pub(super) fn all(axis: Axis, stopping: Stopping) -> impl Iterator<Item = &'static Self> {
         OBSERVABLES
             .iter()
@@ -119,7 +123,8 @@ impl Observable {
             })
     }
 
-    /// The order for a smooth solution in the step that is refined, in which the scheme has the order `in_time`.
+    /// The order for a smooth solution in the step that is refined, in which the scheme has the
+    /// order `in_time`.
     fn order(&self, axis: Axis, in_time: f64) -> f64 {
         if axis == Axis::Time {
             in_time
@@ -235,7 +240,8 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
     levels.extend(more);
 }
 
-/// Differences of each level to what it is compared with, of the observables whose claim is `wanted`.
+/// Differences of each level to what it is compared with, of the observables whose claim is
+/// `wanted`.
 fn differences(
     study: &SelfConvergence,
     ran: &[Ran<usize, Traced>],
@@ -360,7 +366,8 @@ fn contact(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Option<Check>
     )
 }
 
-/// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
+/// Does another discretisation give the same reference, to a small part of the smallest error that
+/// is measured with it?
 fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check {
     let reference = study.levels.len();
     let part = |observable: &Observable| {

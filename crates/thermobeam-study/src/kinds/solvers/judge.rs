@@ -7,13 +7,15 @@ use super::map::{Boundary, Map, NewtonSteps, Parameter, Point, spaced};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::of_allowed;
 
-/// A factor for which the map's iterations suffice, with a margin for the mean force, which is not known in advance.
+/// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
+/// known in advance.
 const SLOW: f64 = 0.8;
 /// γ up to which α alone decides.
 const ALONE: f64 = 0.01;
 /// Maximum number of Newton iterations in a step.
 const MOST: usize = 30;
-/// Smaller contractions are shown as this value: after a few iterations the ratio is no longer meaningful.
+/// Smaller contractions are shown as this value: after a few iterations the ratio is no longer
+/// meaningful.
 const FASTEST: f64 = 1e-6;
 /// Smaller residuals are shown as this value, a hundredth of a rounding error.
 const EXACT: f64 = 1e-18;
@@ -236,7 +238,8 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
     .about(Subject::of("contact"))
 }
 
-/// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict nothing.
+/// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict
+/// nothing.
 fn prediction(&FixedPointStep { alpha, gamma, .. }: &FixedPointStep) -> Option<bool> {
     if alpha < SLOW && gamma < SLOW {
         return Some(true);
@@ -261,7 +264,8 @@ impl Boundary {
     }
 }
 
-/// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds 1 by more than γ.
+/// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds
+/// 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
     for step in points(rows).map(|point| &point.step) {

@@ -1,9 +1,11 @@
-//! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always converges.
+//! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always
+//! converges.
 //!
-//! The paper does not treat the convergence of its iteration. Near a state it multiplies errors by a linear map
-//! ([`linearized`](thermobeam::linearized)), and converges if the spectral radius of that map is below 1. Where contact dominates,
-//! the radius is `α = (dt/ε) [A_u⁻¹]_nn`; without contact it is a factor γ < 1 ([`contraction`](thermobeam::contraction)). A study
-//! asks one or more of three questions, one table of its file each:
+//! The paper does not treat the convergence of its iteration. Near a state it multiplies errors by
+//! a linear map ([`linearized`](thermobeam::linearized)), and converges if the spectral radius of
+//! that map is below 1. Where contact dominates, the radius is `α = (dt/ε) [A_u⁻¹]_nn`; without
+//! contact it is a factor γ < 1 ([`contraction`](thermobeam::contraction)). A study asks one or
+//! more of three questions, one table of its file each:
 //!
 //! ```toml
 //! [contraction]              # the factor of one step in contact against the spectral radius, for all combinations
@@ -67,7 +69,8 @@ pub struct Solvers {
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SolverTask {
-    /// One step by the fixed point in contact, with this time step, compliance of the obstacles and viscosity.
+    /// One step by the fixed point in contact, with this time step, compliance of the obstacles and
+    /// viscosity.
     Contraction([f64; 3]),
     /// The scene by both solvers, the fixed point to this tolerance η*.
     Comparison(f64),
@@ -231,24 +234,27 @@ pub struct FixedPointStep {
     pub dt: f64,
     /// Predicted factor of the contact; infinite if its operator is not definite.
     pub alpha: f64,
-    /// Predicted factor of the coupling between rotation and displacement; infinite if its operator is not definite.
+    /// Predicted factor of the coupling between rotation and displacement; infinite if its operator
+    /// is not definite.
     pub gamma: f64,
     /// Whether the increment fell below the tolerance.
     pub converged: bool,
     /// Iterations done.
     pub iterations: usize,
-    /// Ratio of the last two increments, if there were two; infinite if the iterates overflowed or the operator was not
-    /// definite.
+    /// Ratio of the last two increments, if there were two; infinite if the iterates overflowed or
+    /// the operator was not definite.
     pub contraction: Option<f64>,
 }
 
 impl FixedPointStep {
-    /// The first step of the problem, with at most `iterations` iterations, to an increment below `tolerance`.
+    /// The first step of the problem, with at most `iterations` iterations, to an increment below
+    /// `tolerance`.
     ///
     /// * `n_value`: mean axial force for the predicted factors.
     ///
     /// # Errors
-    /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
+    /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the
+    /// iteration is a result.
     fn run(
         problem: &Problem,
         dt: f64,
@@ -308,8 +314,8 @@ impl FixedPointStep {
     }
 }
 
-/// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite if the
-/// operator is not definite.
+/// The factors α of the contact and γ of the coupling, for a step with the mean axial force
+/// `n_value`; infinite if the operator is not definite.
 fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
     let case = problem.case(EULER_CRANK_NICOLSON, dt);
     [

@@ -1,23 +1,26 @@
-//! Two parts of a study: the contraction factor in contact, measured against α; and the difference between the fixed point
-//! and Newton's method on a scene, against the fixed point's tolerance.
+//! Two parts of a study: the contraction factor in contact, measured against α; and the difference
+//! between the fixed point and Newton's method on a scene, against the fixed point's tolerance.
 
 use super::spectrum::spectral_radius;
 use super::{SolverTask, factors, positive_numbers};
 use crate::kinds::prelude::*;
 use crate::kinds::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
 
-/// Smallest and largest number of iterations between the start and the last increment but one of a measurement.
+/// Smallest and largest number of iterations between the start and the last increment but one of a
+/// measurement.
 const FEWEST: usize = 3;
 const ITERATIONS: usize = 60;
-/// The increments of a measurement shrink or grow by about this factor: so much that the largest eigenvalue dominates, and so
-/// little that rounding errors do not show.
+/// The increments of a measurement shrink or grow by about this factor: so much that the largest
+/// eigenvalue dominates, and so little that rounding errors do not show.
 const SPAN: f64 = 1e8;
-/// Largest displacement of the free end by the disturbance, in all iterates: small against the depth of the contact, 0.02.
+/// Largest displacement of the free end by the disturbance, in all iterates: small against the
+/// depth of the contact, 0.02.
 const DISTURBANCE: f64 = 1e-5;
 /// Largest relative difference between the measured factor and the spectral radius.
 const AGREEMENT: f64 = 0.01;
-/// Iterations from which the ratio of two increments shows the largest eigenvalue. The first increment is not one of the
-/// linearised iteration, by (4.1), and with fewer ratios the other eigenvalues still take part.
+/// Iterations from which the ratio of two increments shows the largest eigenvalue. The first
+/// increment is not one of the linearised iteration, by (4.1), and with fewer ratios the other
+/// eigenvalues still take part.
 const SETTLED: usize = 5;
 /// Largest distance of an increment to that of the linearised iteration.
 const LINEAR: f64 = 1e-3;
@@ -66,8 +69,9 @@ impl Grid {
 
     /// The first step next to a state of rest in contact, after a disturbance of u_t.
     ///
-    /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper obstacle. On a uniform mesh they are,
-    /// by (3.7) at rest, `(1 + N) p + g(p)` at the free end in the first equation, and `-p (1, χ_i)` in the second.
+    /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper
+    /// obstacle. On a uniform mesh they are, by (3.7) at rest, `(1 + N) p + g(p)` at the free end
+    /// in the first equation, and `-p (1, χ_i)` in the second.
     pub(super) fn measure(
         &self,
         [dt, epsilon, zeta]: [f64; 3],
@@ -130,7 +134,8 @@ impl Grid {
 pub struct Contraction {
     /// Predicted factor of the contact alone; infinite if its operator is not definite.
     pub alpha: f64,
-    /// Predicted factor of the coupling between rotation and displacement alone; infinite if its operator is not definite.
+    /// Predicted factor of the coupling between rotation and displacement alone; infinite if its
+    /// operator is not definite.
     pub gamma: f64,
     /// Spectral radius of the whole iteration, linearised at the state.
     pub radius: f64,
@@ -138,7 +143,8 @@ pub struct Contraction {
     pub iterations: usize,
     /// Ratio of the last two increments in the norm of (3.14).
     pub measured: f64,
-    /// Distance of the last increment of (û, φ̂) to the image of the one before under the linearised iteration, relative.
+    /// Distance of the last increment of (û, φ̂) to the image of the one before under the
+    /// linearised iteration, relative.
     pub deviation: f64,
 }
 
@@ -463,7 +469,8 @@ impl Comparison {
 /// * `found`: the results, each with its tolerance η*.
 pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
     let check = |(eta, found): &(f64, &Agreement)| {
-        // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the rest.
+        // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps
+        // the rest.
         let evidence = format!(
             "{:.2e}, {:.3} of the tolerance",
             found.solvers.distance,

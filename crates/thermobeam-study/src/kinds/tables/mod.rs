@@ -1,5 +1,5 @@
-//! Tables that several kinds of study share: exact solution, refinement, expected orders, coefficients of a control, two
-//! discretisations of any order.
+//! Tables that several kinds of study share: exact solution, refinement, expected orders,
+//! coefficients of a control, two discretisations of any order.
 
 mod refine;
 
@@ -104,7 +104,8 @@ fn meets(
     Ok(())
 }
 
-/// The norms in the notation of the paper and in words, for `explain`, in the order of [`Norm::ALL`].
+/// The norms in the notation of the paper and in words, for `explain`, in the order of
+/// [`Norm::ALL`].
 pub const TERMS: [Term; Norm::ALL.len()] = [
     term(
         Norm::Velocity,
@@ -197,10 +198,12 @@ pub(crate) fn claims<T: Copy>(
     )
 }
 
-/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected order.
+/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected
+/// order.
 ///
 /// * `step`: the step, from elements and steps, against which errors are judged.
-/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` if the case failed.
+/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` if the case
+///   failed.
 pub(crate) fn norm_levels<'r>(
     refine: &Refine,
     expect: &[(Norm, Claim)],
@@ -228,7 +231,8 @@ pub(crate) fn norm_levels<'r>(
     )
 }
 
-/// The table `[control]`: coefficients in which the solver differs from `theory`; without the table they are equal.
+/// The table `[control]`: coefficients in which the solver differs from `theory`; without the table
+/// they are equal.
 pub(crate) fn control(
     root: &Section<'_>,
     theory: Coefficients,
@@ -266,7 +270,8 @@ pub(crate) fn control(
     Ok(solver)
 }
 
-/// The cost of a run of a scene, in element-steps of a one-step scheme, which takes for a step as long as for four elements.
+/// The cost of a run of a scene, in element-steps of a one-step scheme, which takes for a step as
+/// long as for four elements.
 pub fn cost_of_run(scene: &Scene) -> f64 {
     match scene.method {
         Method::OneStep(_) => scene.steps() as f64 * (scene.mesh.elements() as f64 + 4.0),
@@ -365,8 +370,8 @@ impl Discretisation {
 
 /// A list of two tables.
 ///
-/// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both must have; otherwise
-///   the two must differ in elements and degree.
+/// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both
+///   must have; otherwise the two must differ in elements and degree.
 /// * `t_end`: the final time of the runs.
 pub(crate) fn discretisations(
     root: &Section<'_>,

@@ -1,7 +1,8 @@
 //! Damped vibrations without any source term: the only motion of this beam known in closed form.
 //!
-//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam_exact::vibration`] are decoupled. No load keeps the solution in
-//! place, so equal errors in the scheme and in the sources cannot cancel. `modes` isolates the error of space or time.
+//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam_exact::vibration`] are
+//! decoupled. No load keeps the solution in place, so equal errors in the scheme and in the sources
+//! cannot cancel. `modes` isolates the error of space or time.
 
 mod modes;
 
@@ -25,8 +26,9 @@ pub const ROW: KindRow = KindRow {
     settings: settings::of_vibrations,
 };
 
-/// Allowed distance of the solver from the closed form of its own steps, relative to the size of the motion in the norm
-/// of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a coefficient would show.
+/// Allowed distance of the solver from the closed form of its own steps, relative to the size of
+/// the motion in the norm of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a
+/// coefficient would show.
 const CLOSED_FORM: f64 = 1e-12;
 
 /// A study of exact vibrations.
@@ -36,7 +38,8 @@ pub struct Vibration {
     theory: Coefficients,
     /// The solver's coefficients: another beam in a negative control.
     solver: Coefficients,
-    /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the mode at t = 0.
+    /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the
+    /// mode at t = 0.
     modes: Vec<(usize, [f64; 2])>,
     /// k of each temperature sin kπx, and its amplitude at t = 0.
     heat: Vec<(usize, f64)>,
@@ -49,8 +52,8 @@ pub struct Vibration {
 pub struct Vibrated {
     /// The largest error over the time levels in each norm.
     pub errors: Norms,
-    /// If time is isolated: the largest distance from the scheme's own steps of the mesh's modes, relative to the size of
-    /// the motion, both in the norm of Theorem 3.4.
+    /// If time is isolated: the largest distance from the scheme's own steps of the mesh's modes,
+    /// relative to the size of the motion, both in the norm of Theorem 3.4.
     pub closed_form: Option<f64>,
     /// (t, u(1, t)) of the solver at each time level.
     pub tip: Vec<(f64, f64)>,
@@ -99,7 +102,8 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
     Ok(theory)
 }
 
-/// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds the modes of a mesh.
+/// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds
+/// the modes of a mesh.
 fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     let section = root.require("refine", "a table")?.section()?;
     let (steps, elements) = (

@@ -1,4 +1,5 @@
-//! Runs of several methods compared: the cheapest for an error, the front, and slopes, all from what was measured.
+//! Runs of several methods compared: the cheapest for an error, the front, and slopes, all from
+//! what was measured.
 
 use convergence_study::judge::fit::{Level as Point, fit_line};
 
@@ -38,7 +39,8 @@ pub fn front(runs: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     front
 }
 
-/// The slope of log error over log cost, by least squares over the finer half of a front; `None` for fewer than three points.
+/// The slope of log error over log cost, by least squares over the finer half of a front; `None`
+/// for fewer than three points.
 ///
 /// A description of what was measured, used in legends alone.
 fn slope(front: &[(f64, f64)]) -> Option<f64> {

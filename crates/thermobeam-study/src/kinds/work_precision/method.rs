@@ -1,8 +1,9 @@
 //! The compared methods, and a single run of each.
 //!
-//! The unit of counted work is the node-solve of `midpoint`, with two 3 x 3 blocks per row. A factorisation of a one-step method
-//! counts as one solve; an iteration of the fixed point, with both, takes about 2.7 times as long as one of Newton's method. A
-//! solve of dG(q) has 3 (q + 1) unknowns per block, each of which costs (q + 1)² as much; its factorisation counts as 3 (q + 1)
+//! The unit of counted work is the node-solve of `midpoint`, with two 3 x 3 blocks per row. A
+//! factorisation of a one-step method counts as one solve; an iteration of the fixed point, with
+//! both, takes about 2.7 times as long as one of Newton's method. A solve of dG(q) has 3 (q + 1)
+//! unknowns per block, each of which costs (q + 1)² as much; its factorisation counts as 3 (q + 1)
 //! solves.
 
 use thermobeam::dg;
@@ -122,7 +123,8 @@ pub enum Resolution {
 /// Linear elements and equal steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// The nodes are `1 - (1 - i/n)^grading`: 1 for equal elements, more for small ones at the free end.
+    /// The nodes are `1 - (1 - i/n)^grading`: 1 for equal elements, more for small ones at the free
+    /// end.
     pub grading: f64,
     /// Number of elements n.
     pub elements: usize,
@@ -202,8 +204,8 @@ impl OneStep {
         if self.extrapolated { 3.0 } else { 1.0 }
     }
 
-    /// Runs `steps` steps, a multiple of `observations`, and measures at that many equidistant times; without an evaluator it
-    /// only takes the time.
+    /// Runs `steps` steps, a multiple of `observations`, and measures at that many equidistant
+    /// times; without an evaluator it only takes the time.
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's message.
@@ -289,7 +291,8 @@ pub(super) enum Audience<'r> {
 }
 
 impl Degrees {
-    /// Runs a problem on the elements between these nodes, observed at `times` equidistant times, most of them inside steps.
+    /// Runs a problem on the elements between these nodes, observed at `times` equidistant times,
+    /// most of them inside steps.
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's message.

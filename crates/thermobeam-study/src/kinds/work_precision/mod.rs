@@ -1,10 +1,12 @@
 //! The work for an error by method, measured: no law is fitted and nothing is extrapolated.
 //!
-//! A study lists runs of each method, and targets: errors of u(1, t) and in the norm of Theorem 3.4. The cost of a target is the
-//! work of the cheapest run whose error is not larger; a method without such a run does not reach it. Each target names the
-//! methods that reach it, from the dearest to the cheapest, and claims how many times dearer each of them is than the next one.
-//! Errors are the largest over equidistant times, common to all runs. Work is counted, not timed, so that a report is the same
-//! on every machine; `cargo xtask bench` takes the seconds of longer runs of the same problems.
+//! A study lists runs of each method, and targets: errors of u(1, t) and in the norm of Theorem
+//! 3.4. The cost of a target is the work of the cheapest run whose error is not larger; a method
+//! without such a run does not reach it. Each target names the methods that reach it, from the
+//! dearest to the cheapest, and claims how many times dearer each of them is than the next one.
+//! Errors are the largest over equidistant times, common to all runs. Work is counted, not timed,
+//! so that a report is the same on every machine; `cargo xtask bench` takes the seconds of longer
+//! runs of the same problems.
 //!
 //! ```toml
 //! [work-precision]
@@ -80,7 +82,8 @@ pub struct WorkPrecision {
     observations: usize,
     /// Runs by dG that serve as reference; none for an exact solution.
     reference: Option<[Trial; 2]>,
-    /// The reference, computed once by the first thread that needs it, and the distance of the two runs.
+    /// The reference, computed once by the first thread that needs it, and the distance of the two
+    /// runs.
     computed: OnceLock<Result<(Polynomials, Errors), CaseFailure>>,
     trials: Vec<Trial>,
     targets: Vec<Target>,
@@ -94,7 +97,8 @@ impl WorkPrecision {
             .filter(|method| self.trials.iter().any(|trial| trial.method == *method))
     }
 
-    /// The number of times at which errors are measured: steps of a one-step method are a multiple of it.
+    /// The number of times at which errors are measured: steps of a one-step method are a multiple
+    /// of it.
     pub fn observations(&self) -> usize {
         self.observations
     }
@@ -169,7 +173,8 @@ impl WorkPrecision {
         }
     }
 
-    /// Makes a run without looking at it: for the seconds of short runs, which looking would lengthen.
+    /// Makes a run without looking at it: for the seconds of short runs, which looking would
+    /// lengthen.
     ///
     /// # Errors
     /// [`CaseFailure`] of a run that does not finish.

@@ -1,16 +1,39 @@
 //! `cargo xtask <command>`: the commands of `thermobeam`, and tools for developing the project.
 
+mod bench;
 mod regressions;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use convergence_calibration::kind;
 use convergence_study::cli::{command_line, ended};
 use convergence_study::project::Project;
+use convergence_study::study::KindRow;
 use thermobeam_cli::{GROUPS, project};
+use thermobeam_study::kinds::{KINDS, settings};
 
-/// The beam, under this command.
-const PROJECT: Project = project("cargo xtask");
+/// The beam under this command, and the calibration of the rule.
+const PROJECT: Project = Project {
+    kinds: &WITH_CALIBRATION,
+    fingerprints: Some(regressions::FINGERPRINTS),
+    ..project("cargo xtask")
+};
+
+/// The kinds of the beam, and that which counts how often the rule errs: it is not published.
+const WITH_CALIBRATION: [KindRow; KINDS.len() + 1] = {
+    let calibration = KindRow {
+        settings: settings::of_harness,
+        ..kind::ROW
+    };
+    let mut kinds = [calibration; KINDS.len() + 1];
+    let mut place = 0;
+    while place < KINDS.len() {
+        kinds[place] = KINDS[place];
+        place += 1;
+    }
+    kinds
+};
 
 #[derive(Debug, Parser)]
 struct Xtask {
@@ -19,13 +42,10 @@ struct Xtask {
 }
 
 #[derive(Debug, Subcommand)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there is one value of it in a run"
-)]
 enum Command {
     #[command(flatten)]
     Thermobeam(thermobeam_cli::Command),
+    Bench(bench::Arguments),
     /// Tools for developing this project
     #[command(subcommand)]
     Dev(Dev),
@@ -37,10 +57,46 @@ enum Dev {
 }
 
 fn main() -> ExitCode {
-    let groups = [&GROUPS[..], &[("This project", &["dev"])]].concat();
+    let groups = [&GROUPS[..], &[("This project", &["bench", "dev"])]].concat();
     let line = command_line::<Xtask>(&PROJECT, &groups);
     ended(line.clone(), |asked: Xtask| match asked.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
+        Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use convergence_study::cli::{explain, workspace};
+
+    use super::PROJECT;
+
+    #[test]
+    fn every_study_of_the_repository_is_explained() {
+        let files = workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+            .unwrap();
+        assert!(files.len() > 10);
+        for file in files {
+            let header = file.study.header();
+            let text = explain::study(&PROJECT, file.study.as_ref());
+            let text = text
+                .unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
+            for title in [
+                "what is claimed",
+                "why it should hold",
+                "how it is judged",
+                "what a failure would mean",
+            ] {
+                assert!(text.contains(&format!("\n{title}\n")), "{text}");
+            }
+            assert!(
+                text.starts_with(&header.id)
+                    && text.lines().all(|line| line.chars().count() <= 100),
+                "{text}"
+            );
+        }
+    }
 }

@@ -1,9 +1,11 @@
-//! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and name each?
+//! `regressions`: plants hand-written mistakes of meaning one at a time: does `verify` notice and
+//! name each?
 //!
-//! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a graded mesh as uniform.
-//! `.cargo/regressions.toml` lists such mistakes, each with the study or the test that must notice it. Each is planted in a copy of the work
-//! tree below `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are kept, so an interrupted
-//! run continues where it stopped.
+//! A mutant changes an operator. People swap two fields, take the wrong time level, or treat a
+//! graded mesh as uniform. `xtask/regressions.toml` lists such mistakes, each with the study or the
+//! test that must notice it. Each is planted in a copy of the work tree below
+//! `target/regressions/`, where the quick tier of `verify` is compiled and run. The results are
+//! kept, so an interrupted run continues where it stopped.
 
 mod judged;
 mod list;
@@ -28,7 +30,7 @@ pub(crate) struct Arguments {
     /// Plant only mistakes with this in their name or file; may be repeated
     #[arg(long, value_name = "PART")]
     only: Vec<String>,
-    /// Write reports/regressions.md, and .cargo/fingerprints.json for comparison with later runs
+    /// Write reports/regressions.md, and xtask/fingerprints.json for comparison with later runs
     #[arg(long)]
     write: bool,
     /// Diagnose recorded results again, and plant nothing
@@ -59,40 +61,22 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         return print_list(&chosen);
     }
     // All of them are checked before the first is compiled.
-    let planted = chosen
+    let texts = chosen
         .iter()
         .map(|regression| regression.planted(&root))
         .collect::<Result<Vec<_>, _>>()?;
-    let reported = root.join("reports/regressions.md");
+    let reported = root.join(REPORT);
     let clock = LongRun::begin(
         "one build and one run of the quick tier for each mistake",
         &reported,
         false,
     );
-    let (copy, count) = (Copy::of(&root)?, chosen.len());
+    let count = chosen.len();
+    let copy = Copy::of(&root)?;
     let passing = copy.as_it_is(arguments.recorded)?.seconds;
     exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
-    let (mut all, mut complaints) = (vec![], vec![]);
-    for (regression, text) in chosen.iter().zip(&planted) {
-        match copy.with(regression, text, arguments.recorded) {
-            Ok(found) => {
-                clock.done(&format!(
-                    "{}: {}",
-                    regression.name,
-                    first_words(regression, &found)
-                ));
-                all.push((*regression, found));
-            }
-            Err(why) => complaints.push(format!("{}: {}", regression.name, why.message())),
-        }
-    }
-    if all.is_empty() {
-        return Err(Unusable::because(&complaints.join("\n")));
-    }
-    complaints
-        .iter()
-        .for_each(|complaint| screen::complain(complaint));
-    let all = judged::judged(&root, all)?;
+    let planted = chosen.iter().copied().zip(&texts);
+    let all = judged::judged(&root, plant(&copy, planted, arguments.recorded, &clock)?)?;
     let named = all
         .iter()
         .filter(|one| one.found.is_named_by(one.regression))
@@ -117,22 +101,51 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         screen::table(&HEAD, &table.rows)
     ))?;
     if arguments.write {
-        atomic::write(
-            &reported,
-            page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores,
-        )?;
+        let page = page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores;
+        atomic::write(&reported, page)?;
         let prints = serde_json::to_string(&judged::fingerprints(&all)).map_err(io::Error::from)?;
-        atomic::write(
-            &root.join(FINGERPRINTS),
-            prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n",
-        )?;
-        screen::print(&format!("report: reports/regressions.md, {FINGERPRINTS}\n"))?;
+        let lines = prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n";
+        atomic::write(&root.join(FINGERPRINTS), lines)?;
+        screen::print(&format!("report: {REPORT}, {FINGERPRINTS}\n"))?;
     }
     Ok(if named == count {
         Verdict::Pass
     } else {
         Verdict::Fail
     })
+}
+
+/// Plants one mistake after the other, and runs the quick tier with each.
+///
+/// * `planted`: each mistake with the text of its file.
+///
+/// # Errors
+/// No mistake has a result; the others without one are complained about.
+fn plant<'r, 't>(
+    copy: &Copy,
+    planted: impl Iterator<Item = (&'r Regression, &'t String)>,
+    recorded: bool,
+    clock: &LongRun,
+) -> Result<Vec<(&'r Regression, Found)>, Unusable> {
+    let mut results = vec![];
+    let mut complaints = vec![];
+    for (regression, text) in planted {
+        match copy.with(regression, text, recorded) {
+            Ok(result) => {
+                let words = first_words(regression, &result);
+                clock.done(&format!("{}: {words}", regression.name));
+                results.push((regression, result));
+            }
+            Err(why) => complaints.push(format!("{}: {}", regression.name, why.message())),
+        }
+    }
+    if results.is_empty() {
+        return Err(Unusable::because(&complaints.join("\n")));
+    }
+    complaints
+        .iter()
+        .for_each(|complaint| screen::complain(complaint));
+    Ok(results)
 }
 
 fn print_list(chosen: &[&Regression]) -> Outcome {
@@ -152,7 +165,9 @@ fn print_list(chosen: &[&Regression]) -> Outcome {
 }
 
 /// Where later runs of `verify` find the effects of these mistakes.
-const FINGERPRINTS: &str = ".cargo/fingerprints.json";
+const REPORT: &str = "reports/regressions.md";
+
+pub(crate) const FINGERPRINTS: &str = "xtask/fingerprints.json";
 
 const HEAD: [&str; 4] = [
     "mistake",

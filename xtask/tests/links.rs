@@ -1,4 +1,5 @@
-//! Links in Markdown files have targets: an existing file or folder, or an existing heading of a page.
+//! Links in Markdown files have targets: an existing file or folder, or an existing heading of a
+//! page.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -35,7 +36,8 @@ fn links(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// GitHub's anchor of a heading: small letters, digits, `-` and `_`; blanks become `-`, everything else is dropped.
+/// GitHub's anchor of a heading: small letters, digits, `-` and `_`; blanks become `-`, everything
+/// else is dropped.
 fn anchor(heading: &str) -> String {
     let kept = heading.to_lowercase().replace(' ', "-");
     kept.chars()
@@ -51,7 +53,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
             (Event::Start(Tag::Heading { .. }), _) => heading = Some(String::new()),
             (Event::Text(text) | Event::Code(text), Some(heading)) => heading.push_str(&text),
             (Event::End(TagEnd::Heading(_)), Some(_)) => {
-                found.extend(heading.take().map(|heading| anchor(&heading)))
+                found.extend(heading.take().map(|heading| anchor(&heading)));
             }
             _ => {}
         }

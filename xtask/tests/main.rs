@@ -1,9 +1,11 @@
 //! The tests of the tools, the map, the links and the workflow, in one program.
 
 mod action;
+mod bench;
 mod dev;
 mod links;
 mod map;
 mod quick_tier;
 mod readme;
+mod texts;
 mod workflow;

@@ -1,4 +1,5 @@
-//! The README of the project shows what the commands print, and no README shows output that no test compares.
+//! The README of the project shows what the commands print, and no README shows output that no test
+//! compares.
 
 #[path = "../../crates/convergence-study/tests/readme/blocks.rs"]
 mod blocks;
@@ -17,7 +18,8 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
-/// The lines of `verify` that need no clock, as its report has them: verdict, and the key numbers of each study.
+/// The lines of `verify` that need no clock, as its report has them: verdict, and the key numbers
+/// of each study.
 ///
 /// * `line`: as printed: study, verdict, seconds, key numbers, or the last sentence.
 fn is_reported(line: &str, report: &str) -> bool {
@@ -47,7 +49,8 @@ fn every_block_of_output_is_what_the_command_prints() {
     assert_eq!(blocks.len(), 2);
     for Printed { command, lines } in blocks {
         assert_eq!(command[..2], ["cargo", "xtask"]);
-        // The studies take seconds when optimised: their report is what `verify` wrote, and each merge writes it anew.
+        // The studies take seconds when optimised: their report is what `verify` wrote, and each
+        // merge writes it anew.
         if command[2] == "verify" {
             let report = read("reports/README.md");
             let wrong: Vec<&String> = lines
@@ -136,4 +139,33 @@ fn the_error_of_the_papers_figures_is_that_of_the_record() {
         row.contains(&format!("off by up to {number} in u(1, t)")),
         "{number}: {row}"
     );
+}
+
+/// The table of run times in the README is that of the benchmark, row by row, and says how long a
+/// run may take.
+#[test]
+fn the_run_times_are_those_of_the_benchmark() {
+    let readme = read("README.md");
+    let report = read("reports/bench.md");
+    let (_, after) = readme
+        .split_once("\n| error in")
+        .expect("a table of run times");
+    let table = format!(
+        "| error in{}",
+        after.split("\n\n").next().expect("its rows")
+    );
+    assert!(table.lines().count() > 5);
+    let wrong: Vec<&str> = table
+        .lines()
+        .filter(|line| !is_row(line, &report))
+        .collect();
+    assert!(wrong.is_empty(), "not in reports/bench.md: {wrong:#?}");
+    let (_, limit) = report.split_once("A run may take ").expect("the limit");
+    let limit = limit.split(" seconds").next().expect("a number");
+    assert!(readme.contains(&format!("not reached within {limit} seconds")));
+    assert!(!is_row("| u(1, t), 1e-3 | 0 |", &report));
+}
+
+fn is_row(line: &str, report: &str) -> bool {
+    report.lines().any(|row| row == line)
 }

@@ -1,8 +1,9 @@
 //! A limit on the time that one case may take.
 //!
-//! A case is computed by one thread from start to end, so the limit belongs to the thread: the runner sets it around a
-//! case, and every time loop asks its own [`Patience`] before a step. The clock is read about once a millisecond, and
-//! never without a limit. The limit does not affect the results.
+//! A case is computed by one thread from start to end, so the limit belongs to the thread: the
+//! runner sets it around a case, and every time loop asks its own [`Patience`] before a step. The
+//! clock is read about once a millisecond, and never without a limit. The limit does not affect the
+//! results.
 //!
 //! Rounds are counted, too. A limit on that work ends a case at the same step on every machine.
 
@@ -64,7 +65,8 @@ pub fn counted<T>(most: Option<u64>, case: impl FnOnce() -> T) -> (T, u64) {
 
 /// Runs a case on this thread, with or without a limit.
 ///
-/// * Returns the result of `case`, and [`TimeUp`] if the limit was reached, even if the case ignored it.
+/// * Returns the result of `case`, and [`TimeUp`] if the limit was reached, even if the case
+///   ignored it.
 pub fn within<T>(limit: Option<Duration>, case: impl FnOnce() -> T) -> (T, Option<TimeUp>) {
     within_by(Instant::now, limit, case)
 }
@@ -91,7 +93,8 @@ pub fn within_by<T>(
     (result, REACHED.take())
 }
 
-/// The limit of the case that this thread computes, for a case that cannot be asked before each round; `None` without one.
+/// The limit of the case that this thread computes, for a case that cannot be asked before each
+/// round; `None` without one.
 pub fn granted() -> Option<Duration> {
     DEADLINE.get().map(|deadline| deadline.limit)
 }
@@ -127,7 +130,8 @@ impl Patience {
         Self::new(Self::WORK)
     }
 
-    /// Adds the work of further passes of the round that was done, such as iterations after the first.
+    /// Adds the work of further passes of the round that was done, such as iterations after the
+    /// first.
     pub fn also(&mut self, passes: usize) {
         self.since = self.since.saturating_add(self.round.saturating_mul(passes));
     }
@@ -198,7 +202,8 @@ mod tests {
     fn a_limit_is_reported_with_step_and_time_and_ends_with_its_case() {
         let limit = Duration::from_millis(20);
         let (done, up) = rounds(Some(limit), usize::MAX);
-        // The clock is read before the first round, then every 304 of them, and 20 ms after the start the 20th time.
+        // The clock is read before the first round, then every 304 of them, and 20 ms after the
+        // start the 20th time.
         assert_eq!(
             (done, up),
             (

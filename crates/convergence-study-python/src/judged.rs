@@ -15,10 +15,12 @@ use crate::values::{self, Claims, refuse};
 
 /// The judgement of one error: the verdict, and the numbers behind it.
 ///
-/// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval: its two ends (95 %), or None; pairwise: the
-/// rates between neighbouring levels, one fewer than levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
-/// order: the claimed order, or None; table(): step, error and rate of each level, coarse to fine, as a pandas DataFrame if pandas is available,
-/// otherwise as a dict of lists. It has no truth value. In a notebook it is shown as a table and a picture.
+/// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval:
+/// its two ends (95 %), or None; pairwise: the rates between neighbouring levels, one fewer than
+/// levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
+/// order: the claimed order, or None; table(): step, error and rate of each level, coarse to fine,
+/// as a pandas DataFrame if pandas is available, otherwise as a dict of lists. It has no truth
+/// value. In a notebook it is shown as a table and a picture.
 #[pyclass(frozen, module = "convergence_study")]
 pub(crate) struct Judgement {
     pub(crate) name: String,
@@ -54,6 +56,7 @@ impl Judgement {
         };
         let columns = vec![ErrorColumn {
             name: self.name.clone(),
+            symbol: None,
             errors,
             claim,
             look: 0,
@@ -278,13 +281,16 @@ fn table(table: &Bound<'_, PyAny>, claimed: &[String]) -> PyResult<RateTable> {
 
 /// Judges errors against the order that theory claims.
 ///
-/// h: the steps, in any order, positive; errors: the same number of errors, in any unit. Lists, arrays and series are accepted. Or h is a
-/// data frame, or a dict of lists, with a column of steps and columns of errors, which are recognised as `convergence-study rates` does;
-/// errors is then None. order: a number > 0, or ">= 2" for a minimum order; for a data frame also a dict of names and orders; None for no
-/// claim, which is never a pass. tolerance: allowed deviation of the rate from the order, 0 < tolerance < 0.5.
+/// h: the steps, in any order, positive; errors: the same number of errors, in any unit. Lists,
+/// arrays and series are accepted. Or h is a data frame, or a dict of lists, with a column of steps
+/// and columns of errors, which are recognised as `convergence-study rates` does; errors is then
+/// None. order: a number > 0, or ">= 2" for a minimum order; for a data frame also a dict of names
+/// and orders; None for no claim, which is never a pass. tolerance: allowed deviation of the rate
+/// from the order, 0 < tolerance < 0.5.
 ///
-/// Returns a Judgement; for a data frame a dict of them by name. Raises ValueError, which names the argument, if the input is not a
-/// table of numbers. NaN among the errors is a finding, not bad input.
+/// Returns a Judgement; for a data frame a dict of them by name. Raises ValueError, which names the
+/// argument, if the input is not a table of numbers. NaN among the errors is a finding, not bad
+/// input.
 #[pyfunction]
 #[pyo3(signature = (h, errors=None, order=None, tolerance=0.25))]
 pub(crate) fn judge<'py>(
@@ -307,8 +313,8 @@ pub(crate) fn judge<'py>(
 
 /// Does nothing if the order is confirmed; arguments as for judge.
 ///
-/// Raises AssertionError with the table, the rate, its interval, the reason and what to do, unless every verdict is a pass: inconclusive is not.
-/// Raises ValueError as judge does.
+/// Raises AssertionError with the table, the rate, its interval, the reason and what to do, unless
+/// every verdict is a pass: inconclusive is not. Raises ValueError as judge does.
 #[pyfunction]
 #[pyo3(signature = (h, errors=None, order=None, tolerance=0.25))]
 pub(crate) fn assert_order(
@@ -335,9 +341,10 @@ pub(crate) fn assert_order(
 
 /// The limit of values at h = 0.
 ///
-/// value: the limit; interval: its two ends; error: that of the finest value, with its sign; gci: half the width of the grid convergence index
-/// about the finest value; all in the unit of the values, and None if there is no such number. order: the observed order; verdict: on the
-/// claimed order; reason: why there is no limit, or how the order was found.
+/// value: the limit; interval: its two ends; error: that of the finest value, with its sign; gci:
+/// half the width of the grid convergence index about the finest value; all in the unit of the
+/// values, and None if there is no such number. order: the observed order; verdict: on the claimed
+/// order; reason: why there is no limit, or how the order was found.
 #[pyclass(frozen, get_all, module = "convergence_study")]
 pub(crate) struct Limit {
     value: Option<f64>,
@@ -379,10 +386,12 @@ impl Limit {
     }
 }
 
-/// The limit at h = 0 of values without a known exact value, with its interval, the observed order and the grid convergence index.
+/// The limit at h = 0 of values without a known exact value, with its interval, the observed order
+/// and the grid convergence index.
 ///
-/// h: the steps, in any order, positive; values: the same number of values, at least three, in any unit. order: the theoretical order,
-/// or None: then the observed order replaces it. tolerance as for judge. Returns a Limit. Raises ValueError, which names the argument.
+/// h: the steps, in any order, positive; values: the same number of values, at least three, in any
+/// unit. order: the theoretical order, or None: then the observed order replaces it. tolerance as
+/// for judge. Returns a Limit. Raises ValueError, which names the argument.
 #[pyfunction]
 #[pyo3(signature = (h, values, order=None, tolerance=0.25))]
 pub(crate) fn limit(

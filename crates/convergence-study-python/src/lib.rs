@@ -1,4 +1,5 @@
-//! The Python package `convergence_study`: converts Python values for the crate `convergence-study`, which judges them.
+//! The Python package `convergence_study`: converts Python values for the crate
+//! `convergence-study`, which judges them.
 //!
 //! There is no rule here: the code that confirms an order is shared with Rust and the command line.
 
@@ -15,7 +16,8 @@ use pyo3::prelude::*;
 
 /// The program `convergence-study`; returns its exit status.
 ///
-/// * `executable`: the Python interpreter, which starts the guards of processes by `python -m convergence_study guard`.
+/// * `executable`: the Python interpreter, which starts the guards of processes by
+///   `python -m convergence_study guard`.
 /// * `arguments`: the program's arguments, without its name.
 #[pyfunction]
 fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -> u8 {

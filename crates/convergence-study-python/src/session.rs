@@ -14,9 +14,11 @@ use crate::values::refuse;
 
 const PROJECT: Project = Project::new("pytest", "pytest");
 
-/// Compares the studies of a run with the baseline, accepts them as the new baseline on request, and writes the report.
+/// Compares the studies of a run with the baseline, accepts them as the new baseline on request,
+/// and writes the report.
 ///
-/// * `studies`: each with a flag that allows it to be inconclusive; then the baseline has none of its numbers.
+/// * `studies`: each with a flag that allows it to be inconclusive; then the baseline has none of
+///   its numbers.
 /// * `baseline`: its file; numbers are guarded if it exists or is to be created.
 /// * `reason`: why claims have changed.
 /// * Returns lines to print, and whether everything agrees with the baseline.

@@ -21,9 +21,11 @@ use crate::values::{self, Claims, number, numbers, refuse};
 
 /// A completed study.
 ///
-/// verdict: "pass", "fail" or "inconclusive"; summary: why, in a sentence; rates: a Judgement for each claim, by name; table(): steps, errors and
-/// rates as a DataFrame if pandas is available, otherwise as a dict of lists; report(folder): writes index.html, README.md, JUnit and records;
-/// assert_passes(): AssertionError unless it passes. It has no truth value. In a notebook it is shown as a table and a picture.
+/// verdict: "pass", "fail" or "inconclusive"; summary: why, in a sentence; rates: a Judgement for
+/// each claim, by name; table(): steps, errors and rates as a DataFrame if pandas is available,
+/// otherwise as a dict of lists; report(folder): writes index.html, README.md, JUnit and records;
+/// assert_passes(): AssertionError unless it passes. It has no truth value. In a notebook it is
+/// shown as a table and a picture.
 #[pyclass(frozen, module = "convergence_study")]
 pub(crate) struct Study {
     pub(crate) finished: Finished,
@@ -298,10 +300,12 @@ fn solved(solve: &Bound<'_, PyAny>, n: usize, seconds: &mut Vec<f64>) -> PyResul
 
 /// Computes levels and judges the rates of their errors.
 ///
-/// solve: called with a whole number n, level by level, in the thread of the caller; returns a dict of errors by name, or one error. Its step is
-/// 1/n, or the value that it returns with the errors as "h" or "dt". n: whole numbers, or "auto": 8, 16, 32, 64, then finer ones until every
-/// rate has a verdict, at most 8 levels, while the next one fits the budget (seconds). order: as for judge; a dict has orders by name, and other
-/// errors are not judged; one number applies to every error. name: its name in reports.
+/// solve: called with a whole number n, level by level, in the thread of the caller; returns a dict
+/// of errors by name, or one error. Its step is 1/n, or the value that it returns with the errors
+/// as "h" or "dt". n: whole numbers, or "auto": 8, 16, 32, 64, then finer ones until every rate has
+/// a verdict, at most 8 levels, while the next one fits the budget (seconds). order: as for judge;
+/// a dict has orders by name, and other errors are not judged; one number applies to every error.
+/// name: its name in reports.
 ///
 /// Returns a Study. Raises ValueError, which names the argument, and exceptions of solve.
 #[pyfunction]

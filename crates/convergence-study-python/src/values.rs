@@ -48,7 +48,8 @@ pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyR
     }
 }
 
-/// The numbers of a list, an array, a series: anything with `tolist` or `to_list`, or that can be iterated.
+/// The numbers of a list, an array, a series: anything with `tolist` or `to_list`, or that can be
+/// iterated.
 pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let expected = || {
         refuse(format!(

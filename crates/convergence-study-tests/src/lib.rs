@@ -6,7 +6,8 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-/// How long a test waits for a process. It only ends a test that would hang for ever: no test compares a time with it.
+/// How long a test waits for a process. It only ends a test that would hang for ever: no test
+/// compares a time with it.
 pub const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Waits for the end of a process.
@@ -17,7 +18,8 @@ pub const PATIENCE: Duration = Duration::from_secs(120);
 pub fn finished(child: Child) -> Output {
     let id = child.id();
     let (sender, receiver) = mpsc::channel();
-    // The thread reads the output as well, and may outlive the test if a child of the process holds it open.
+    // The thread reads the output as well, and may outlive the test if a child of the process holds
+    // it open.
     thread::spawn(move || sender.send(child.wait_with_output()));
     match receiver.recv_timeout(PATIENCE) {
         Ok(output) => output.expect("the output of a process"),
@@ -100,7 +102,8 @@ pub fn ended(command: &mut Command) -> Ended {
 
 /// The same command in a process that does not ignore interruption.
 ///
-/// Shells make background jobs ignore it, and processes inherit that: a program started that way rightly ignores it.
+/// Shells make background jobs ignore it, and processes inherit that: a program started that way
+/// rightly ignores it.
 pub fn interruptible(command: &Command) -> Command {
     let mut listening = Command::new("env");
     if interruption_is_ignored() {

@@ -1,4 +1,5 @@
-//! The heat equation u_t = u_xx on (0, 1) by central differences and explicit Euler steps dt = h²/4, judged by the harness.
+//! The heat equation u_t = u_xx on (0, 1) by central differences and explicit Euler steps dt =
+//! h²/4, judged by the harness.
 
 use std::{env, error::Error, f64::consts::PI, path::Path};
 

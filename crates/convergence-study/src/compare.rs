@@ -1,19 +1,24 @@
-//! Compares two versions of a program by their records: is anything lost, has an order, an error or the cost of an accuracy changed?
+//! Compares two versions of a program by their records: is anything lost, has an order, an error or
+//! the cost of an accuracy changed?
 //!
-//! Four questions are asked about every error of every study of the old record; the first that finds a difference names
-//! the reason.
+//! Four questions are asked about every error of every study of the old record; the first that
+//! finds a difference names the reason.
 //!
 //! 1. *Lost*: the new record lacks a study, an error, a judged rate, or ends at a coarser level.
-//! 2. *Order*: the intervals of the rates have no point in common and the rates are more than `ORDER_SHIFT` apart, or a claim that
-//!    passed does not.
-//! 3. *Error*: errors are deterministic; at a level of both records, one that is larger by more than [`WITHIN`], negative or not finite
-//!    is worse. If the levels differ, the old error is interpolated linearly in logarithms; with Δ the change of the pairwise rate there
-//!    and x the distance of the neighbours in log h, this is off by at most Δ x / 8 for smooth data, and twice as much is allowed. Errors
-//!    are better if every level is better, and the same if every level is the same.
-//! 4. *Work* for the smallest error of both, interpolated likewise: it may differ by `WORK_WITHIN`, as seconds are not counts.
+//! 2. *Order*: the intervals of the rates have no point in common and the rates are more than
+//!    `ORDER_SHIFT` apart, or a claim that passed does not.
+//! 3. *Error*: errors are deterministic; at a level of both records, one that is larger by more
+//!    than [`WITHIN`], negative or not finite is worse. If the levels differ, the old error is
+//!    interpolated linearly in logarithms; with Δ the change of the pairwise rate there and x the
+//!    distance of the neighbours in log h, this is off by at most Δ x / 8 for smooth data, and
+//!    twice as much is allowed. Errors are better if every level is better, and the same if every
+//!    level is the same.
+//! 4. *Work* for the smallest error of both, interpolated likewise: it may differ by `WORK_WITHIN`,
+//!    as seconds are not counts.
 //!
-//! A study with a worse verdict is worse even if none of its errors is. What only the new record has is named, and
-//! changes nothing. Errors below the floor of the comparison count as that floor; levels that a study has set aside at its own are not compared.
+//! A study with a worse verdict is worse even if none of its errors is. What only the new record
+//! has is named, and changes nothing. Errors below the floor of the comparison count as that floor;
+//! levels that a study has set aside at its own are not compared.
 
 use serde::Serialize;
 
@@ -29,7 +34,8 @@ use crate::text::number::plain_text;
 /// Rates closer than this are the same order.
 const ORDER_SHIFT: f64 = 0.05;
 
-/// Errors at the same step that differ by less, as a share, are the same; the default of `--within`.
+/// Errors at the same step that differ by less, as a share, are the same; the default of
+/// `--within`.
 pub const WITHIN: f64 = 0.01;
 
 /// The same for the work for the same error.
@@ -448,7 +454,8 @@ impl Both<'_> {
             .then(|| format!("no longer a finite number >= 0 at {}", broken.join("; ")))
     }
 
-    /// For each level of the new record: the logarithm of the new error over the old one at the same place, and its uncertainty.
+    /// For each level of the new record: the logarithm of the new error over the old one at the
+    /// same place, and its uncertainty.
     fn ratios(&self) -> Vec<(&LevelErrors, [f64; 2])> {
         let floor = self.floor;
         let ratio = |(level, at): &(&'_ LevelErrors, Level)| {
@@ -547,8 +554,9 @@ impl Both<'_> {
         )
     }
 
-    /// The logarithm of the new work over the old one for the smallest error that both have reached, and its uncertainty: errors within
-    /// the limit count as equal, so the work is uncertain by its growth over that share of the error.
+    /// The logarithm of the new work over the old one for the smallest error that both have
+    /// reached, and its uncertainty: errors within the limit count as equal, so the work is
+    /// uncertain by its growth over that share of the error.
     fn work(&self) -> Option<[f64; 2]> {
         let error = self
             .old

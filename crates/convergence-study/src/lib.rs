@@ -2,7 +2,8 @@
 //!
 //! # In a test
 //!
-//! [`assert_order`] judges existing errors; [`levels()`](levels()) makes a study of a function that computes them.
+//! [`assert_order`] judges existing errors; [`levels()`](levels()) makes a study of a function that
+//! computes them.
 //!
 //! ```
 //! // The midpoint rule for the integral of exp: of second order.
@@ -14,8 +15,9 @@
 //! convergence_study::levels([4, 8, 16, 32, 64], error).claim("error", 2.0).assert_passes();
 //! ```
 //!
-//! [`judge`] is the rule: it knows neither norm nor scheme, only steps and errors. [`report`](verify::report) writes the report on a study
-//! that has run: see the example `heat_equation` and the README.
+//! [`judge`] is the rule: it knows neither norm nor scheme, only steps and errors.
+//! [`report`](verify::report) writes the report on a study that has run: see the example
+//! `heat_equation` and the README.
 //!
 //! # From a file to a report
 //!
@@ -24,17 +26,20 @@
 //!           input               cases     threads      Outcome
 //! ```
 //!
-//! A study is data. A project writes its [`Kind`](study::Kind), which says what its cases compute and how their results are
-//! judged; all findings are an [`Outcome`](study::Outcome). A [`Project`](project::Project) names its kinds, [`verify`]
-//! runs, judges, compares with the baseline and writes the report, and [`cli`] is the command line for all of it.
+//! A study is data. A project writes its [`Kind`](study::Kind), which says what its cases compute
+//! and how their results are judged; all findings are an [`Outcome`](study::Outcome). A
+//! [`Project`](project::Project) names its kinds, [`verify`] runs, judges, compares with the
+//! baseline and writes the report, and [`cli`] is the command line for all of it.
 //!
 //! # Features
 //!
-//! `default-features = false` leaves [`text`], [`judge`], [`study`] and [`run`]: verdicts, and studies on all threads, whose outcomes have no
-//! figures. The feature `files` adds [`input`] and studies described by files, `reports` all but the command line, `command-line` that.
+//! `default-features = false` leaves [`text`], [`judge`], [`study`] and [`run`]: verdicts, and
+//! studies on all threads, whose outcomes have no figures. The feature `files` adds [`input`] and
+//! studies described by files, `reports` all but the command line, `command-line` that.
 //!
-//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`, `project`, `store`, `program`,
-//! `compare`, `report`, `explain`, `verify`, `cli`. The first two are the crate `convergence-judge`, with `run::time_limit`.
+//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`,
+//! `project`, `store`, `program`, `compare`, `report`, `explain`, `verify`, `cli`. The first two
+//! are the crate `convergence-judge`, with `run::time_limit`.
 
 #[cfg(feature = "command-line")]
 pub mod cli;

@@ -1,7 +1,8 @@
 //! A project's description of itself for the harness.
 
+use crate::study::Exercised;
 use crate::study::header::{self, Setting};
-use crate::study::{Header, KindRow};
+use crate::study::{Header, KindRow, Subject};
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -14,31 +15,32 @@ pub struct Project {
     pub about: &'static str,
     /// The kinds of study that it has.
     pub kinds: &'static [KindRow],
-    /// The groups that studies may name, in the order of reports: the property claimed, such as `space`.
+    /// The groups that studies may name, in the order of reports: the property claimed, such as
+    /// `space`.
     pub groups: &'static [&'static str],
     /// Its own words that `explain` knows in addition to kinds and reasons, such as norms.
     pub terms: &'static [Term],
     /// Files that `new` writes.
     pub templates: &'static [Template],
-    /// Figures that are also written under a fixed name next to the report: file name of the figure, fixed name.
+    /// Figures that are also written under a fixed name next to the report: file name of the
+    /// figure, fixed name.
     pub front_pictures: &'static [(&'static str, &'static str)],
     /// The beginning of the report of a passing run.
     pub front: Front,
-    /// What an item of a study exercises, by its name: a diagnosis distinguishes failing from passing items by these settings.
-    pub settings: fn(&Header, &str) -> Vec<Setting>,
     /// Where to look: a value of a setting or a field, and the place.
     pub places: &'static [(&'static str, &'static str)],
     /// The file of known mistakes, relative to the project's folder.
     pub fingerprints: Option<&'static str>,
-    /// About how many seconds a unit of the cost of its cases takes on one thread; `None` if that is not known.
+    /// About how many seconds a unit of the cost of its cases takes on one thread; `None` if that
+    /// is not known.
     pub seconds_per_cost: Option<f64>,
 }
 
 impl Project {
-    /// A project without kinds, terms, templates and front pictures; `Project { kinds: &KINDS, ..Project::new(name, command) }` adds kinds.
+    /// A project without kinds, terms, templates and front pictures;
+    /// `Project { kinds: &KINDS, ..Project::new(name, command) }` adds kinds.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
-        let settings = header::of_file;
         Self {
             name,
             command,
@@ -49,11 +51,13 @@ impl Project {
             templates: &[],
             front_pictures: &[],
             front: Front {
-                verified: "",
-                plot: "",
+                subject: "",
+                picture: "",
+                finding: "",
                 statements: &[],
+                plot: "",
+                verified: "",
             },
-            settings,
             places: &[],
             fingerprints: None,
             seconds_per_cost: None,
@@ -61,15 +65,32 @@ impl Project {
     }
 }
 
-/// What a passing run has verified.
+impl Project {
+    /// The settings that an item exercises, as its kind states them; those of the file for a kind
+    /// that is not the project's.
+    pub fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let row = self.kinds.iter().find(|row| row.name == header.kind);
+        row.map_or(header::of_file as Exercised, |row| row.settings)(header, subject)
+    }
+}
+
+/// What a passing run has verified, in the order of the page. Figures are named by their files; a
+/// text may be empty.
 #[derive(Debug, Clone, Copy)]
 pub struct Front {
-    /// A description in a few sentences.
-    pub verified: &'static str,
-    /// The file name of the figure that shows it.
-    pub plot: &'static str,
-    /// Statements, each with the study whose numbers answer it, and the name of the rate that does; an empty name means its key numbers.
+    /// What is studied, in one sentence.
+    pub subject: &'static str,
+    /// A figure of it.
+    pub picture: &'static str,
+    /// The most important result, in two sentences.
+    pub finding: &'static str,
+    /// Statements, each with the study whose numbers answer it, and the name of the rate that does;
+    /// an empty name means its key numbers.
     pub statements: &'static [(&'static str, &'static str, &'static str)],
+    /// The figure that shows the claim of one study.
+    pub plot: &'static str,
+    /// What was verified and how, in a few sentences.
+    pub verified: &'static str,
 }
 
 /// Commented files to start from, which run unchanged.
@@ -79,11 +100,13 @@ pub struct Template {
     pub name: &'static str,
     /// The same in a few words, for `--help`.
     pub about: &'static str,
-    /// What follows the user's name in the name of each file, such as `.toml`, and its text. In the text `NAME` stands
-    /// for that name, `PROGRAM` for the project's command, `DIRECTORY` for the folder that it runs in, as seen from the
-    /// files, and `BELOW` for their folder as seen from there, such as `studies/`.
+    /// What follows the user's name in the name of each file, such as `.toml`, and its text. In the
+    /// text `NAME` stands for that name, `PROGRAM` for the project's command, `DIRECTORY` for the
+    /// folder that it runs in, as seen from the files, and `BELOW` for their folder as seen from
+    /// there, such as `studies/`.
     pub files: &'static [(&'static str, &'static str)],
-    /// The text of `.gitignore` in the folder that the command runs in, if there is none yet; may be empty.
+    /// The text of `.gitignore` in the folder that the command runs in, if there is none yet; may
+    /// be empty.
     pub ignored: &'static str,
     /// Commands that take the first file, as the user's next steps: two at most.
     pub next: &'static [&'static str],

@@ -1,4 +1,5 @@
-//! Verification, without command line and terminal: run, judge, compare with the baseline, bless, write the report.
+//! Verification, without command line and terminal: run, judge, compare with the baseline, bless,
+//! write the report.
 
 use std::fs::File;
 use std::io;
@@ -20,7 +21,8 @@ use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 use crate::text::visible;
 
-/// Which studies to run. This decides where the report goes: a report on a selection never replaces one on a tier.
+/// Which studies to run. This decides where the report goes: a report on a selection never replaces
+/// one on a tier.
 ///
 /// | scope | reports |
 /// | --- | --- |
@@ -29,7 +31,8 @@ use crate::text::visible;
 /// | a selection | `reports/local/partial/`, which git ignores |
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Scope {
-    /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims of all are compared.
+    /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims
+    /// of all are compared.
     Tier(Tier, Vec<Header>),
     /// Some studies, as named on the command line.
     Selection(Vec<String>),
@@ -102,8 +105,8 @@ impl Request {
         self.root.join("studies").join("baseline.json")
     }
 
-    /// Waits for other processes that write the reports, and then blocks them; for a blessing first for those that write the baseline,
-    /// whose lock is in the project, wherever the reports go.
+    /// Waits for other processes that write the reports, and then blocks them; for a blessing first
+    /// for those that write the baseline, whose lock is in the project, wherever the reports go.
     fn lock(&self) -> io::Result<[Option<File>; 2]> {
         let baseline = self
             .bless
@@ -121,7 +124,8 @@ impl Request {
         ])
     }
 
-    /// Whether baseline and reports have the same lock. One of them must be held: its file then exists.
+    /// Whether baseline and reports have the same lock. One of them must be held: its file then
+    /// exists.
     fn is_one_lock(&self) -> bool {
         let [baseline, reports] = [&self.root.join("reports"), &self.reports]
             .map(|folder| lock_file(folder).canonicalize().ok());
@@ -132,7 +136,8 @@ impl Request {
 /// The result of a verification.
 #[derive(Debug)]
 pub struct Verification {
-    /// The record of the run, with all digits and times: the studies in the order given; no changes after a blessing.
+    /// The record of the run, with all digits and times: the studies in the order given; no changes
+    /// after a blessing.
     pub record: Record,
     /// Whether the baseline was replaced, if that was requested.
     pub blessing: Option<Result<(), Refusal>>,
@@ -164,7 +169,8 @@ pub enum VerificationError {
 /// Runs the studies and writes the reports, and the baseline if requested.
 ///
 /// # Errors
-/// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are reported before anything is run.
+/// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are reported
+/// before anything is run.
 pub fn verify(
     project: &Project,
     studies: &[Box<dyn Study>],
@@ -200,15 +206,7 @@ pub fn verify(
         .transpose()?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
-    let verdict = verdict(&finished, &changes);
-    let mut record = Record::new(
-        request.scope.name(),
-        &command,
-        verdict,
-        Some(&changes),
-        finished,
-    );
-    record.diagnosis = diagnose(project, &record.studies, &changes, &mistakes);
+    let record = diagnosed(project, request, finished, &changes, &mistakes);
     // Everything is prepared before anything is written.
     let provenance = Provenance::collect(
         &request.root,
@@ -242,6 +240,22 @@ pub fn verify(
         blessing,
         reports: target.folder,
     })
+}
+
+/// The record of a run, with the diagnosis of one that does not pass.
+fn diagnosed(
+    project: &Project,
+    request: &Request,
+    finished: Vec<Finished>,
+    changes: &[Change],
+    mistakes: &Fingerprints,
+) -> Record {
+    let command = request.scope.command(project);
+    let verdict = verdict(&finished, changes);
+    let name = request.scope.name();
+    let mut record = Record::new(name, &command, verdict, Some(changes), finished);
+    record.diagnosis = diagnose(project, &record.studies, changes, mistakes);
+    record
 }
 
 /// Accepts all changes into the baseline, or those selected: all of them or none.
@@ -338,7 +352,8 @@ pub fn publish(
     rebuild(project, record, Some(&here), folder)
 }
 
-/// Writes the report on a record, without running its studies. In a folder of reports it is the report of that record's scope.
+/// Writes the report on a record, without running its studies. In a folder of reports it is the
+/// report of that record's scope.
 ///
 /// * `provenance`: where the run comes from, if known.
 pub fn rebuild(
@@ -369,7 +384,8 @@ pub fn rebuild(
     Ok(publish().map_err(unwritable(folder))?)
 }
 
-/// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`; otherwise the folder itself.
+/// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`;
+/// otherwise the folder itself.
 pub(crate) fn reports_around(folder: &Path) -> PathBuf {
     let has_lock = |folder: &&Path| lock_file(folder).is_file();
     folder
@@ -442,7 +458,8 @@ fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
     }
 }
 
-/// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh checkout has only its Markdown.
+/// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh
+/// checkout has only its Markdown.
 fn see_also(record: &Record, folder: &Path) -> Option<&'static str> {
     let has = |file: &&str| folder.join(file).is_file();
     if record.scope == Tier::Quick.name() && has(&FULL) {

@@ -1,4 +1,5 @@
-//! What a test of a solver sees: a pass is silent; anything else prints the table, the rate, the reason and what to do.
+//! What a test of a solver sees: a pass is silent; anything else prints the table, the rate, the
+//! reason and what to do.
 
 use std::panic::catch_unwind;
 
@@ -60,7 +61,7 @@ fn levels_are_run_and_asserted_in_a_line() {
             levels([8, 16, 32, 64], solve)
                 .claim("L3", 2.0)
                 .assert_passes(),
-        )
+        );
     });
     assert!(
         absent.contains("no level has an error `L3`; there are L2, up"),
@@ -78,7 +79,7 @@ fn levels_are_run_and_asserted_in_a_line() {
             levels([8, 16, 32, 64], breaks)
                 .claim("L2", 2.0)
                 .assert_passes(),
-        )
+        );
     });
     assert!(
         failed.contains("n = 32: an error occurred when formatting an argument"),
@@ -96,7 +97,7 @@ fn levels_are_run_and_asserted_in_a_line() {
             levels([8, 16, 32, 64], panicked)
                 .claim("error", 2.0)
                 .assert_passes(),
-        )
+        );
     });
     assert!(
         failed.contains("n = 32: panicked at asserted.rs:") && failed.contains("pivot lost"),

@@ -1,4 +1,5 @@
-//! CI of other projects: runners can read the action and the examples, and everything named in them exists.
+//! CI of other projects: runners can read the action and the examples, and everything named in them
+//! exists.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -163,7 +164,8 @@ fn the_action_and_its_example_agree_on_inputs_and_outputs() {
             .all(|name| readme.contains(&format!("`{name}`"))),
         "{outputs:?}"
     );
-    // A composite action names the shell of each script; an output of a step must be written by its script.
+    // A composite action names the shell of each script; an output of a step must be written by its
+    // script.
     let scripts = parsed["runs"]["steps"]
         .as_vec()
         .unwrap()

@@ -6,7 +6,7 @@ use std::path::Path;
 use convergence_study::cli::explain::{contents, meant, study, term, terms};
 use convergence_study::input::{InputError, Section};
 use convergence_study::project::{Project, Term};
-use convergence_study::study::{Axis, Claim, Header, KindRow, Study, erased, levels};
+use convergence_study::study::{Axis, Claim, Header, KindRow, Study, erased, header, levels};
 
 const KIND: KindRow = KindRow {
     name: "quadrature",
@@ -15,6 +15,7 @@ const KIND: KindRow = KindRow {
           shows for each cell, and adding the errors of all cells loses one power that the smallness of a cell gains.",
     judged: "By the rate at h -> 0.",
     failure: "A wrong weight or node.",
+    settings: header::of_file,
 };
 
 const PROJECT: Project = Project {

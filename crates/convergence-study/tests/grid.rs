@@ -1,4 +1,5 @@
-//! Orders over a grid of h and dt, also for errors that do not add; `calibration.rs` measures how often they are right.
+//! Orders over a grid of h and dt, also for errors that do not add; `convergence-calibration`
+//! measures how often they are right.
 
 use convergence_study::judge::grid::{Adding, GridErrors};
 use convergence_study::judge::verdict::{Reason, Verdict};
@@ -236,7 +237,8 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
     }
 }
 
-/// An error that falls and grows in turns has a difference of the claimed order, and no limit that a rate could show.
+/// An error that falls and grows in turns has a difference of the claimed order, and no limit that
+/// a rate could show.
 #[test]
 fn differences_that_change_their_sign_do_not_pass() {
     let (h, dt) = (halved(0.25, 6), halved(8.0, 6));

@@ -37,7 +37,8 @@ const ORDER: [&str; 11] = [
     "cli",
 ];
 
-/// The modules of the crate below, which every module may use under this crate's name; `circles.rs` has their order.
+/// The modules of the crate below, which every module may use under this crate's name; `circles.rs`
+/// has their order.
 const BELOW: [&str; 2] = ["text", "judge"];
 
 /// Libraries that only some modules may use.
@@ -58,7 +59,8 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 8] = [
+const CRATES: [(&str, &[&str]); 9] = [
+    ("convergence-calibration", &["convergence-study"]),
     ("convergence-judge", &[]),
     ("manufacture", &[]),
     ("convergence-study", &["convergence-judge", "manufacture"]),
@@ -71,7 +73,12 @@ const CRATES: [(&str, &[&str]); 8] = [
     ),
     (
         "thermobeam-cli",
-        &["convergence-study", "thermobeam", "thermobeam-study"],
+        &[
+            "convergence-study",
+            "thermobeam",
+            "thermobeam-exact",
+            "thermobeam-study",
+        ],
     ),
 ];
 
@@ -299,7 +306,8 @@ fn a_library_that_the_rule_does_without_is_optional() {
     );
 }
 
-/// The names of the crates in a manifest's tables of dependencies; with those for tests if `of_tests`.
+/// The names of the crates in a manifest's tables of dependencies; with those for tests if
+/// `of_tests`.
 fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut is_table = false;
@@ -331,7 +339,8 @@ fn crates_depend_only_on_those_below_them() {
             continue;
         };
         read += 1;
-        // Tests may use a crate above the one tested, but not here: the harness is tested without the application.
+        // Tests may use a crate above the one tested, but not here: the harness is tested without
+        // the application.
         let found = dependencies(&manifest, name == "convergence-study");
         let found: Vec<&str> = names
             .into_iter()

@@ -1,7 +1,6 @@
 //! The tests of the harness, in one program.
 
 mod asserted;
-mod calibration;
 #[cfg(feature = "command-line")]
 mod ci;
 mod circles;

@@ -100,8 +100,9 @@ fn three_values_lean_on_the_claim() {
     );
 }
 
-/// The example of I. B. Celik et al., *Procedure for Estimation and Reporting of Uncertainty Due to Discretization in CFD Applications*, J. Fluids Eng. 130
-/// (2008), table 1, first column: grids of 4500, 8000, 18000 cells in two dimensions.
+/// The example of I. B. Celik et al., *Procedure for Estimation and Reporting of Uncertainty Due to
+/// Discretization in CFD Applications*, J. Fluids Eng. 130 (2008), table 1, first column: grids of
+/// 4500, 8000, 18000 cells in two dimensions.
 #[test]
 fn the_index_is_that_of_the_published_example() {
     let steps = [4500.0_f64, 8000.0, 18000.0].map(|cells| cells.powf(-0.5));

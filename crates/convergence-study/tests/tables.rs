@@ -1,5 +1,5 @@
-//! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused with the command
-//! that reads it.
+//! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused
+//! with the command that reads it.
 //!
 //! With `BLESS_TABLES` set, results and `TABLES.md` are written anew; read them before committing.
 
@@ -89,7 +89,7 @@ fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
             "--names" => choice.names = Some(list()),
             "--order" => match value.rsplit_once('=') {
                 Some((name, order)) => {
-                    orders.push((Some(name.to_owned()), order.parse().expect("an order")))
+                    orders.push((Some(name.to_owned()), order.parse().expect("an order")));
                 }
                 None => orders.push((None, value.parse().expect("an order"))),
             },

@@ -347,7 +347,8 @@ mod laws {
             prop_assert_eq!((a.verdict, a.kind, &a.used, &a.set_aside), (b.verdict, b.kind, &b.used, &b.set_aside));
         }
 
-        /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order or wrong limit.
+        /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order
+        /// or wrong limit.
         #[test]
         fn a_coarser_level_never_turns_a_departure_into_a_pass(
             scattered in prop::collection::vec(1.8..2.2_f64, 3..8),

@@ -1,4 +1,5 @@
-//! Tables that referees have put to the rule, each with its verdict: what the rule says of them today, right or wrong.
+//! Tables that referees have put to the rule, each with its verdict: what the rule says of them
+//! today, right or wrong.
 
 use convergence_study::judge::verdict::{Cause, Level, Reason, Verdict, judge};
 
@@ -124,7 +125,8 @@ const ROWS: [Row; 22] = [
         Reason::Agrees,
     ),
     row("h^1.8", [0.1, 5.0], |h| h.powf(1.8), 0.25, Reason::Agrees),
-    // First order, or a wrong limit: three levels decide no more than the four or five that they are part of.
+    // First order, or a wrong limit: three levels decide no more than the four or five that they
+    // are part of.
     row(
         "h² + 0.003 h",
         [0.2, 5.0],

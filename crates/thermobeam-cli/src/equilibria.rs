@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use thermobeam::equilibrium::{
+use thermobeam_exact::equilibrium::{
     Completeness, Equilibrium, EquilibriumError, completeness, equilibria,
 };
 use thermobeam_study::run::object::phase_name;

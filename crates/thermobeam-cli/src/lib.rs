@@ -1,9 +1,8 @@
 //! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
 //!
-//! The harness's commands come from `convergence_study::cli`, with the beam's kinds of study registered in [`project()`]. This
-//! file adds the beam's own commands and dispatches.
+//! The harness's commands come from `convergence_study::cli`, with the beam's kinds of study
+//! registered in [`project()`]. This file adds the beam's own commands and dispatches.
 
-mod bench;
 mod equilibria;
 mod merge;
 mod project;
@@ -34,7 +33,6 @@ pub enum Command {
     Equilibria(equilibria::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
-    Bench(bench::Arguments),
 }
 
 /// The commands, grouped by the user's purpose.
@@ -47,7 +45,7 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Records of runs", &["compare", "report"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
-    ("Everything else", &["bench", "completions"]),
+    ("Everything else", &["completions"]),
 ];
 
 impl Command {
@@ -62,7 +60,6 @@ impl Command {
             Self::Equilibria(arguments) => equilibria::run(arguments),
             Self::Sweep(arguments) => sweep::run(arguments),
             Self::Merge(arguments) => merge::run(arguments),
-            Self::Bench(arguments) => bench::run(project, arguments),
         }
     }
 }

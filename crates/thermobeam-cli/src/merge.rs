@@ -11,8 +11,8 @@ use convergence_study::judge::verdict::Verdict;
 
 /// Join the shares of a sweep into the file that one run would have written
 ///
-/// Writes results.jsonl to the folder given by --out, with a line for each case in order. A missing or repeated case is an error,
-/// and nothing is written.
+/// Writes results.jsonl to the folder given by --out, with a line for each case in order. A missing
+/// or repeated case is an error, and nothing is written.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The folders of all shares

@@ -31,13 +31,14 @@ use accuracy::Planned;
 
 /// Simulate one scene
 ///
-/// The --out folder gets the time history (history.csv), pictures (SVG) and run.json, the object of --format json.
+/// The --out folder gets the time history (history.csv), pictures (SVG) and run.json, the object
+/// of --format json.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
-    /// Measure the errors of the result against a run of any order, and find what to refine first by two further runs: one with
-    /// only space refined, one with only the step length halved
+    /// Measure the errors of the result against a run of any order, and find what to refine first
+    /// by two further runs: one with only space refined, one with only the step length halved
     #[arg(long)]
     estimate_error: bool,
     /// Choose the cheapest run with at most this error; it uses dG for any scheme of the scene
@@ -49,7 +50,8 @@ pub struct Arguments {
     /// The quantity of the target error
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
     quantity: accuracy::Quantity,
-    /// Time limit of the run; the results so far are then shown, and the exit status is 1 [default: none]
+    /// Time limit of the run; the results so far are then shown, and the exit status is 1
+    /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     /// Run also what is expected to take minutes
@@ -100,7 +102,8 @@ struct Printed<'a> {
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
 
-/// Runs the command. Nothing is written, and no folder is created, before the scene has proved usable.
+/// Runs the command. Nothing is written, and no folder is created, before the scene has proved
+/// usable.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let read = Scene::read(&arguments.scene)?;
     let planned = match arguments

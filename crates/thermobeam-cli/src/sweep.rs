@@ -17,14 +17,16 @@ use convergence_study::run;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
-/// One JSON line for each case: its parameters and what `run --format json` prints, without the wall time. A case that fails has a
-/// line with the reason; the exit status is then 1. With --out the folder gets a journal, and results.jsonl at the end; without --out,
-/// the lines go to standard output.
+/// One JSON line for each case: its parameters and what `run --format json` prints, without the
+/// wall time. A case that fails has a line with the reason; the exit status is then 1. With --out
+/// the folder gets a journal, and results.jsonl at the end; without --out, the lines go to standard
+/// output.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The sweep file
     file: PathBuf,
-    /// Time limit of a case; its line says where it stopped, and the others continue [default: none]
+    /// Time limit of a case; its line says where it stopped, and the others continue
+    /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     case_limit: Option<Duration>,
     /// Continue the sweep in the folder; start it if the folder is empty

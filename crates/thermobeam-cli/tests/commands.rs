@@ -22,7 +22,8 @@ fn thermobeam(root: &Path, arguments: &[&str]) -> Output {
     output(&mut command)
 }
 
-/// Unusable input: status 2, these words on standard error, nothing on standard output, nothing written.
+/// Unusable input: status 2, these words on standard error, nothing on standard output, nothing
+/// written.
 #[track_caller]
 fn unusable(root: &TempDir, arguments: &[&str], words: &str) {
     let output = thermobeam(root.path(), arguments);
@@ -69,34 +70,6 @@ fn a_study_file_that_is_none_is_refused_with_its_line() {
         &root,
         &["study", "missing.toml"],
         "missing.toml: cannot be read",
-    );
-}
-
-#[test]
-fn times_of_another_program_are_refused_with_their_place() {
-    let scene = "[time]\ndt = 0.1\nt_end = 1.0\n";
-    let root = workspace(&[
-        ("scenes/s.toml", scene),
-        ("cvode.json", "{\"runs\": [{\"zeta\": 0.1}]}"),
-    ]);
-    let bench = |file| {
-        [
-            "bench",
-            "--scene",
-            "studies/scenes/s.toml",
-            "--beside",
-            file,
-        ]
-    };
-    unusable(
-        &root,
-        &bench("studies/cvode.json"),
-        "studies/cvode.json: missing field `degree` at line 1 column",
-    );
-    unusable(
-        &root,
-        &bench("studies/none.json"),
-        "studies/none.json: cannot be read",
     );
 }
 

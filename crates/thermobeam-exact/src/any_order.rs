@@ -56,7 +56,8 @@ pub fn initial(exact: &Manufactured) -> Initial {
     }
 }
 
-/// Measures the errors of levels against a manufactured solution, whose functions of x are evaluated once.
+/// Measures the errors of levels against a manufactured solution, whose functions of x are
+/// evaluated once.
 pub struct ErrorMeter<'a> {
     exact: &'a Manufactured,
     theta_a: f64,
@@ -107,8 +108,9 @@ impl<'a> ErrorMeter<'a> {
         }
     }
 
-    /// The errors of a level against the exact solution at its time: `‖u_h - u‖, ‖φ_h - φ‖, ‖v_h - u_t‖, ‖w_h - φ_t‖, ‖θ_h - θ‖`
-    /// in L2, and those of the derivatives with respect to x.
+    /// The errors of a level against the exact solution at its time:
+    /// `‖u_h - u‖, ‖φ_h - φ‖, ‖v_h - u_t‖, ‖w_h - φ_t‖, ‖θ_h - θ‖` in L2, and those of the
+    /// derivatives with respect to x.
     pub fn errors(&mut self, level: &Level) -> [[f64; 5]; 2] {
         self.factors.at(self.exact, level.t);
         let mut squares = [[0.0_f64; 2]; Field::ALL.len()];
@@ -128,8 +130,30 @@ impl<'a> ErrorMeter<'a> {
         ]
     }
 
-    /// The largest `|∫ e_x P_k(ξ) dξ|` over fields, elements and degrees k < p: e is the error of a level, P_k Legendre's polynomial
-    /// on ξ in [-1, 1]. The slopes of the space are these polynomials, so it is zero for the projection (3.6), and for no other level.
+    /// The error of a level in the norm of Theorem 3.4, the left-hand side of (3.14), at its time.
+    pub fn theorem_34(&mut self, level: &Level) -> f64 {
+        self.factors.at(self.exact, level.t);
+        let mut square = 0.0;
+        for (k, (_, weight)) in self.points.iter().enumerate() {
+            let [[_, u_x], [phi, phi_x], [v, _], [w, _], [theta, _]] =
+                self.errors_at(k, level, self.theta_a);
+            let terms = [v, u_x - phi, w, phi_x, theta];
+            square += weight * terms.iter().map(|term| term * term).sum::<f64>();
+        }
+        square.sqrt()
+    }
+
+    /// |u_h(1) - u(1)| of a level at its time.
+    pub fn tip(&mut self, level: &Level) -> f64 {
+        self.factors.at(self.exact, level.t);
+        let products = self.exact.u.iter().zip(&self.factors.u.value);
+        let exact: f64 = products.map(|(p, t)| t * p.x.eval(1.0)).sum();
+        (level.value_and_slope(&self.space, Field::U, 1.0).0 - exact).abs()
+    }
+
+    /// The largest `|∫ e_x P_k(ξ) dξ|` over fields, elements and degrees k < p: e is the error of a
+    /// level, P_k Legendre's polynomial on ξ in [-1, 1]. The slopes of the space are these
+    /// polynomials, so it is zero for the projection (3.6), and for no other level.
     ///
     /// * `theta_a`: temperature of the clamped end in the initial data.
     pub fn slope_moments(&mut self, level: &Level, theta_a: f64) -> f64 {

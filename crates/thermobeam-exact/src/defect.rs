@@ -1,7 +1,7 @@
 //! Deliberate mistakes in the loads and in the initial data, for negative controls.
 //!
-//! Loads and solver share no function of the problem. So a mistake here stands for the same mistake in the solver: it leaves the
-//! same difference between both sides.
+//! Loads and solver share no function of the problem. So a mistake here stands for the same mistake
+//! in the solver: it leaves the same difference between both sides.
 
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -76,7 +76,8 @@ impl Defect {
         Self::ALL[self as usize].1
     }
 
-    /// Whether it is a mistake in a formula of (1.1)-(1.3), for any method; the others are about the levels of one-step schemes.
+    /// Whether it is a mistake in a formula of (1.1)-(1.3), for any method; the others are about
+    /// the levels of one-step schemes.
     pub const fn is_of_the_problem(self) -> bool {
         !matches!(
             self,

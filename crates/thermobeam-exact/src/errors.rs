@@ -1,13 +1,15 @@
 //! Error norms at one time level, without quadrature in the time loop and without cancellation.
 //!
 //! The error is `e = d + η`, with the P1 function `d = u_h - I u` and the interpolation error
-//! `η = I u - u = Σ T_j η_j`. Both are small and known up to rounding errors of u itself, ε|u|, so `‖e‖² = ‖d‖² + 2 (d, η) + ‖η‖²`
-//! does not cancel (unlike ‖u_h‖² - 2 (u_h, u) + ‖u‖²). The moments of η_j on each element and their Gram matrices are
-//! computed once.
+//! `η = I u - u = Σ T_j η_j`. Both are small and known up to rounding errors of u itself, ε|u|, so
+//! `‖e‖² = ‖d‖² + 2 (d, η) + ‖η‖²` does not cancel (unlike ‖u_h‖² - 2 (u_h, u) + ‖u‖²). The moments
+//! of η_j on each element and their Gram matrices are computed once.
 //!
-//! η vanishes at the nodes, so for a constant c on an element `(c, η_x) = 0`, and by parts `(d, η_x) = -(d_x, η)`.
-//! Hence `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1 functions d, p and interpolation errors η, ψ of u,
-//! φ, `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over the elements.
+//! η vanishes at the nodes, so for a constant c on an element `(c, η_x) = 0`, and by parts
+//! `(d, η_x) = -(d_x, η)`. Hence `‖e_x‖² = ‖d_x‖² + ‖η_x‖²` and, for the shear with the P1
+//! functions d, p and interpolation errors η, ψ of u, φ,
+//! `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over
+//! the elements.
 
 use crate::norm::{Norm, Norms, TheoremSquares, l2_squared};
 use crate::quadrature::RULE;
@@ -106,7 +108,8 @@ impl ErrorMeter {
         }
     }
 
-    /// Adds the contribution of one quadrature point, given η and η_x of the products of u, φ and θ there.
+    /// Adds the contribution of one quadrature point, given η and η_x of the products of u, φ and θ
+    /// there.
     fn add_samples(&mut self, element: usize, s: f64, weight: f64, samples: &[Vec<[f64; 2]>; 3]) {
         let values = |sample: &[[f64; 2]]| sample.iter().map(|[eta, _]| *eta).collect::<Vec<_>>();
         let slopes =

@@ -10,8 +10,8 @@
 //! | `sin cos tan asin acos atan sinh cosh tanh exp ln log10 sqrt abs` | functions of one argument |
 //! | `min max` | functions of two arguments |
 //!
-//! A product needs its `*`: `2x` is an error. The syntax tree is evaluated on `f64` and on second-order dual numbers,
-//! which give exact derivatives.
+//! A product needs its `*`: `2x` is an error. The syntax tree is evaluated on `f64` and on
+//! second-order dual numbers, which give exact derivatives.
 
 mod error;
 mod parser;
@@ -96,7 +96,8 @@ impl Expression {
         [re, v1, v2]
     }
 
-    /// Checks that the function and its derivatives up to `order` (0, 1 or 2) are finite on [0, end].
+    /// Checks that the function and its derivatives up to `order` (0, 1 or 2) are finite on
+    /// [0, end].
     ///
     /// The function is sampled: a pole between two samples is not found.
     ///
@@ -131,9 +132,10 @@ impl Expression {
 
     /// The points of [0, 1] at which `abs`, `min` or `max` change branch, in increasing order.
     ///
-    /// A change is a change of sign of the argument of `abs`, or of the difference of the two arguments. It is seen between points
-    /// that are 1/10080 apart, and next to the other changes: two changes of one function that are closer than that are
-    /// found only if a change of another function is between them, as in a narrow hat `max(0, 1 - abs(x - c)/w)`.
+    /// A change is a change of sign of the argument of `abs`, or of the difference of the two
+    /// arguments. It is seen between points that are 1/10080 apart, and next to the other changes:
+    /// two changes of one function that are closer than that are found only if a change of another
+    /// function is between them, as in a narrow hat `max(0, 1 - abs(x - c)/w)`.
     pub fn kinks(&self) -> Vec<f64> {
         let mut kinks = vec![];
         if self.branches(0.0).is_empty() {
@@ -191,7 +193,8 @@ impl Expression {
         }
     }
 
-    /// The numbers at `x` whose signs select the branches of `abs`, `min` and `max`, in the order of the text.
+    /// The numbers at `x` whose signs select the branches of `abs`, `min` and `max`, in the order
+    /// of the text.
     fn branches(&self, x: f64) -> Vec<f64> {
         let mut branches = vec![];
         self.root.push_branches(x, &mut branches);
@@ -199,7 +202,8 @@ impl Expression {
     }
 }
 
-/// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are sampled exactly.
+/// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are sampled
+/// exactly.
 const SAMPLES: u32 = 2520;
 
 /// The same for changes of branch, which may be 1e-4 apart.

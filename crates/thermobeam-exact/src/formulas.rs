@@ -1,8 +1,9 @@
 //! The formulas of the problem and of both time schemes, written here a second time.
 //!
-//! What the solver is judged by must not call what it judges: a mistake in a function that both sides call would be in the loads
-//! as well, and no order would show it. So these functions share with the solver only the numbers of a [`Beam`] and of its
-//! [`Obstacles`]. The operations have the order that they have in the solver, so both sides compute the same bits.
+//! What the solver is judged by must not call what it judges: a mistake in a function that both
+//! sides call would be in the loads as well, and no order would show it. So these functions share
+//! with the solver only the numbers of a [`Beam`] and of its [`Obstacles`]. The operations have the
+//! order that they have in the solver, so both sides compute the same bits.
 
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -29,10 +30,11 @@ fn penetration(obstacles: &Obstacles, u: f64) -> f64 {
     }
 }
 
-/// The discrete gradient `(G(u) - G(u0))/(u - u0)` of the contact energy, with G' = g; `g(u)` for `u = u0`.
+/// The discrete gradient `(G(u) - G(u0))/(u - u0)` of the contact energy, with G' = g; `g(u)` for
+/// `u = u0`.
 ///
-/// With the penetrations p and p0, `G(u) - G(u0) = (p² - p0²)/(2ε)`. On one side of both obstacles `p - p0 = u - u0`, which is
-/// divided out: the rest does not cancel.
+/// With the penetrations p and p0, `G(u) - G(u0) = (p² - p0²)/(2ε)`. On one side of both obstacles
+/// `p - p0 = u - u0`, which is divided out: the rest does not cancel.
 pub fn discrete_gradient(obstacles: &Obstacles, u: f64, u0: f64) -> f64 {
     let p = penetration(obstacles, u);
     let p0 = penetration(obstacles, u0);
@@ -74,8 +76,8 @@ impl SchemeFormulas {
 
     /// The factor c of the inertia `c M (V - v0)/dt`; the new velocity is `c V + (1 - c) v0`.
     ///
-    /// The carrying velocity `V = (u - u0)/dt` is the new velocity of the paper's scheme, and the mean of both by the midpoint
-    /// rule.
+    /// The carrying velocity `V = (u - u0)/dt` is the new velocity of the paper's scheme, and the
+    /// mean of both by the midpoint rule.
     pub fn inertia(self) -> f64 {
         match self {
             Self::EulerCrankNicolson => 1.0,

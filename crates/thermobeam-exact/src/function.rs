@@ -16,7 +16,8 @@ pub trait Function: Send + Sync {
         self.derivatives(at)[0]
     }
 
-    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is omitted.
+    /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is
+    /// omitted.
     fn size(&self, end: f64) -> f64 {
         let size_at = |at: f64| {
             let [value, first, _] = self.derivatives(at);
@@ -30,7 +31,8 @@ pub trait Function: Send + Sync {
     ///
     /// `8 ε max(|f| + |x f'|)`: the second term is the effect of a rounding error in x.
     fn roundoff(&self, end: f64) -> f64 {
-        // A handful of operations, each with an error of half an ε, of operands about as large as the result.
+        // A handful of operations, each with an error of half an ε, of operands about as large as
+        // the result.
         const ROUNDINGS: f64 = 8.0;
         ROUNDINGS * f64::EPSILON * self.size(end)
     }

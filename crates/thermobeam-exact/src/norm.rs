@@ -1,10 +1,12 @@
 //! The norms in which an error is measured, and the values of an error in them.
 //!
-//! The norms of P1 functions are written here a second time: the solver uses its own in the energy and in the fixed point.
+//! The norms of P1 functions are written here a second time: the solver uses its own in the energy
+//! and in the fixed point.
 
 use std::ops::{Index, IndexMut};
 
-/// A norm of the error at one time level. A convergence study takes its maximum over the time levels n = 1..N.
+/// A norm of the error at one time level. A convergence study takes its maximum over the time
+/// levels n = 1..N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Norm {
     /// ‖û - u_t‖.
@@ -17,12 +19,13 @@ pub enum Norm {
     Curvature,
     /// ‖θ_h - θ‖.
     Temperature,
-    /// Root of the sum of these five squares at the same n: the left-hand side of (3.14), Theorem 3.4.
+    /// Root of the sum of these five squares at the same n: the left-hand side of (3.14), Theorem
+    /// 3.4.
     Theorem34,
     /// ‖u_h - u‖.
     Displacement,
-    /// The norm of [`Norm::Theorem34`] of the distance to the nodal interpolants of the exact solution: Z_n^½ of
-    /// (3.16).
+    /// The norm of [`Norm::Theorem34`] of the distance to the nodal interpolants of the exact
+    /// solution: Z_n^½ of (3.16).
     Superclose,
 }
 
@@ -50,6 +53,20 @@ impl Norm {
             Norm::Theorem34 => "theorem-3.4",
             Norm::Displacement => "displacement",
             Norm::Superclose => "superclose",
+        }
+    }
+
+    /// The notation of the paper, for the legends of figures.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Norm::Velocity => "‖ûₕ−uₜ‖",
+            Norm::Shear => "‖uₕₓ−φₕ−(uₓ−φ)‖",
+            Norm::RotationRate => "‖φ\u{302}ₕ−φₜ‖",
+            Norm::Curvature => "‖φₕₓ−φₓ‖",
+            Norm::Temperature => "‖θₕ−θ‖",
+            Norm::Theorem34 => "norm of (3.14)",
+            Norm::Displacement => "‖uₕ−u‖",
+            Norm::Superclose => "√Zₙ of (3.16)",
         }
     }
 }
@@ -100,7 +117,8 @@ fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 
-/// `∫ y²` over an element of length h for the linear y with these values at its ends: `h (y0² + y0 y1 + y1²)/3`.
+/// `∫ y²` over an element of length h for the linear y with these values at its ends:
+/// `h (y0² + y0 y1 + y1²)/3`.
 fn on_element(h: f64, [left, right]: [f64; 2]) -> f64 {
     h / 6.0 * (left * (2.0 * left + right) + right * (left + 2.0 * right))
 }

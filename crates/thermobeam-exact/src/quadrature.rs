@@ -1,9 +1,12 @@
-//! Gauss-Legendre quadrature on each element, for errors against functions that are not piecewise linear.
+//! Gauss-Legendre quadrature on each element, for errors against functions that are not piecewise
+//! linear.
 
-/// Gauss-Legendre with 5 points, exact to degree 9: `(s, weight)` on [0, 1], with weights that sum to 1.
+/// Gauss-Legendre with 5 points, exact to degree 9: `(s, weight)` on [0, 1], with weights that sum
+/// to 1.
 ///
-/// On [-1, 1] the points are 0 and ±⅓√(5 ∓ 2√(10/7)), the weights 128/225 and (322 ± 13√70)/900; here they are
-/// transformed to [0, 1]. The relative error of ∫ e² for e = O(h²) is O(h^10), negligible for the measured errors.
+/// On [-1, 1] the points are 0 and ±⅓√(5 ∓ 2√(10/7)), the weights 128/225 and (322 ± 13√70)/900;
+/// here they are transformed to [0, 1]. The relative error of ∫ e² for e = O(h²) is O(h^10),
+/// negligible for the measured errors.
 pub const RULE: [(f64, f64); 5] = [
     (0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
     (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
@@ -30,7 +33,8 @@ mod tests {
                 "{degree}: {found}"
             );
         }
-        // The rule's error on one element of length 1 is (5!)^4 / (11 (10!)^3) f^(10) = 1.4e-6 for x^10.
+        // The rule's error on one element of length 1 is (5!)^4 / (11 (10!)^3) f^(10) = 1.4e-6 for
+        // x^10.
         assert!(
             (1.0 / 11.0 - integral(10) - 1.4e-6).abs() < 1e-7,
             "{}",

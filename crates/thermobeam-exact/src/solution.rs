@@ -1,5 +1,5 @@
-//! Exact solutions: sums of products of a function of x and a function of t, and their time factors T, T', T'' and the
-//! like at one time, exact or in the time-discrete form of a scheme.
+//! Exact solutions: sums of products of a function of x and a function of t, and their time factors
+//! T, T', T'' and the like at one time, exact or in the time-discrete form of a scheme.
 
 use crate::function::Factor;
 
@@ -68,11 +68,13 @@ impl FieldFactors {
         }
     }
 
-    /// The time-discrete form of a sequence of values over a step: mean, difference quotient, and inertia term.
+    /// The time-discrete form of a sequence of values over a step: mean, difference quotient, and
+    /// inertia term.
     ///
-    /// `old` and `new` contain the values at both ends of the step and the velocities v of the sequence. The new
-    /// velocity is set to `inertia * V + (1 - inertia) v_old` with `V = (T_n - T_{n-1})/dt`: V for the paper's scheme,
-    /// `2 V - v_old` for the midpoint rule. The acceleration is `(V - v_old) inertia/dt`.
+    /// `old` and `new` contain the values at both ends of the step and the velocities v of the
+    /// sequence. The new velocity is set to `inertia * V + (1 - inertia) v_old` with
+    /// `V = (T_n - T_{n-1})/dt`: V for the paper's scheme, `2 V - v_old` for the midpoint rule. The
+    /// acceleration is `(V - v_old) inertia/dt`.
     fn of_step(&mut self, old: &FieldFactors, new: &mut FieldFactors, inertia: f64, dt: f64) {
         self.value.clear();
         self.rate.clear();
@@ -96,8 +98,8 @@ impl Factors {
         self.theta.at(&exact.theta, t);
     }
 
-    /// Sets the factors of the scheme's time-discrete operator for the step from `old` to `new`, and the velocities of
-    /// `new`.
+    /// Sets the factors of the scheme's time-discrete operator for the step from `old` to `new`,
+    /// and the velocities of `new`.
     ///
     /// * `inertia`: that of the [scheme](crate::formulas::SchemeFormulas::inertia).
     /// * `dt`: the time step.

@@ -8,25 +8,31 @@
 //! f_θ = θ_t - θ_xx + a φ_xt
 //! ```
 //!
-//! multiplied by the hat functions and integrated, plus the boundary loads at x = 1 from (1.3): `σ(1, t) + g(u(1, t))`
-//! in the first equation and `φ_x + ζ φ_xt` in the second. The solver discretises the weak form, and N and g are those of
-//! [`formulas`](crate::formulas): the two computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is harmonic and does not
-//! contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the solver's equation as well.
+//! multiplied by the hat functions and integrated, plus the boundary loads at x = 1 from (1.3):
+//! `σ(1, t) + g(u(1, t))` in the first equation and `φ_x + ζ φ_xt` in the second. The solver
+//! discretises the weak form, and N and g are those of [`formulas`](crate::formulas): the two
+//! computations share only the problem. θ is the physical temperature. Its lifting θ_A (1 - x) is
+//! harmonic and does not contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the
+//! solver's equation as well.
 
+mod vectors;
+
+use crate::assembly::{coupling, mass, stiffness};
 use crate::defect::{Defect, axial_force_with, contact_with};
 use crate::formulas::{SchemeFormulas, contact_force};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, FieldFactors, Manufactured, Product};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::simulation::Initial;
+use vectors::Vectors;
 
 /// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
 const PANELS: usize = 256;
 
-/// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient: a weighted sum of T, T' and T'' of a product.
+/// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient: a weighted sum of T,
+/// T' and T'' of a product.
 #[derive(Debug, Clone)]
 struct Term {
     equation: usize,
@@ -71,98 +77,13 @@ pub struct Sources {
     tip: Vec<f64>,
     /// Index of the boundary loads at x = 1: the last node, or its block.
     tip_index: usize,
-    /// X_j'(1), Y_k(1) and Y_k'(1) for the boundary loads; slopes are zero if the space vectors contain them.
+    /// X_j'(1), Y_k(1) and Y_k'(1) for the boundary loads; slopes are zero if the space vectors
+    /// contain them.
     boundary: [Vec<f64>; 3],
 }
 
-/// Additional quadrature points per element beyond the degree p: the loads are exact to round-off for smooth functions.
-const EXTRA_POINTS: usize = 12;
-
-/// The space integrals of one product, tested with the functions of an equation: (X, N_i), (X', N_i), and the weak second derivative.
-#[derive(Clone)]
-struct Vectors {
-    value: Vec<f64>,
-    slope: Vec<f64>,
-    /// `-(X'', N_i)`, equal to `(X', N_i') - X'(1) δ_in`.
-    curvature: Vec<f64>,
-    /// X(1).
-    tip: f64,
-    /// X'(1) for the boundary loads; zero if the curvature contains it.
-    boundary_slope: f64,
-}
-
-impl Vectors {
-    /// The integrals by quadrature.
-    fn strong(product: &Product, mesh: &Mesh) -> Self {
-        let nodes = mesh.nodes();
-        let zeros = vec![0.0; nodes.len()];
-        let (mut value, mut slope, mut curvature) = (zeros.clone(), zeros.clone(), zeros);
-        for (i, ends) in nodes.windows(2).enumerate() {
-            let h = ends[1] - ends[0];
-            for (s, weight) in RULE {
-                let [x, x1, x2] = product.x.derivatives(ends[0] + s * h);
-                for (node, hat) in [(i, 1.0 - s), (i + 1, s)] {
-                    let weight = weight * h * hat;
-                    value[node] += weight * x;
-                    slope[node] += weight * x1;
-                    curvature[node] -= weight * x2;
-                }
-            }
-        }
-        let [tip, tip_slope, _] = product.x.derivatives(1.0);
-        Self {
-            value,
-            slope,
-            curvature,
-            tip,
-            boundary_slope: tip_slope,
-        }
-    }
-
-    /// The integrals by quadrature, with the basis functions of one equation on elements of any degree.
-    fn any_order(product: &Product, space: &Space, field: Field) -> Self {
-        let points = Space::gauss(space.degree() + EXTRA_POINTS);
-        let tested = |f: &dyn Fn([f64; 3]) -> f64| {
-            let mut load = vec![[0.0; 3]; space.blocks()];
-            space.add_load(field, &points, |x| f(product.x.derivatives(x)), &mut load);
-            let equation = match field {
-                Field::U | Field::V => 0,
-                Field::Phi | Field::W => 1,
-                Field::Theta => 2,
-            };
-            load.into_iter().map(|entry| entry[equation]).collect()
-        };
-        let [tip, tip_slope, _] = product.x.derivatives(1.0);
-        Self {
-            value: tested(&|[x, _, _]| x),
-            slope: tested(&|[_, x1, _]| x1),
-            curvature: tested(&|[_, _, x2]| -x2),
-            tip,
-            boundary_slope: tip_slope,
-        }
-    }
-
-    /// The integrals of the nodal interpolant, by the scheme's own matrices: M, K and Cᵀ of (3.7).
-    fn discrete(
-        product: &Product,
-        [mass, stiffness, slope]: &[Tridiagonal; 3],
-        mesh: &Mesh,
-    ) -> Self {
-        let nodal = nodal(product, mesh);
-        let tip = nodal[nodal.len() - 1];
-        Self {
-            value: mass.multiply(&nodal),
-            slope: slope.multiply(&nodal),
-            curvature: stiffness.multiply(&nodal),
-            // Y(1) is a boundary load here too: -C φ = Cᵀ φ - φ(1) e for P1 functions.
-            tip,
-            // K u contains the derivative at the end.
-            boundary_slope: 0.0,
-        }
-    }
-}
-
-/// X of a product at the n + 1 nodes, exactly zero at x = 0 if it is zero there up to its rounding error.
+/// X of a product at the n + 1 nodes, exactly zero at x = 0 if it is zero there up to its rounding
+/// error.
 pub fn nodal(product: &Product, mesh: &Mesh) -> Vec<f64> {
     let mut values: Vec<f64> = mesh.nodes().iter().map(|&x| product.x.eval(x)).collect();
     // u and φ satisfy X(0) = 0 up to round-off; θ may start at θ_A.
@@ -249,7 +170,8 @@ impl Sources {
         )
     }
 
-    /// The loads from the strong form (1.1) and the boundary conditions (1.3), for elements of any degree.
+    /// The loads from the strong form (1.1) and the boundary conditions (1.3), for elements of any
+    /// degree.
     pub fn any_order(exact: &Manufactured, beam: &Beam, space: &Space) -> Self {
         let vectors = |product: &Product| {
             [Field::U, Field::Phi, Field::Theta]
@@ -264,7 +186,8 @@ impl Sources {
         )
     }
 
-    /// The loads from the matrices of (3.7), applied to the nodal interpolant: the space error is then exactly zero.
+    /// The loads from the matrices of (3.7), applied to the nodal interpolant: the space error is
+    /// then exactly zero.
     pub fn discrete(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let matrices = [mass(mesh), stiffness(mesh), coupling(mesh).transpose()];
         let vectors = |product: &Product| alike(Vectors::discrete(product, &matrices, mesh));
@@ -385,10 +308,11 @@ impl Sources {
         }
     }
 
-    /// N and contact force as a scheme takes them over a step of the exact solution's time sequence: the mean of N at both levels,
-    /// and the contact force of the scheme.
+    /// N and contact force as a scheme takes them over a step of the exact solution's time
+    /// sequence: the mean of N at both levels, and the contact force of the scheme.
     ///
-    /// * `old`, `new`: the factors of the displacement at both levels; `defect` as in [`Self::forces`].
+    /// * `old`, `new`: the factors of the displacement at both levels; `defect` as in
+    ///   [`Self::forces`].
     pub fn forces_of_step(
         &self,
         scheme: SchemeFormulas,
@@ -422,7 +346,8 @@ impl Sources {
     ///
     /// * `factors`: the time factors.
     /// * `forces`: N and contact force of the exact solution.
-    /// * `defect`: a mistake in the loads, for a negative control; mistakes in the forces are in `forces`.
+    /// * `defect`: a mistake in the loads, for a negative control; mistakes in the forces are in
+    ///   `forces`.
     /// * `load`: overwritten, n + 1 entries.
     pub fn fill(
         &self,
@@ -531,7 +456,8 @@ mod tests {
             let mesh = Mesh::mapped(elements, |s| 0.4 * s + 0.6 * s * s).unwrap();
             let mut strong = Vectors::strong(&product, &mesh).curvature;
             *strong.last_mut().unwrap() += Vectors::strong(&product, &mesh).boundary_slope;
-            // (X', N_i') on each element is an exact difference of X: no quadrature, no second derivative.
+            // (X', N_i') on each element is an exact difference of X: no quadrature, no second
+            // derivative.
             let nodes = mesh.nodes();
             let flux: Vec<f64> = nodes
                 .windows(2)

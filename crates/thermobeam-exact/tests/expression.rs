@@ -451,7 +451,8 @@ fn kinks_are_where_the_branch_changes() {
                 0.920_422_528_45,
             ],
         ),
-        // Hats: of the narrowest width that samples see, and one that is seen because its middle is.
+        // Hats: of the narrowest width that samples see, and one that is seen because its middle
+        // is.
         ("max(0, 1 - abs(x-0.6137)/1e-4)", &[0.6136, 0.6137, 0.6138]),
         (
             "max(0, 1 - abs(x-0.6137)/1e-7)",

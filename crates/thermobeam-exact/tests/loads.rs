@@ -1,6 +1,8 @@
-//! The loads, derived a second time: the weak form of (1.1) and (1.3), for random solutions, coefficients and meshes.
+//! The loads, derived a second time: the weak form of (1.1) and (1.3), for random solutions,
+//! coefficients and meshes.
 //!
-//! The loads are computed from the strong form with automatic derivatives. Here they are those of the weak form, with s = u_x - φ:
+//! The loads are computed from the strong form with automatic derivatives. Here they are those of
+//! the weak form, with s = u_x - φ:
 //!
 //! ```text
 //! F_u(y) = (u_tt, y) + (N u_x + s + ζ s_t, y_x) + g(u(1)) y(1)                 for y(0) = 0
@@ -8,8 +10,9 @@
 //! F_θ(η) = (θ_t, η) + (θ_x, η_x) + a (φ_xt, η)                                 for η(0) = η(1) = 0
 //! ```
 //!
-//! The stress and the moment at x = 1 are natural boundary conditions, and `(θ_x, χ) = -(θ, χ_x)` because θ(1) = 0. Derivatives in
-//! closed form, quadrature and basis functions are written here, N and g from their definitions in the paper.
+//! The stress and the moment at x = 1 are natural boundary conditions, and `(θ_x, χ) = -(θ, χ_x)`
+//! because θ(1) = 0. Derivatives in closed form, quadrature and basis functions are written here, N
+//! and g from their definitions in the paper.
 
 use std::f64::consts::PI;
 
@@ -288,7 +291,8 @@ fn legendre(n: usize, xi: f64) -> Vec<[f64; 2]> {
     p
 }
 
-/// Gauss points and weights on [-1, 1]: the roots of P_n by Newton's method, from Tricomi's first term.
+/// Gauss points and weights on [-1, 1]: the roots of P_n by Newton's method, from Tricomi's first
+/// term.
 fn gauss(n: usize) -> Vec<(f64, f64)> {
     let point = |k: usize| {
         let mut xi = (PI * (k as f64 + 0.75) / (n as f64 + 0.5)).cos();
@@ -301,7 +305,8 @@ fn gauss(n: usize) -> Vec<(f64, f64)> {
     (0..n).map(point).collect()
 }
 
-/// Values and slopes at ξ of the basis on [-1, 1]: the hats, and `∫ P_{m-1} √((2m - 1)/2) = (P_m - P_{m-2})/√(2 (2m - 1))`.
+/// Values and slopes at ξ of the basis on [-1, 1]: the hats, and
+/// `∫ P_{m-1} √((2m - 1)/2) = (P_m - P_{m-2})/√(2 (2m - 1))`.
 fn basis(degree: usize, xi: f64) -> Vec<[f64; 2]> {
     let p = legendre(degree, xi);
     let mut all = vec![[0.5 * (1.0 - xi), -0.5], [0.5 * (1.0 + xi), 0.5]];

@@ -1,8 +1,13 @@
 //! The tests of the exact solutions, in one program.
 
+mod drawn;
+mod equilibrium;
 mod errors;
 mod expression;
 mod independence;
 mod loads;
+mod p1_matrices;
 mod second_derivation;
+mod solver;
 mod sources;
+mod vibration;

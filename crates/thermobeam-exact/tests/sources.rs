@@ -1,4 +1,5 @@
-//! The parts of the loads: the boundary loads, the nodal values, the factors and the forces of a step. `loads.rs` has the loads.
+//! The parts of the loads: the boundary loads, the nodal values, the factors and the forces of a
+//! step. `loads.rs` has the loads.
 
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -152,7 +153,7 @@ fn the_factors_of_a_step_are_those_that_the_scheme_sees() {
         );
     }
     let near = |found: f64, expected: f64| {
-        assert!((found - expected).abs() < 1e-12, "{found}, not {expected}")
+        assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
     };
     near(middle.u.value[1], 0.5 * (before + after));
     near(middle.u.rate[1], expected);

@@ -1,4 +1,5 @@
-//! Writes one picture of each kind, from made-up data: `cargo run -p thermobeam-study --example gallery -- DIR`.
+//! Writes one picture of each kind, from made-up data:
+//! `cargo run -p thermobeam-study --example gallery -- DIR`.
 
 #[path = "../tests/plots/figures/mod.rs"]
 mod figures;

@@ -1,7 +1,8 @@
 //! Your own time scheme, judged by the studies that judge the others.
 //!
-//! A scheme is a row of data. What judges shares nothing with what is judged, so the study gets its formulas a second time. A method
-//! outside this form is judged by its errors, as in the example `own_rates`.
+//! A scheme is a row of data. What judges shares nothing with what is judged, so the study gets its
+//! formulas a second time. A method outside this form is judged by its errors, as in the example
+//! `own_rates`.
 //!
 //! `cargo run -p thermobeam-study --example own_scheme`
 
@@ -19,8 +20,9 @@ use thermobeam::solve::Settings;
 use thermobeam_exact::formulas::SchemeFormulas;
 use thermobeam_study::kinds::convergence::Convergence;
 
-/// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new velocity, and contact by the
-/// discrete gradient. It damps half as much as the paper's and is still of first order.
+/// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new
+/// velocity, and contact by the discrete gradient. It damps half as much as the paper's and is
+/// still of first order.
 const MINE: Scheme = Scheme {
     name: "three-quarters",
     order: 1.0,

@@ -1,4 +1,5 @@
-//! Convergence studies for the [`thermobeam`] solver: does it have the properties that theory predicts?
+//! Convergence studies for the [`thermobeam`] solver: does it have the properties that theory
+//! predicts?
 //!
 //! # From a file to a verdict
 //!
@@ -7,10 +8,11 @@
 //!                          cases            threads            Outcome
 //! ```
 //!
-//! Studies are data, and so are [`scene`]s, whose functions are [`expression`]s. Each of the [`kinds`] of study defines what its
-//! cases compute and how their results are judged; [`run`] steps problems, [`mod@error`] measures errors against exact solutions and
-//! finer runs, [`predict`] predicts cost and error. The harness, [`convergence_study`], provides threads, rates, verdicts, baseline,
-//! records and reports.
+//! Studies are data, and so are [`scene`]s, whose functions are [`expression`]s. Each of the
+//! [`kinds`] of study defines what its cases compute and how their results are judged; [`run`]
+//! steps problems, [`mod@error`] measures errors against exact solutions and finer runs,
+//! [`predict`] predicts cost and error. The harness, [`convergence_study`], provides threads,
+//! rates, verdicts, baseline, records and reports.
 //!
 //! ```
 //! use convergence_study::judge::verdict::Verdict;
@@ -41,7 +43,6 @@ pub mod predict;
 pub mod run;
 pub mod scene;
 pub mod sweep;
-pub mod timing;
 
 pub use thermobeam_exact as exact;
 pub use thermobeam_exact::expression;

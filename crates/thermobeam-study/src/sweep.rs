@@ -1,4 +1,5 @@
-//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene, for one-step schemes and any order.
+//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene, for one-step
+//! schemes and any order.
 //!
 //! ```toml
 //! [sweep]
@@ -24,9 +25,9 @@
 //! mesh.elements = { from = 20, to = 200, scale = "log" }
 //! ```
 //!
-//! Cases are numbered from 0. A case's results depend on the files alone: any number of threads, shares and interruptions
-//! gives the same bytes. Computed numbers are rounded to 9 digits, so that a different mathematical library cannot move a
-//! case to another share.
+//! Cases are numbered from 0. A case's results depend on the files alone: any number of threads,
+//! shares and interruptions gives the same bytes. Computed numbers are rounded to 9 digits, so that
+//! a different mathematical library cannot move a case to another share.
 
 mod case;
 mod design;
@@ -88,8 +89,8 @@ impl Sweep {
     /// Reads a sweep file and the scene that it names.
     ///
     /// # Errors
-    /// [`InputError`] with file, line and field. A number that no scene can have is refused here; the compatibility of a
-    /// case's numbers with each other is checked when it is run.
+    /// [`InputError`] with file, line and field. A number that no scene can have is refused here;
+    /// the compatibility of a case's numbers with each other is checked when it is run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = input::read_text(path)?;
@@ -116,7 +117,8 @@ impl Sweep {
     /// The scene of a case.
     ///
     /// # Errors
-    /// [`InputError`] if the case's numbers are incompatible, such as a dt that does not divide t_end.
+    /// [`InputError`] if the case's numbers are incompatible, such as a dt that does not divide
+    /// t_end.
     pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
         self.base.scene(case.parameters())
     }

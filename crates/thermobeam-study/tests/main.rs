@@ -4,7 +4,20 @@ mod fuzz;
 mod input;
 mod kinds;
 mod manufactured;
+mod one_loop;
 mod plots;
 mod predict;
 mod simulate;
 mod sweep;
+
+use std::path::Path;
+
+use convergence_study::input::InputError;
+use convergence_study::study::StudyFile;
+use thermobeam_study::kinds::KINDS;
+
+/// Reads a study of the repository: of a kind of the beam, or the calibration of the rule.
+fn read_study(path: &Path) -> Result<StudyFile, InputError> {
+    let kinds = [&KINDS[..], &[convergence_calibration::kind::ROW]].concat();
+    StudyFile::read(&kinds, path)
+}

@@ -1,4 +1,5 @@
-//! The three designs, compared with an independent implementation and tested with deliberate mistakes.
+//! The three designs, compared with an independent implementation and tested with deliberate
+//! mistakes.
 
 use std::path::Path;
 
@@ -65,8 +66,8 @@ fn the_errors_are_those_of_the_independent_implementation() {
 
 #[test]
 fn isolation_is_exact_whatever_the_other_axis() {
-    // In the time design the space error is zero: the errors depend on the mesh only through the interpolant of the
-    // exact solution. With negligible time error they vanish.
+    // In the time design the space error is zero: the errors depend on the mesh only through the
+    // interpolant of the exact solution. With negligible time error they vanish.
     let mut study = convergence("midpoint-time.toml");
     study.refine.t_end = 1e-3;
     let found = errors(&study, 8, 200, None);
@@ -75,7 +76,8 @@ fn isolation_is_exact_whatever_the_other_axis() {
 
 #[test]
 fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
-    // No time error at all: with a tenth of the steps the errors keep their size instead of growing tenfold.
+    // No time error at all: with a tenth of the steps the errors keep their size instead of growing
+    // tenfold.
     let study = convergence("theorem-3.4-space.toml");
     let (few, many) = (errors(&study, 64, 4, None), errors(&study, 64, 40, None));
     for (norm, few) in few.iter() {

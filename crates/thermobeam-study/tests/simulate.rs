@@ -12,7 +12,7 @@ use thermobeam_study::run::RunError;
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::run::together::run_together;
-use thermobeam_study::run::{Motion, Report};
+use thermobeam_study::run::{AnyMotion, Report};
 use thermobeam_study::scene::Scene;
 
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
@@ -374,8 +374,12 @@ fn contact_at_the_start_is_a_phase_and_a_last_phase_ends_with_the_run() {
 #[test]
 fn a_step_by_dg_is_in_contact_if_the_free_end_touches_an_obstacle_in_all_of_it() {
     let mut steps = vec![];
-    let mut watch = |motion: &mut dyn Motion, report: &Report| {
-        steps.push((motion.t() - report.dt, motion.t(), report.in_contact));
+    let mut watch = |motion: &mut AnyMotion, report: &Report| {
+        steps.push((
+            motion.work().t - report.dt,
+            motion.work().t,
+            report.in_contact,
+        ));
         Ok(ControlFlow::Continue(()))
     };
     let simulator = Simulator::new(&located("t_end = 1.0", "0.01*x*(x-2)")).unwrap();

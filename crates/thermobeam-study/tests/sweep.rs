@@ -9,7 +9,8 @@ use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
 const BASE: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.05\ng2 = 0.05\n\
     [initial]\nu_t = \"x\"\n[mesh]\nelements = 7\n[time]\ndt = 0.1\nt_end = 50.0\n";
 
-/// Cold and heated beams on two meshes with two steps; at dt = 10 the operator of a beam beyond buckling is not definite.
+/// Cold and heated beams on two meshes with two steps; at dt = 10 the operator of a beam beyond
+/// buckling is not definite.
 const GRID: &str = "[sweep]\nscene = \"base.toml\"\n[grid]\nmesh.elements = [7, 8]\nbeam.a = [0.0, 0.5]\n\
     time.dt = [0.5, 10.0, 13.0]\ntime.t_end = [50.0, 13.0]\nbeam.beta = [-0.8, 0.0, 1.0, 2.0, 3.0]\n";
 
@@ -185,7 +186,8 @@ fn a_whole_line_of_another_sweep_or_share_is_refused() {
     }
 }
 
-/// Scenes of any order: a case with a first step above its largest has no scene, one without iterations fails.
+/// Scenes of any order: a case with a first step above its largest has no scene, one without
+/// iterations fails.
 const ANY_ORDER: [&str; 2] = [
     "[obstacles]\n[initial]\nu_t = \"20*x*(x-1)^2\"\n[mesh]\ndegree = 8\n\
      [time]\nscheme = \"dg\"\ndt = 0.02\nrestart_dt = 0.01\nt_end = 0.3\n",
@@ -199,7 +201,8 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("base.toml", ANY_ORDER[0]);
     write("sweep.toml", ANY_ORDER[1]);
-    // With dt = 0.013, cases with restart_dt = 0.015 have no scene; a sweep refuses only values that no case can have.
+    // With dt = 0.013, cases with restart_dt = 0.015 have no scene; a sweep refuses only values
+    // that no case can have.
     let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
     let alone = all(&sweep, 1, HOUR);
     let with = |piece: &str| {
@@ -225,7 +228,8 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
         assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
     }
     assert_eq!(all(&sweep, 2, HOUR), alone);
-    // Each case belongs to one share; a journal with half the lines is continued, and refused if a line is altered.
+    // Each case belongs to one share; a journal with half the lines is continued, and refused if a
+    // line is altered.
     let shares: Vec<Share> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
     let held = |case: usize| {
         shares

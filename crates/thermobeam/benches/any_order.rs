@@ -1,4 +1,5 @@
-//! Times of the paper's first experiment by the scheme of any order: `cargo bench -p thermobeam --bench any_order`.
+//! Times of the paper's first experiment by the scheme of any order:
+//! `cargo bench -p thermobeam --bench any_order`.
 
 use divan::Bencher;
 use std::f64::consts::PI;
@@ -6,8 +7,9 @@ use thermobeam::dg::{Initial, Problem, Simulation, Stepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 
-/// Elements (with two, the last one is a tenth of the beam); their degree; degree in time, largest step, first step,
-/// growth; end. Comments give the error of u(1) at the end, and the largest at any time.
+/// Elements (with two, the last one is a tenth of the beam); their degree; degree in time, largest
+/// step, first step, growth; end. Comments give the error of u(1) at the end, and the largest at
+/// any time.
 const RUNS: [(usize, usize, usize, f64, f64, f64, f64); 7] = [
     // 3e-7, 2e-4
     (1, 10, 1, 0.02, 1e-3, 1.5, 1.0),

@@ -1,4 +1,5 @@
-//! The paper's first experiment with elements of degree p and steps of degree q: ten digits of u(1, 1) in milliseconds.
+//! The paper's first experiment with elements of degree p and steps of degree q: ten digits of
+//! u(1, 1) in milliseconds.
 //!
 //! `cargo run --release -p thermobeam --example any_order`
 

@@ -1,9 +1,10 @@
 //! Symmetric block tridiagonal factorisation without pivoting, one block per node.
 //!
 //! `S_1 = D_1`, `S_i = D_i - O_i S_{i-1}⁻¹ O_iᵀ`; a solve is `y_i = r_i - G_i y_{i-1}` forward with
-//! `G_i = O_i S_{i-1}⁻¹`, then `x_i = S_i⁻¹ y_i - G_{i+1}ᵀ x_{i+1}` backward. No pivoting is needed because the matrix
-//! is quasi-definite: its displacement part is positive definite, its temperature part negative definite. A pivot of
-//! the wrong sign therefore shows that the matrix is not: the beam is beyond its buckling force.
+//! `G_i = O_i S_{i-1}⁻¹`, then `x_i = S_i⁻¹ y_i - G_{i+1}ᵀ x_{i+1}` backward. No pivoting is needed
+//! because the matrix is quasi-definite: its displacement part is positive definite, its
+//! temperature part negative definite. A pivot of the wrong sign therefore shows that the matrix is
+//! not: the beam is beyond its buckling force.
 
 use crate::error::StepFailure;
 use crate::lanes::Lane;
@@ -20,7 +21,8 @@ pub(crate) struct Node<T, const B: usize> {
     pub(crate) inverse: Block<T, B>,
 }
 
-// The loops below write arrays in place, which the compiler keeps in registers, unlike those of `std::array::from_fn`.
+// The loops below write arrays in place, which the compiler keeps in registers, unlike those of
+// `std::array::from_fn`.
 
 /// `matrix * vector`.
 #[inline(always)]
@@ -70,7 +72,8 @@ pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
 
 /// Inverse of a symmetric block by Gauss-Jordan elimination with diagonal pivots.
 ///
-/// Pivot k must have the sign of `signs[k]`; the first that does not (NaN included) is returned as an error.
+/// Pivot k must have the sign of `signs[k]`; the first that does not (NaN included) is returned as
+/// an error.
 #[inline(always)] // Unrolled for the constant signs of its caller; not inlined, a factorisation takes half as long again.
 fn invert<const B: usize>(mut block: Block<f64, B>, signs: [f64; B]) -> Result<Block<f64, B>, f64> {
     for k in 0..B {
@@ -100,7 +103,8 @@ fn signs<const B: usize>() -> [f64; B] {
     std::array::from_fn(|k| if k == 2 { -1.0 } else { 1.0 })
 }
 
-/// An uninitialised factorisation for n elements: a [`Node`] for each unknown node 1..n; entry 0 is unused.
+/// An uninitialised factorisation for n elements: a [`Node`] for each unknown node 1..n; entry 0 is
+/// unused.
 pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<Node<T, B>> {
     let zero = [[T::splat(0.0); B]; B];
     vec![
@@ -115,7 +119,8 @@ pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<Nod
 /// Factorises the matrix of case `lane`; `blocks(i)` gives `(O_i, D_i)` for node i = 1..n.
 ///
 /// # Errors
-/// [`StepFailure::Indefinite`] at the first pivot of the wrong sign; the factorisation is then unusable.
+/// [`StepFailure::Indefinite`] at the first pivot of the wrong sign; the factorisation is then
+/// unusable.
 pub(crate) fn factorize<T: Lane, const B: usize>(
     nodes: &mut [Node<T, B>],
     lane: usize,
@@ -161,7 +166,8 @@ mod tests {
 
     const N: usize = 5;
 
-    /// A random symmetric quasi-definite block tridiagonal matrix: diagonally dominant, signs as in a step.
+    /// A random symmetric quasi-definite block tridiagonal matrix: diagonally dominant, signs as in
+    /// a step.
     fn blocks(seed: &[f64]) -> impl Fn(usize) -> (Block<f64, 3>, Block<f64, 3>) + '_ {
         move |node| {
             let at = |k: usize| seed[(node * 15 + k) % seed.len()];

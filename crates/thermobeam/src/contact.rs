@@ -1,12 +1,15 @@
-//! The contact law at the free end: its force g of (1.3), its energy G of (2.5), and the tip equation in closed form.
+//! The contact law at the free end: its force g of (1.3), its energy G of (2.5), and the tip
+//! equation in closed form.
 //!
-//! `g(u) = ([u - g2]_+ - [g1 - u]_+)/ε` and `G(u) = ([u - g2]_+² + [g1 - u]_+²)/(2ε)`, hence G' = g (the paper defines
-//! them after (2.3) and (2.5)).
+//! `g(u) = ([u - g2]_+ - [g1 - u]_+)/ε` and `G(u) = ([u - g2]_+² + [g1 - u]_+²)/(2ε)`, hence G' = g
+//! (the paper defines them after (2.3) and (2.5)).
 //!
-//! For given mean axial force a step is linear except for one scalar equation at the tip, `u + c F(u) = r`: r is the
-//! tip's position without obstacles, `c = dt [A⁻¹]_nn` its compliance over the step, and F the contact force. F is
-//! piecewise linear for the implicit rule; for the discrete gradient some pieces are a quadratic over a linear function. It is nondecreasing,
-//! so the root is unique and r determines the piece that contains it: for every ε it is computed without iteration.
+//! For given mean axial force a step is linear except for one scalar equation at the tip,
+//! `u + c F(u) = r`: r is the tip's position without obstacles, `c = dt [A⁻¹]_nn` its compliance
+//! over the step, and F the contact force. F is piecewise linear for the implicit rule; for the
+//! discrete gradient some pieces are a quadratic over a linear function. It is nondecreasing, so
+//! the root is unique and r determines the piece that contains it: for every ε it is computed
+//! without iteration.
 
 use crate::parameters::Obstacles;
 use crate::scheme::ContactRule;
@@ -23,7 +26,8 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// The phase of a free end at u, which is free if it just touches; with `g_1 = g_2` there is no free phase.
+    /// The phase of a free end at u, which is free if it just touches; with `g_1 = g_2` there is no
+    /// free phase.
     pub(crate) fn of(u: f64, obstacles: Option<&Obstacles>) -> Self {
         match obstacles {
             Some(obstacles) if u > obstacles.g2 => Phase::Upper,
@@ -60,10 +64,21 @@ impl Obstacles {
         self.depth(u) / self.epsilon
     }
 
-    /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε if viscosity is negligible (ζ < ε).
+    /// Slope of the contact force over u(1) while the free end is in contact: 1/ε, or half of it
+    /// for the discrete gradient, in which u at the old level has the other half.
+    pub(crate) fn slope(&self, rule: ContactRule) -> f64 {
+        match rule {
+            ContactRule::Implicit => 1.0 / self.epsilon,
+            ContactRule::DiscreteGradient => 0.5 / self.epsilon,
+        }
+    }
+
+    /// Time scale of the peak of an impact: `t* = (ε √ζ)^(2/3)`, or ε if viscosity is negligible (ζ
+    /// < ε).
     ///
-    /// The penetration is largest at 1.65 t*; contact lasts longer, for every ε. `THEORY.md`, "Penetration of an impact";
-    /// without viscosity the penetration δ of the tip obeys `δ' = ν - δ/ε`, with the velocity ν of the impact.
+    /// The penetration is largest at 1.65 t*; contact lasts longer, for every ε. `THEORY.md`,
+    /// "Penetration of an impact"; without viscosity the penetration δ of the tip obeys
+    /// `δ' = ν - δ/ε`, with the velocity ν of the impact.
     pub fn impact_time(&self, zeta: f64) -> f64 {
         (self.epsilon * zeta.sqrt())
             .powf(2.0 / 3.0)
@@ -100,7 +115,8 @@ impl Obstacles {
         } else if depth == 0.0 && depth0 == 0.0 {
             0.0
         } else {
-            // One obstacle lies between u and u0: their difference is nonzero and at least as large as each depth.
+            // One obstacle lies between u and u0: their difference is nonzero and at least as large
+            // as each depth.
             (depth.abs() - depth0.abs()) * (depth.abs() + depth0.abs()) / (double * (u - u0))
         }
     }
@@ -181,11 +197,11 @@ impl Obstacles {
                 stiffness: 1.0 / double,
             };
         }
-        // From d = -p0 below g2: F = (p² - q²)/(2ε (p + d)), q the depth of u0 below g1. With s = r - g2 = p + c F
-        //   (2ε + c) p² + 2ε (d - s) p - (2ε s d + c q²) = 0, of which p is the root >= 0.
-        // F computed from p would lose the digits common to p² and q². It is the smaller root of
-        //   c (2ε + c) F² - 2 b F + (s - q) (s + q) = 0,   2 b = 2ε (s + d) + 2 c s,
-        // with the same discriminant as p.
+        // From d = -p0 below g2: F = (p² - q²)/(2ε (p + d)), q the depth of u0 below g1. With s =
+        // r - g2 = p + c F (2ε + c) p² + 2ε (d - s) p - (2ε s d + c q²) = 0, of which p is the
+        // root >= 0. F computed from p would lose the digits common to p² and q². It is the smaller
+        // root of c (2ε + c) F² - 2 b F + (s - q) (s + q) = 0, 2 b = 2ε (s + d) + 2 c s, with the
+        // same discriminant as p.
         let (d, s, q) = (-p0, r - self.g2, (self.g1 - u0).max(0.0));
         let p = positive_root(
             double + c,
@@ -206,7 +222,8 @@ impl Obstacles {
         }
     }
 
-    /// The tip starts above g2 and ends between the obstacles, d below its start: F = G0/d, d² - (u0 - r) d = c G0.
+    /// The tip starts above g2 and ends between the obstacles, d below its start: F = G0/d, d² -
+    /// (u0 - r) d = c G0.
     fn solve_leaving(&self, r: f64, c: f64, u0: f64) -> Tip {
         let g0 = self.potential(u0);
         let d = positive_root(1.0, r - u0, c * g0);
@@ -234,7 +251,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The tip at the start of a step: arbitrary, or within a few rounding errors of an obstacle of the default pair.
+    /// The tip at the start of a step: arbitrary, or within a few rounding errors of an obstacle of
+    /// the default pair.
     fn start() -> impl Strategy<Value = f64> {
         let Obstacles { g1, g2, .. } = Obstacles::default();
         let near = (any::<bool>(), -4..5i32).prop_map(move |(upper, ulps)| {
@@ -259,7 +277,8 @@ mod tests {
             // The residual of the equation with the returned force.
             let residual = tip.u + c * tip.force - r;
             prop_assert!(residual.abs() <= 8.0 * rounding * (1.0 + c * tip.force.abs()), "{:e}", residual);
-            // The force agrees with the law up to a few rounding errors of u(1), which the law amplifies by 1/ε.
+            // The force agrees with the law up to a few rounding errors of u(1), which the law
+            // amplifies by 1/ε.
             let law = if gradient { obstacles.discrete_gradient(tip.u, u0) } else { obstacles.force(tip.u) };
             let lost = 4.0 * rounding / obstacles.epsilon + 8.0 * rounding * tip.force.abs();
             prop_assert!((law - tip.force).abs() <= lost, "{} {}, {:e}", law, tip.force, lost);
@@ -273,7 +292,8 @@ mod tests {
             let rule = if gradient { ContactRule::DiscreteGradient } else { ContactRule::Implicit };
             let tip = |r| obstacles.solve_tip(rule, r, 10f64.powf(log_c), u0);
             let (low, high) = (tip(r - 1e-7), tip(r + 1e-7));
-            // No derivative at a kink, and only a one-sided one if the end of the step coincides with its start.
+            // No derivative at a kink, and only a one-sided one if the end of the step coincides
+            // with its start.
             let side = |u: f64| (u > obstacles.g2, u < obstacles.g1);
             prop_assume!(side(low.u) == side(high.u) && (tip(r).u - u0).abs() > 1e-2);
             let quotient = (high.force - low.force) / (high.u - low.u);

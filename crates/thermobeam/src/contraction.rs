@@ -1,9 +1,10 @@
 //! Contraction factors of the paper's fixed-point iteration (4.1)-(4.5).
 //!
-//! The paper does not analyse the convergence of its iteration. An error returns to its field by four loops, and each multiplies it by
-//! a factor, which is that of the loop alone. The iteration converges with the spectral radius of their combination. That is near the largest
-//! factor if the others are small; two loops that act on the same fields may add (contact and axial force) or damp each other (rotation and
-//! heat). Write A_u, A_φ and A_θ for the matrices of (4.2).
+//! The paper does not analyse the convergence of its iteration. An error returns to its field by
+//! four loops, and each multiplies it by a factor, which is that of the loop alone. The iteration
+//! converges with the spectral radius of their combination. That is near the largest factor if the
+//! others are small; two loops that act on the same fields may add (contact and axial force) or
+//! damp each other (rotation and heat). Write A_u, A_φ and A_θ for the matrices of (4.2).
 //!
 //! | loop | quantity of the previous iterate | factor | for dt ≪ ζ, on fine meshes |
 //! | --- | --- | --- | --- |
@@ -12,12 +13,12 @@
 //! | [`Loop::Heat`] | φ̂ in the third | [`Case::heat_contraction`] | a² dt/(√I + √(2ζ))² |
 //! | [`Loop::AxialForce`] | N(u) in the first | [`Case::axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(Iζ) |
 //!
-//! I is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's scheme, 2 and 1/(2ε) for
-//! `midpoint`.
+//! I is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's
+//! scheme, 2 and 1/(2ε) for `midpoint`.
 
 pub use crate::error::Loop;
 use crate::norms::{l2_squared, slope_squared};
-use crate::scheme::{Case, ContactRule};
+use crate::scheme::Case;
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Largest number of power iterations, and the relative change of the quotient at which they stop.
@@ -34,7 +35,8 @@ impl Case {
         )
     }
 
-    /// `A_u = κ M + (ζ + dt (1 + N)/2) K`, the matrix of the first equation of (4.2); `None` if it is not positive definite.
+    /// `A_u = κ M + (ζ + dt (1 + N)/2) K`, the matrix of the first equation of (4.2); `None` if it
+    /// is not positive definite.
     fn matrix_of_u(&self, n_value: f64) -> Option<Operator> {
         let stiffness = self.beam.zeta + 0.5 * self.dt * (1.0 + n_value);
         Operator::new(
@@ -45,20 +47,20 @@ impl Case {
         )
     }
 
-    /// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`; 0 without obstacles.
+    /// Contraction factor of the fixed point while the tip is in contact, `α = dt g' [A_u⁻¹]_nn`; 0
+    /// without obstacles.
     ///
-    /// g' is the slope of the contact force: 1/ε, or half of it for the discrete gradient. The contact force of the previous
-    /// iterate enters the right-hand side at the tip only, so an error e of u(1) becomes -α e.
+    /// g' is the slope of the contact force: 1/ε, or half of it for the discrete gradient. The
+    /// contact force of the previous iterate enters the right-hand side at the tip only, so an
+    /// error e of u(1) becomes -α e.
     ///
-    /// * Returns infinity if A_u is not positive definite: then the fixed point cannot perform the step.
+    /// * Returns infinity if A_u is not positive definite: then the fixed point cannot perform the
+    ///   step.
     pub fn contact_contraction(&self, n_value: f64) -> f64 {
         let Some(obstacles) = &self.obstacles else {
             return 0.0;
         };
-        let slope = match self.scheme.contact {
-            ContactRule::Implicit => 1.0 / obstacles.epsilon,
-            ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
-        };
+        let slope = obstacles.slope(self.scheme.contact);
         self.matrix_of_u(n_value).map_or(f64::INFINITY, |of_u| {
             self.dt * slope * of_u.factor.last_of_inverse()
         })
@@ -66,16 +68,18 @@ impl Case {
 
     /// Contraction factor of the fixed point due to the coupling of rotation and displacement.
     ///
-    /// An error of V enters the second equation of (4.2) as `σ Cᵀ V`, and the resulting error of W enters the first as
-    /// `σ C W`. The factor is therefore the largest eigenvalue of `σ² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
+    /// An error of V enters the second equation of (4.2) as `σ Cᵀ V`, and the resulting error of W
+    /// enters the first as `σ C W`. The factor is therefore the largest eigenvalue of
+    /// `σ² A_u⁻¹ C A_φ⁻¹ Cᵀ`, with
     ///
     /// ```text
     /// A_u = κ M + σ' K,   A_φ = (κ + σ) M + σ K,   κ = inertia/dt,   σ = ζ + dt/2,   σ' = σ + dt N/2.
     /// ```
     ///
-    /// A wave of wavenumber k in the interior has the factor `σ²k²/((κ + σ' k²)(κ + σ (1 + k²)))`, at most about σ/(4κ).
-    /// A layer at the free end has a larger one, `σ²/(σ' (κ + σ) + √(σ σ' κ (κ + σ)))` if it is thin, about σ/(2κ).
-    /// For N = 0 the factor is below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
+    /// A wave of wavenumber k in the interior has the factor `σ²k²/((κ + σ' k²)(κ + σ (1 + k²)))`,
+    /// at most about σ/(4κ). A layer at the free end has a larger one,
+    /// `σ²/(σ' (κ + σ) + √(σ σ' κ (κ + σ)))` if it is thin, about σ/(2κ). For N = 0 the factor is
+    /// below `1/(1 + π²/4) = 0.2884` for all dt, its limit for dt → ∞.
     ///
     /// * Returns infinity if A_u is not positive definite.
     pub fn coupling_contraction(&self, n_value: f64) -> f64 {
@@ -90,10 +94,12 @@ impl Case {
 
     /// Contraction factor of the fixed point due to the coupling of rotation and temperature.
     ///
-    /// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ enters the second as `a C Θ`.
-    /// The factor is therefore the largest eigenvalue of `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes
-    /// sign. A wave of wavenumber k has the factor `a²k²/((2/dt + k²)(κ + σ (1 + k²)))`, at most about `a² dt/(√I + √(2σ))²` with
-    /// the inertia I: larger than that of rotation and displacement where `a² > σ (1 + √(2σ))²/2` (I = 1), and above 1 for a large a.
+    /// An error of W enters the third equation of (4.2) as `-a Cᵀ W`, and the resulting error of Θ
+    /// enters the second as `a C Θ`. The factor is therefore the largest eigenvalue of
+    /// `a² A_φ⁻¹ C A_θ⁻¹ Cᵀ` with `A_θ = 2/dt M + K`, and the error changes sign. A wave of
+    /// wavenumber k has the factor `a²k²/((2/dt + k²)(κ + σ (1 + k²)))`, at most about
+    /// `a² dt/(√I + √(2σ))²` with the inertia I: larger than that of rotation and displacement
+    /// where `a² > σ (1 + √(2σ))²/2` (I = 1), and above 1 for a large a.
     pub fn heat_contraction(&self) -> f64 {
         let (n, lengths, (kappa, sigma)) =
             (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
@@ -106,10 +112,12 @@ impl Case {
         of_phi.zip(of_theta).map_or(f64::INFINITY, factor)
     }
 
-    /// Contraction factor of the fixed point due to the axial force of the previous iterate, `ρ dt (K u)ᵀ A_u⁻¹ K u`.
+    /// Contraction factor of the fixed point due to the axial force of the previous iterate,
+    /// `ρ dt (K u)ᵀ A_u⁻¹ K u`.
     ///
-    /// An error of V changes the mean axial force ½(N(u) + N(u0)) by `ρ dt (K u)ᵀ V`, and the first equation by that times
-    /// `K u`: a rank-one map, whose only nonzero eigenvalue is -1 times the factor.
+    /// An error of V changes the mean axial force ½(N(u) + N(u0)) by `ρ dt (K u)ᵀ V`, and the first
+    /// equation by that times `K u`: a rank-one map, whose only nonzero eigenvalue is -1 times the
+    /// factor.
     ///
     /// * `u`: the displacement at the nodes, used for both the old and the new level.
     /// * Returns infinity if A_u is not positive definite.
@@ -129,7 +137,8 @@ impl Case {
                 .sum::<f64>()
     }
 
-    /// The largest factor of the four loops: about the contraction factor of the fixed point if the others are small.
+    /// The largest factor of the four loops: about the contraction factor of the fixed point if the
+    /// others are small.
     ///
     /// * `u`: the displacement at the nodes, which determines the axial force.
     pub fn contraction(&self, u: &[f64]) -> (f64, Loop) {

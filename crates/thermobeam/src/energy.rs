@@ -7,10 +7,11 @@
 //! gap = F (u(1) - u0(1)) - (G(u(1)) - G(u0(1))) >= 0,
 //! ```
 //!
-//! V and W are the velocities of the step, F is its contact force. The balance follows from (3.7) with the test
-//! functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, with each inequality kept as an equation.
-//! In the `midpoint` scheme the terms ½ (‖v - v0‖² + ‖w - w0‖²) and gap are zero. For θ_A ≠ 0 the energy is (3.9) with
-//! the lifted temperature θ~ plus the term `-a θ_A ∫φ`, without which it need not decrease.
+//! V and W are the velocities of the step, F is its contact force. The balance follows from (3.7)
+//! with the test functions dt V, dt W and dt θ~^{n-½}, as in the proof of Proposition 3.1, with
+//! each inequality kept as an equation. In the `midpoint` scheme the terms ½ (‖v - v0‖² + ‖w -
+//! w0‖²) and gap are zero. For θ_A ≠ 0 the energy is (3.9) with the lifted temperature θ~ plus the
+//! term `-a θ_A ∫φ`, without which it need not decrease.
 //!
 //! A wrong step may still lose energy, but its balance does not close to round-off.
 
@@ -68,8 +69,8 @@ fn mean(lengths: &[f64], y: &[f64]) -> f64 {
         .sum()
 }
 
-/// The balance of one step, of a one-step scheme or of [`dg`](crate::dg); `residual` is the sum of the other terms, and round-off
-/// for an exactly solved step.
+/// The balance of one step, of a one-step scheme or of [`dg`](crate::dg); `residual` is the sum of
+/// the other terms, and round-off for an exactly solved step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Balance {
     /// E^n - E^{n-1}, computed from the differences of the fields, without cancellation.
@@ -78,8 +79,8 @@ pub struct Balance {
     pub viscous: f64,
     /// dt ‖θ~_x‖² at n-½; for dG its integral over the step.
     pub thermal: f64,
-    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`. For dG that of the jumps at
-    /// the start of the step, including the temperature.
+    /// ½ (‖v - v0‖² + ‖w - w0‖²), the numerical dissipation of backward Euler; zero for `midpoint`.
+    /// For dG that of the jumps at the start of the step, including the temperature.
     pub inertial: f64,
     /// The gap of the contact energy; for dG round-off, unless the free end grazes an obstacle.
     pub contact: f64,
@@ -130,8 +131,8 @@ impl Balance {
         let gap = obstacles.map_or(0.0, |_| force * (u - u0) - stored);
         let viscous = dt * beam.zeta * sums.viscous;
         let thermal = dt * sums.heat_flow;
-        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared jump, the midpoint rule
-        // nothing.
+        // (v - v0, V) with V = v0 + (v - v0)/inertia: backward Euler loses half of the squared
+        // jump, the midpoint rule nothing.
         let inertial = (1.0 / scheme.inertia - 0.5) * sums.jump;
         let residual = change + viscous + thermal + inertial + gap;
         Self {
@@ -172,7 +173,8 @@ impl Case {
         Balance::from_sums(self, &sums, [tip(old), tip(new)], new.contact_force)
     }
 
-    /// The change of the energy from one level to another: only [`Balance::change`], at half the cost.
+    /// The change of the energy from one level to another: only [`Balance::change`], at half the
+    /// cost.
     pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
         let stored = contact_change(self.obstacles.as_ref(), tip(old), tip(new));
         // The weight only enters the dissipation, which is not computed here.

@@ -1,8 +1,8 @@
 //! Several simulations in parallel lanes: for sweeps, maps and random scenes.
 //!
-//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers instead of one. The
-//! results of a case are bitwise those of a single run. A case that fails keeps its last level and does not affect the
-//! others.
+//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers
+//! instead of one. The results of a case are bitwise those of a single run. A case that fails keeps
+//! its last level and does not affect the others.
 
 use crate::energy::Balance;
 use crate::error::{SetupError, StepError, StepFailure};
@@ -13,14 +13,15 @@ use crate::solve::newton::newton;
 use crate::solve::stepper::Batch;
 use crate::solve::{Level, Settings, StepReport, Work};
 
-/// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the registers of AVX2.
+/// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the
+/// registers of AVX2.
 const WIDTH: usize = 4;
 
-/// Simulations by Newton's method with the same number of elements, the same scheme and the same settings.
-/// Coefficients, obstacles, meshes, initial data and time steps may differ.
+/// Simulations by Newton's method with the same number of elements, the same scheme and the same
+/// settings. Coefficients, obstacles, meshes, initial data and time steps may differ.
 ///
-/// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group costs as much as a full
-/// one.
+/// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group
+/// costs as much as a full one.
 pub struct Ensemble {
     cases: Vec<Case>,
     /// Up to [`WIDTH`] cases each; unused lanes repeat the last case.
@@ -40,63 +41,24 @@ impl Ensemble {
     /// * `dt`: the time step of each problem.
     ///
     /// # Errors
-    /// [`SetupError`] as for a single simulation, for the first invalid case; [`SetupError::Length`] if the numbers of
-    /// elements differ, if there is no problem, or if the number of time steps differs from that of the problems.
+    /// [`SetupError`] as for a single simulation, for the first invalid case;
+    /// [`SetupError::Length`] if the numbers of elements differ, if there is no problem, or if the
+    /// number of time steps differs from that of the problems.
     pub fn new(
         mut problems: Vec<Problem>,
         dt: &[f64],
         scheme: Scheme,
         settings: Settings,
     ) -> Result<Self, SetupError> {
-        if dt.len() != problems.len() {
-            return Err(SetupError::Length {
-                field: "dt",
-                found: dt.len(),
-                expected: problems.len(),
-            });
-        }
-        let Some(first) = problems.first() else {
-            return Err(SetupError::Length {
-                field: "problems",
-                found: 0,
-                expected: 1,
-            });
-        };
-        let nodes = first.mesh.nodes().len();
-        let mut starts = vec![];
-        for (problem, &dt) in problems.iter_mut().zip(dt) {
-            let level = prepare(
-                problem,
-                &Stepping {
-                    scheme,
-                    settings,
-                    dt,
-                    loaded: false,
-                },
-            )?;
-            if level.u.len() != nodes {
-                return Err(SetupError::Length {
-                    field: "nodes",
-                    found: level.u.len(),
-                    expected: nodes,
-                });
-            }
-            starts.push((problem.case(scheme, dt), level));
-        }
+        let starts = starts(&mut problems, dt, scheme, settings)?;
         let heated: Vec<bool> = starts
             .iter()
             .map(|(case, level)| is_heated(&case.beam, level))
             .collect();
-        let group = |(starts, heated): (&[(Case, Level)], &[bool])| {
-            let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
-            let cases = lanes().map(|(case, _)| case.clone()).collect();
-            let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
-            newton(cases, settings, &levels, heated.contains(&true))
-        };
         let groups: Vec<_> = starts
             .chunks(WIDTH)
             .zip(heated.chunks(WIDTH))
-            .map(group)
+            .map(|(starts, heated)| group(starts, heated.contains(&true), settings))
             .collect();
         let outcomes = vec![
             Err(StepFailure::NonFinite {
@@ -157,14 +119,17 @@ impl Ensemble {
         })
     }
 
-    /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
+    /// Copies the current level of case k into `level`; if the case has failed, the last level
+    /// before the failure.
     pub fn observe(&self, k: usize, level: &mut Level) {
         self.groups[k / WIDTH].read(k % WIDTH, level);
     }
 
-    /// The energy [`Balance`] of the last step of every case; NaN for failed cases and before the first step.
+    /// The energy [`Balance`] of the last step of every case; NaN for failed cases and before the
+    /// first step.
     ///
-    /// Bitwise that of a single run; no level is copied, and the sums run over all lanes of a group at once.
+    /// Bitwise that of a single run; no level is copied, and the sums run over all lanes of a group
+    /// at once.
     ///
     /// * `balances`: overwritten and resized.
     pub fn balances(&self, balances: &mut Vec<Balance>) {
@@ -174,7 +139,8 @@ impl Ensemble {
         groups.for_each(|(group, balances)| group.balances(balances));
     }
 
-    /// u(1) at the current level of case k; if the case has failed, at the last level before the failure.
+    /// u(1) at the current level of case k; if the case has failed, at the last level before the
+    /// failure.
     pub fn tip(&self, k: usize) -> f64 {
         self.groups[k / WIDTH].tip(k % WIDTH)
     }
@@ -204,4 +170,58 @@ impl Ensemble {
     pub fn is_heated(&self, k: usize) -> bool {
         self.heated[k]
     }
+}
+
+/// Each case with its first level; all have the same number of nodes.
+fn starts(
+    problems: &mut [Problem],
+    dt: &[f64],
+    scheme: Scheme,
+    settings: Settings,
+) -> Result<Vec<(Case, Level)>, SetupError> {
+    let check_length = |field, found, expected| {
+        if found == expected {
+            Ok(())
+        } else {
+            Err(SetupError::Length {
+                field,
+                found,
+                expected,
+            })
+        }
+    };
+    check_length("dt", dt.len(), problems.len())?;
+    let Some(first) = problems.first() else {
+        return Err(SetupError::Length {
+            field: "problems",
+            found: 0,
+            expected: 1,
+        });
+    };
+    let nodes = first.mesh.nodes().len();
+    let mut starts = vec![];
+    for (problem, &dt) in problems.iter_mut().zip(dt) {
+        let stepping = Stepping {
+            scheme,
+            settings,
+            dt,
+            loaded: false,
+        };
+        let level = prepare(problem, &stepping)?;
+        check_length("nodes", level.u.len(), nodes)?;
+        starts.push((problem.case(scheme, dt), level));
+    }
+    Ok(starts)
+}
+
+/// The solver of up to [`WIDTH`] cases; unused lanes repeat the last one.
+fn group(
+    starts: &[(Case, Level)],
+    is_heated: bool,
+    settings: Settings,
+) -> Box<dyn Batch<Lanes<WIDTH>>> {
+    let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
+    let cases = lanes().map(|(case, _)| case.clone()).collect();
+    let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
+    newton(cases, settings, &levels, is_heated)
 }

@@ -39,7 +39,8 @@ pub enum StepFailure {
         /// The loop of the fixed point with the largest factor.
         of: Option<Loop>,
     },
-    /// The increments decrease, but not below the tolerance within the allowed number of iterations.
+    /// The increments decrease, but not below the tolerance within the allowed number of
+    /// iterations.
     #[error(
         "the iteration is too slow: expected an increment below the tolerance, found {increment:.3e} after \
          {iterations} iterations (contraction factor {contraction:.3e}): allow more iterations, or take a larger \
@@ -93,7 +94,8 @@ pub enum StepFailure {
         /// Distance of the tip from the obstacle at the end of the last attempt.
         miss: f64,
     },
-    /// The contact phase of dG contradicts the motion: closed contact pulls, or the open free end penetrates.
+    /// The contact phase of dG contradicts the motion: closed contact pulls, or the open free end
+    /// penetrates.
     #[error(
         "contact contradicts the motion of the free end by a force of {force:.3e}: it pulls where it is closed, or penetrates \
          where it is open (rounding errors of the position are a force of {noise:.3e}: take a larger epsilon)"

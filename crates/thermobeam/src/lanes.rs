@@ -1,7 +1,8 @@
-//! The numbers with which a time step is computed: one case (`f64`) or several cases in parallel ([`Lanes`]).
+//! The numbers with which a time step is computed: one case (`f64`) or several cases in parallel
+//! ([`Lanes`]).
 //!
-//! Lanes do not interact: the operations of lane k are those of a single run of case k, in the same order, so the
-//! results are bitwise equal.
+//! Lanes do not interact: the operations of lane k are those of a single run of case k, in the same
+//! order, so the results are bitwise equal.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

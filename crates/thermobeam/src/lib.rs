@@ -1,8 +1,9 @@
-//! Finite elements for a dynamic, thermoviscoelastic, nonlinear Timoshenko beam between two obstacles.
+//! Finite elements for a dynamic, thermoviscoelastic, nonlinear Timoshenko beam between two
+//! obstacles.
 //!
-//! The scheme is that of C. Bernardi and M. I. M. Copetti, *Discretization of a dynamic thermoviscoelastic Timoshenko
-//! beam* ([hal-00874579](https://hal.science/hal-00874579)); equation numbers in this crate are those of that paper.
-//! All quantities are dimensionless.
+//! The scheme is that of C. Bernardi and M. I. M. Copetti, *Discretization of a dynamic
+//! thermoviscoelastic Timoshenko beam* ([hal-00874579](https://hal.science/hal-00874579)); equation
+//! numbers in this crate are those of that paper. All quantities are dimensionless.
 //!
 //! # The problem
 //!
@@ -14,9 +15,10 @@
 //! θ_t  = θ_xx - a φ_xt
 //! ```
 //!
-//! with initial values of u, u_t, φ, φ_t and θ, (1.2), and the boundary conditions (1.3): `u = φ = 0` and `θ = θ_A` at
-//! x = 0; `θ = 0`, `φ_x + ζ φ_xt = 0` and `σ = -g(u)` at x = 1, with the stress
-//! `σ = u_x - φ + ζ (u_xt - φ_t) + N(u) u_x` and the contact force `g(u) = ([u - g_2]_+ - [g_1 - u]_+)/ε`.
+//! with initial values of u, u_t, φ, φ_t and θ, (1.2), and the boundary conditions (1.3):
+//! `u = φ = 0` and `θ = θ_A` at x = 0; `θ = 0`, `φ_x + ζ φ_xt = 0` and `σ = -g(u)` at x = 1, with
+//! the stress `σ = u_x - φ + ζ (u_xt - φ_t) + N(u) u_x` and the contact force
+//! `g(u) = ([u - g_2]_+ - [g_1 - u]_+)/ε`.
 //!
 //! | symbol | in the code | meaning |
 //! | --- | --- | --- |
@@ -41,10 +43,13 @@
 //!
 //! # From data to levels
 //!
-//! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) → [`Simulation`](simulation::Simulation) → one [`scheme`] and one [solver](solve) →
-//! [`Level`](solve::Level)s → [`energy`] and [`norms`]. [`dg`] solves the same equations to any order in space and time. Exact solutions for comparison: [`equilibrium`],
-//! [`vibration`]. The results that the solver must satisfy are derived in [`theory`]. The crate does no input or output and starts no threads. Every failure is a value of a type
-//! in [`error`], and a failed step leaves the simulation at its last level.
+//! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) →
+//! [`Simulation`](simulation::Simulation) → one [`scheme`] and one [solver](solve) →
+//! [`Level`](solve::Level)s → [`energy`] and [`norms`]. [`dg`] solves the same equations to any
+//! order in space and time. Exact solutions for comparison are in the crate `thermobeam-exact`,
+//! which nothing here uses. The results that the solver must satisfy are derived in [`theory`]. The
+//! crate does no input or output and starts no threads. Every failure is a value of a type in
+//! [`error`], and a failed step leaves the simulation at its last level.
 //!
 //! ```
 //! use thermobeam::mesh::Mesh;
@@ -73,15 +78,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod assembly;
 mod block_tridiagonal;
-mod bracket;
+pub mod bracket;
 pub mod contact;
 pub mod contraction;
 pub mod dg;
 pub mod energy;
 pub mod ensemble;
-pub mod equilibrium;
 pub mod error;
 pub mod kirchhoff;
 pub mod lanes;
@@ -92,15 +95,14 @@ pub mod parameters;
 pub mod scheme;
 pub mod simulation;
 pub mod solve;
-mod stumpff;
 pub mod tridiagonal;
-pub mod vibration;
 
 /// [energy]: crate::energy
 /// [contraction]: crate::contraction
 /// [linearized]: crate::linearized
-/// [equilibrium]: crate::equilibrium
-/// [vibration]: crate::vibration
+/// [equilibrium]: ../../thermobeam_exact/equilibrium/index.html
+/// [completeness]: ../../thermobeam_exact/equilibrium/enum.Completeness.html
+/// [vibration]: ../../thermobeam_exact/vibration/index.html
 /// [dg]: crate::dg
 // The links above are for rustdoc, those at the end of THEORY.md for readers of that file.
 #[doc = include_str!("../THEORY.md")]

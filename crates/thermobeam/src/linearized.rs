@@ -1,8 +1,9 @@
 //! The fixed-point iteration (4.1)-(4.5) of a step, linearised at a state.
 //!
-//! Let δV, δW be small errors of one iterate, so that u has the error dt δV. θ of the previous iterate does not enter (4.2). With
-//! σ = ζ + dt/2, the matrices `A_θ = 2/dt M + K`, `A_φ = (κ + σ) M + σ K` and `A_u = κ M + (ζ + dt (1 + m)/2) K` of (4.2),
-//! and e the last unit vector, the errors of the next iterate are
+//! Let δV, δW be small errors of one iterate, so that u has the error dt δV. θ of the previous
+//! iterate does not enter (4.2). With σ = ζ + dt/2, the matrices `A_θ = 2/dt M + K`,
+//! `A_φ = (κ + σ) M + σ K` and `A_u = κ M + (ζ + dt (1 + m)/2) K` of (4.2), and e the last unit
+//! vector, the errors of the next iterate are
 //!
 //! ```text
 //! A_θ δΘ' = -a Cᵀ δW
@@ -10,13 +11,13 @@
 //! A_u δV' =  σ C δW' - δm K u - dt g' δV_n e,     δm = ρ dt (K u)ᵀ δV.
 //! ```
 //!
-//! All four loops of [`contraction`](crate::contraction) act at once: the iteration converges near the state if the spectral
-//! radius of (δV, δW) -> (δV', δW') is below 1. The four factors are those of one loop each; two loops that act on the same
-//! vectors can add or cancel.
+//! All four loops of [`contraction`](crate::contraction) act at once: the iteration converges near
+//! the state if the spectral radius of (δV, δW) -> (δV', δW') is below 1. The four factors are
+//! those of one loop each; two loops that act on the same vectors can add or cancel.
 
 use crate::contraction::{Operator, coupling, stiffness_times, transposed_coupling};
 use crate::norms::slope_squared;
-use crate::scheme::{Case, ContactRule};
+use crate::scheme::Case;
 
 /// The linear map of the errors (δV, δW) of one iterate to those of the next.
 pub struct LinearizedIteration {
@@ -42,7 +43,8 @@ impl Case {
     /// The iteration linearised at a state with the displacement u at the old and at the new level.
     ///
     /// * `u`: n + 1 nodal values; the state is in contact if the contact force of u(1) is not zero.
-    /// * Returns `None` if a matrix of (4.2) is not positive definite: then the iteration cannot perform the step.
+    /// * Returns `None` if a matrix of (4.2) is not positive definite: then the iteration cannot
+    ///   perform the step.
     pub fn linearized_iteration(&self, u: &[f64]) -> Option<LinearizedIteration> {
         let Self {
             beam,
@@ -62,10 +64,7 @@ impl Case {
             None
         };
         let touched = obstacles.filter(|obstacles| obstacles.force(u[n]) != 0.0);
-        let slope = touched.map_or(0.0, |obstacles| match scheme.contact {
-            ContactRule::Implicit => 1.0 / obstacles.epsilon,
-            ContactRule::DiscreteGradient => 0.5 / obstacles.epsilon,
-        });
+        let slope = touched.map_or(0.0, |obstacles| obstacles.slope(scheme.contact));
         Some(LinearizedIteration {
             of_u: Operator::new(n, lengths, kappa, sigma + 0.5 * dt * axial_force)?,
             of_phi: Operator::new(n, lengths, kappa + sigma, sigma)?,

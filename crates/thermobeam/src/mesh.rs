@@ -87,7 +87,8 @@ impl Mesh {
     /// The mesh with the given nodes, which must increase strictly from 0 to 1.
     ///
     /// # Errors
-    /// [`MeshError`] for fewer than two nodes, wrong ends, nodes that do not increase, or an element whose 1/h overflows.
+    /// [`MeshError`] for fewer than two nodes, wrong ends, nodes that do not increase, or an
+    /// element whose 1/h overflows.
     pub fn from_nodes(nodes: Vec<f64>) -> Result<Self, MeshError> {
         if nodes.len() < 2 {
             return Err(MeshError::TooFew {

@@ -1,4 +1,5 @@
-//! Exact norms of P1 functions from their nodal values, the norm of Theorem 3.4, and a maximum that keeps NaN.
+//! Exact norms of P1 functions from their nodal values, the norm of Theorem 3.4, and a maximum that
+//! keeps NaN.
 
 use crate::lanes::Lane;
 
@@ -106,7 +107,8 @@ mod tests {
     #[test]
     fn the_theorems_norm_is_the_root_of_the_sum_of_five_squares() {
         let lengths = [1.0];
-        // ‖û‖² = 3, ‖u_x - φ‖² = 27, ‖φ̂‖² = 12, ‖φ_x‖² = 0, ‖θ‖² = 48, from linear functions 3x and the like.
+        // ‖û‖² = 3, ‖u_x - φ‖² = 27, ‖φ̂‖² = 12, ‖φ_x‖² = 0, ‖θ‖² = 48, from linear functions 3x
+        // and the like.
         let (v, u, w, phi, theta) = (
             [0.0, 3.0],
             [0.0, 0.0],

@@ -78,8 +78,14 @@ pub(crate) fn check_positive(name: &'static str, found: f64) -> Result<(), Param
     )
 }
 
-/// Refuses a value that is not allowed; `is_allowed` is false for NaN, as every comparison with NaN is.
-pub(crate) fn check(
+/// Refuses a value that is not allowed.
+///
+/// * `is_allowed` is false for NaN, as every comparison with NaN is.
+/// * `allowed`: the values expected, in words.
+///
+/// # Errors
+/// [`ParameterError`] with these words, unless `is_allowed`.
+pub fn check(
     name: &'static str,
     found: f64,
     is_allowed: bool,

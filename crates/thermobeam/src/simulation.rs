@@ -10,8 +10,8 @@ use crate::solve::newton::newton;
 use crate::solve::stepper::Stepper;
 use crate::solve::{Level, Settings, Solver, StepReport, Stopping, Work};
 
-/// Tolerance of the boundary values of initial data, relative to the largest value of the field: sin(πx) at x = 1 is
-/// 1e-16, 20 cos(5πx/2) there is 6e-15.
+/// Tolerance of the boundary values of initial data, relative to the largest value of the field:
+/// sin(πx) at x = 1 is 1e-16, 20 cos(5πx/2) there is 6e-15.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// Nodal values of the initial data (1.2), n + 1 each.
@@ -85,13 +85,14 @@ pub struct Stepping {
     pub loaded: bool,
 }
 
-/// Memory of a simulation by Newton's method with temperature, in bytes per element; the factorisation takes 144 of
-/// them.
+/// Memory of a simulation by Newton's method with temperature, in bytes per element; the
+/// factorisation takes 144 of them.
 pub const BYTES_PER_ELEMENT: usize = 392;
 
 /// A simulation at one time level.
 ///
-/// It takes [`BYTES_PER_ELEMENT`] with Newton's method, 256 without temperature, and 248 with the fixed point.
+/// It takes [`BYTES_PER_ELEMENT`] with Newton's method, 256 without temperature, and 248 with the
+/// fixed point.
 pub struct Simulation {
     problem: Problem,
     case: Case,
@@ -107,8 +108,9 @@ impl Simulation {
     /// Checks the problem and its settings, and starts at t = 0 with the initial data (1.2), (3.6).
     ///
     /// # Errors
-    /// [`SetupError`] for a coefficient out of range; initial data that are not finite, of the wrong length, or violate a
-    /// boundary condition of (1.3); a dt, a tolerance or an iteration limit that is not positive.
+    /// [`SetupError`] for a coefficient out of range; initial data that are not finite, of the
+    /// wrong length, or violate a boundary condition of (1.3); a dt, a tolerance or an iteration
+    /// limit that is not positive.
     pub fn new(mut problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let level = prepare(&mut problem, &stepping)?;
         let case = problem.case(stepping.scheme, stepping.dt);
@@ -143,7 +145,8 @@ impl Simulation {
         self.case.dt
     }
 
-    /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes, to be set before [`Self::advance`].
+    /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes, to be set before
+    /// [`Self::advance`].
     ///
     /// `None` unless [`Stepping::loaded`]. Entries at nodes with a prescribed value are not used.
     pub fn load_mut(&mut self) -> Option<&mut [[f64; 3]]> {
@@ -194,17 +197,20 @@ impl Simulation {
         self.case.energy(level)
     }
 
-    /// The energy balance of the step between two consecutive levels of this simulation, without loads.
+    /// The energy balance of the step between two consecutive levels of this simulation, without
+    /// loads.
     pub fn balance(&self, old: &Level, new: &Level) -> Balance {
         self.case.balance(old, new)
     }
 
-    /// The change of the energy from one level to another: only [`Balance::change`], at half the cost.
+    /// The change of the energy from one level to another: only [`Balance::change`], at half the
+    /// cost.
     pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
         self.case.energy_change(old, new)
     }
 
-    /// The scale of a level's energy, from absolute values, to which a residual of the balance is compared.
+    /// The scale of a level's energy, from absolute values, to which a residual of the balance is
+    /// compared.
     pub fn energy_scale(&self, level: &Level) -> f64 {
         self.case.energy_scale(level)
     }
@@ -233,19 +239,22 @@ impl Simulation {
         }
     }
 
-    /// Whether the temperature is computed. Newton's method omits it if nothing heats the beam and there are no loads.
+    /// Whether the temperature is computed. Newton's method omits it if nothing heats the beam and
+    /// there are no loads.
     pub fn is_heated(&self) -> bool {
         self.heated
     }
 }
 
-/// Checks a problem and its settings, sets the boundary values exactly, and returns the level at t = 0.
+/// Checks a problem and its settings, sets the boundary values exactly, and returns the level at
+/// t = 0.
 pub(crate) fn prepare(problem: &mut Problem, stepping: &Stepping) -> Result<Level, SetupError> {
     check_settings(problem, stepping)?;
     initial_level(problem)
 }
 
-/// Whether anything heats the beam: its own deformation (a ≠ 0), or a temperature other than the steady one.
+/// Whether anything heats the beam: its own deformation (a ≠ 0), or a temperature other than the
+/// steady one.
 pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
     beam.a != 0.0 || level.theta.iter().any(|&theta| theta != 0.0)
 }
@@ -308,8 +317,8 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
     Ok(())
 }
 
-/// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly, lifts the
-/// temperature.
+/// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly,
+/// lifts the temperature.
 fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;
@@ -340,7 +349,8 @@ fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     Ok(level)
 }
 
-/// Checks length, finiteness and boundary values of one field; `boundary` lists the nodes with a prescribed value.
+/// Checks length, finiteness and boundary values of one field; `boundary` lists the nodes with a
+/// prescribed value.
 fn check_field(
     field: &'static str,
     values: &mut [f64],

@@ -30,7 +30,8 @@ fn moving_beam(heated: bool) -> Problem {
     }
 }
 
-/// Number of allocations in 500 steps with their energies and balances, and number of steps that end in contact.
+/// Number of allocations in 500 steps with their energies and balances, and number of steps that
+/// end in contact.
 fn allocations(mut simulation: Simulation) -> (u64, usize) {
     let mut levels = [simulation.level(), simulation.level()];
     let mut touching = 0;

@@ -55,7 +55,8 @@ const EQUATIONS: [(&str, &str); 44] = [
     ("5.5", "initial temperature of the second experiment"),
 ];
 
-/// The equations that the crate implements: each is cited in the implementing file, not just in lib.rs.
+/// The equations that the crate implements: each is cited in the implementing file, not just in
+/// lib.rs.
 const IMPLEMENTED: [(&str, &str); 14] = [
     ("1.1", "parameters.rs"),
     ("1.2", "simulation.rs"),
@@ -73,7 +74,8 @@ const IMPLEMENTED: [(&str, &str); 14] = [
     ("4.5", "solve/fixed_point.rs"),
 ];
 
-/// Equation numbers `(chapter.number)` in a text; the argument of a call such as `f(2.5)` does not count.
+/// Equation numbers `(chapter.number)` in a text; the argument of a call such as `f(2.5)` does not
+/// count.
 fn numbers(text: &str) -> impl Iterator<Item = &str> {
     text.match_indices('(').filter_map(|(at, _)| {
         let is_call = text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');

@@ -1,4 +1,5 @@
-//! Tests on cases drawn at random, with the seed in `.cargo/config.toml`: the same cases at every run.
+//! Tests on cases drawn at random, with the seed in `.cargo/config.toml`: the same cases at every
+//! run.
 //!
 //! A case that fails is kept in `proptest-regressions`, and tried first from then on.
 

@@ -26,7 +26,8 @@ fn bits(balance: &Balance) -> [u64; 6] {
     [change, viscous, thermal, inertial, contact, residual].map(f64::to_bits)
 }
 
-/// Four different beams: in some steps only some of them need a second pass or the safeguarded iteration.
+/// Four different beams: in some steps only some of them need a second pass or the safeguarded
+/// iteration.
 fn problem(k: usize) -> Problem {
     let grading = 0.1 * k as f64;
     let mesh = Mesh::mapped(N, |s| (1.0 - grading) * s + grading * s * s).unwrap();

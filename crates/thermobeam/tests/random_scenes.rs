@@ -1,8 +1,10 @@
-//! Random scenes: all coefficients, meshes, initial data and time steps, both schemes, both solvers.
+//! Random scenes: all coefficients, meshes, initial data and time steps, both schemes, both
+//! solvers.
 //!
-//! Each ends with a solution or a typed error. In each step the energy does not increase and its balance closes, to
-//! 1e-12 of the energy or to the bound on rounding errors. A failing scene is reduced to a small one. The scenes are
-//! the same in every run; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select others.
+//! Each ends with a solution or a typed error. In each step the energy does not increase and its
+//! balance closes, to 1e-12 of the energy or to the bound on rounding errors. A failing scene is
+//! reduced to a small one. The scenes are the same in every run; `PROPTEST_RNG_SEED` and
+//! `PROPTEST_CASES` select others.
 
 use crate::drawn::at_least;
 use proptest::prelude::*;
@@ -140,12 +142,12 @@ fn problem() -> impl Strategy<Value = Problem> {
     )
 }
 
-/// Bound on the residual of the balance that the fixed point leaves, from its last increment η in the norm of (3.14):
-/// `‖δu_x‖ <= 2η`, `‖δφ_x‖ <= η`.
+/// Bound on the residual of the balance that the fixed point leaves, from its last increment η in
+/// the norm of (3.14): `‖δu_x‖ <= 2η`, `‖δφ_x‖ <= η`.
 ///
-/// The first equation of (4.2) takes N(u) from the previous iterate, with an error of `2ρ ‖u_x‖ 2η`; the second takes
-/// the displacement, `½ δu + ζ δV`; the third the rate of rotation, δφ/dt. Each is multiplied by the test function of
-/// the balance.
+/// The first equation of (4.2) takes N(u) from the previous iterate, with an error of
+/// `2ρ ‖u_x‖ 2η`; the second takes the displacement, `½ δu + ζ δV`; the third the rate of rotation,
+/// δφ/dt. Each is multiplied by the test function of the balance.
 fn lag(simulation: &Simulation, dt: f64, eta: f64, old: &Level, new: &Level) -> f64 {
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
     let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();

@@ -131,6 +131,39 @@ fn every_section_that_is_referred_to_exists() {
     assert_eq!(lost_sections(&renamed), ["Penetration of an impact"]);
 }
 
+/// The decimals of the buckling number in a text: `7116` of `-0.7116`.
+fn buckling_decimals(text: &str) -> impl Iterator<Item = &str> {
+    let starts = text.match_indices("0.711").map(|(start, _)| start + 2);
+    starts.map(|start| {
+        let rest = &text[start..];
+        let end = rest.find(|c: char| !c.is_ascii_digit());
+        &rest[..end.unwrap_or(rest.len())]
+    })
+}
+
+#[test]
+fn texts_state_the_buckling_number_that_the_solver_computes() {
+    let Some(root) = workspace() else { return };
+    let readme = root.join("README.md");
+    let mut sources = vec![readme.clone(), root.join("crates/thermobeam/THEORY.md")];
+    for entry in fs::read_dir(root.join("crates")).unwrap().flatten() {
+        files(&entry.path().join("src"), "rs", &mut sources);
+    }
+    let mut stated = BTreeSet::new();
+    for path in sources {
+        let text = fs::read_to_string(&path).unwrap();
+        for decimals in buckling_decimals(&text) {
+            let places = decimals.len();
+            let expected = format!("{:.places$}", thermobeam::kirchhoff::BUCKLING);
+            assert_eq!(format!("0.{decimals}"), expected, "{}", path.display());
+            stated.insert(path.clone());
+        }
+    }
+    for path in [readme, root.join("crates/thermobeam-cli/src/project.rs")] {
+        assert!(stated.contains(&path), "{}: {stated:?}", path.display());
+    }
+}
+
 #[test]
 fn only_functions_marked_as_tests_are_found() {
     let source = "fn helper() {}\n#[test]\n#[ignore]\nfn a_law() {}\n#[test]\n    fn another(x in 0..1) {}\nfn last() {}";

@@ -1,5 +1,5 @@
-//! Whether the diagnosis of each mistake names method, term or field, and module: the table of `reports/regressions.md`, and the
-//! fingerprints with which later runs are compared.
+//! Whether the diagnosis of each mistake names method, term or field, and module: the table of
+//! `reports/regressions.md`, and the fingerprints with which later runs are compared.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,7 +14,8 @@ use convergence_study::study::header::Setting;
 use super::list::Regression;
 use super::planted::Found;
 
-/// The lines of a diagnosis that are shown: what fails, what moved first, and the most similar mistake.
+/// The lines of a diagnosis that are shown: what fails, what moved first, and the most similar
+/// mistake.
 const SHOWN: [&str; 3] = ["fails", "first", "resembles"];
 
 /// Methods that are both wrong if neither must be named.
@@ -93,7 +94,8 @@ fn known(all: &[Judged<'_>], threshold: f64, place: &str) -> Fingerprints {
     }
 }
 
-/// The smallest likeness above which the nearest other mistake is more often in the same module than not.
+/// The smallest likeness above which the nearest other mistake is more often in the same module
+/// than not.
 fn threshold(all: &[Judged<'_>]) -> f64 {
     let mut nearest: Vec<(f64, bool)> = vec![];
     for one in all {

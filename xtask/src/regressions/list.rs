@@ -7,7 +7,7 @@ use convergence_study::cli::exit::Unusable;
 use serde::Deserialize;
 
 /// The list.
-pub(super) const FILE: &str = ".cargo/regressions.toml";
+pub(super) const FILE: &str = "xtask/regressions.toml";
 
 /// A mistake of meaning that a person might make.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -19,16 +19,19 @@ pub(super) struct Regression {
     pub(super) file: String,
     /// The changes.
     edits: Vec<Edit>,
-    /// The study of the quick tier that must notice it; empty for a mutant, which any study may notice.
+    /// The study of the quick tier that must notice it; empty for a mutant, which any study may
+    /// notice.
     #[serde(default)]
     pub(super) study: String,
-    /// The test that must notice it, if no study must: the arguments of `cargo test` that select it alone.
+    /// The test that must notice it, if no study must: the arguments of `cargo test` that select it
+    /// alone.
     #[serde(default)]
     pub(super) test: String,
     /// Words that must appear in the message about that study and lead to the cause.
     #[serde(default)]
     pub(super) says: String,
-    /// Methods, one of which must be named, in the words of a setting; `both` if neither must be named.
+    /// Methods, one of which must be named, in the words of a setting; `both` if neither must be
+    /// named.
     pub(super) method: Vec<String>,
     /// Terms, fields or meshes, one of which must be named; empty if none is wrong.
     #[serde(default)]
@@ -107,7 +110,8 @@ impl Regression {
     /// The text of its file with the mistake.
     ///
     /// # Errors
-    /// A file that cannot be read, or an old text that does not occur exactly once or is not changed.
+    /// A file that cannot be read, or an old text that does not occur exactly once or is not
+    /// changed.
     pub(super) fn planted(&self, root: &Path) -> Result<String, Unusable> {
         let path = root.join(&self.file);
         let honest = fs::read_to_string(&path).map_err(|error| Unusable::file(&path, &error))?;

@@ -1,5 +1,5 @@
-//! A copy of the work tree, compiled with a mistake, and the results of `verify`: they are kept, so that an interrupted run continues
-//! where it stopped, and a better diagnosis needs no compilation.
+//! A copy of the work tree, compiled with a mistake, and the results of `verify`: they are kept, so
+//! that an interrupted run continues where it stopped, and a better diagnosis needs no compilation.
 
 use std::env;
 use std::fs;
@@ -16,14 +16,15 @@ use serde::{Deserialize, Serialize};
 
 use super::list::Regression;
 
-/// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No run may know in advance what
-/// these mistakes did.
+/// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No
+/// run may know in advance what these mistakes did.
 fn is_left_out(name: &str) -> bool {
     matches!(name, "target" | "reports" | "fingerprints.json")
         || (name.starts_with('.') && name != ".cargo")
 }
 
-/// Profile of `cargo build`: optimised enough that the quick tier takes seconds, and compiled incrementally.
+/// Profile of `cargo build`: optimised enough that the quick tier takes seconds, and compiled
+/// incrementally.
 const PROFILE: &str = "regressions";
 
 /// Longest time of a case, in seconds: with a mistake it may never end.
@@ -31,7 +32,8 @@ const CASE_LIMIT: &str = "20";
 
 /// A copy of the work tree.
 pub(super) struct Copy {
-    /// `target/regressions`: the copy is in `tree`, its target folder in `build`, the results in `records`.
+    /// `target/regressions`: the copy is in `tree`, its target folder in `build`, the results in
+    /// `records`.
     folder: PathBuf,
     /// Hash of all files and their names.
     hash: u64,
@@ -47,7 +49,8 @@ pub(super) struct Found {
     /// Number of lines that it printed.
     pub(super) lines: usize,
     pub(super) record: Record,
-    /// The line about the failure of the test named for the mistake; `None` if it passed, or if no test is named.
+    /// The line about the failure of the test named for the mistake; `None` if it passed, or if no
+    /// test is named.
     #[serde(default)]
     failed_test: Option<String>,
 }
@@ -85,13 +88,14 @@ impl Copy {
         )))
     }
 
-    /// Results of `verify`, and of the test named for the mistake, with another text in its file, which is restored afterwards; known
-    /// results are read.
+    /// Results of `verify`, and of the test named for the mistake, with another text in its file,
+    /// which is restored afterwards; known results are read.
     ///
     /// * `recorded`: use earlier results, whatever the files were then.
     ///
     /// # Errors
-    /// A text that does not compile, a test that fails without the mistake, and errors of the operating system.
+    /// A text that does not compile, a test that fails without the mistake, and errors of the
+    /// operating system.
     pub(super) fn with(
         &self,
         regression: &Regression,
@@ -240,8 +244,8 @@ impl Found {
         self.record.verdict.is_pass() && self.failed_test.is_none()
     }
 
-    /// The output, with a line for each reason of a study and each changed number; the study comes before a colon. The line of the
-    /// test comes first.
+    /// The output, with a line for each reason of a study and each changed number; the study comes
+    /// before a colon. The line of the test comes first.
     pub(super) fn said(&self) -> Vec<String> {
         let reasons = not_passed(&self.record.studies)
             .into_iter()
@@ -257,8 +261,8 @@ impl Found {
             .collect()
     }
 
-    /// Whether the test named for the mistake fails; otherwise, whether `verify` fails and its output about the study contains the
-    /// expected words; about any study if none is named.
+    /// Whether the test named for the mistake fails; otherwise, whether `verify` fails and its
+    /// output about the study contains the expected words; about any study if none is named.
     pub(super) fn is_named_by(
         &self,
         Regression {
@@ -281,8 +285,8 @@ impl Found {
     }
 }
 
-/// Makes a folder a copy of another. Unchanged files are not rewritten: cargo compiles files newer than its last build,
-/// which includes any file that had a mistake.
+/// Makes a folder a copy of another. Unchanged files are not rewritten: cargo compiles files newer
+/// than its last build, which includes any file that had a mistake.
 ///
 /// * `hash`: hash of all files and their names, independent of their order.
 fn made_alike(from: &Path, to: &Path, hash: &mut u64) -> io::Result<()> {
@@ -312,9 +316,9 @@ fn made_alike(from: &Path, to: &Path, hash: &mut u64) -> io::Result<()> {
             continue;
         }
         if entry.file_type()?.is_dir() {
-            fs::remove_dir_all(entry.path())?
+            fs::remove_dir_all(entry.path())?;
         } else {
-            fs::remove_file(entry.path())?
+            fs::remove_file(entry.path())?;
         }
     }
     Ok(())
@@ -375,7 +379,11 @@ mod tests {
 
     #[test]
     fn what_is_built_and_what_is_hidden_is_not_copied() {
-        let left_out = ["target", "reports", ".git", ".ci", ".cargo", "crates"].map(is_left_out);
-        assert_eq!(left_out, [true, true, true, true, false, false]);
+        for name in ["target", "reports", ".git", ".ci", "fingerprints.json"] {
+            assert!(is_left_out(name), "{name}");
+        }
+        for name in [".cargo", "crates", "xtask", "regressions.toml"] {
+            assert!(!is_left_out(name), "{name}");
+        }
     }
 }

@@ -7,7 +7,8 @@ use tempfile::TempDir;
 
 use super::{Ended, ended, program, xtask};
 
-/// Builds a `verify` that passes if `src/a.rs` holds a 1, and otherwise prints the findings of the study `s`.
+/// Builds a `verify` that passes if `src/a.rs` holds a 1, and otherwise prints the findings of the
+/// study `s`.
 const CARGO: &str = r#"#!/bin/sh
 while [ $# -gt 0 ]; do [ "$1" = --target-dir ] && out="$2"; shift; done
 grep -q '{' src/a.rs && { echo "mismatched brackets" >&2; exit 101; }
@@ -33,7 +34,7 @@ chmod +x "$out/regressions/xtask"
 
 fn workspace(folder: &TempDir) -> PathBuf {
     let root = folder.path().join("w");
-    for name in ["studies", "src", ".cargo"] {
+    for name in ["studies", "src", "xtask"] {
         fs::create_dir_all(root.join(name)).expect("a folder");
     }
     fs::write(root.join("Cargo.toml"), "").expect("a file");
@@ -50,7 +51,7 @@ fn entry(name: &str, [old, new]: [&str; 2], [study, says]: [&str; 2]) -> String 
 }
 
 fn regressions(root: &Path, list: &str, arguments: &[&str]) -> Ended {
-    fs::write(root.join(".cargo/regressions.toml"), list).expect("a file");
+    fs::write(root.join("xtask/regressions.toml"), list).expect("a file");
     let mut command = xtask();
     command
         .args(["dev", "regressions"])
@@ -86,7 +87,7 @@ fn a_mistake_is_noticed_only_where_its_study_names_it() {
             && page.contains("- **moved**, `src/a.rs`: method right"),
         "{page}"
     );
-    let prints = fs::read_to_string(root.join(".cargo/fingerprints.json")).expect("fingerprints");
+    let prints = fs::read_to_string(root.join("xtask/fingerprints.json")).expect("fingerprints");
     assert!(
         prints.contains(r#""items":{"s: velocity fails":1.0}"#),
         "{prints}"

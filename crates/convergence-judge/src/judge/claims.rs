@@ -1,6 +1,8 @@
-//! Claims other than an order within a tolerance, each judged by what the [rule](super::verdict) reads.
+//! Claims other than an order within a tolerance, each judged by what the [rule](super::verdict)
+//! reads.
 //!
-//! `RULE.md` has a paragraph on each; `judge::calibration` measures how often it errs.
+//! `RULE.md` has a paragraph on each; the crate `convergence-calibration` measures how often it
+//! errs.
 
 use std::fmt;
 
@@ -31,7 +33,8 @@ impl Claim {
         }
     }
 
-    /// The rate of these levels, held against everything claimed. (The tolerance of `judge` is not used.)
+    /// The rate of these levels, held against everything claimed. (The tolerance of `judge` is not
+    /// used.)
     pub fn judge(&self, judge: &Judge, levels: &[Level]) -> RateVerdict {
         self.judge_rounded(judge, levels, 0.0)
     }
@@ -65,18 +68,21 @@ pub fn order_from_text(text: &str) -> Option<(f64, bool)> {
     (order > 0.0 && order.is_finite()).then_some((order, least.is_some()))
 }
 
-/// Half-width of the interval of a constant, in half-widths of the interval of the rate over the finest refinement: it then holds the constant of
-/// errors with noise and pollution at least 9 times in 10 for any number of levels.
+/// Half-width of the interval of a constant, in half-widths of the interval of the rate over the
+/// finest refinement: it then holds the constant of errors with noise and pollution at least 9
+/// times in 10 for any number of levels.
 const DOUBT_OF_A_CONSTANT: f64 = 5.0;
 
 /// The step for judging an error over degrees: `e = C F^-p` is a power `e = C step^(log F)` of it.
 ///
-/// * `degree`: p or q of the elements, or another count; each increment divides the error by the factor.
+/// * `degree`: p or q of the elements, or another count; each increment divides the error by the
+///   factor.
 pub fn step_of_degree(degree: f64) -> f64 {
     (-degree).exp()
 }
 
-/// The order in [`step_of_degree`] of an error that falls by this factor per degree; > 0 for a factor > 1.
+/// The order in [`step_of_degree`] of an error that falls by this factor per degree; > 0 for a
+/// factor > 1.
 pub fn order_of_factor(factor: f64) -> f64 {
     factor.ln()
 }
@@ -101,10 +107,13 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
     rate.with_reason(kind, kind.text())
 }
 
-/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` if there is no rate.
+/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` if
+/// there is no rate.
 ///
-/// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest, halving the remaining distance at each refinement by ρ, so
-/// that `log C` changes by `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower pollution and for scatter.
+/// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest,
+/// halving the remaining distance at each refinement by ρ, so that `log C` changes by
+/// `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower
+/// pollution and for scatter.
 pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
     let [low, high] = rate.interval?;
     let [.., before, finest] = levels.get(rate.used.clone())? else {
@@ -117,7 +126,8 @@ pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
     Some([(middle - half).exp(), (middle + half).exp()])
 }
 
-/// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own order changes nothing else.
+/// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own
+/// order changes nothing else.
 pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2]) -> RateVerdict {
     let (true, Some([low, high])) = (rate.verdict.is_pass(), constant(levels, &rate)) else {
         return rate;
@@ -138,7 +148,8 @@ pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2
     )
 }
 
-/// The largest error, and whether all errors are at most `bound`, for results that are exact up to round-off. NaN never passes.
+/// The largest error, and whether all errors are at most `bound`, for results that are exact up to
+/// round-off. NaN never passes.
 pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
     let largest = errors
         .into_iter()

@@ -6,13 +6,17 @@
 //!     e(h) = C h^p (1 + c h^r + ...),        log e = log C + p log h + log(1 + c h^r + ...)      (a)
 //! ```
 //!
-//! and the order p is what theory claims. The data are deterministic: the *pollution* c h^r bends log e away from a
-//! straight line, and apparent noise is small. Each reading here answers one part of the question:
+//! and the order p is what theory claims. The data are deterministic: the *pollution* c h^r bends
+//! log e away from a straight line, and apparent noise is small. Each reading here answers one part
+//! of the question:
 //!
 //! * [`pairwise_rates`]: the raw rates, level by level, nothing left out;
-//! * [`fit_line`]: least squares with a Student-t interval, right when the scatter outweighs the bend;
-//! * [`rate_interval`]: the line, or one with a bend where that is clearly better: right in both cases;
-//! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step ratios);
+//! * [`fit_line`]: least squares with a Student-t interval, right when the scatter outweighs the
+//!   bend;
+//! * [`rate_interval`]: the line, or one with a bend where that is clearly better: right in both
+//!   cases;
+//! * [`extrapolated_rate`]: the limit of the pairwise rates (Aitken's process, for any step
+//!   ratios);
 //! * [`asymptotic_range`]: which levels any of these may use;
 
 mod interval;
@@ -30,11 +34,13 @@ pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range, scatter};
 pub struct Level {
     /// Step size, h or dt; positive, and smaller from level to level.
     pub step: f64,
-    /// Norm of the error at that step. Kept as measured: the judge deals with NaN, infinite, zero and negative values.
+    /// Norm of the error at that step. Kept as measured: the judge deals with NaN, infinite, zero
+    /// and negative values.
     pub error: f64,
 }
 
-/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom, as statistics libraries compute them.
+/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom, as statistics
+/// libraries compute them.
 const STUDENT: [f64; 30] = [
     12.70620473617469,
     4.302652729749467,
@@ -68,9 +74,11 @@ const STUDENT: [f64; 30] = [
     2.042272456301077,
 ];
 
-/// `t` such that a Student variable with `dof` degrees of freedom lies in [-t, t] at 95 % confidence; infinite if `dof` is 0.
+/// `t` such that a Student variable with `dof` degrees of freedom lies in [-t, t] at 95 %
+/// confidence; infinite if `dof` is 0.
 ///
-/// Above 30 degrees of freedom it returns the last entry of the table, which is larger and therefore safe.
+/// Above 30 degrees of freedom it returns the last entry of the table, which is larger and
+/// therefore safe.
 pub fn student_t(dof: usize) -> f64 {
     dof.checked_sub(1)
         .map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
@@ -78,8 +86,9 @@ pub fn student_t(dof: usize) -> f64 {
 
 /// Rate between each level and the next: `(log e_k - log e_{k+1}) / (log h_k - log h_{k+1})`.
 ///
-/// As measured: a negative or NaN error gives a NaN rate, and zero or infinity an infinite one, each in its place.
-/// The logarithms are taken first, because the quotient of two negative errors would look like a rate.
+/// As measured: a negative or NaN error gives a NaN rate, and zero or infinity an infinite one,
+/// each in its place. The logarithms are taken first, because the quotient of two negative errors
+/// would look like a rate.
 ///
 /// * Returns one rate fewer than there are levels.
 pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
@@ -104,12 +113,14 @@ pub struct LineFit {
     pub interval: [f64; 2],
 }
 
-/// Least-squares fit of log e on log h over all the levels given, with the Student-t interval of the slope.
+/// Least-squares fit of log e on log h over all the levels given, with the Student-t interval of
+/// the slope.
 ///
-/// The interval assumes scatter about a straight line. Convergence data bend instead: the slope is then the mean of the
-/// pairwise rates, not their limit, and [`rate_interval`] is the one to trust.
+/// The interval assumes scatter about a straight line. Convergence data bend instead: the slope is
+/// then the mean of the pairwise rates, not their limit, and [`rate_interval`] is the one to trust.
 ///
-/// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do not differ.
+/// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do
+///   not differ.
 pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     let (x, y) = logarithms(levels)?;
     let n = x.len() as f64;
@@ -159,18 +170,21 @@ const SAME_RATE: f64 = 1e-9;
 
 /// Limit of the pairwise rates as h → 0, from the last three of them.
 ///
-/// A pollution c h^r in (a) of the [module](self) shifts the rate between h_k and h_{k+1} by c w_k(r), to first order in c, where
+/// A pollution c h^r in (a) of the [module](self) shifts the rate between h_k and h_{k+1} by c
+/// w_k(r), to first order in c, where
 ///
 /// ```text
 ///     w_k(r) = (h_k^r - h_{k+1}^r) / log(h_k / h_{k+1}).
 /// ```
 ///
-/// So (q_3 - q_2) / (q_2 - q_1) = (w_3 - w_2) / (w_2 - w_1) =: κ(r), which falls from level to level as r grows; it is
-/// solved for r, and the limit is p = q_3 - (q_3 - q_2) w_3 / (w_3 - w_2). For a constant step ratio κ = ratio^-r, and
-/// this is Aitken's p = q_3 - (q_3 - q_2)² / ((q_3 - q_2) - (q_2 - q_1)).
+/// So (q_3 - q_2) / (q_2 - q_1) = (w_3 - w_2) / (w_2 - w_1) =: κ(r), which falls from level to
+/// level as r grows; it is solved for r, and the limit is p = q_3 - (q_3 - q_2) w_3 / (w_3 - w_2).
+/// For a constant step ratio κ = ratio^-r, and this is Aitken's p = q_3 - (q_3 - q_2)² / ((q_3 -
+/// q_2) - (q_2 - q_1)).
 ///
-/// * Returns the last rate when the three agree to round-off; `None` with fewer than three rates, when one is not
-///   finite, or when they do not converge (scatter, or departure): no r in [1/4, 8] explains them.
+/// * Returns the last rate when the three agree to round-off; `None` with fewer than three rates,
+///   when one is not finite, or when they do not converge (scatter, or departure): no r in [1/4, 8]
+///   explains them.
 pub fn extrapolated_rate(levels: &[Level]) -> Option<f64> {
     let tail = levels.get(levels.len().checked_sub(4)?..)?;
     let rates = pairwise_rates(tail);
@@ -207,9 +221,9 @@ fn solve_exponent(tail: &[Level], contraction: f64) -> Option<f64> {
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
         if excess(middle) > 0.0 {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     Some(0.5 * (low + high))

@@ -1,4 +1,5 @@
-//! Errors over a grid of mesh widths and time steps: the order in h and the order in dt, each judged by itself.
+//! Errors over a grid of mesh widths and time steps: the order in h and the order in dt, each
+//! judged by itself.
 //!
 //! # Derivation
 //!
@@ -9,59 +10,74 @@
 //!     A(h) = C_h h^p (1 + a h^r + ...),     B(dt) = C_t dt^q (1 + b dt^r' + ...)                               (b)
 //! ```
 //!
-//! *One sequence for each order.* The differences of e^s over h at fixed dt do not contain B, whatever its order and pollution:
+//! *One sequence for each order.* The differences of e^s over h at fixed dt do not contain B,
+//! whatever its order and pollution:
 //!
 //! ```text
 //!     e(h_k, dt)^s - e(h_(k+1), dt)^s = A(h_k)^s - A(h_(k+1))^s = A(h_k)^s (1 - ρ_k^(-s p)) (1 + s a (K - 1) h_k^r + ...)
 //!     ρ_k = h_k / h_(k+1),    K = (1 - ρ_k^(-s p - r)) / (1 - ρ_k^(-s p)),   between 1 and 1 + r / (s p).
 //! ```
 //!
-//! Divided by `1 - ρ_k^(-s p)`, their s-th roots are A(h_k) for k = 1..m-1, polluted by the same powers as A itself, and by at most 1 + r / (s p) times as
-//! much. [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure, scatter and round-off. With one ratio ρ the divisor
-//! is the same for all k and does not affect the rate; otherwise p is the number for which the rate read is p. A pairwise rate, and the
-//! slope of a straight line, grow with the p assumed, but slowly: their derivative is at most 1/x - 1/(e^x - 1) < 1/2 with x = s p log ρ, so there is exactly one such number. For a
-//! polluted line that is not proven; the search takes a crossing that it finds. The same holds over dt for B and q.
+//! Divided by `1 - ρ_k^(-s p)`, their s-th roots are A(h_k) for k = 1..m-1, polluted by the same
+//! powers as A itself, and by at most 1 + r / (s p) times as much.
+//! [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure,
+//! scatter and round-off. With one ratio ρ the divisor is the same for all k and does not affect
+//! the rate; otherwise p is the number for which the rate read is p. A pairwise rate, and the slope
+//! of a straight line, grow with the p assumed, but slowly: their derivative is at most 1/x -
+//! 1/(e^x - 1) < 1/2 with x = s p log ρ, so there is exactly one such number. For a polluted line
+//! that is not proven; the search takes a crossing that it finds. The same holds over dt for B and
+//! q.
 //!
-//! *Where.* At the finest dt, and for q at the finest h: there the other contribution has the least scatter and
-//! round-off, and terms such as `h^i dt^k`, which (a) lacks, are smallest.
+//! *Where.* At the finest dt, and for q at the finest h: there the other contribution has the least
+//! scatter and round-off, and terms such as `h^i dt^k`, which (a) lacks, are smallest.
 //!
-//! *Whether (a) holds* is tested with the errors outside the two sequences. With M and N the finest levels,
+//! *Whether (a) holds* is tested with the errors outside the two sequences. With M and N the finest
+//! levels,
 //!
 //! ```text
 //!     e_jk^s = e_jN^s + e_Mk^s - e_MN^s,          misfit μ = root mean square of log(right) / s - log(left).
 //! ```
 //!
-//! *Floor.* If the other contribution is large, the last differences are small compared with e^s. The misfit of (a) limits what is known of e, so e^s is
-//! uncertain by `s μ e^s`: differences up to [`MISFITS`] times that, and up to the round-off, are not used.
+//! *Floor.* If the other contribution is large, the last differences are small compared with e^s.
+//! The misfit of (a) limits what is known of e, so e^s is uncertain by `s μ e^s`: differences up to
+//! [`MISFITS`] times that, and up to the round-off, are not used.
 //!
 //! # Why not a surface
 //!
-//! `C_h h^p + C_t dt^q` fitted to all errors has intervals that are too narrow. m n errors that obey (a) are m + n - 1 numbers, so there are fewer
-//! than m n - 4 degrees of freedom; and residuals of smooth data bend, they do not scatter. For 202 smooth grids of 3 × 3 to 5 × 5 errors with a, b
-//! in [-0.8, 2], such intervals of 95 % held p 59 times and q 32 times.
+//! `C_h h^p + C_t dt^q` fitted to all errors has intervals that are too narrow. m n errors that
+//! obey (a) are m + n - 1 numbers, so there are fewer than m n - 4 degrees of freedom; and
+//! residuals of smooth data bend, they do not scatter. For 202 smooth grids of 3 × 3 to 5 × 5
+//! errors with a, b in [-0.8, 2], such intervals of 95 % held p 59 times and q 32 times.
 //!
 //! # Three steps beyond the rule
 //!
-//! *The neighbouring line.* If (a) holds, the differences at the next finest dt are the same. The interval is extended on either side by the difference of
-//! their rates: for terms that (a) lacks, and for scatter that a few differences do not show. (If those differences are below their floor, as with a finest
-//! step far beyond the others, there is nothing to compare with.)
+//! *The neighbouring line.* If (a) holds, the differences at the next finest dt are the same. The
+//! interval is extended on either side by the difference of their rates: for terms that (a) lacks,
+//! and for scatter that a few differences do not show. (If those differences are below their floor,
+//! as with a finest step far beyond the others, there is nothing to compare with.)
 //!
-//! *Two rates.* Four levels have three differences and two rates. If the true order is one lower than that claimed and its term has just begun to show, the
-//! interval alone lets 7 of 100 such tables pass (4 × 4, tolerance 0.2). A fading term moves the rates towards the order, an emerging one moves them away. So
-//! with two rates, the second may be farther from the order than the first by at most [`DEPARTURE_OF_TWO_RATES`] of the tolerance; otherwise a pass becomes
-//! inconclusive. A claim whose differences change sign does not pass either.
+//! *Two rates.* Four levels have three differences and two rates. If the true order is one lower
+//! than that claimed and its term has just begun to show, the interval alone lets 7 of 100 such
+//! tables pass (4 × 4, tolerance 0.2). A fading term moves the rates towards the order, an emerging
+//! one moves them away. So with two rates, the second may be farther from the order than the first
+//! by at most [`DEPARTURE_OF_TWO_RATES`] of the tolerance; otherwise a pass becomes inconclusive. A
+//! claim whose differences change sign does not pass either.
 //!
 //! # What is left over
 //!
-//! Differences cancel a constant: `5 - h^2 - dt` grows, and its differences have the orders 2 and 1. So where both orders pass, we ask what is left of the finest
-//! error without h and dt. The differences beyond the finest levels continue the last one with rates that approach the order claimed as those seen do,
+//! Differences cancel a constant: `5 - h^2 - dt` grows, and its differences have the orders 2
+//! and 1. So where both orders pass, we ask what is left of the finest error without h and dt. The
+//! differences beyond the finest levels continue the last one with rates that approach the order
+//! claimed as those seen do,
 //!
 //! ```text
 //!     A_M^s = D + D' + D'' + ...,   D = d ρ^(-s q_1),   D' = D ρ^(-s q_2), ...     q_j = p + (q_last - p) φ^j,    φ = (q_last - p) / (q_before - p)
 //! ```
 //!
-//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 if there is one rate), and B_N the same. The remainder `e^s - A_M^s - B_N^s` is stated as a share λ of `s
-//! e^s`: of the error itself, if it is small. Its uncertainty is the change from φ = 1/2 instead, or from a tenth of the correction, and [`MISFITS_OF_REST`] times the misfit.
+//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 if there is one rate), and
+//! B_N the same. The remainder `e^s - A_M^s - B_N^s` is stated as a share λ of `s e^s`: of the
+//! error itself, if it is small. Its uncertainty is the change from φ = 1/2 instead, or from a
+//! tenth of the correction, and [`MISFITS_OF_REST`] times the misfit.
 //!
 //! | λ | verdict |
 //! | --- | --- |
@@ -71,8 +87,9 @@
 //!
 //! # Measured
 //!
-//! Grids with ratio 2, coarsest steps 1/8 to 1/2, p and q from 1/2 to 3, a and b in [-0.8, 2], r in [0.5, 2], s = 1 or 2, A / B from 1/30 to 30 in the middle.
-//! 1500 grids a row, in per cent, tolerance 0.2 (the study `rule-calibration-full` has the first 400):
+//! Grids with ratio 2, coarsest steps 1/8 to 1/2, p and q from 1/2 to 3, a and b in [-0.8, 2], r in
+//! [0.5, 2], s = 1 or 2, A / B from 1/30 to 30 in the middle. 1500 grids a row, in per cent,
+//! tolerance 0.2 (the study `rule-calibration-full` has the first 400):
 //!
 //! | levels | both orders pass | fail | interval holds the order | with noise of 1 %: pass; fail; interval holds |
 //! | --- | --: | --: | --: | --: |
@@ -81,24 +98,29 @@
 //! | 6 × 6 | 92 | 0 | 99 | 20; 0.3; 89 |
 //! | 8 × 8 | 100 | 0 | 100 | 38; 0.7; 94 |
 //!
-//! If p + 1 is claimed and the error in h is `h^(p+1) + f h^p`, f from 0.01 to 1, none of these grids passes with any of these numbers of levels. Three levels give
-//! two differences: always inconclusive.
+//! If p + 1 is claimed and the error in h is `h^(p+1) + f h^p`, f from 0.01 to 1, none of these
+//! grids passes with any of these numbers of levels. Three levels give two differences: always
+//! inconclusive.
 
 use super::fit::Level;
 use super::richardson::{RATES, crossing};
 use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, Verdict};
 use crate::text::number::error_text;
 
-/// Share of the tolerance by which the second of two rates may be farther from the order than the first.
+/// Share of the tolerance by which the second of two rates may be farther from the order than the
+/// first.
 pub const DEPARTURE_OF_TWO_RATES: f64 = 0.05;
 
-/// Differences are known if they exceed the uncertainty from the misfit by this factor: three standard deviations.
+/// Differences are known if they exceed the uncertainty from the misfit by this factor: three
+/// standard deviations.
 pub const MISFITS: f64 = 3.0;
 
-/// Bounds on the factor by which the distance of a rate from the order shrinks from one level to the next.
+/// Bounds on the factor by which the distance of a rate from the order shrinks from one level to
+/// the next.
 pub const FADE: [f64; 2] = [0.25, 0.75];
 
-/// Share of an error below which differences are round-off: a thousand times about a hundred rounding errors.
+/// Share of an error below which differences are round-off: a thousand times about a hundred
+/// rounding errors.
 const ROUND_OFF: f64 = 1e-10;
 
 /// The remainder is never known more accurately than this many misfits.
@@ -132,12 +154,14 @@ pub struct GridErrors<'a> {
     pub h: &'a [f64],
     /// Time steps, coarsest first.
     pub dt: &'a [f64],
-    /// The errors: all time steps of the first mesh width, then those of the next; `h.len() * dt.len()`.
+    /// The errors: all time steps of the first mesh width, then those of the next;
+    /// `h.len() * dt.len()`.
     pub errors: &'a [f64],
 }
 
 impl GridErrors<'_> {
-    /// Root mean square distance of log e from the value that these give, over all errors except those of the finest mesh and the finest step.
+    /// Root mean square distance of log e from the value that these give, over all errors except
+    /// those of the finest mesh and the finest step.
     ///
     /// NaN if an error is not finite; infinite if the sum is negative, which no error can be.
     pub fn misfit(&self, adding: Adding) -> f64 {
@@ -163,7 +187,8 @@ impl GridErrors<'_> {
         (squares.sum::<f64>() / (last_row * last) as f64).sqrt()
     }
 
-    /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the refined levels k and k + 1.
+    /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the
+    /// refined levels k and k + 1.
     ///
     /// * `orders`, `tolerance`: the claim.
     ///
@@ -201,7 +226,8 @@ impl GridErrors<'_> {
         Ok(both.map(|rate| rate.with_reason(kind, &because)))
     }
 
-    /// What is left of the finest error without h and dt, and its uncertainty: shares of that error.
+    /// What is left of the finest error without h and dt, and its uncertainty: shares of that
+    /// error.
     fn rest(&self, adding: Adding, judged: &[RateVerdict; 2]) -> [f64; 2] {
         let power = adding.power();
         let (mut rest, mut known) = (1.0 / power, MISFITS_OF_REST * self.misfit(adding));
@@ -263,7 +289,8 @@ impl GridErrors<'_> {
         })
     }
 
-    /// The errors over the refined levels, at the finest level of the other step or this many before it; NaN if there is none.
+    /// The errors over the refined levels, at the finest level of the other step or this many
+    /// before it; NaN if there is none.
     fn line(&self, in_space: bool, from_finest: usize) -> Vec<Level> {
         let (rows, columns) = (self.h.len(), self.dt.len());
         let steps = if in_space { self.h } else { self.dt };
@@ -297,13 +324,15 @@ fn floor(errors: &[Level], misfit: f64, power: f64) -> f64 {
     if floor.is_finite() { floor } else { f64::MAX }
 }
 
-/// One contribution by itself, with the divisors for the rate that it then has, or for `order` if it has none.
+/// One contribution by itself, with the divisors for the rate that it then has, or for `order` if
+/// it has none.
 fn reduced(judge: &Judge, errors: &[Level], power: f64, order: f64) -> Vec<Level> {
     let excess = |rate: f64| Some(judge.read(&alone(errors, power, rate)).fit?.rate - rate);
     alone(errors, power, crossing(excess, RATES).unwrap_or(order))
 }
 
-/// One contribution by itself at all levels except the finest, `|e_k^s - e_(k+1)^s| / (1 - ρ_k^(-s p))` to the power 1/s.
+/// One contribution by itself at all levels except the finest,
+/// `|e_k^s - e_(k+1)^s| / (1 - ρ_k^(-s p))` to the power 1/s.
 ///
 /// * `power`: s.
 /// * `rate`: p.
@@ -321,7 +350,8 @@ fn alone(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
 
 /// Sum of all differences beyond the finest level, in units of the last one.
 ///
-/// * `off`: how far the last rate is from the order; `fade`: the factor by which that shrinks per level.
+/// * `off`: how far the last rate is from the order; `fade`: the factor by which that shrinks per
+///   level.
 fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
     let (mut next, mut sum) = (1.0, 0.0);
     for _ in 0..40 {

@@ -2,32 +2,40 @@
 //!
 //! # Derivation
 //!
-//! Let a value at the step h be `q(h) = Q + C h^p (1 + c h^r + ...)`, Q the limit, and let the steps decrease, `h_1 > h_2 > ... > h_m`, with
-//! any ratios `ρ_k = h_k / h_(k+1)`. The differences of neighbours and Richardson's estimate of the error of the finer one are
+//! Let a value at the step h be `q(h) = Q + C h^p (1 + c h^r + ...)`, Q the limit, and let the
+//! steps decrease, `h_1 > h_2 > ... > h_m`, with any ratios `ρ_k = h_k / h_(k+1)`. The differences
+//! of neighbours and Richardson's estimate of the error of the finer one are
 //!
 //! ```text
 //!     d_k = q_k - q_(k+1) = (ρ_k^p - 1) C h_(k+1)^p (1 + c K h_(k+1)^r + ...),        K = (ρ^(p+r) - 1) / (ρ^p - 1)
 //!     q_(k+1) - Q  ≈  d_k / (ρ_k^p - 1).
 //! ```
 //!
-//! *Rate.* So the numbers `|d_k| (ρ_m^p - 1) / (ρ_k^p - 1)` at the steps `h_(k+1)`, here called reduced differences, are a sequence of errors of order p,
-//! polluted by the same powers as q. [The rule](crate::judge::verdict) reads their rate with its interval, and says whether they are asymptotic. With one
-//! ratio for all levels they equal the differences. Otherwise they depend on p itself: p is the number for which the rate read is p.
+//! *Rate.* So the numbers `|d_k| (ρ_m^p - 1) / (ρ_k^p - 1)` at the steps `h_(k+1)`, here called
+//! reduced differences, are a sequence of errors of order p, polluted by the same powers as q.
+//! [The rule](crate::judge::verdict) reads their rate with its interval, and says whether they are
+//! asymptotic. With one ratio for all levels they equal the differences. Otherwise they depend on p
+//! itself: p is the number for which the rate read is p.
 //!
-//! *Error bar.* Each rate in the interval `[p_1, p_2]` has its estimate: the error of the finest value is between `d / (ρ^p_2 - 1)` and `d / (ρ^p_1 - 1)`,
-//! d and ρ being the last. This allows for pollution, too: the finest pairwise rate of the differences is off p by
-//! `Δ ≈ c K h_m^r (ρ^r - 1) / log ρ`, and the interval allows for that much on either side of p. Changing the rate by Δ changes the estimate by the share
-//! `Δ log ρ ρ^p / (ρ^p - 1)`, which is `c h_m^r K (ρ^r - 1) ρ^p / (ρ^p - 1)`. Pollution changes it by
+//! *Error bar.* Each rate in the interval `[p_1, p_2]` has its estimate: the error of the finest
+//! value is between `d / (ρ^p_2 - 1)` and `d / (ρ^p_1 - 1)`, d and ρ being the last. This allows
+//! for pollution, too: the finest pairwise rate of the differences is off p by
+//! `Δ ≈ c K h_m^r (ρ^r - 1) / log ρ`, and the interval allows for that much on either side of p.
+//! Changing the rate by Δ changes the estimate by the share `Δ log ρ ρ^p / (ρ^p - 1)`, which is
+//! `c h_m^r K (ρ^r - 1) ρ^p / (ρ^p - 1)`. Pollution changes it by
 //! `c h_m^r (K - 1) = c h_m^r ρ^p (ρ^r - 1) / (ρ^p - 1)`, smaller by the factor K > 1.
 //!
-//! *Scatter.* If e_k scatters by the share σ, the logarithm of the last difference scatters by `S = σ √(ρ^2p + 1) / (ρ^p - 1)`, which the fits of the rule
-//! leave unexplained, and the estimate differs from the error by the share `σ √2 ρ^p / (ρ^p - 1) = S √2 ρ^p / √(ρ^2p + 1)`: the bar is extended by this factor
-//! at either end, and by the round-off of both values.
+//! *Scatter.* If e_k scatters by the share σ, the logarithm of the last difference scatters by
+//! `S = σ √(ρ^2p + 1) / (ρ^p - 1)`, which the fits of the rule leave unexplained, and the estimate
+//! differs from the error by the share `σ √2 ρ^p / (ρ^p - 1) = S √2 ρ^p / √(ρ^2p + 1)`: the bar is
+//! extended by this factor at either end, and by the round-off of both values.
 //!
-//! *Three values* give one rate, and nothing in them shows how uncertain it is; the order claimed has to help. All rates from
-//! [`DOUBT_OF_A_SINGLE_RATE`] below the lower of the two to the same distance above the higher are then considered possible.
+//! *Three values* give one rate, and nothing in them shows how uncertain it is; the order claimed
+//! has to help. All rates from [`DOUBT_OF_A_SINGLE_RATE`] below the lower of the two to the same
+//! distance above the higher are then considered possible.
 //!
-//! How often the bars hold the error is [measured](crate::judge::calibration): 97 times in 100; 9 times in 10 for five scattered values, whose two rates may agree by chance.
+//! How often the bars hold the error is measured by `convergence-calibration`: 97 times in 100; 9
+//! times in 10 for five scattered values, whose two rates may agree by chance.
 //!
 //! # What no difference can see
 //!
@@ -54,7 +62,8 @@ pub const SAFETY_CONFIRMED: f64 = 1.25;
 /// Factor of safety if it does not.
 pub const SAFETY_UNCONFIRMED: f64 = 3.0;
 
-/// The index never uses an order lower than this: the bar of a lower one would be a multiple of the differences.
+/// The index never uses an order lower than this: the bar of a lower one would be a multiple of the
+/// differences.
 pub const LOWEST_ORDER: f64 = 0.5;
 
 /// Upper end of the search for the observed order: no scheme has a higher one.
@@ -62,10 +71,12 @@ const HIGHEST_ORDER: f64 = 64.0;
 
 /// Roache's index of the finest of three values: `F |q_(m-1) - q_m| / (ρ^p - 1)`.
 ///
-/// Sources: ASME V&V 20-2009, section 2; P. J. Roache, *Verification and Validation in Computational Science and Engineering*, Hermosa 1998. W. L. Oberkampf,
-/// C. J. Roy, *Verification and Validation in Scientific Computing*, Cambridge 2010, section 8.6, use the formal order with F = 1.25 where the observed order
-/// confirms it, and `min(max(1/2, observed), order)` with F = 3 otherwise. Here that minimum is used in both cases,
-/// and the observed order confirms the formal one where it is within the tolerance of the claim: a wider tolerance gives F = 1.25 more often.
+/// Sources: ASME V&V 20-2009, section 2; P. J. Roache, *Verification and Validation in
+/// Computational Science and Engineering*, Hermosa 1998. W. L. Oberkampf, C. J. Roy, *Verification
+/// and Validation in Scientific Computing*, Cambridge 2010, section 8.6, use the formal order with
+/// F = 1.25 where the observed order confirms it, and `min(max(1/2, observed), order)` with F = 3
+/// otherwise. Here that minimum is used in both cases, and the observed order confirms the formal
+/// one where it is within the tolerance of the claim: a wider tolerance gives F = 1.25 more often.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gci {
     /// Observed order of the three finest values.
@@ -74,7 +85,8 @@ pub struct Gci {
     pub order: f64,
     /// F: [`SAFETY_CONFIRMED`] or [`SAFETY_UNCONFIRMED`].
     pub factor: f64,
-    /// Half-width of the bar about the finest value, in its unit. Usually it is quoted as a share of that value.
+    /// Half-width of the bar about the finest value, in its unit. Usually it is quoted as a share
+    /// of that value.
     pub half_width: f64,
 }
 
@@ -109,8 +121,10 @@ impl Gci {
 ///     p = [ log(d_coarse / d_fine) + log((ρ_fine^p - 1) / (ρ_coarse^p - 1)) ] / log ρ_fine.
 /// ```
 ///
-/// The iteration that the standard suggests, right side into left, diverges if the coarse ratio is much the larger (4 and 1.2 with p = 1). The equation is equivalent to
-/// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p, from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
+/// The iteration that the standard suggests, right side into left, diverges if the coarse ratio is
+/// much the larger (4 and 1.2 with p = 1). The equation is equivalent to
+/// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p,
+/// from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
 fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
     let [.., coarse, middle, fine] = values else {
         return Err(Refusal::TooFewValues(values.len()));

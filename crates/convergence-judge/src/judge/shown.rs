@@ -16,15 +16,16 @@ pub struct Shown<'a> {
     pub levels: &'a [Level],
     /// Its judgement.
     pub rate: &'a RateVerdict,
-    /// How many levels later its rates begin than those of errors: 1 for values, whose differences have the rates.
+    /// How many levels later its rates begin than those of errors: 1 for values, whose differences
+    /// have the rates.
     pub late: usize,
 }
 
 impl Shown<'_> {
     /// Rate and claim, with the reason unless it is a pass.
     pub fn found(&self) -> String {
-        let rate = self.rate.rate_in_words(MOST_PLACES);
         if self.rate.order.is_nan() {
+            let rate = self.rate.rate_in_words(MOST_PLACES);
             return format!("{rate}: no order is claimed");
         }
         let why = if self.rate.verdict.is_pass() {
@@ -32,7 +33,7 @@ impl Shown<'_> {
         } else {
             self.rate.because.clone()
         };
-        format!("{rate}, claimed {}: {why}", self.rate.claim())
+        format!("{}: {why}", self.rate.against(MOST_PLACES))
     }
 
     fn because(&self, level: usize) -> Option<Aside> {
@@ -68,7 +69,8 @@ impl Shown<'_> {
     }
 }
 
-/// Names, then step and each error with its mark and rate, coarsest level first, then the meaning of the marks.
+/// Names, then step and each error with its mark and rate, coarsest level first, then the meaning
+/// of the marks.
 ///
 /// * `step`: the name of the step.
 /// * `floor`: of the rule that judged; 0 if it had none, or several.

@@ -1,8 +1,5 @@
-//! [laws]: crate::judge::calibration::laws
-//! [held]: crate::judge::calibration::held_out
-//! [calibration]: crate::judge::calibration
 //! [grid]: crate::judge::grid
-// The links above are for rustdoc, those at the end of RULE.md for readers of that file.
+// The link above is for rustdoc, that at the end of RULE.md for readers of that file.
 #![doc = include_str!("verdict/RULE.md")]
 
 use thiserror::Error;
@@ -17,8 +14,8 @@ mod trend;
 mod words;
 
 pub use cause::Cause;
-pub use outcome::{PowerLaw, RateVerdict};
-pub(crate) use reading::Reading;
+pub use outcome::{PowerLaw, RateVerdict, against_claim};
+pub use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away};
 pub use words::{Aside, SetAside, Verdict};
@@ -29,10 +26,12 @@ pub const FEWEST_LEVELS: usize = 3;
 /// Upper bound on tolerances: half the distance between two integer orders would accept either.
 pub const WIDEST_TOLERANCE: f64 = 0.5;
 
-/// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and from 2.5.
+/// Half a step between the orders of theory, which are multiples of a half: it tells 2 from 1.5 and
+/// from 2.5.
 pub const DEFAULT_TOLERANCE: f64 = 0.25;
 
-/// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order changes no rate.
+/// Least ratio of the coarsest step to the finest: on narrower meshes a term of another order
+/// changes no rate.
 pub const LEAST_SPAN: f64 = 1.5;
 
 /// A setting of [`Judge`] that would make every verdict meaningless.
@@ -67,7 +66,8 @@ impl Default for Judge {
 }
 
 impl Judge {
-    /// The rule without a floor: multiplying all errors by a number changes neither verdict nor interval.
+    /// The rule without a floor: multiplying all errors by a number changes neither verdict nor
+    /// interval.
     ///
     /// * `tolerance`: half-width of the band about the order, 0 < tolerance < [`WIDEST_TOLERANCE`].
     pub fn new(tolerance: f64) -> Result<Self, JudgeError> {
@@ -83,10 +83,12 @@ impl Judge {
         })
     }
 
-    /// The same rule with another floor, in the unit of the errors: fine levels with errors up to the floor are not used. 0 drops no level.
+    /// The same rule with another floor, in the unit of the errors: fine levels with errors up to
+    /// the floor are not used. 0 drops no level.
     ///
-    /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
-    /// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the data. [`RateVerdict::set_aside`] names the levels.
+    /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as
+    /// much. [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated
+    /// from the data. [`RateVerdict::set_aside`] names the levels.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
         if floor >= 0.0 && floor.is_finite() {
             Ok(Self { floor, ..self })
@@ -110,15 +112,16 @@ impl Judge {
         self.judge_rounded(levels, order, 0.0)
     }
 
-    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`: its interval is wider by that at either end.
+    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`:
+    /// its interval is wider by that at either end.
     pub fn judge_rounded(&self, levels: &[Level], order: f64, doubt: f64) -> RateVerdict {
         let mut reading = self.read(levels);
         reading.widen(doubt);
         self.judge_read(&reading, order)
     }
 
-    /// The same for levels already read by a judge with the same floor and confidence.
-    pub(crate) fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
+    /// The same for levels that a judge with the same floor has [read](Self::read).
+    pub fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
         RateVerdict::new(
             reading,
             order,
@@ -137,13 +140,15 @@ impl Judge {
         RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
-    /// The part that does not depend on claim and tolerance, to be compared with several claims.
-    pub(crate) fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
+    /// What the levels, coarsest first, say by themselves: it depends on neither claim nor
+    /// tolerance, and is held against several claims by [`Judge::judge_read`] and
+    /// [`Judge::decide`], also of judges with other tolerances.
+    pub fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
         Reading::new(levels, self.floor)
     }
 
-    /// The outcome for levels already read by a judge with the same floor and confidence.
-    pub(crate) fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
+    /// The verdict alone on levels that a judge with the same floor has [read](Self::read).
+    pub fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
         reading.reason(order, self.tolerance).verdict()
     }
 
@@ -161,7 +166,8 @@ impl Judge {
     }
 }
 
-/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is inconclusive, but the rate is still given.
+/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is
+/// inconclusive, but the rate is still given.
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
     let refused = match Judge::new(tolerance) {
         Ok(judge) => return judge.judge(levels, order),

@@ -8,7 +8,8 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Measures a table: the head gives the number of columns; a column that holds only numbers is aligned right.
+    /// Measures a table: the head gives the number of columns; a column that holds only numbers is
+    /// aligned right.
     pub fn of(head: &[String], rows: &[Vec<String>]) -> Self {
         let column = |i: usize| rows.iter().filter_map(move |row| row.get(i));
         let width = |i: usize| {

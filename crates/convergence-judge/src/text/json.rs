@@ -1,4 +1,5 @@
-//! Numbers in JSON: a number that is not finite is `null`, and `null` is read as NaN; named numbers are an object in their own order.
+//! Numbers in JSON: a number that is not finite is `null`, and `null` is read as NaN; named numbers
+//! are an object in their own order.
 
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde::ser::{SerializeMap, Serializer};

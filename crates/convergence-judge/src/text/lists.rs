@@ -1,4 +1,5 @@
-//! Lists for people: each name once, related items together, and how many more there are. The order is that of first occurrence.
+//! Lists for people: each name once, related items together, and how many more there are. The order
+//! is that of first occurrence.
 
 /// Each item once.
 pub fn distinct<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {

@@ -13,8 +13,9 @@ pub fn did_you_mean(suggestion: &Option<String>) -> String {
 
 /// The candidate closest to `name`, or `None` if none is close enough to be a typing error.
 ///
-/// Distance: insertions, deletions, replacements and swaps of neighbours (optimal string alignment), ignoring case; at
-/// most one edit for every three letters, and at least one. The first of equally close candidates wins.
+/// Distance: insertions, deletions, replacements and swaps of neighbours (optimal string
+/// alignment), ignoring case; at most one edit for every three letters, and at least one. The first
+/// of equally close candidates wins.
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let name = name.to_lowercase();
     let letters = name.chars().count();

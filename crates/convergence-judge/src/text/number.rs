@@ -1,12 +1,14 @@
 //! Numbers for reports: a maximum that keeps NaN, and formats whose bytes must stay the same.
 
-/// Significant digits of a number in a committed file: more than anyone compares, fewer than two machines agree on.
+/// Significant digits of a number in a committed file: more than anyone compares, fewer than two
+/// machines agree on.
 const DIGITS: usize = 6;
 
 /// Decimal place beyond which the digits of quantities of order 1 are their rounding errors.
 const NOISE_PLACE: i32 = 15;
 
-/// Decimal places of a rate in a committed file: a relative change of an error by 1e-5 does not show.
+/// Decimal places of a rate in a committed file: a relative change of an error by 1e-5 does not
+/// show.
 pub const RATE_PLACES: usize = 4;
 
 /// Width of an interval above which its middle is not shown as a rate: it would look known.
@@ -22,10 +24,12 @@ pub fn min_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a <= b { a } else { b }
 }
 
-/// The number that a committed file holds for `value`: six significant digits, none of them beyond 1e-15 except the first.
+/// The number that a committed file holds for `value`: six significant digits, none of them beyond
+/// 1e-15 except the first.
 ///
-/// A difference of quantities of order 1 carries rounding errors of that size, and two mathematical libraries need not
-/// make the same ones: 4.4541e-8 is kept, 4.4413e-15 becomes 4e-15. Numbers that are not finite stay as they are.
+/// A difference of quantities of order 1 carries rounding errors of that size, and two mathematical
+/// libraries need not make the same ones: 4.4541e-8 is kept, 4.4413e-15 becomes 4e-15. Numbers that
+/// are not finite stay as they are.
 pub fn committed(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
@@ -60,7 +64,8 @@ pub fn rate_text(rate: Option<f64>) -> String {
     rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, 3))
 }
 
-/// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most `most`.
+/// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most
+/// `most`.
 pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
     let width = high - low;
     if width.is_nan() || width.is_infinite() {
@@ -74,8 +79,8 @@ pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
     needed.clamp(most.min(2), most)
 }
 
-/// An interval of rates with as many decimals as it needs, and at most `most`: `1.9581 to 1.9613`. If it is narrower
-/// than the last decimal, a number and the rounding: `2.0000 ± 0.00005`.
+/// An interval of rates with as many decimals as it needs, and at most `most`: `1.9581 to 1.9613`.
+/// If it is narrower than the last decimal, a number and the rounding: `2.0000 ± 0.00005`.
 pub fn interval_text(interval: [f64; 2], most: usize) -> String {
     let places = interval_places(interval, most);
     let [low, high] = interval.map(|end| decimals(end, places));
@@ -105,7 +110,8 @@ pub fn decimals(value: f64, places: usize) -> String {
     }
 }
 
-/// Any other number as reports show it: like an error if it is very small or large, plainly otherwise.
+/// Any other number as reports show it: like an error if it is very small or large, plainly
+/// otherwise.
 pub fn plain_text(value: f64) -> String {
     written(committed(value))
 }
@@ -134,8 +140,8 @@ pub fn short_text(value: f64) -> String {
     written(reread(format!("{value:.1e}"), value))
 }
 
-/// Two numbers as [`plain_text`] writes them; if they would look alike or almost alike, with enough digits to differ,
-/// and one more.
+/// Two numbers as [`plain_text`] writes them; if they would look alike or almost alike, with enough
+/// digits to differ, and one more.
 pub fn pair_text(pair: [f64; 2]) -> [String; 2] {
     let rounded =
         |digits: usize| pair.map(|value| reread(format!("{value:.*e}", digits - 1), value));

@@ -1,4 +1,5 @@
-//! Text of unknown origin made safe to show: terminals obey control characters, and CI systems obey lines.
+//! Text of unknown origin made safe to show: terminals obey control characters, and CI systems obey
+//! lines.
 
 use std::path::Path;
 
@@ -34,7 +35,8 @@ pub fn lines(text: &str) -> String {
         .collect()
 }
 
-/// Text without lines that are commands to GitHub Actions, which obeys lines of a log that begin with `::`.
+/// Text without lines that are commands to GitHub Actions, which obeys lines of a log that begin
+/// with `::`.
 pub fn without_commands(text: &str) -> String {
     let is_command = |line: &str| line.trim_start().starts_with("::");
     if !text.contains("::") || !text.split(['\n', '\r']).any(is_command) {

@@ -7,7 +7,7 @@ use convergence_study::cli;
 use convergence_study::input::{InputError, Section};
 use convergence_study::program;
 use convergence_study::project::Project;
-use convergence_study::study::{Claim, Header, KindRow, Study, erased, levels};
+use convergence_study::study::{Claim, Header, KindRow, Study, erased, header, levels};
 
 /// The order claimed instead of 1.
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
@@ -20,6 +20,7 @@ const PROJECT: Project = Project {
             why: "",
             judged: "",
             failure: "",
+            settings: header::of_file,
         },
         program::ROW,
     ],
@@ -27,7 +28,8 @@ const PROJECT: Project = Project {
     ..Project::new("powers", "powers")
 };
 
-/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no baseline.
+/// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no
+/// baseline.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     root.allow(&["study", "exponent"])?;
     let exponent = root

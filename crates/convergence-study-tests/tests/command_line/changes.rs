@@ -283,7 +283,8 @@ fn blessings_at_once_are_all_kept() {
         .filter(|id| baseline["studies"].get(id.as_str()).is_none())
         .collect();
     assert!(missing.is_empty(), "{missing:?}");
-    // Another name of the folder of the project's own reports: it has the same lock, which is taken only once.
+    // Another name of the folder of the project's own reports: it has the same lock, which is taken
+    // only once.
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();

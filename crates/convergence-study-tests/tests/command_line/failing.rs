@@ -1,4 +1,5 @@
-//! What a person reads when something fails: changed claims, missing studies, and the last lines on the terminal.
+//! What a person reads when something fails: changed claims, missing studies, and the last lines on
+//! the terminal.
 
 use std::fs;
 

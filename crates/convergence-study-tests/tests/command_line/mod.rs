@@ -3,14 +3,15 @@
 mod changes;
 mod failing;
 mod manufacture;
+mod rates;
 mod tables;
-
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
+mod visible;
 
 use convergence_study::cli;
 use convergence_study_tests::{Ended, finished, output};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 /// The variable with the order that `powers` claims instead of 1.
@@ -53,19 +54,6 @@ fn texts(command: &mut Command) -> (Option<i32>, String, String) {
         stderr,
     } = output(command).into();
     (status, stdout, stderr)
-}
-
-/// No control characters except line ends, and no line that GitHub Actions would obey.
-#[track_caller]
-fn is_harmless(text: &str) {
-    assert!(
-        !text.contains(|c: char| c.is_control() && c != '\n'),
-        "{text:?}"
-    );
-    assert!(
-        !text.lines().any(|line| line.trim_start().starts_with("::")),
-        "{text:?}"
-    );
 }
 
 #[test]
@@ -126,109 +114,6 @@ fn an_unwritable_job_summary_keeps_the_exit_status() {
     }
 }
 
-#[test]
-fn annotations_are_commands_and_nothing_else_is() {
-    let root = workspace(false);
-    fs::write(
-        root.path().join("studies/two.toml"),
-        study("two", "::error title=forged::x", 0.5),
-    )
-    .unwrap();
-    let mut command = command(root.path(), &["verify"]);
-    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true"));
-    assert_eq!(status, Some(1));
-    let commands: Vec<&str> = out
-        .lines()
-        .filter(|line| line.trim_start().starts_with("::"))
-        .collect();
-    assert!(
-        commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"),
-        "{commands:?}"
-    );
-    // GitHub shows ten: the last one counts the others.
-    assert!(
-        commands[1..9]
-            .iter()
-            .all(|line| line.starts_with("::error title=baseline::")),
-        "{commands:?}"
-    );
-    assert!(
-        commands.len() == 10 && commands[9].starts_with("::error title=and more::6 more: "),
-        "{commands:?}"
-    );
-    let (_, out, _) = run(&root, &["study", "studies/two.toml"]);
-    assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
-    is_harmless(&out);
-    is_harmless(&run(&root, &["list"]).1);
-    is_harmless(&run(&root, &["explain", "two"]).1);
-}
-
-#[test]
-fn claims_and_ids_with_control_characters_are_refused() {
-    let root = workspace(false);
-    for (id, claim, words) in [
-        ("a", r"c\n::error::forged", "study.claim: found the text"),
-        ("a", r"c\u001b[31m", "study.claim: found the text"),
-        ("a", r"\r", "study.claim: found the text"),
-        ("a", "", "study.claim: found the text"),
-        (r"a\n::error::forged", "c", "study.id: found the text"),
-        (r"a\u0007", "c", "study.id: found the text"),
-        ("../a", "c", "study.id: found the text"),
-        ("A", "c", "study.id: found the text"),
-        ("--bless", "c", "study.id: found the text"),
-        (&"a".repeat(5000), "c", "study.id: found the text"),
-    ] {
-        fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
-        let (status, out, err) = run(&root, &["study", "a.toml"]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(words),
-            "{err}"
-        );
-        is_harmless(&err);
-    }
-    // Written raw, TOML itself refuses them.
-    fs::write(root.path().join("a.toml"), study("a", "c\x1b[31m", 1.0)).unwrap();
-    let (status, _, err) = run(&root, &["study", "a.toml"]);
-    assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
-    is_harmless(&err);
-}
-
-#[test]
-fn names_of_columns_and_files_are_no_commands() {
-    let root = workspace(false);
-    let table =
-        |name: &str| format!("h,{name}\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n");
-    let write = |name: &str, text: String| fs::write(root.path().join(name), text).unwrap();
-    for name in ["a\x1b", "a\u{9b}b", "\x07"] {
-        write("table.csv", table(name));
-        let (status, out, err) = run(&root, &["rates", "table.csv", "--order", "1"]);
-        assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
-        assert!(
-            err.contains("table.csv:1:3: expected a name without control characters, found `"),
-            "{err}"
-        );
-        is_harmless(&err);
-    }
-    write("table.csv", table("::error title=x::forged"));
-    let (status, out, _) = run(&root, &["rates", "table.csv", "--order", "1"]);
-    assert_eq!(status, Some(0), "{out}");
-    is_harmless(&out);
-    let file = "a\n::error::x\x1b[31m.csv";
-    write(file, "h\n".to_owned());
-    for arguments in [
-        &["rates", file][..],
-        &["study", file],
-        &["explain", file],
-        &["verify", file],
-        &["list", file],
-    ] {
-        let (status, out, err) = run(&root, arguments);
-        assert_eq!(status, Some(2), "{arguments:?}");
-        is_harmless(&out);
-        is_harmless(&err);
-    }
-}
-
 #[cfg(unix)]
 fn pipe(path: &Path) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -276,172 +161,6 @@ fn tables_and_studies_come_from_standard_input() {
         std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
         assert_eq!(finished(child).status.code(), Some(0), "{arguments:?}");
     }
-}
-
-/// Errors of second and of first order, and a column without a claim that would fail.
-const RATES: &str = "h L2 H1 max\n0.4 1.6000000e-1 4.0000000e-1 3\n0.2 4.0000000e-2 2.0000000e-1 3\n\
-                     0.1 1.0000000e-2 1.0000000e-1 3\n0.05 2.5000000e-3 5.0000000e-2 3\n";
-
-#[test]
-fn rates_come_in_words_and_as_an_object() {
-    let root = workspace(false);
-    fs::write(root.path().join("t"), RATES).unwrap();
-    let claims = ["rates", "t", "--order", "L2=2", "--order", "H1=1"];
-    let with = |more: &[&str]| run(&root, &[&claims, more].concat());
-    let (status, out, err) = with(&[]);
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    assert!(
-        out.contains("L2: pass: 2.000000 ± 0.0000005, claimed 2 ± 0.25: 2, not 1.5 or 2.5\n"),
-        "{out}"
-    );
-    assert!(
-        out.contains("max: inconclusive: 0.000000 ± 0.0000005: no order is claimed\n"),
-        "{out}"
-    );
-    assert!(
-        out.contains("powers rates t: --order P") && !out.contains("xtask"),
-        "{out}"
-    );
-    assert!(
-        out.ends_with("pass: 2 of 2 columns agree with their orders\n"),
-        "{out}"
-    );
-    assert_eq!(with(&["--all"]).0, Some(1));
-    assert_eq!(
-        with(&["--quiet"]).1,
-        "pass: 2 of 2 columns agree with their orders\n"
-    );
-    // A rate that disagrees is still shown.
-    let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
-    assert_eq!(status, Some(1));
-    assert!(
-        out.starts_with("H1: fail: 1.000000 ± 0.0000005, claimed 2 ± 0.25: too low\n"),
-        "{out}"
-    );
-    let (_, out, _) = with(&["--format", "json"]);
-    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(
-        (&object["schema"], &object["verdict"]),
-        (&2.into(), &"pass".into())
-    );
-    assert_eq!(
-        (
-            &object["rates"][2]["decides"],
-            &object["rates"][0]["levels"][3]["step"]
-        ),
-        (&false.into(), &0.05.into())
-    );
-    let (status, _, err) = run(&root, &["rates", "t", "--order", "l2=2"]);
-    assert!(
-        status == Some(2) && err.contains("expected a column of errors: L2, H1, max; found `l2`"),
-        "{err}"
-    );
-    let (status, _, err) = run(&root, &["rates", "t", "--columns", "L2,L3"]);
-    assert!(
-        status == Some(2) && err.contains("t:1:1: expected a column for --columns"),
-        "{err}"
-    );
-}
-
-#[test]
-fn levels_set_aside_are_marked() {
-    let root = workspace(false);
-    // The rates 0.3, 2, 2, 2, and a level at the floor.
-    let errors = [0.16, 0.13, 0.0325, 0.008125, 0.00203125, 1e-4];
-    let row = |(k, error): (usize, &f64)| format!("{} {error}\n", 0.4 / f64::powi(2.0, k as i32));
-    fs::write(
-        root.path().join("t"),
-        "h e\n".to_owned() + &errors.iter().enumerate().map(row).collect::<String>(),
-    )
-    .unwrap();
-    let marks = |floor: &str| {
-        let (_, out, _) = run(&root, &["rates", "t", "--order", "2", "--floor", floor]);
-        let rows: Vec<&str> = out.lines().skip(2).take(errors.len()).collect();
-        let marked = |mark: char| {
-            rows.iter()
-                .map(|row| row.contains(mark))
-                .collect::<Vec<bool>>()
-        };
-        (marked('~'), marked('_'), out.clone())
-    };
-    let (coarse, fine, out) = marks("2e-4");
-    assert_eq!(coarse, [true, false, false, false, false, false], "{out}");
-    assert_eq!(fine, [false, false, false, false, false, true], "{out}");
-    assert!(
-        out.contains("_ set aside: not above the floor 2e-4") && out.contains("e: pass"),
-        "{out}"
-    );
-    let (_, fine, out) = marks("0");
-    assert!(!fine.contains(&true) && !out.contains("e: pass"), "{out}");
-    let (_, fine, out) = marks("0.01");
-    assert_eq!(fine, [false, false, false, true, true, true], "{out}");
-}
-
-#[test]
-fn rates_write_figure_markdown_and_junit() {
-    let root = workspace(false);
-    fs::write(root.path().join("a&b|c"), RATES).unwrap();
-    let (status, _, err) = run(
-        &root,
-        &[
-            "rates",
-            "a&b|c",
-            "--order",
-            "L2=2",
-            "--order",
-            "H1=2",
-            "--out",
-            "out/rates",
-        ],
-    );
-    assert_eq!((status, err.as_str()), (Some(1), ""));
-    let read = |name: &str| fs::read_to_string(root.path().join("out/rates").join(name)).unwrap();
-    let (svg, junit, page) = (read("rates.svg"), read("junit.xml"), read("rates.md"));
-    assert!(
-        roxmltree::Document::parse(&svg)
-            .unwrap()
-            .descendants()
-            .any(|node| node.has_tag_name("svg"))
-    );
-    assert!(svg.contains("L2, order 2, rate 2.000"), "{svg}");
-    let document = roxmltree::Document::parse(&junit).unwrap();
-    let cases: Vec<_> = document
-        .descendants()
-        .filter(|node| node.has_tag_name("testcase"))
-        .collect();
-    assert_eq!(cases.len(), 2);
-    assert!(
-        cases
-            .iter()
-            .all(|case| case.attribute("classname") == Some("a&b|c"))
-    );
-    let failure = document
-        .descendants()
-        .find(|node| node.has_tag_name("failure"))
-        .unwrap();
-    assert_eq!(
-        failure.parent().unwrap().attribute("name"),
-        Some("H1: order 2")
-    );
-    assert_eq!(document.root_element().attribute("failures"), Some("1"));
-    assert!(
-        page.starts_with("# Rates of a&b\\|c\n\n**fail**: 1 of 2 columns")
-            && page.contains("](rates.svg)"),
-        "{page}"
-    );
-    assert!(
-        page.contains("    0.2  4.0000e-2   2.000000  2.0000e-1   1.000000"),
-        "{page}"
-    );
-    fs::write(root.path().join("file"), "").unwrap();
-    assert_eq!(
-        run(
-            &root,
-            &["rates", "a&b|c", "--order", "L2=2", "--out", "file"]
-        )
-        .0,
-        Some(2)
-    );
 }
 
 #[test]
@@ -589,7 +308,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     let text = fs::read_to_string(root.path().join("studies/other.toml")).unwrap();
     assert!(
-        text.contains("directory = \"..\"") && text.contains("files = [\"studies/other.py\"]"),
+        text.contains("directory = \"..\"") && text.contains("\"studies/other.py\""),
         "{text}"
     );
     // What the commands write there, git ignores: they write below the folder that they run in.
@@ -601,11 +320,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
             .output()
     };
     if git(&["init", "--quiet"]).is_ok() {
-        for written in [
-            "report/index.html",
-            "reports/local/x.json",
-            "studies/.convergence-study/x.json",
-        ] {
+        for written in ["report/index.html", "reports/local/x.json"] {
             assert!(
                 git(&["check-ignore", written]).unwrap().status.success(),
                 "{written}"

@@ -53,7 +53,8 @@ fn rates_says_how_it_read_a_table() {
     let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]);
     let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
     assert!(page.contains(reading), "{err}{page}");
-    // If named, it is the step, which the quiet answer does not mention, and no claimed name is taken for it.
+    // If named, it is the step, which the quiet answer does not mention, and no claimed name is
+    // taken for it.
     let (status, out, _) = rates(&["--order", "L2=2", "--step", "spam", "--quiet"]);
     assert!(status == Some(0) && !out.contains("step: "), "{out}");
     let (status, _, err) = rates(&["--order", "spam=2"]);

@@ -20,8 +20,10 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
             .lines()
             .find(|line| line.starts_with("L2: 2.0000 ± 0.00005"))
             .unwrap();
+        let missing = "1 of 5 levels has no result: n = 16";
+        let judged = "4 of 5 cases judged; 1 not: without a result";
         assert!(
-            found.ends_with(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"),
+            found.ends_with(&format!(", claimed 2 ± 0.05: {missing}; {judged}")),
             "{out}"
         );
         assert!(
@@ -262,7 +264,8 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         (5..=8).contains(&levels) && summary.contains("; 4 were enough for L1"),
         "{out}"
     );
-    // The same levels are listed; a listed study of them has the same rate, and is undecided with one level fewer.
+    // The same levels are listed; a listed study of them has the same rate, and is undecided with
+    // one level fewer.
     let listed = |levels: usize| {
         let counts: Vec<String> = (0..levels).map(|level| (8 << level).to_string()).collect();
         place.write_text(&auto.replace("\"auto\"", &format!("[{}]", counts.join(", "))));

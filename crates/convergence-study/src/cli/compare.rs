@@ -12,7 +12,8 @@ use crate::text::visible::{self, visible};
 
 /// Compare two versions by their records: order, errors at the same step, work for the same error
 ///
-/// `verify` writes records to results.json, and `study --format json` prints them. Exit status 1 if anything is worse or lost.
+/// `verify` writes records to results.json, and `study --format json` prints them. Exit status 1 if
+/// anything is worse or lost.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The record of the old version

@@ -1,7 +1,8 @@
 //! How a command ends: the exit status is part of the interface.
 //!
-//! On Ctrl-C pending writes are finished, the work done so far is reported, and the process exits with status 130. A separate
-//! thread answers, so that it exits within a second whatever the others do. No file is left half-written: see [`atomic`].
+//! On Ctrl-C pending writes are finished, the work done so far is reported, and the process exits
+//! with status 130. A separate thread answers, so that it exits within a second whatever the others
+//! do. No file is left half-written: see [`atomic`].
 
 use std::error::Error;
 use std::path::Path;
@@ -18,7 +19,8 @@ use crate::text::visible;
 /// For the end of `--help`.
 pub const HELP: &str = "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
 
-/// Input that cannot be read or makes no sense, or a place that cannot be written to: exit status 2.
+/// Input that cannot be read or makes no sense, or a place that cannot be written to: exit
+/// status 2.
 #[derive(Debug)]
 pub struct Unusable(String);
 
@@ -45,7 +47,8 @@ impl<E: Error> From<E> for Unusable {
     }
 }
 
-/// What a command with usable input returns: exit status 0 for a pass, otherwise 1; the failure has then been reported.
+/// What a command with usable input returns: exit status 0 for a pass, otherwise 1; the failure has
+/// then been reported.
 pub type Outcome = Result<Verdict, Unusable>;
 
 /// Reports unusable input, and turns the outcome into the exit status.
@@ -67,8 +70,8 @@ const PATIENCE: Duration = Duration::from_millis(800);
 
 static SAID: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
-/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it has no work of its own to
-/// finish, and signals would end its thread.
+/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it has no
+/// work of its own to finish, and signals would end its thread.
 pub fn listen() {
     if guard::is_guard() {
         return;

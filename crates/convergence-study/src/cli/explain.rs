@@ -19,8 +19,8 @@ use crate::text::visible::{self, visible};
 /// Explain what a study claims, why it should hold, how it is judged, and what a failure would mean
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// A study's id or file; or a reason for a verdict (too-low), a kind of study, a word of the project. Without it:
-    /// everything that can be explained
+    /// A study's id or file; or a reason for a verdict (too-low), a kind of study, a word of the
+    /// project. Without it: everything that can be explained
     #[arg(value_name = "ID")]
     name: Option<String>,
     /// The folder with the studies [default: studies/ of the workspace]

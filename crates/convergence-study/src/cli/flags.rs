@@ -1,4 +1,5 @@
-//! The flags common to all commands, with one name and one meaning, defined here once, and how they affect the output.
+//! The flags common to all commands, with one name and one meaning, defined here once, and how they
+//! affect the output.
 
 use std::io;
 use std::num::NonZeroUsize;
@@ -13,7 +14,8 @@ use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort};
 use crate::store::{atomic, json};
 
-/// Version of the format of [`Printed`]: increased when a key of any command changes its meaning or disappears.
+/// Version of the format of [`Printed`]: increased when a key of any command changes its meaning or
+/// disappears.
 const SCHEMA: u32 = 2;
 
 /// The flags that every command accepts.

@@ -1,4 +1,5 @@
-//! For GitHub Actions: the job summary, and annotations for what did not pass. Elsewhere nothing is written.
+//! For GitHub Actions: the job summary, and annotations for what did not pass. Elsewhere nothing is
+//! written.
 
 use std::env;
 use std::fs::File;
@@ -13,7 +14,8 @@ use super::screen::{self, Format};
 
 /// Appends the table to the job summary and annotates what did not pass.
 ///
-/// * `format`: if standard output is one JSON object, the annotations go to standard error; GitHub reads both.
+/// * `format`: if standard output is one JSON object, the annotations go to standard error; GitHub
+///   reads both.
 pub(super) fn announce(findings: &Findings<'_>, format: Format) {
     summarise(&findings.digest());
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
@@ -28,7 +30,8 @@ pub(super) fn announce(findings: &Findings<'_>, format: Format) {
 
 /// Appends Markdown to the job summary.
 ///
-/// A summary that cannot be written is reported on standard error; it does not change the exit status.
+/// A summary that cannot be written is reported on standard error; it does not change the exit
+/// status.
 pub(super) fn summarise(markdown: &str) {
     if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
         let file = store::open(page.as_ref(), File::options().append(true).create(true));

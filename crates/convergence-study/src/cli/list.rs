@@ -13,9 +13,10 @@ use crate::text::columns::Columns;
 
 /// List the studies: tier, last verdict, cost, claim
 ///
-/// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or that of a selection in
-/// reports/local/. The work is the study's own estimate, in millions of the units of cost that its kind counts in. Seconds are those of all threads
-/// in the last `verify` on this machine. On a terminal claims are cut to its width; elsewhere they are whole.
+/// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or
+/// that of a selection in reports/local/. The work is the study's own estimate, in millions of the
+/// units of cost that its kind counts in. Seconds are those of all threads in the last `verify` on
+/// this machine. On a terminal claims are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Only the studies that `verify --tier` would run; full includes quick
@@ -42,6 +43,24 @@ struct Listed {
     claim: String,
 }
 
+impl Listed {
+    /// * `last`, `seconds`: the last verdict of the study and the time of that run, if it ever ran.
+    fn of(file: &StudyFile, last: Option<Verdict>, seconds: Option<f64>) -> Self {
+        let header = file.study.header();
+        let plan = file.study.plan();
+        let cost: f64 = plan.cases().iter().map(|case| case.cost).sum();
+        Self {
+            id: header.id.clone(),
+            tier: header.tier.name(),
+            kind: header.kind.clone(),
+            last: last.map(Verdict::name),
+            work: 1e-6 * cost,
+            seconds,
+            claim: header.claim.clone(),
+        }
+    }
+}
+
 const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "claim"];
 
 /// Prints a row for each study.
@@ -64,23 +83,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         workspace::last_seconds(&root)?,
     );
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let listed = |(StudyFile { study, .. }, _): (&StudyFile, bool)| {
-        let header = study.header();
-        Listed {
-            id: header.id.clone(),
-            tier: header.tier.name(),
-            kind: header.kind.clone(),
-            last: verdicts.get(&header.id).map(|verdict| verdict.name()),
-            work: 1e-6
-                * study
-                    .plan()
-                    .cases()
-                    .iter()
-                    .map(|case| case.cost)
-                    .sum::<f64>(),
-            seconds: seconds.get(&header.id).copied(),
-            claim: header.claim.clone(),
-        }
+    let listed = |(file, _): (&StudyFile, bool)| {
+        let id = &file.study.header().id;
+        Listed::of(file, verdicts.get(id).copied(), seconds.get(id).copied())
     };
     let studies: Vec<Listed> = meant.map(listed).collect();
     let passed = studies

@@ -1,8 +1,9 @@
-//! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`, `explain`, `completions`, for any project.
+//! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`,
+//! `explain`, `completions`, for any project.
 //!
-//! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among them with
-//! `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to standard output, everything else to standard
-//! error. Exit status: [`exit::HELP`].
+//! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
+//! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
+//! standard output, everything else to standard error. Exit status: [`exit::HELP`].
 
 mod compare;
 pub mod exit;
@@ -47,7 +48,8 @@ pub enum Command {
     Manufacture(manufacture::Arguments),
     /// Print completions for a shell
     ///
-    /// A shell completes a program of that name on the PATH, not an alias such as cargo's. For bash: source <(PROGRAM completions bash)
+    /// A shell completes a program of that name on the PATH, not an alias such as cargo's. For
+    /// bash: source <(PROGRAM completions bash)
     Completions {
         /// The shell
         #[arg(value_enum)]
@@ -113,7 +115,8 @@ fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outc
     Ok(Verdict::Pass)
 }
 
-/// Guards the process group that this process leads; the harness starts it next to every program that it runs.
+/// Guards the process group that this process leads; the harness starts it next to every program
+/// that it runs.
 ///
 /// # Errors
 /// Started by anyone except the harness: it would end the process group of its caller.
@@ -173,7 +176,8 @@ fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command 
     command.help_template(template)
 }
 
-/// Parses the arguments of the process, runs the command, and turns the outcome into the exit status.
+/// Parses the arguments of the process, runs the command, and turns the outcome into the exit
+/// status.
 pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
     ExitCode::from(status(line, env::args_os(), run))
 }

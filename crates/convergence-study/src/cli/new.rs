@@ -9,7 +9,7 @@ use serde_json::json;
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use crate::judge::verdict::Verdict;
-use crate::project::Project;
+use crate::project::{Project, Template};
 use crate::store::atomic;
 use crate::study::header::{NAME, is_name};
 use crate::text::visible;
@@ -35,7 +35,8 @@ fn name(text: &str) -> Result<String, String> {
     }
 }
 
-/// The command line with the templates of a project as values of `WHAT`; without templates, the command is hidden.
+/// The command line with the templates of a project as values of `WHAT`; without templates, the
+/// command is hidden.
 pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap::Command {
     // A changed argument moves behind the others: hence the positions, `index`, above.
     let values = project
@@ -85,7 +86,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
                 .replace("BELOW", &below),
         )?;
     }
-    // Reports are written below the folder that the commands run in: the current one, if the files are below it.
+    // Reports are written below the folder that the commands run in: the current one, if the files
+    // are below it.
     let ignored = if directory == "." {
         folder
     } else {
@@ -100,24 +102,21 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         .map(|(path, _)| path.display().to_string())
         .collect();
     let written = format!("wrote {}", wrote.join(", "));
-    let next = template
-        .next
-        .iter()
-        .zip(["now", "and"])
-        .map(|(command, then)| {
-            format!(
-                "{then}  {} {command} {}\n",
-                project.command,
-                wrote.first().map_or("", String::as_str)
-            )
-        });
-    let text = format!("{written}\n{}", next.collect::<String>());
+    let first = wrote.first().map_or("", String::as_str);
+    let text = format!("{written}\n{}", next_steps(project, template, first));
     let words = flags.words(Verdict::Pass, &written, || text);
     Ok(flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?)
 }
 
-/// The folder that the command runs in as seen from the files, and theirs as seen from there, both with a trailing
-/// slash. For a folder that is not below it, the folder that contains both.
+/// The commands that the user may type next, each on a line, with the first file written.
+fn next_steps(project: &Project, template: &Template, file: &str) -> String {
+    let steps = template.next.iter().zip(["now", "and"]);
+    let line = |(command, then)| format!("{then}  {} {command} {file}\n", project.command);
+    steps.map(line).collect()
+}
+
+/// The folder that the command runs in as seen from the files, and theirs as seen from there, both
+/// with a trailing slash. For a folder that is not below it, the folder that contains both.
 fn places(folder: &Path) -> (String, String) {
     let parts: Vec<Component<'_>> = folder
         .components()

@@ -17,8 +17,8 @@ use crate::verify::{rebuild, reports_around};
 
 /// Write the report on a record anew, without running anything
 ///
-/// The record is results.json of a report, with its pictures in figures/, or what `study --format json` printed, without pictures.
-/// The exit status is that of the run.
+/// The record is results.json of a report, with its pictures in figures/, or what
+/// `study --format json` printed, without pictures. The exit status is that of the run.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The record
@@ -59,7 +59,7 @@ pub(super) fn run(
         screen::tell(&format!(
             "note: no picture {}/{file}",
             visible::path(&beside.join(FIGURES))
-        ))
+        ));
     });
     let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
     let words = flags.words(verdict, &sentence, whole);

@@ -1,4 +1,5 @@
-//! Shared by the commands that take long: progress, report on an interruption, time limit, and how long a run took.
+//! Shared by the commands that take long: progress, report on an interruption, time limit, and how
+//! long a run took.
 
 use std::fmt::Write;
 use std::fs;
@@ -12,14 +13,15 @@ use super::exit::Unusable;
 use super::{exit, screen};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::run::{self, Progress, Spent};
+use crate::run::{self, Progress};
 use crate::store::Provenance;
 use crate::study::Study;
 
 /// Time limits of the commands that run studies.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Limits {
-    /// The longest that a case may take; its study fails and the others go on [default: as long as it takes]
+    /// The longest that a case may take; its study fails and the others go on
+    /// [default: as long as it takes]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub(super) case_limit: Option<Duration>,
     /// Run also studies that are expected to take minutes
@@ -27,8 +29,9 @@ pub struct Limits {
     yes: bool,
 }
 
-/// Seconds on one thread from which a run needs the user's consent. All studies of a project together take less; a
-/// thousand millions of steps, which is a typing error more often than not, take more on any mesh.
+/// Seconds on one thread from which a run needs the user's consent. All studies of a project
+/// together take less; a thousand millions of steps, which is a typing error more often than not,
+/// take more on any mesh.
 const LONG: f64 = 60.0;
 
 /// Refuses work that is expected to take long.
@@ -50,7 +53,8 @@ pub fn consent(what: &str, seconds: f64, limit: &str) -> Result<(), Unusable> {
 }
 
 impl Limits {
-    /// Refuses studies that are expected to take long, unless the user has agreed or limited the time of a case.
+    /// Refuses studies that are expected to take long, unless the user has agreed or limited the
+    /// time of a case.
     ///
     /// # Errors
     /// The first such study.
@@ -80,7 +84,8 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
         .ok_or("expected a number > 0".to_owned())
 }
 
-/// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which of them had run.
+/// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which
+/// of them had run.
 ///
 /// The time left is estimated from the cost of the remaining cases.
 pub(super) fn watched<T>(
@@ -128,12 +133,6 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// How many results an earlier run computed; `None` for zero.
-pub fn kept(spent: &Spent) -> Option<String> {
-    let Spent { cases, kept, .. } = spent;
-    (*kept > 0).then(|| format!("{kept} of {cases} cases kept from an earlier run"))
-}
-
 fn sentence(done: &[String], count: usize) -> String {
     let names = if done.is_empty() {
         String::new()
@@ -143,7 +142,8 @@ fn sentence(done: &[String], count: usize) -> String {
     format!("{} of {count} studies had run{names}", done.len())
 }
 
-/// A bar on standard error for `count` things, which `unit` names; hidden with `quiet`, or if standard error is not a terminal.
+/// A bar on standard error for `count` things, which `unit` names; hidden with `quiet`, or if
+/// standard error is not a terminal.
 pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();

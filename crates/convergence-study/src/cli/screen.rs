@@ -1,4 +1,5 @@
-//! Standard output and error, which may be closed at any time; tables in aligned columns, and verdicts in colour.
+//! Standard output and error, which may be closed at any time; tables in aligned columns, and
+//! verdicts in colour.
 
 use std::env;
 use std::io::{self, ErrorKind, IsTerminal, Write};

@@ -1,4 +1,5 @@
-//! `study`: runs study files from anywhere, compares with no baseline and writes only what `--out` requests.
+//! `study`: runs study files from anywhere, compares with no baseline and writes only what `--out`
+//! requests.
 
 use std::path::PathBuf;
 
@@ -15,7 +16,7 @@ use crate::verify::{publish, record};
 use super::exit::Outcome;
 use super::flags::Flags;
 use super::github;
-use super::running::{Limits, kept, watched};
+use super::running::{Limits, watched};
 use super::screen::{self, Format};
 
 /// Run study files from anywhere
@@ -133,9 +134,8 @@ fn text(finished: &Finished) -> String {
     } = finished;
     let verdict = screen::verdict(outcome.verdict);
     let seconds = spent.wall.as_secs_f64();
-    let kept = kept(spent).map_or(String::new(), |kept| format!(", {kept}"));
     let mut text = format!(
-        "{}: {verdict}, {seconds:.2} s{kept}\n{}\n{}\n",
+        "{}: {verdict}, {seconds:.2} s\n{}\n{}\n",
         header.id,
         visible(&header.claim),
         visible(&summary(outcome))

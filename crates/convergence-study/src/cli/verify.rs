@@ -1,11 +1,11 @@
 //! `verify`: the main job.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
-use super::running::{Limits, kept, watched};
+use super::running::{Limits, watched};
 use super::screen::{self, Format};
 use super::{github, workspace};
 use crate::judge::verdict::Verdict;
@@ -35,7 +35,8 @@ pub struct Arguments {
     /// Why; required for a changed claim, and kept in the baseline with the change
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
-    /// Accept only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as 'heat-*:rate *'
+    /// Accept only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as
+    /// 'heat-*:rate *'
     #[arg(long, value_name = "PATTERN", requires = "reason")]
     only: Vec<String>,
     /// Every study even if some fail, and every number that moved, not only the worst of each study
@@ -79,7 +80,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
         scope => scope,
     };
-    let mut studies: Vec<Box<dyn Study>> = all
+    let studies: Vec<Box<dyn Study>> = all
         .into_iter()
         .zip(meant)
         .filter(|(_, meant)| *meant)
@@ -87,31 +88,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         .collect();
 
     arguments.limits.consent(project, &studies)?;
-    let Arguments {
-        bless,
-        reason,
-        only,
-        ..
-    } = arguments;
-    if *bless {
-        // Blessed numbers must come from the programs as they are now.
-        studies.iter_mut().for_each(|study| study.compute_anew());
-    }
     let flags = &arguments.flags;
-    let effort = Effort {
-        fail_fast: arguments.fail_fast,
-        ..flags.effort(arguments.limits.case_limit)
-    };
-    let reports = flags.out.clone().unwrap_or_else(|| root.join("reports"));
-    let request = Request {
-        scope,
-        effort,
-        bless: *bless,
-        reason: reason.clone(),
-        only: only.clone(),
-        root,
-        reports,
-    };
+    let request = request(arguments, scope, root);
     let verification = watched(&studies, flags.quiet, |progress| {
         verify::verify(project, &studies, &request, progress)
     })?;
@@ -136,6 +114,23 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         flags.format,
     );
     Ok(record.verdict)
+}
+
+/// * `scope`: what is run; `root`: the folder of the project.
+fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> Request {
+    let flags = &arguments.flags;
+    Request {
+        scope,
+        effort: Effort {
+            fail_fast: arguments.fail_fast,
+            ..flags.effort(arguments.limits.case_limit)
+        },
+        bless: arguments.bless,
+        reason: arguments.reason.clone(),
+        only: arguments.only.clone(),
+        reports: flags.out.clone().unwrap_or_else(|| root.join("reports")),
+        root,
+    }
 }
 
 /// The studies that did not pass, or with a number that moved, in the newest record.
@@ -185,8 +180,8 @@ fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     }
 }
 
-/// For a run that passes: the table of studies and the verdict. For any other: the verdict, its cause, and the clearest
-/// failures first, all visible at once.
+/// For a run that passes: the table of studies and the verdict. For any other: the verdict, its
+/// cause, and the clearest failures first, all visible at once.
 ///
 /// * `took`: from start to end.
 fn text(
@@ -224,23 +219,7 @@ fn text(
         .as_ref()
         .map(|diagnosis| diagnosis.clearest.as_slice())
         .filter(|_| !verbose);
-    // A failing study has already said why: its numbers moved for the same reason.
-    let failed = |id: &str| {
-        found
-            .record
-            .studies
-            .iter()
-            .any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
-    };
-    let is_said =
-        |change: &&Change| *verbose || change.movement.needs_a_reason() || !failed(&change.study);
-    let changes: Vec<Change> = found
-        .record
-        .moves()
-        .iter()
-        .filter(is_said)
-        .cloned()
-        .collect();
+    let changes = changes_to_print(&found.record, *verbose);
     let parts = [
         format!("{verdict}{took}: {sentence}\n"),
         found
@@ -259,6 +238,19 @@ fn text(
         .filter(|part| !part.is_empty())
         .collect();
     parts.join("\n\n") + "\n"
+}
+
+/// The changes, without those of failing studies unless `verbose`: such a study has already said
+/// why, and its numbers moved for the same reason.
+fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
+    let failed = |id: &str| {
+        let mut studies = record.studies.iter();
+        studies.any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
+    };
+    let is_printed =
+        |change: &&Change| verbose || change.movement.needs_a_reason() || !failed(&change.study);
+    let moves = record.moves();
+    moves.iter().filter(is_printed).cloned().collect()
 }
 
 /// What was blessed, or which command blesses.
@@ -289,7 +281,8 @@ fn blessed(project: &Project, found: &Verification) -> String {
     }
 }
 
-/// The table of studies if all pass or all are wanted, otherwise how many more fail, and where the reports are.
+/// The table of studies if all pass or all are wanted, otherwise how many more fail, and where the
+/// reports are.
 fn overview(
     found: &Verification,
     request: &Request,
@@ -338,9 +331,6 @@ fn overview(
         let rows: Vec<Vec<String>> = slowest.iter().take(SLOWEST).map(row).collect();
         text += &(screen::table(&["seconds", "slowest studies"], &rows) + "\n");
     }
-    for Finished { header, spent, .. } in &found.record.studies {
-        text += &kept(spent).map_or(String::new(), |kept| format!("{}: {kept}\n", header.id));
-    }
     // As seen from the workspace.
     text += &screen::report_in(
         found
@@ -377,7 +367,8 @@ const SLOWEST: usize = 10;
 /// Changes listed one by one; more are grouped by their cause.
 const LISTED: usize = 6;
 
-/// Changed claims, under a head, after the numbers, one line each if they are few or all are wanted.
+/// Changed claims, under a head, after the numbers, one line each if they are few or all are
+/// wanted.
 fn moved_lines(changes: &[Change], all: bool) -> String {
     let (claims, numbers): (Vec<&Change>, Vec<&Change>) = changes
         .iter()

@@ -1,5 +1,5 @@
-//! The workspace: its studies, their selection by tier, id or pattern, and what earlier runs have left in it: their records,
-//! and the times of the last one.
+//! The workspace: its studies, their selection by tier, id or pattern, and what earlier runs have
+//! left in it: their records, and the times of the last one.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,8 @@ pub fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusabl
     Ok(files)
 }
 
-/// Warns on standard error about files that hold a study but are not run, because their extension is not `toml`.
+/// Warns on standard error about files that hold a study but are not run, because their extension
+/// is not `toml`.
 pub fn warn_of_near_names(root: &Path) {
     let entries = fs::read_dir(root.join("studies"))
         .into_iter()
@@ -114,7 +115,8 @@ fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
         .collect())
 }
 
-/// Where `verify` leaves its records, below the workspace; of two equally old ones the later in this list counts.
+/// Where `verify` leaves its records, below the workspace; of two equally old ones the later in
+/// this list counts.
 const RECORDS: [&str; 3] = [
     "reports/full/results.json",
     "reports/results.json",
@@ -180,8 +182,9 @@ pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
 
 /// Whether each study is selected.
 ///
-/// * `asked`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id selects its study whatever
-///   the tier; a pattern stays within the tier. The full tier includes the quick one.
+/// * `asked`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id
+///   selects its study whatever the tier; a pattern stays within the tier. The full tier includes
+///   the quick one.
 ///
 /// * `list`: the command that lists all studies, for messages.
 ///

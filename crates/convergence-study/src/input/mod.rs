@@ -1,7 +1,8 @@
 //! Reads TOML files; every error names file, line, field, the value found and the values allowed.
 //!
-//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its place in the file, a
-//! [`Field`] a value with its place. Readers take values from them and never compute the position of a message.
+//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its
+//! place in the file, a [`Field`] a value with its place. Readers take values from them and never
+//! compute the position of a message.
 
 mod settings;
 mod values;
@@ -34,8 +35,8 @@ pub struct Place {
 
 /// An input file that cannot be used: where, which field, what was found and what is allowed.
 ///
-/// Shown as one line `file:line:column: field: complaint`; a complaint about an expression may add two lines, with a
-/// caret below the place.
+/// Shown as one line `file:line:column: field: complaint`; a complaint about an expression may add
+/// two lines, with a caret below the place.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct InputError {
     /// The file, as given.
@@ -90,7 +91,8 @@ impl fmt::Display for InputError {
     }
 }
 
-/// Largest file that is read, in bytes. Study files are small; this prevents a wrong path from filling the memory.
+/// Largest file that is read, in bytes. Study files are small; this prevents a wrong path from
+/// filling the memory.
 const FILE_BYTES: u64 = 10_000_000;
 
 /// A text and the name of the file that it comes from.
@@ -154,7 +156,8 @@ fn unreadable(file: &str, error: &io::Error) -> InputError {
 pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputError> {
     let fail = |complaint| failed(file, complaint);
     let mut bytes = Vec::new();
-    // The size that the file system reports is 0 for a pipe or a device, so the reading itself is limited.
+    // The size that the file system reports is 0 for a pipe or a device, so the reading itself is
+    // limited.
     source
         .take(FILE_BYTES + 1)
         .read_to_end(&mut bytes)
@@ -199,7 +202,8 @@ pub fn parse<T>(
     read(&Section::root(source, &root))
 }
 
-/// As [`parse`]; `read` also receives the folder of the file, to which the file names in it are relative.
+/// As [`parse`]; `read` also receives the folder of the file, to which the file names in it are
+/// relative.
 pub fn parse_beside<T>(
     text: &str,
     file: &Path,
@@ -235,7 +239,8 @@ pub fn parse_overlaid<T>(
 
 /// The topmost table of `text`, whose places are those of `source`.
 fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
-    // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be walked by recursion.
+    // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be
+    // walked by recursion.
     DeTable::parse(text)
         .map(Spanned::into_inner)
         .map_err(|error| {

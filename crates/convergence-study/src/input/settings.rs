@@ -5,8 +5,8 @@ use toml::de::{DeInteger, DeTable, DeValue};
 
 /// Every value of a table: its dotted path, such as `expect[0].tolerance`, and its [`text`].
 ///
-/// A list of plain values is one value; a list that holds tables or lists is taken apart. An empty table or list is a
-/// value, so that adding or removing it does not go unnoticed.
+/// A list of plain values is one value; a list that holds tables or lists is taken apart. An empty
+/// table or list is a value, so that adding or removing it does not go unnoticed.
 pub(super) fn of_table(table: &DeTable<'_>) -> Vec<(String, String)> {
     let mut found = Vec::new();
     table
@@ -52,8 +52,8 @@ fn key_text(key: &str) -> String {
     }
 }
 
-/// A value in one form, however it is written: 0.05 and 5e-2, 3 and 3.0, 0x10 and 16 have the same text; a number and
-/// the same digits in quotes do not.
+/// A value in one form, however it is written: 0.05 and 5e-2, 3 and 3.0, 0x10 and 16 have the same
+/// text; a number and the same digits in quotes do not.
 fn text(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("{text:?}"),

@@ -269,9 +269,11 @@ impl<'a> Section<'a> {
         self.source.file
     }
 
-    /// Every value of the table and of the tables in it: its dotted path, such as `expect[0].tolerance`, and its text.
+    /// Every value of the table and of the tables in it: its dotted path, such as
+    /// `expect[0].tolerance`, and its text.
     ///
-    /// Numbers have one text however they are written: 0.05 and 5e-2 are equal. A list of plain values is one value.
+    /// Numbers have one text however they are written: 0.05 and 5e-2 are equal. A list of plain
+    /// values is one value.
     pub fn settings(&self) -> Vec<(String, String)> {
         settings::of_table(self.table)
     }
@@ -347,7 +349,8 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A list of at least `least` levels, each of which `follows` the previous one; `relation` describes this, such as `a number >`.
+    /// A list of at least `least` levels, each of which `follows` the previous one; `relation`
+    /// describes this, such as `a number >`.
     pub fn sequence<T: Copy + Display>(
         &self,
         (key, allowed, least): (&str, &str, usize),

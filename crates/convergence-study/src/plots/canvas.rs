@@ -1,10 +1,12 @@
 //! The page: the one place that emits SVG.
 //!
-//! Plotters' SVG backend places everything on whole pixels and has neither dashes nor clipping. So the page is drawn on
-//! a grid of tenths of a pixel, in layers: each layer is a fragment drawn by plotters, nested in a group that gives it
-//! the dash pattern, the clip rectangle or the halo, which its children inherit in SVG.
+//! Plotters' SVG backend places everything on whole pixels and has neither dashes nor clipping. So
+//! the page is drawn on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by
+//! plotters, nested in a group that gives it the dash pattern, the clip rectangle or the halo,
+//! which its children inherit in SVG.
 //!
-//! The picture contains names and values for a page that reads them; a viewer alone does not show them.
+//! The picture contains names and values for a page that reads them; a viewer alone does not show
+//! them.
 //!
 //! | attribute | on | holds |
 //! | --- | --- | --- |
@@ -63,7 +65,8 @@ impl Rect {
     }
 }
 
-/// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and Barsky).
+/// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and
+/// Barsky).
 fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     let directions = [
@@ -199,6 +202,11 @@ impl Canvas {
         }
     }
 
+    /// Height in px of the document.
+    pub fn height(&self) -> f64 {
+        self.height.round()
+    }
+
     /// Draws a layer on top of the others.
     pub fn draw(&mut self, layer: Layer, draw: impl FnOnce(&Pen<'_>)) {
         let mut fragment = String::new();
@@ -225,7 +233,8 @@ impl Canvas {
 
     /// Puts everything that `draw` adds into an SVG group with these attributes.
     ///
-    /// * `attributes`: as in the opening tag, each with a blank in front; values escaped by [`escape_attribute`].
+    /// * `attributes`: as in the opening tag, each with a blank in front; values escaped by
+    ///   [`escape_attribute`].
     pub fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
         let _ = writeln!(self.body, "<g{attributes}>");
         draw(self);
@@ -252,8 +261,8 @@ impl Canvas {
     }
 }
 
-/// The output of plotters, without a document around every layer and without attributes at their default values: a
-/// third of the bytes.
+/// The output of plotters, without a document around every layer and without attributes at their
+/// default values: a third of the bytes.
 fn without_ballast(fragment: &str) -> String {
     let is_frame = |line: &&str| !line.starts_with("<svg ") && *line != "</svg>";
     fragment.lines().filter(is_frame).fold(
@@ -412,8 +421,8 @@ impl Pen<'_> {
     }
 }
 
-/// A series with more points than this is read off its line, to the tenth of a pixel: its values would cost too many
-/// bytes.
+/// A series with more points than this is read off its line, to the tenth of a pixel: its values
+/// would cost too many bytes.
 const MOST_POINTS: usize = 200;
 
 /// The attributes of a picture with axes.

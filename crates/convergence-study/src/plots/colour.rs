@@ -3,12 +3,13 @@
 use super::Scale;
 use super::canvas::{Anchor, Layer, Rect};
 use super::ruler::{Ruler, Ticks, on_scale, power_of_ten};
-use super::sheet::{Page, elide};
-use super::style::{self, LABEL_SIZE, TICK_SIZE, text_width};
+use super::sheet::Page;
+use super::style::{self, LABEL_SIZE, TICK_SIZE, elide, text_width};
 use plotters::style::RGBColor;
 use plotters::style::colors::colormaps::{ColorMap, DerivedColorMap, ViridisRGB};
 
-/// Colours of a scale: few enough to merge equal neighbours, too many to see steps; odd, so that zero has its own.
+/// Colours of a scale: few enough to merge equal neighbours, too many to see steps; odd, so that
+/// zero has its own.
 const LEVELS: usize = 65;
 const BAR_GAP: f64 = 22.0;
 const BAR_WIDTH: f64 = 20.0;

@@ -1,4 +1,5 @@
-//! Errors against the mesh width or the time step, with slope triangles in a free place below a curve, so that they touch no data.
+//! Errors against the mesh width or the time step, with slope triangles in a free place below a
+//! curve, so that they touch no data.
 
 use std::ops::Range;
 
@@ -13,7 +14,8 @@ use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_place
 /// Horizontal leg and tallest vertical leg, as fractions of the plot.
 const LEG: f64 = 0.12;
 const TALLEST: f64 = 0.3;
-/// Clearance to the curve above, and room for the text below and on the right, as fractions of the plot.
+/// Clearance to the curve above, and room for the text below and on the right, as fractions of the
+/// plot.
 const GAP: f64 = 0.035;
 const TEXT_BELOW: f64 = 0.075;
 const TEXT_RIGHT: f64 = 0.055;
@@ -33,10 +35,11 @@ pub struct ErrorSeries {
     pub order: Option<f64>,
     /// Line fitted to the points; its rate is in the legend.
     pub fit: Option<PowerLaw>,
-    /// Interval of that rate, which says how many of its digits are known. If it is wider than [`WIDEST_INTERVAL`],
-    /// neither rate nor line is drawn. `None`: not known.
+    /// Interval of that rate, which says how many of its digits are known. If it is wider than
+    /// [`WIDEST_INTERVAL`], neither rate nor line is drawn. `None`: not known.
     pub interval: Option<[f64; 2]>,
-    /// Indices of the fitted points, over which the line is drawn; the others get open markers. `None`: all.
+    /// Indices of the fitted points, over which the line is drawn; the others get open markers.
+    /// `None`: all.
     pub used: Option<Range<usize>>,
     /// Which [`look`] it has; `None`: that of its place in the figure.
     pub look: Option<usize>,
@@ -106,8 +109,8 @@ fn has_unused_points(series: &ErrorSeries) -> bool {
     series.line().is_some() && series.used.as_ref().is_some_and(|used| used.len() < len)
 }
 
-/// The markers, joined by a line unless one is fitted: then that line, and open markers for points that it does not
-/// use. If the rate is not known, only the markers.
+/// The markers, joined by a line unless one is fitted: then that line, and open markers for points
+/// that it does not use. If the rate is not known, only the markers.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let line = Curve::line(0, &Series::new(label(series), series.points.clone()));
     let (noted_as, width) = (

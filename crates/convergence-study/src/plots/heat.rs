@@ -1,25 +1,28 @@
-//! Values over two parameters as coloured cells: with numbers in the cells if there is room, or with marks and boundary curves on top;
-//! and a field over space and time, as a picture.
+//! Values over two parameters as coloured cells, with marks and boundary curves on top.
 //!
 //! Cells are written compactly: one path per colour, one piece per run of equal neighbours.
 
-use super::canvas::{self, Anchor, Canvas, Layer, Pen, Point, Rect, grid};
+use super::canvas::{self, Canvas, Layer, Pen, Point, Rect, grid};
 use super::colour::ColourScale;
+use super::legend::{Entry, Swatch};
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
-use super::sheet::{Entry, Layout, Page, Swatch};
-use super::style::{self, NOTE_SIZE, WHITE, text_width};
+use super::sheet::{Layout, Page};
+use super::style::{self, WHITE};
 use super::xy::left_out;
 use super::{Axis, Scale, Series};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Half the width of the only cell of an axis with one value, in decades (or units, on a linear axis).
+/// Half the width of the only cell of an axis with one value, in decades (or units, on a linear
+/// axis).
 const ALONE: f64 = 0.25;
 
 /// Values over two parameters, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
+    /// Above the plot: what the reader should see.
+    pub title: Option<String>,
     /// Horizontal axis, for example `dt`.
     pub x: Axis,
     /// Vertical axis, for example `h`.
@@ -36,7 +39,8 @@ pub struct Surface {
     pub marked: Vec<Vec<bool>>,
     /// The meaning of the mark, for example `"diverged"`.
     pub marked_label: String,
-    /// Boundary curves on top: the first solid, the second dashed, and so on; for example the predicted one first.
+    /// Boundary curves on top: the first solid, the second dashed, and so on; for example the
+    /// predicted one first.
     pub boundaries: Vec<Series>,
 }
 
@@ -51,6 +55,7 @@ pub fn surface(figure: &Surface) -> String {
     let values = sorted(&figure.values, &rows, &columns, f64::NAN);
     let marked = sorted(&figure.marked, &rows, &columns, false);
     let plan = Layout {
+        title: figure.title.clone(),
         x: span(figure.x.scale, &edges(&x, ALONE)),
         y: span(figure.y.scale, &edges(&y, ALONE)),
         x_label: figure.x.label.clone(),
@@ -71,31 +76,27 @@ pub fn surface(figure: &Surface) -> String {
         colours,
     };
     cells.draw(plan, |sheet, place| {
-        // For errors, for example: a bar shows small counts as well. Nothing is drawn over the cells.
-        if figure.z.scale == Scale::Log && figure.boundaries.is_empty() {
-            write_values(sheet, &cells.values, place);
-        }
         draw_marks(sheet, &marked, place);
         draw_boundaries(sheet, figure);
     })
 }
 
 /// A picture of cells, each with a value.
-struct HeatMap {
+pub(super) struct HeatMap {
     /// Edges on the scale, one more than there are cells in a row.
-    x: Vec<f64>,
+    pub(super) x: Vec<f64>,
     /// Edges on the scale, one more than there are rows.
-    y: Vec<f64>,
+    pub(super) y: Vec<f64>,
     /// Row by row; NaN if there is none.
-    values: Vec<Vec<f64>>,
-    colours: ColourScale,
+    pub(super) values: Vec<Vec<f64>>,
+    pub(super) colours: ColourScale,
 }
 
 impl HeatMap {
     /// Draws them, with the colour bar next to them.
     ///
     /// * `on_top`: draws on the cells, whose positions it gets by row and column.
-    fn draw(
+    pub(super) fn draw(
         &self,
         plan: Layout,
         on_top: impl FnOnce(&mut Page, &dyn Fn(usize, usize) -> Rect),
@@ -178,7 +179,8 @@ fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The values of an axis that it can show: position on the scale and index, ascending, each position once.
+/// The values of an axis that it can show: position on the scale and index, ascending, each
+/// position once.
 fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
     let mut order: Vec<(f64, usize)> = values
         .iter()
@@ -229,35 +231,6 @@ fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
     left_out(non_finite, missing(z) - non_finite)
 }
 
-/// Writes its value into each cell, if there is room for all of them.
-fn write_values(sheet: &mut Page, values: &[Vec<f64>], place: &dyn Fn(usize, usize) -> Rect) {
-    const CLEAR: f64 = 6.0;
-    let cells = values
-        .iter()
-        .enumerate()
-        .flat_map(|(k, row)| row.iter().enumerate().map(move |(j, v)| (k, j, v)));
-    let written = cells.filter(|(.., value)| value.is_finite());
-    let texts: Vec<_> = written
-        .map(|(k, j, value)| (format!("{value:.1e}"), place(k, j)))
-        .collect();
-    let has_room = |(text, cell): &(String, Rect)| {
-        text_width(text, NOTE_SIZE) + CLEAR <= cell.width() && NOTE_SIZE + CLEAR <= cell.height()
-    };
-    if texts.iter().all(has_room) {
-        sheet.canvas.draw(
-            Layer {
-                halo: true,
-                ..Layer::default()
-            },
-            |pen| {
-                texts.iter().for_each(|(text, cell)| {
-                    pen.text(text, cell.centre(), NOTE_SIZE, Anchor::Center, style::INK);
-                });
-            },
-        );
-    }
-}
-
 /// A boundary with fewer points is drawn as points.
 const FEWEST_FOR_A_LINE: usize = 6;
 
@@ -287,7 +260,8 @@ fn entries(figure: &Surface) -> Vec<Entry> {
     entries
 }
 
-/// Whether a boundary is known only at a few points: a line between them would suggest points that were not computed.
+/// Whether a boundary is known only at a few points: a line between them would suggest points that
+/// were not computed.
 fn is_sparse(series: &Series) -> bool {
     series.points.len() < FEWEST_FOR_A_LINE
 }
@@ -311,7 +285,8 @@ fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usiz
     });
 }
 
-/// All rims before all lines: if two boundaries agree, the other shows through the gaps of the dashed one.
+/// All rims before all lines: if two boundaries agree, the other shows through the gaps of the
+/// dashed one.
 fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {
@@ -345,140 +320,6 @@ fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
                 });
         }
     }
-}
-
-/// Most cells of the picture along time and along space: even noise, in which no neighbours are equal, stays below 400 kB.
-const FINEST: (usize, usize) = (200, 110);
-
-/// A field over space and time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SpaceTime {
-    /// Above the plot.
-    pub title: Option<String>,
-    /// The quantity shown by colours, such as `"displacement u (dimensionless)"`.
-    pub label: String,
-    /// Times of the frames, ascending.
-    pub times: Vec<f64>,
-    /// Nodes of the mesh, ascending.
-    pub nodes: Vec<f64>,
-    /// `frames[n][i]` belongs to `times[n]` and `nodes[i]`.
-    pub frames: Vec<Vec<f64>>,
-}
-
-/// Draws a field over time (horizontal) and space (vertical), white where it is zero.
-pub fn space_time(figure: &SpaceTime) -> String {
-    let t = Ruler::around(Scale::Linear, figure.times.iter().copied(), 0.0);
-    let x = Ruler::around(Scale::Linear, figure.nodes.iter().copied(), 0.0);
-    let values = figure.frames.iter().flatten().copied();
-    let colours = ColourScale::diverging(&figure.label, values);
-    let non_finite = figure
-        .frames
-        .iter()
-        .flatten()
-        .filter(|&&v| on_scale(Scale::Linear, v).is_none())
-        .count();
-    let values = raster(figure, &t, &x, FINEST);
-    let (columns, rows) = (values.first().map_or(0, Vec::len), values.len());
-    let cells = HeatMap {
-        x: even(&t, columns),
-        y: even(&x, rows),
-        values,
-        colours,
-    };
-    let plan = Layout {
-        title: figure.title.clone(),
-        x: t,
-        y: x,
-        x_label: "time t".into(),
-        y_label: "position x".into(),
-        notes: left_out(non_finite, 0),
-        ..Layout::default()
-    };
-    cells.draw(plan, |_, _| {})
-}
-
-/// Edges of `cells` equal cells from end to end.
-fn even(ruler: &Ruler, cells: usize) -> Vec<f64> {
-    (0..=cells)
-        .map(|k| ruler.lo + (ruler.hi - ruler.lo) * k as f64 / cells.max(1) as f64)
-        .collect()
-}
-
-/// Values in the middle of the picture's cells, row by row: averaged over the cell in time, linearly interpolated in
-/// space.
-fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec<Vec<f64>> {
-    if figure.times.is_empty() || figure.nodes.is_empty() {
-        return Vec::new();
-    }
-    let columns = most.0.min(4 * figure.times.len());
-    let rows = most.1.min(4 * figure.nodes.len());
-    let middle =
-        |r: &Ruler, k: usize, of: usize| r.lo + (r.hi - r.lo) * (k as f64 + 0.5) / of as f64;
-    let weights: Vec<_> = (0..rows)
-        .map(|k| between(&figure.nodes, middle(x, k, rows)))
-        .collect();
-    let half = 0.5 * (t.hi - t.lo) / columns as f64;
-    let frames: Vec<_> = (0..columns)
-        .map(|k| frames_near(&figure.times, middle(t, k, columns), half))
-        .collect();
-    let row = |&(node, s): &(usize, f64)| {
-        frames
-            .iter()
-            .map(|near| mix(figure, near, node, s))
-            .collect()
-    };
-    weights.iter().map(row).collect()
-}
-
-/// The interval of ascending values that holds `v`, and how far along it `v` lies.
-fn between(values: &[f64], v: f64) -> (usize, f64) {
-    let k = values
-        .partition_point(|&a| a <= v)
-        .clamp(1, values.len().max(2) - 1)
-        - 1;
-    match (values.get(k), values.get(k + 1)) {
-        (Some(&a), Some(&b)) if b > a => (k, ((v - a) / (b - a)).clamp(0.0, 1.0)),
-        _ => (k, 0.0),
-    }
-}
-
-/// Frames and weights that make up a cell: all frames in it, or the two around it.
-fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<(usize, f64)> {
-    let (first, last) = (
-        times.partition_point(|&a| a < t - half),
-        times.partition_point(|&a| a < t + half),
-    );
-    if last > first {
-        return (first..last)
-            .map(|n| (n, 1.0 / (last - first) as f64))
-            .collect();
-    }
-    let (n, s) = between(times, t);
-    vec![(n, 1.0 - s), (n + 1, s)]
-}
-
-fn mix(figure: &SpaceTime, frames: &[(usize, f64)], node: usize, s: f64) -> f64 {
-    let value = |n: usize, i: usize| {
-        figure
-            .frames
-            .get(n)
-            .and_then(|f| f.get(i))
-            .copied()
-            .unwrap_or(f64::NAN)
-    };
-    // A weight of zero must not let a missing neighbour spoil the value.
-    let term = |weight: f64, v: f64| if weight == 0.0 { 0.0 } else { weight * v };
-    let in_space = |n: usize| term(1.0 - s, value(n, node)) + term(s, value(n, node + 1));
-    frames
-        .iter()
-        .map(|&(n, weight)| {
-            if weight == 0.0 {
-                0.0
-            } else {
-                weight * in_space(n)
-            }
-        })
-        .sum()
 }
 
 #[cfg(test)]
@@ -515,36 +356,5 @@ mod tests {
             ..Default::default()
         };
         assert!(surface(&figure).ends_with("</svg>\n"));
-    }
-
-    #[test]
-    fn a_linear_field_is_reproduced() {
-        let (times, nodes) = (vec![0.0, 1.0, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
-        let frames = times
-            .iter()
-            .map(|t| nodes.iter().map(|x| t + 10.0 * x).collect())
-            .collect();
-        let figure = SpaceTime {
-            times,
-            nodes,
-            frames,
-            ..Default::default()
-        };
-        let t = Ruler::between(Scale::Linear, 0.0, 2.0);
-        let x = Ruler::between(Scale::Linear, 0.0, 1.0);
-        let cells = raster(&figure, &t, &x, (200, 100));
-        let (rows, columns) = (cells.len(), cells[0].len());
-        let exact = 0.5 / rows as f64 * 10.0;
-        // The first column holds the frame t = 0 and takes its value.
-        assert!((cells[0][0] - exact).abs() < 1e-12);
-        assert!((cells[rows - 1][columns - 2] - (10.0 - exact)).abs() < 2.0);
-    }
-
-    #[test]
-    fn intervals_are_found_at_both_ends() {
-        assert_eq!(between(&[0.0, 1.0, 2.0], 0.0), (0, 0.0));
-        assert_eq!(between(&[0.0, 1.0, 2.0], 2.0), (1, 1.0));
-        assert_eq!(between(&[0.0], 5.0), (0, 0.0));
-        assert_eq!(between(&[], 5.0), (0, 0.0));
     }
 }

@@ -35,7 +35,8 @@ pub fn iterations(series: &[Series]) -> Xy {
     }
 }
 
-/// Errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is better.
+/// Errors over cost, `(cost, error)` in order of refinement, log-log: lower and further left is
+/// better.
 ///
 /// * `cost`, `error`: the labels of the axes.
 pub fn work_precision(cost: &str, error: impl Into<String>, series: &[Series]) -> Xy {
@@ -52,6 +53,13 @@ impl Xy {
             .iter_mut()
             .for_each(|curve| curve.marks = Marks::Filled);
         self
+    }
+
+    /// The same with markers alone: points in no order.
+    pub fn scattered(self) -> Self {
+        let mut figure = self.marked();
+        figure.curves.iter_mut().for_each(|curve| curve.width = 0.0);
+        figure
     }
 
     /// The same with a title above the plot.

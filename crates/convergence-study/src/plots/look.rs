@@ -1,4 +1,5 @@
-//! What distinguishes one series of a figure from the others: colour, dashes and shape of the markers.
+//! What distinguishes one series of a figure from the others: colour, dashes and shape of the
+//! markers.
 
 use super::canvas::{Pen, Point};
 use super::style::{self, Dash, WHITE};
@@ -63,7 +64,8 @@ impl Marker {
     }
 }
 
-/// Okabe and Ito's palette, distinct for all common kinds of colour vision; for its yellow, too pale on white, Tol's olive.
+/// Okabe and Ito's palette, distinct for all common kinds of colour vision; for its yellow, too
+/// pale on white, Tol's olive.
 const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -75,7 +77,8 @@ const COLOURS: [RGBColor; 8] = [
     RGBColor(128, 128, 38),
 ];
 
-/// Circle, square, triangle, diamond, inverted triangle, cross, plus and star, sized to look equally heavy.
+/// Circle, square, triangle, diamond, inverted triangle, cross, plus and star, sized to look
+/// equally heavy.
 const MARKERS: [Marker; 8] = [
     Marker::Circle,
     Marker::Polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
@@ -106,7 +109,8 @@ pub struct Look {
     pub dash: Dash,
 }
 
-/// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with the next marker.
+/// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with the next
+/// marker.
 pub fn look(k: usize) -> Look {
     let marker = (k + k / COLOURS.len()) % MARKERS.len();
     Look {

@@ -1,8 +1,9 @@
 //! Figures: plain data in, a self-contained SVG document out.
 //!
-//! Every figure is a struct of numbers and labels and a pure function from it to a `String`. Figures know nothing about
-//! the solver, read and write no files, and give the same bytes for the same data. Bad data never stop a figure: points
-//! that are not finite, or not positive on a logarithmic axis, are left out and counted in a note under the plot.
+//! Every figure is a struct of numbers and labels and a pure function from it to a `String`.
+//! Figures know nothing about the solver, read and write no files, and give the same bytes for the
+//! same data. Bad data never stop a figure: points that are not finite, or not positive on a
+//! logarithmic axis, are left out and counted in a note under the plot.
 //!
 //! | figure | shows |
 //! | --- | --- |
@@ -11,13 +12,17 @@
 //! | [`history`] | quantities over time, with limits and shaded phases |
 //! | [`space_time`] | `u(x, t)` as a picture |
 //! | [`iterations`] | iterations per step |
-//! | [`forest`] | all judged rates relative to their claims |
+//! | [`panels`] | figures one below the other |
+//! | [`inset`] | a small figure inside a larger one |
+//! | [`forest`] | judged rates with their intervals, relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
-//! The drawing can be read back: `canvas` writes names and values into the picture, for a page that shows them.
+//! The drawing can be read back: `canvas` writes names and values into the picture, for a page that
+//! shows them.
 //!
-//! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a `sheet`, which is a
-//! laid-out page; `xy` and `heat` draw on the sheet; the sheet's `canvas` is the one place that emits SVG.
+//! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a
+//! `sheet`, which is a laid-out page; `xy`, `heat` and `space_time` draw on the sheet; the sheet's
+//! `canvas` is the one place that emits SVG.
 //!
 //! ```
 //! use convergence_study::plots::{ErrorSeries, convergence, xy::Xy};
@@ -29,21 +34,30 @@
 //! ```
 
 pub mod canvas;
+mod coinciding;
 mod colour;
 mod convergence;
+mod curve;
+mod envelope;
 mod forest;
 mod heat;
 mod history;
+mod legend;
 pub mod look;
+mod panels;
 pub mod ruler;
 pub mod sheet;
+mod space_time;
 pub mod style;
 pub mod xy;
 
 pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestRow, forest};
-pub use heat::{SpaceTime, Surface, space_time, surface};
+pub use heat::{Surface, surface};
 pub use history::{history, iterations, work_precision};
+pub use panels::panels;
+pub use space_time::{SpaceTime, space_time};
+pub use xy::inset;
 
 /// How an axis maps its values to the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

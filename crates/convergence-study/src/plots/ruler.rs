@@ -4,7 +4,8 @@ use super::Scale;
 
 /// Values beyond this overflow the arithmetic of ranges, and count as not finite.
 const LARGEST: f64 = 1e300;
-/// A range narrower than this fraction of its values is widened: its ticks would be the same in print.
+/// A range narrower than this fraction of its values is widened: its ticks would be the same in
+/// print.
 const NARROWEST: f64 = 1e-6;
 
 /// Whether a value has a position on its scale.
@@ -176,7 +177,8 @@ impl Ruler {
             return self.decade_ticks(wanted);
         }
         if round.len() >= 3 {
-            // From 1 to 1000, typical of counts and percentages, powers of ten would be less readable.
+            // From 1 to 1000, typical of counts and percentages, powers of ten would be less
+            // readable.
             let is_plain = self.lo >= -0.3 && self.hi <= 3.05 && round[0] >= 0.0;
             let label = |at: f64| {
                 if is_plain {

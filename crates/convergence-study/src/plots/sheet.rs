@@ -1,28 +1,29 @@
-//! A laid-out page: plot area, axes, grid, notes, and the legend below the plot, in aligned columns, never on the data.
+//! A laid-out page: plot area, axes, grid, notes, and the legend below the plot, in aligned
+//! columns, never on the data.
 
 use super::Guide;
 use super::canvas::{self, Anchor, Canvas, Layer, Pen, Point, Rect};
-use super::look::{Look, Marks};
+use super::legend::{COLUMN_GAP, Entry, arranged, draw_entry};
 use super::ruler::{Ruler, Ticks, power_of_ten};
-use super::style::{self, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, text_width};
-use plotters::style::RGBColor;
+use super::style::{self, EDGE, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, elide, text_width};
 
-const EDGE: f64 = 16.0;
+/// Height of the row of the title.
+const TITLE_ROW: f64 = 32.0;
 const NOTE_HEIGHT: f64 = 24.0;
 /// From the frame down to the middle of the tick labels, and on to the middle of the axis label.
 const TICK_LABEL_DROP: f64 = 19.0;
 const AXIS_LABEL_DROP: f64 = 48.0;
 /// Guide labels closer than this would overlap.
 const GUIDE_SPACING: f64 = 21.0;
+/// Number of ticks of the vertical axis, at most.
+const Y_TICKS: usize = 8;
 /// Height of a row of the legend.
 const ROW_HEIGHT: f64 = 27.0;
-const SWATCH_WIDTH: f64 = 46.0;
-const SWATCH_GAP: f64 = 9.0;
-const COLUMN_GAP: f64 = 26.0;
 
 /// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
+    /// `None`: the vertical axis over the horizontal one.
     pub(super) title: Option<String>,
     pub(super) x: Ruler,
     pub(super) y: Ruler,
@@ -48,16 +49,22 @@ pub(super) struct Page {
 }
 
 impl Layout {
+    fn title(&self) -> String {
+        let of_axes = || {
+            [&self.y_label, &self.x_label]
+                .map(|label| without_unit(label))
+                .join(" over ")
+        };
+        self.title.clone().unwrap_or_else(of_axes)
+    }
+
     /// Measures all texts and places the plot area between them.
     pub(super) fn lay_out(self) -> Page {
-        let y_ticks = self.y.ticks(8);
+        let y_ticks = self.y.ticks(Y_TICKS);
         let left = EDGE + LABEL_SIZE + 10.0 + widest(&y_ticks) + 12.0;
         let right = style::WIDTH - self.right.max(2.0 * EDGE);
-        let x_ticks = ticks_that_fit(&self.x, right - left);
         let headline = self.above.is_some() || y_ticks.exponent != 0;
-        let top = EDGE
-            + if self.title.is_some() { 32.0 } else { 0.0 }
-            + if headline { 24.0 } else { 0.0 };
+        let top = EDGE + TITLE_ROW + if headline { 24.0 } else { 0.0 };
         let plot = Rect {
             left,
             top,
@@ -65,16 +72,28 @@ impl Layout {
             bottom: top + style::PLOT_HEIGHT,
         };
         let height = notes_top(&plot, &self.legend) + NOTE_HEIGHT * self.notes.len() as f64 + 8.0;
+        self.page(Canvas::new(style::WIDTH, height.round()), plot, Y_TICKS)
+    }
+
+    /// The page with its plot in this place.
+    ///
+    /// * `y_ticks`: number of ticks of the vertical axis, at most.
+    pub(super) fn page(self, canvas: Canvas, plot: Rect, y_ticks: usize) -> Page {
         Page {
-            canvas: Canvas::new(style::WIDTH, height.round()),
+            canvas,
             x: self.x.laid_out(plot.left, plot.right),
             y: self.y.laid_out(plot.bottom, plot.top),
             plot,
-            x_ticks,
-            y_ticks,
+            x_ticks: ticks_that_fit(&self.x, plot.width()),
+            y_ticks: self.y.ticks(y_ticks),
             plan: self,
         }
     }
+}
+
+/// A label up to its unit, such as `displacement u` of `displacement u (dimensionless)`.
+fn without_unit(label: &str) -> &str {
+    label.split(" (").next().unwrap_or(label)
 }
 
 fn legend_top(plot: &Rect) -> f64 {
@@ -187,8 +206,8 @@ impl Page {
         });
     }
 
-    /// Draws everything around the data, and closes the document.
-    pub(super) fn finish(mut self) -> String {
+    /// Draws the frame, and the ticks and labels of the axes.
+    pub(super) fn draw_frame(&mut self) {
         let Page {
             canvas,
             plot,
@@ -197,26 +216,30 @@ impl Page {
             plan,
             x,
             y,
-            ..
-        } = &mut self;
+        } = self;
         canvas.draw(Layer::default(), |pen| {
             pen.frame(*plot, style::INK, style::THIN);
             draw_x_axis(pen, plot, x, x_ticks, &plan.x_label);
             draw_y_axis(pen, plot, y, y_ticks, &plan.y_label);
-            draw_headlines(pen, plot, plan, x);
         });
-        self.draw_foot();
-        let Layout {
-            title,
-            x_label,
-            y_label,
+    }
+
+    /// Draws everything around the data, and closes the document.
+    pub(super) fn finish(mut self) -> String {
+        self.draw_frame();
+        let Page {
+            canvas,
+            plot,
+            plan,
+            x,
             ..
-        } = self.plan;
-        let attributes = canvas::axes(&self.plot, [(&x_label, &self.x), (&y_label, &self.y)]);
-        self.canvas.finish(
-            &title.unwrap_or_else(|| format!("{y_label} over {x_label}")),
-            &attributes,
-        )
+        } = &mut self;
+        canvas.draw(Layer::default(), |pen| draw_headlines(pen, plot, plan, x));
+        self.draw_foot();
+        let plan = self.plan;
+        let axes = [(&*plan.x_label, &self.x), (&*plan.y_label, &self.y)];
+        let attributes = canvas::axes(&self.plot, axes);
+        self.canvas.finish(&plan.title(), &attributes)
     }
 
     /// Draws the legend centred on the plot but always within the page, its first row below `top`.
@@ -231,7 +254,7 @@ impl Page {
             let x = left + (k % columns) as f64 * column_width;
             let y = top + ((k / columns) as f64 + 0.5) * ROW_HEIGHT;
             canvas.group(&canvas::entry(&entry.label), |canvas| {
-                draw_entry(canvas, entry, (x, y), column_width)
+                draw_entry(canvas, entry, (x, y), column_width);
             });
         }
     }
@@ -306,7 +329,7 @@ fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
             style::INK,
         );
     }
-    let label = elide(label, LABEL_SIZE, plot.height() + 2.0 * EDGE);
+    let label = elide(label, LABEL_SIZE, plot.height() + EDGE);
     pen.text_upwards(
         &label,
         (EDGE + 0.5 * LABEL_SIZE, plot.centre().1),
@@ -315,16 +338,14 @@ fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
 }
 
 fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Layout, x: &Ruler) {
-    if let Some(title) = &plan.title {
-        let title = elide(title, TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
-        pen.text(
-            &title,
-            (0.5 * style::WIDTH, EDGE + 10.0),
-            TITLE_SIZE,
-            Anchor::Center,
-            style::INK,
-        );
-    }
+    let title = elide(&plan.title(), TITLE_SIZE, style::WIDTH - 2.0 * EDGE);
+    pen.text(
+        &title,
+        (0.5 * style::WIDTH, EDGE + 10.0),
+        TITLE_SIZE,
+        Anchor::Center,
+        style::INK,
+    );
     if let Some((at, text)) = &plan.above {
         pen.text(
             text,
@@ -358,100 +379,6 @@ fn spread_out(heights: &[f64], plot: Rect) -> Vec<f64> {
         lowest = *y - GUIDE_SPACING;
     }
     spread
-}
-
-/// The sample before the text of an entry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Swatch {
-    /// A line with markers.
-    Line {
-        /// Colour, dashes and marker.
-        look: Look,
-        /// Width of the line in px; 0 for markers alone.
-        width: f64,
-        /// How the marker is drawn.
-        marks: Marks,
-    },
-    /// A patch of colour.
-    Fill(RGBColor),
-    /// A patch with diagonal strokes.
-    Hatch(RGBColor),
-}
-
-/// A line of the legend.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
-    /// The sample before the text.
-    pub swatch: Swatch,
-    /// The text; cut if too long.
-    pub label: String,
-}
-
-/// As many equal columns as fit on the page, rows filled evenly: their number, and their width in px.
-fn arranged(entries: &[Entry]) -> (usize, f64) {
-    let width = style::WIDTH - 2.0 * EDGE;
-    let widest = entries
-        .iter()
-        .map(|e| text_width(&e.label, TICK_SIZE))
-        .fold(0.0, f64::max);
-    let column_width = (SWATCH_WIDTH + SWATCH_GAP + widest + COLUMN_GAP).min(width);
-    let most = ((width + COLUMN_GAP) / column_width).floor().max(1.0) as usize;
-    let rows = entries.len().div_ceil(most).max(1);
-    (entries.len().div_ceil(rows).max(1), column_width)
-}
-
-/// Draws an entry at `x`, its row centred on `y`, in a column of this width.
-fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, width: f64) {
-    let text_at = (x + SWATCH_WIDTH + SWATCH_GAP, y);
-    let room = width - SWATCH_WIDTH - SWATCH_GAP;
-    let label = elide(&entry.label, TICK_SIZE, room);
-    let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
-    let patch = Rect {
-        left: x + 6.0,
-        top: y - 8.0,
-        right: x + SWATCH_WIDTH - 2.0,
-        bottom: y + 8.0,
-    };
-    match entry.swatch {
-        Swatch::Line { look, width, marks } => {
-            if width > 0.0 {
-                let ends = [(x, y), (x + SWATCH_WIDTH, y)];
-                canvas.draw(Layer::default().dashed(look.dash), |pen| {
-                    pen.line(&ends, look.colour, width)
-                });
-            }
-            canvas.draw(Layer::default(), |pen| {
-                look.marker
-                    .draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
-                write(pen);
-            });
-        }
-        Swatch::Fill(colour) => canvas.draw(Layer::default(), |pen| {
-            pen.rect(patch, colour);
-            pen.frame(patch, style::GRID, 1.0);
-            write(pen);
-        }),
-        Swatch::Hatch(colour) => canvas.draw(Layer::default(), |pen| {
-            pen.rect(patch, colour);
-            pen.hatch(patch);
-            write(pen);
-        }),
-    }
-}
-
-/// A text of this size cut to fit a width, both in px, ending with an ellipsis if it was cut.
-pub fn elide(text: &str, size: f64, width: f64) -> String {
-    if text_width(text, size) <= width {
-        return text.to_owned();
-    }
-    let mut kept = String::new();
-    for c in text.chars() {
-        if text_width(&kept, size) + text_width("m…", size) > width {
-            break;
-        }
-        kept.push(c);
-    }
-    kept + "…"
 }
 
 #[cfg(test)]

@@ -2,12 +2,16 @@
 
 use plotters::style::RGBColor;
 
-/// Page width in px. Figures are read at full and at half width, and the text sizes below allow for that.
+/// Page width in px. Figures are read at full and at half width, and the text sizes below allow for
+/// that.
 pub const WIDTH: f64 = 900.0;
+/// Room between the edge of the page and everything on it, in px.
+pub const EDGE: f64 = 16.0;
 /// Height of the plot area in px; the page grows with its legend, the plot does not shrink.
 pub const PLOT_HEIGHT: f64 = 430.0;
 
-/// Helvetica and its metric twins first: the estimates of [`text_width`] use the widest, DejaVu Sans.
+/// Helvetica and its metric twins first: the estimates of [`text_width`] use the widest, DejaVu
+/// Sans.
 pub const FONT: &str = "Helvetica, Arial, DejaVu Sans, sans-serif";
 /// Text size of titles, in px.
 pub const TITLE_SIZE: f64 = 22.0;
@@ -38,7 +42,8 @@ pub const THIN: f64 = 1.2;
 /// Width of curves, in px.
 pub const LINE: f64 = 2.2;
 
-/// Lengths of dashes and gaps in turn, in px; without any the line is solid. The patterns are distinct in black and white.
+/// Lengths of dashes and gaps in turn, in px; without any the line is solid. The patterns are
+/// distinct in black and white.
 pub type Dash = &'static [f64];
 /// No gaps.
 pub const SOLID: Dash = &[];
@@ -57,12 +62,32 @@ pub fn text_width(text: &str, size: f64) -> f64 {
     em * size
 }
 
+/// A text of this size cut to fit a width, both in px, ending with an ellipsis if it was cut.
+pub fn elide(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for c in text.chars() {
+        if text_width(&kept, size) + text_width("m…", size) > width {
+            break;
+        }
+        kept.push(c);
+    }
+    kept + "…"
+}
+
 /// Advance of one glyph in em, after DejaVu Sans, rounded up.
 fn glyph_width(c: char) -> f64 {
     match c {
+        // A combining circumflex stands on the letter before it.
+        '\u{302}' => 0.0,
         'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | 'I' | ' ' => 0.33,
+        '‖' => 0.5,
         'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '[' | ']' => 0.42,
-        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' => 0.43,
+        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' | 'ₕ' | 'ₓ' | 'ₜ' | 'ₙ' => {
+            0.43
+        }
         'm' | 'w' | 'M' | 'W' | '%' => 0.98,
         'A'..='Z' | '=' | '+' | '−' | '×' | '<' | '>' | '≥' | '≤' => 0.8,
         _ => 0.64,

@@ -1,98 +1,23 @@
 //! The core of all figures with curves: ranges, layers in order, notes on omitted data.
 
+pub mod inset;
+
 use super::canvas::{self, Anchor, Layer, Point, Rect};
-use super::look::{Look, Marks, look};
+use super::coinciding;
+pub use super::curve::Curve;
+use super::envelope::lines;
+use super::legend::{Entry, Swatch};
 use super::ruler::{Ruler, has_place, on_scale};
-use super::sheet::{Entry, Layout, Page, Swatch, guide_margin};
+use super::sheet::{Layout, Page, guide_margin};
 use super::style::TICK_SIZE;
-use super::{Axis, Guide, Phases, Scale, Series, style};
-use crate::judge::verdict::PowerLaw;
+use super::{Axis, Guide, Phases, Scale, style};
 use crate::text::number::counted;
+use inset::Inset;
 
 /// Room left around the data, as a fraction of its range.
 const MARGIN: f64 = 0.05;
 /// Columns of envelopes shared by all curves of a figure; this bounds the size of the document.
 const ENVELOPE_COLUMNS: usize = 3200;
-
-/// A curve and how to draw it.
-#[derive(Clone, Debug)]
-pub struct Curve {
-    /// Its entry in the legend; of several curves with the same name the first makes it.
-    pub name: String,
-    /// Its name in notes, if its entry says more than its name.
-    pub noted_as: Option<String>,
-    /// `(x, y)` in data coordinates, in drawing order.
-    pub points: Vec<(f64, f64)>,
-    /// Colour, dashes and marker.
-    pub look: Look,
-    /// Line width in px; 0 for markers alone.
-    pub width: f64,
-    /// Drawn from end to end, solid, instead of the line through the points.
-    pub fit: Option<PowerLaw>,
-    /// How the points are marked.
-    pub marks: Marks,
-    /// Whether the points are data: only those set the range and are counted when left out.
-    pub is_data: bool,
-}
-
-impl Curve {
-    /// The k-th series as a line, with an entry of its own.
-    pub fn line(k: usize, series: &Series) -> Self {
-        Self {
-            name: series.label.clone(),
-            noted_as: None,
-            points: series.points.clone(),
-            look: look(k),
-            width: style::LINE,
-            fit: None,
-            marks: Marks::None,
-            is_data: true,
-        }
-    }
-
-    /// Its name in notes.
-    pub fn noted(&self) -> &str {
-        self.noted_as.as_deref().unwrap_or(&self.name)
-    }
-
-    /// The parts to draw: a fitted line before the markers, which alone are data.
-    fn parts(&self) -> Vec<Self> {
-        let Some(fit) = self.fit else {
-            return vec![self.clone()];
-        };
-        let xs = || {
-            self.points
-                .iter()
-                .map(|p| p.0)
-                .filter(|x| x.is_finite() && *x > 0.0)
-        };
-        let ends = [xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max)];
-        let points = ends.map(|x| (x, fit.error_at(x))).to_vec();
-        let line = Self {
-            points,
-            look: self.solid(),
-            marks: Marks::None,
-            is_data: false,
-            fit: None,
-            ..self.clone()
-        };
-        vec![
-            line,
-            Self {
-                width: 0.0,
-                fit: None,
-                ..self.clone()
-            },
-        ]
-    }
-
-    fn solid(&self) -> Look {
-        Look {
-            dash: style::SOLID,
-            ..self.look
-        }
-    }
-}
 
 /// A closed outline with texts, such as a slope triangle; positions in data coordinates.
 #[derive(Clone)]
@@ -106,7 +31,8 @@ pub struct Outline {
 /// A figure with curves.
 #[derive(Clone, Default)]
 pub struct Xy {
-    /// Set above the plot.
+    /// Set above the plot: what the reader should see. `None`: the vertical axis over the
+    /// horizontal one.
     pub title: Option<String>,
     /// The horizontal axis.
     pub x: Axis,
@@ -128,6 +54,8 @@ pub struct Xy {
     pub show_x: Vec<f64>,
     /// Lines under the legend, before those on coinciding curves and on omitted points.
     pub notes: Vec<String>,
+    /// A small figure inside the plot.
+    pub inset: Option<Inset>,
 }
 
 /// The data points of a figure: their numbers, and the ranges of those that both axes can show.
@@ -151,6 +79,13 @@ impl Xy {
     /// The vertical range.
     pub fn y_ruler(&self) -> Ruler {
         self.y_ruler_of(&self.extent())
+    }
+
+    /// The width of a curve's line, measured on the vertical axis; in decades if that is
+    /// logarithmic.
+    pub fn line_width(&self) -> f64 {
+        let ruler = self.y_ruler();
+        (ruler.hi - ruler.lo) * style::LINE / style::PLOT_HEIGHT
     }
 
     fn x_ruler_of(&self, extent: &Extent) -> Ruler {
@@ -209,13 +144,21 @@ impl Xy {
 
     /// Draws the figure.
     pub fn draw(&self) -> String {
+        self.drawn().finish()
+    }
+
+    /// The page with everything but what is around the plot.
+    pub(super) fn drawn(&self) -> Page {
         let mut sheet = self.plan().lay_out();
         self.draw_ground(&mut sheet);
         sheet.draw_grid();
         sheet.draw_guides(&self.guides);
         self.draw_curves(&mut sheet);
         self.draw_outlines(&mut sheet);
-        sheet.finish()
+        if let Some(inset) = &self.inset {
+            inset.draw(&mut sheet);
+        }
+        sheet
     }
 
     fn plan(&self) -> Layout {
@@ -269,7 +212,7 @@ impl Xy {
 
     fn notes(&self, extent: &Extent, x: &Ruler, y: &Ruler) -> Vec<String> {
         let mut notes = self.notes.clone();
-        notes.extend(coinciding(&self.curves, x, y));
+        notes.extend(coinciding::notes(&self.curves, x, y));
         notes.extend(left_out(
             extent.points - extent.finite,
             extent.finite - extent.drawable,
@@ -302,7 +245,7 @@ impl Xy {
         });
     }
 
-    fn draw_curves(&self, sheet: &mut Page) {
+    pub(super) fn draw_curves(&self, sheet: &mut Page) {
         let parts: Vec<Curve> = self.curves.iter().flat_map(Curve::parts).collect();
         let share = ENVELOPE_COLUMNS / parts.len().max(1);
         let columns = (sheet.plot.width() as usize).min(share).max(1);
@@ -378,149 +321,6 @@ pub(super) fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
     non_finite.into_iter().chain(not_positive).collect()
 }
 
-/// Curves closer than this everywhere look like one, in px.
-const CLOSE: f64 = 3.0;
-
-/// A note for each set of coinciding data curves: compared by points if they have equally many, else as lines.
-fn coinciding(curves: &[Curve], x: &Ruler, y: &Ruler) -> Vec<String> {
-    let is_shown = |curve: &&Curve| curve.is_data && curve.points.len() > 1;
-    let data: Vec<&Curve> = curves.iter().filter(is_shown).collect();
-    let mut sets: Vec<Vec<&Curve>> = vec![];
-    for curve in data {
-        let set = sets.iter_mut().find(|set| coincide(set[0], curve, x, y));
-        match set {
-            Some(set) if set.iter().all(|known| known.noted() != curve.noted()) => set.push(curve),
-            Some(_) => {}
-            None => sets.push(vec![curve]),
-        }
-    }
-    let mut notes: Vec<String> = vec![];
-    for set in sets.iter().filter(|set| set.len() > 1) {
-        let names: Vec<&str> = set.iter().map(|curve| curve.noted()).collect();
-        let note = format!("{} coincide", names.join(" and "));
-        if !notes.contains(&note) {
-            notes.push(note);
-        }
-    }
-    notes
-}
-
-fn coincide(a: &Curve, b: &Curve, x: &Ruler, y: &Ruler) -> bool {
-    // The plot is somewhat narrower than the page.
-    let (x, y) = (
-        x.laid_out(0.0, style::WIDTH),
-        y.laid_out(0.0, style::PLOT_HEIGHT),
-    );
-    let near = |ruler: &Ruler, a: f64, b: f64| match (ruler.px(a), ruler.px(b)) {
-        (Some(a), Some(b)) => (a - b).abs() < CLOSE,
-        (None, None) => true,
-        _ => false,
-    };
-    let mut pairs = a.points.iter().zip(&b.points);
-    if a.points.len() == b.points.len() {
-        return pairs.all(|(p, q)| near(&x, p.0, q.0) && near(&y, p.1, q.1));
-    }
-    let line = |curve: &Curve| {
-        let points = curve
-            .points
-            .iter()
-            .map(|point| Some((x.px(point.0)?, y.px(point.1)?)));
-        let points: Vec<Point> = points
-            .collect::<Option<_>>()
-            .filter(|_| curve.width > 0.0 && curve.fit.is_none())?;
-        points.is_sorted_by(|p, q| p.0 <= q.0).then_some(points)
-    };
-    let (Some(a), Some(b)) = (line(a), line(b)) else {
-        return false;
-    };
-    let ends = [(a.first(), b.first()), (a.last(), b.last())];
-    let begin_and_end = ends
-        .iter()
-        .all(|ends| matches!(ends, (Some(p), Some(q)) if (p.0 - q.0).abs() < CLOSE));
-    begin_and_end && follows(&a, &b) && follows(&b, &a)
-}
-
-/// Whether every point lies on the line, which is straight from point to point and level beyond its ends; x ascending.
-fn follows(points: &[Point], line: &[Point]) -> bool {
-    let height = |x: f64| {
-        let next = line.partition_point(|p| p.0 < x).min(line.len() - 1);
-        let (p, q) = (line[next.saturating_sub(1)], line[next]);
-        let share = if q.0 > p.0 {
-            ((x - p.0) / (q.0 - p.0)).clamp(0.0, 1.0)
-        } else {
-            1.0
-        };
-        p.1 + share * (q.1 - p.1)
-    };
-    points
-        .iter()
-        .all(|point| (point.1 - height(point.0)).abs() < CLOSE)
-}
-
-/// Lines through positions, broken where a position is missing.
-///
-/// A series longer than four positions per column is reduced to first, lowest, highest and last of each column of
-/// pixels, in their order; no eye can see the difference. Positions must then run along x.
-fn lines(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
-    if positions.len() <= 4 * columns {
-        let runs = positions
-            .split(Option::is_none)
-            .filter(|run| !run.is_empty());
-        return runs
-            .map(|run| run.iter().flatten().copied().collect())
-            .collect();
-    }
-    envelope(positions, columns)
-}
-
-fn envelope(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
-    let xs = || positions.iter().flatten().map(|p| p.0);
-    let left = xs().fold(f64::INFINITY, f64::min);
-    let width = xs().fold(f64::NEG_INFINITY, f64::max) - left;
-    let column = |x: f64| ((x - left) / width * columns as f64).min(columns as f64 - 1.0) as usize;
-    let mut lines = vec![Vec::new()];
-    let mut group: Vec<Point> = Vec::new();
-    let mut missing = 0_usize;
-    for position in positions {
-        let Some(p) = *position else {
-            missing += 1;
-            continue;
-        };
-        if group
-            .last()
-            .is_some_and(|last| column(last.0) != column(p.0))
-        {
-            extend_with_extremes(&mut lines, &group);
-            group.clear();
-            // A gap is drawn only if it is as wide as a column: narrower ones would cost more bytes than they show.
-            if missing > positions.len() / columns {
-                lines.push(Vec::new());
-            }
-        }
-        missing = 0;
-        group.push(p);
-    }
-    extend_with_extremes(&mut lines, &group);
-    lines.retain(|line| !line.is_empty());
-    lines
-}
-
-fn extend_with_extremes(lines: &mut [Vec<Point>], group: &[Point]) {
-    let Some(line) = lines.last_mut() else { return };
-    let by_height = |a: &usize, b: &usize| group[*a].1.total_cmp(&group[*b].1);
-    let lowest = (0..group.len()).min_by(by_height);
-    let highest = (0..group.len()).max_by(by_height);
-    let mut kept = [Some(0), lowest, highest, group.len().checked_sub(1)];
-    kept.sort_unstable();
-    let mut previous = None;
-    for k in kept.into_iter().flatten().filter(|&k| k < group.len()) {
-        if previous != Some(k) {
-            line.push(group[k]);
-        }
-        previous = Some(k);
-    }
-}
-
 /// Union of intervals on the page; those closer than a pixel are drawn as one.
 fn merge_intervals(mut intervals: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -537,36 +337,6 @@ fn merge_intervals(mut intervals: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_single_spike_survives() {
-        let mut positions: Vec<_> = (0..100_000)
-            .map(|k| Some((f64::from(k) * 7e-3, 100.0)))
-            .collect();
-        positions[54_321] = Some((54_321.0 * 7e-3, 3.0));
-        let lines = lines(&positions, 700);
-        assert_eq!(lines.len(), 1);
-        assert!(lines[0].len() <= 2800);
-        assert!(lines[0].iter().any(|p| p.1 == 3.0));
-    }
-
-    #[test]
-    fn a_missing_position_breaks_a_short_line() {
-        let p = |x: f64| Some((x, 0.0));
-        assert_eq!(
-            lines(&[p(0.0), p(1.0), None, None, p(2.0)], 100),
-            [vec![(0.0, 0.0), (1.0, 0.0)], vec![(2.0, 0.0)]]
-        );
-    }
-
-    #[test]
-    fn a_wide_gap_breaks_a_long_line() {
-        let positions: Vec<_> = (0..10_000)
-            .map(|k| (!(4000..6000).contains(&k)).then_some((f64::from(k), 0.0)))
-            .collect();
-        assert_eq!(lines(&positions, 100).len(), 2);
-        assert!(lines(&[None; 1000], 10).is_empty());
-    }
 
     #[test]
     fn intervals_that_touch_become_one() {

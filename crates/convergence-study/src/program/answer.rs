@@ -29,9 +29,6 @@ pub struct Answer {
     /// Why the case has failed nevertheless: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,
-    /// Whether an earlier run computed it.
-    #[serde(skip)]
-    pub kept: bool,
 }
 
 /// A table `[[expect]]`: a number that every answer must contain, and the claim about it.
@@ -59,10 +56,11 @@ impl Expectation {
 
 /// The object that a line is, or why it is not one; `None` for lines that do not begin with `{`.
 ///
-/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as `null`, which is not a number.
+/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as
+/// `null`, which is not a number.
 ///
-/// The reason is in words, with advice. The flag says whether the line looks like an answer; then no object before it
-/// is the last one. `{iteration 3}` does not.
+/// The reason is in words, with advice. The flag says whether the line looks like an answer; then
+/// no object before it is the last one. `{iteration 3}` does not.
 pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, bool)>> {
     let line = line.trim();
     let inside = line.strip_prefix('{')?.trim_start();
@@ -192,9 +190,11 @@ fn with_null_for_nan(line: &str) -> String {
 }
 
 impl Answer {
-    /// Reads an answer; unknown names are ignored. An error or a value that is not a finite number is NaN.
+    /// Reads an answer; unknown names are ignored. An error or a value that is not a finite number
+    /// is NaN.
     ///
-    /// * Returns it with the first complaint about such a number, or the reason why it is not an answer.
+    /// * Returns it with the first complaint about such a number, or the reason why it is not an
+    ///   answer.
     pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<String>), String> {
         let step = |name: &str| {
             let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);

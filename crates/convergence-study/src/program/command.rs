@@ -1,5 +1,5 @@
-//! The command of a case: its words, with placeholders such as `{n}`, and its run from start to end: no shell, no
-//! inherited standard input, a time limit, and nothing left behind.
+//! The command of a case: its words, with placeholders such as `{n}`, and its run from start to
+//! end: no shell, no inherited standard input, a time limit, and nothing left behind.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::answer::{Answer, Expectation};
 use super::guard::Group;
-use super::output::{read_last_words, read_output};
+use super::output::{NoAnswer, read_last_words, read_output};
 use super::refine::Parameter;
 use crate::input::Misread;
 use crate::study::CaseFailure;
@@ -46,7 +46,8 @@ impl Invocation {
     /// * `expected`: what the answer must contain.
     ///
     /// # Errors
-    /// The program cannot be started, ended with a status other than 0, took too long, or gave no answer: in one line that names it.
+    /// The program cannot be started, ended with a status other than 0, took too long, or gave no
+    /// answer: in one line that names it.
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
         let program = visible(&self.words[0]);
         let failed = |what: String| CaseFailure::new(format!("{program} {what}"));
@@ -78,10 +79,13 @@ impl Invocation {
         if !status.success() {
             return Err(failed(format!("ended with {}{words}", ending(status))));
         }
-        let held = |_| "a process that it has started holds its standard output open".to_owned();
+        let held = |_| NoAnswer {
+            reason: "a process that it has started holds its standard output open".to_owned(),
+            last_line: String::new(),
+        };
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.map_err(|reason| CaseFailure {
-            advice: example(&reason, expected),
+        let object = object.map_err(|NoAnswer { reason, last_line }| CaseFailure {
+            advice: example(&last_line, expected),
             ..failed(format!("answered nothing: {reason}{words}"))
         })?;
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
@@ -110,7 +114,8 @@ impl Invocation {
         command
     }
 
-    /// Waits until the program has ended; returns whether it ended in time. Otherwise it is asked to end and given a moment to do so.
+    /// Waits until the program has ended; returns whether it ended in time. Otherwise it is asked
+    /// to end and given a moment to do so.
     fn wait(&self, child: &mut Child, group: &Group) -> io::Result<bool> {
         let start = Instant::now();
         if has_ended_by(child, start.checked_add(self.timeout))? {
@@ -160,14 +165,12 @@ fn in_background<S: Send + 'static, T: Send + 'static>(
     receive
 }
 
-/// An example of an answer, with the number that the last line quoted in `reason` has after the name, if it has one.
-fn example(reason: &str, expected: &[Expectation]) -> String {
+/// An example of an answer, with the number that the last line printed has after the name, if it
+/// has one.
+fn example(last: &str, expected: &[Expectation]) -> String {
     let Some(first) = expected.first() else {
         return String::new();
     };
-    let last = reason
-        .rsplit_once("the last line is `")
-        .map_or("", |(_, last)| last);
     let is_word = |text: Option<char>| text.is_some_and(char::is_alphanumeric);
     let after = last
         .match_indices(&first.name)
@@ -204,8 +207,9 @@ fn ending(status: ExitStatus) -> String {
     )
 }
 
-/// A word of a command with these values, in the shortest notation that reads back as the same number; and whether it
-/// has a placeholder. A name in braces is a placeholder, `{{name}}` the text `{name}`, any other brace a brace.
+/// A word of a command with these values, in the shortest notation that reads back as the same
+/// number; and whether it has a placeholder. A name in braces is a placeholder, `{{name}}` the text
+/// `{name}`, any other brace a brace.
 ///
 /// # Errors
 /// A placeholder without a value, with its place in the text.
@@ -238,7 +242,8 @@ pub(super) fn filled(text: &str, values: &[Parameter]) -> Result<(String, bool),
     Ok((filled + rest, has_placeholder))
 }
 
-/// The name between the brace that the text begins with and the next one: a letter or `_`, then letters, digits and `_`.
+/// The name between the brace that the text begins with and the next one: a letter or `_`, then
+/// letters, digits and `_`.
 fn name_in_braces(text: &str) -> Option<&str> {
     let (name, _) = text.strip_prefix('{')?.split_once('}')?;
     let is_name = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
@@ -317,16 +322,13 @@ mod tests {
             ("L2", "done in 3.5", "0.0015"),
             ("L2", "L2 is nan", "0.0015"),
         ] {
-            let told = example(
-                &format!("no line is a JSON object; the last line is `{last}`"),
-                &expected(name),
-            );
+            let told = example(last, &expected(name));
             assert_eq!(
                 told,
                 format!("expected a last line such as {{\"errors\": {{\"{name}\": {number}}}}}"),
                 "{last}"
             );
         }
-        assert_eq!(example("its standard output is empty", &[]), "");
+        assert_eq!(example("", &[]), "");
     }
 }

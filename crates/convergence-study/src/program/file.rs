@@ -15,7 +15,6 @@ use std::time::Duration;
 use super::Program;
 use super::answer::Expectation;
 use super::command::filled;
-use super::kept::Store;
 use super::refine::{Parameter, refine};
 use crate::input::{Field, InputError, Section, visible};
 use crate::judge::claims::order_of_factor;
@@ -26,7 +25,7 @@ use crate::study::{Claim, Header, read_claim};
 const TIMEOUT: Duration = Duration::from_secs(600);
 
 pub(super) fn read(
-    header: &Header,
+    _header: &Header,
     root: &Section<'_>,
     folder: &Path,
 ) -> Result<Program, InputError> {
@@ -34,7 +33,10 @@ pub(super) fn read(
     let section = root
         .require("program", "a table with the command")?
         .section()?;
-    section.allow(&["command", "directory", "timeout", "files", "cache"])?;
+    if let Some(field) = ["cache", "files"].iter().find_map(|key| section.get(key)) {
+        return Err(field.refuse_as_written("no such key: every case is run each time"));
+    }
+    section.allow(&["command", "directory", "timeout"])?;
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
     let words = words(&section, &refine.resolutions()[0].told)?;
@@ -43,24 +45,18 @@ pub(super) fn read(
         let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
     })?;
-    let written = section
-        .get("directory")
-        .map_or(Ok(".".to_owned()), |field| field.text().map(str::to_owned))?;
-    let store =
-        kept_by(&section, &directory)?.map(|files| Store::new(folder, &header.id, written, files));
     let expect = expectations(root, refine.grid)?;
     Ok(Program {
         words,
         directory,
         timeout,
-        store,
-        anew: false,
         refine,
         expect,
     })
 }
 
-/// The folder in which the program runs, as an absolute path: the program's name is relative to it, too.
+/// The folder in which the program runs, as an absolute path: the program's name is relative to it,
+/// too.
 fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError> {
     let here = if folder.as_os_str().is_empty() {
         Path::new(".")
@@ -103,45 +99,6 @@ fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, Inp
         })
     };
     items.iter().map(word).collect()
-}
-
-/// The files that kept results depend on; `None` if results are not kept.
-fn kept_by(section: &Section<'_>, directory: &Path) -> Result<Option<Vec<PathBuf>>, InputError> {
-    let allowed = "a list of names of files, relative to the directory in which the program runs";
-    let mut files = vec![];
-    let field = section.get("files");
-    for item in field
-        .as_ref()
-        .map_or(Ok(vec![]), |field| field.items(allowed))?
-    {
-        let path = directory.join(item.text()?);
-        if !path.is_file() {
-            let found = format!(
-                "{}, but {} is no file",
-                item.as_written(),
-                visible(&path.display().to_string())
-            );
-            return Err(item.refuse(
-                found,
-                "the name of a file, relative to the directory in which the program runs",
-            ));
-        }
-        files.push(path);
-    }
-    if !section
-        .get("cache")
-        .map_or(Ok(false), |field| field.boolean())?
-    {
-        return Ok(None);
-    }
-    if files.is_empty() {
-        return Err(section.refuse(
-            "cache",
-            "true without files",
-            "the list `files` of what a result depends on",
-        ));
-    }
-    Ok(Some(files))
 }
 
 fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, InputError> {
@@ -227,7 +184,8 @@ fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputEr
     })
 }
 
-/// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that should vanish.
+/// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that
+/// should vanish.
 ///
 /// * `plain`: whether only an order can be claimed, as for values and grids.
 fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f64>), InputError> {

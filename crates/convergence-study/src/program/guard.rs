@@ -1,11 +1,13 @@
 //! No process that a case has started outlives the case or this process.
 //!
-//! Every case has a process group, and a guard that leads it: this executable again, started as `COMMAND guard MARK`. The guard waits
-//! for the end of a pipe that only this process holds open. When this process ends, however it ends, the operating system closes the
-//! pipe, and the guard ends its group: SIGTERM, then SIGKILL. The group exists before the program is started in it, so there is no
-//! moment at which the program is unguarded.
+//! Every case has a process group, and a guard that leads it: this executable again, started as
+//! `COMMAND guard MARK`. The guard waits for the end of a pipe that only this process holds open.
+//! When this process ends, however it ends, the operating system closes the pipe, and the guard
+//! ends its group: SIGTERM, then SIGKILL. The group exists before the program is started in it, so
+//! there is no moment at which the program is unguarded.
 //!
-//! A process that has left its group, such as a daemon, is found on Linux by the mark in its environment.
+//! A process that has left its group, such as a daemon, is found on Linux by the mark in its
+//! environment.
 
 use std::env;
 use std::ffi::OsString;
@@ -31,14 +33,16 @@ const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
 /// The command that starts a guard, without its mark; empty if there are no guards.
 static GUARD: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Sets the command that starts a guard, if this executable is an interpreter: the program and its arguments, to which
-/// the mark is appended. Of several calls, including those of [`enable`], the first counts.
+/// Sets the command that starts a guard, if this executable is an interpreter: the program and its
+/// arguments, to which the mark is appended. Of several calls, including those of [`enable`], the
+/// first counts.
 pub fn enable_by(command: Vec<OsString>) {
     let _ = GUARD.set(command);
 }
 
-/// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's command line has it; without it, as in
-/// a program that uses this crate as a library, processes end with their case, but not if this process is killed.
+/// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's
+/// command line has it; without it, as in a program that uses this crate as a library, processes
+/// end with their case, but not if this process is killed.
 pub fn enable() {
     enable_by(this_executable().map_or(vec![], |own| vec![own.into(), COMMAND.into()]));
 }
@@ -58,7 +62,8 @@ pub fn is_guard() -> bool {
     env::var_os(IS_GUARD).is_some()
 }
 
-/// The guard's own work: waits until its standard input ends, then ends its process group and all processes with that mark.
+/// The guard's own work: waits until its standard input ends, then ends its process group and all
+/// processes with that mark.
 ///
 /// * `mark`: the argument that follows [`COMMAND`].
 pub fn serve(mark: &str) {
@@ -123,8 +128,8 @@ impl Group {
             .for_each(|leader| system::signal(*leader, Signal::SIGTERM));
     }
 
-    /// Ends the rest of the group, and any process that has left it. The guard, a member of the group, ends last: if
-    /// this process is killed meanwhile, the guard carries on.
+    /// Ends the rest of the group, and any process that has left it. The guard, a member of the
+    /// group, ends last: if this process is killed meanwhile, the guard carries on.
     pub(super) fn end(&self, _: &mut Child) {
         system::kill_marked(&self.mark);
         self.leader
@@ -272,11 +277,13 @@ mod unix {
     enum Environment {
         HasIt,
         LacksIt,
-        /// The process is just changing programs: the old environment is gone and the new one is not yet there.
+        /// The process is just changing programs: the old environment is gone and the new one is
+        /// not yet there.
         NotKnownYet,
     }
 
-    /// The running processes that have, or may have, this variable in their environment; empty without `/proc`.
+    /// The running processes that have, or may have, this variable in their environment; empty
+    /// without `/proc`.
     fn processes_but_those_without(variable: &[u8]) -> Vec<(Pid, Environment)> {
         let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
         let number = |entry: fs::DirEntry| entry.file_name().to_str()?.parse().ok();
@@ -308,8 +315,9 @@ mod unix {
         }
     }
 
-    /// Whether a process whose environment was read as empty really has none: it has ended, has no memory of its own,
-    /// or was started without one. While a program is being started, the bounds of its environment are 0.
+    /// Whether a process whose environment was read as empty really has none: it has ended, has no
+    /// memory of its own, or was started without one. While a program is being started, the bounds
+    /// of its environment are 0.
     ///
     /// * `stat`: the line of `/proc/PID/stat`; empty when the process is gone.
     fn is_empty_for_good(stat: &str) -> bool {

@@ -1,24 +1,26 @@
 //! Studies whose cases are runs of another program, in any language.
 //!
-//! A case is one resolution. The program is started with it, without a shell. Its answer is the last line of its standard output that is a
-//! JSON object: errors by name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a
-//! one-line reason; none of its processes outlives it. Answers may be kept, by content.
+//! A case is one resolution. The program is started with it, without a shell. Its answer is the
+//! last line of its standard output that is a JSON object: errors by name, values, its own step,
+//! its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
+//! none of its processes outlives it.
 //!
 //! | file | holds |
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
-//! | `answer.rs`, `kept.rs` | its answer; kept answers |
-//! | `judge.rs` | from answers to an outcome: errors, and values without an exact solution |
+//! | `answer.rs` | its answer |
+//! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
+//! | `values.rs` | the same for values without an exact solution |
 
 mod answer;
 mod command;
 mod file;
 pub mod guard;
 mod judge;
-mod kept;
 mod output;
 mod refine;
+mod values;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -26,13 +28,13 @@ use std::time::{Duration, Instant};
 use crate::input::{InputError, Section};
 use crate::project::{Project, Template};
 use crate::run::time_limit;
+use crate::study::header;
 use crate::study::until_decided::Next;
 use crate::study::{
     Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader,
 };
 use answer::Expectation;
 use command::{Invocation, filled};
-use kept::Store;
 use refine::Refine;
 
 pub use answer::Answer;
@@ -51,6 +53,7 @@ pub const ROW: KindRow = KindRow {
              or answers no finite numbers is a failed case, and fails the study.",
     failure: "The program does not have the order at these resolutions: a term, a boundary value or a quadrature is wrong, or another error, \
               such as that of the time steps, hides the one that was refined. Look which error fails, and from which level on.",
+    settings: header::of_file,
 };
 
 /// The files that `new program NAME` writes: a study of a program, and the program.
@@ -61,7 +64,7 @@ pub const TEMPLATE: Template = Template {
         (".toml", include_str!("begin/study.toml")),
         (".py", include_str!("begin/program.py")),
     ],
-    ignored: "# Results that are kept, and reports that are made anew.\n.convergence-study/\n/report/\n/reports/local/\n",
+    ignored: "# Reports that are made anew.\n/report/\n/reports/local/\n",
     next: &["study", "explain"],
 };
 
@@ -74,7 +77,8 @@ pub const MANUFACTURE: Template = Template {
     next: &["manufacture"],
 };
 
-/// The project of the program `convergence-study`: studies of any program, in the folder that it runs in.
+/// The project of the program `convergence-study`: studies of any program, in the folder that it
+/// runs in.
 pub const PROJECT: Project = Project {
     kinds: &[ROW],
     templates: &[TEMPLATE, MANUFACTURE],
@@ -90,10 +94,6 @@ pub struct Program {
     directory: PathBuf,
     /// The time limit of a case.
     timeout: Duration,
-    /// The place of kept results, if results are kept.
-    store: Option<Store>,
-    /// Whether to ignore results of earlier runs.
-    anew: bool,
     refine: Refine,
     expect: Vec<Expectation>,
 }
@@ -161,44 +161,11 @@ impl Kind for Program {
     fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
         let invocation = self.invocation(case);
         let started = Instant::now();
-        let run = || {
-            let answer = invocation.run(&self.expect)?;
-            Ok::<_, CaseFailure>(Answer {
-                seconds: started.elapsed().as_secs_f64(),
-                ..answer
-            })
-        };
-        let Some(store) = &self.store else {
-            return run();
-        };
-        let key = store.key(&invocation)?;
-        // A result kept for other expectations may lack a number expected now.
-        let kept = if self.anew { None } else { store.get(&key) };
-        let kept = kept.filter(|answer| {
-            self.expect
-                .iter()
-                .all(|expected| answer.require(expected).is_ok())
-        });
-        if let Some(answer) = kept {
-            return Ok(Answer {
-                kept: true,
-                ..answer
-            });
-        }
-        let answer = run()?;
-        if answer.failure.is_none() {
-            // If a result cannot be kept, the next run takes longer; this one still has its result.
-            let _ = store.put(&key, &invocation, &answer);
-        }
-        Ok(answer)
-    }
-
-    fn is_kept(&self, answer: &Answer) -> bool {
-        answer.kept
-    }
-
-    fn compute_anew(&mut self) {
-        self.anew = true;
+        let answer = invocation.run(&self.expect)?;
+        Ok(Answer {
+            seconds: started.elapsed().as_secs_f64(),
+            ..answer
+        })
     }
 
     fn failure(&self, answer: &Answer) -> Option<CaseFailure> {
@@ -240,13 +207,8 @@ impl Kind for Program {
             }
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
-        let kept = if self.store.is_some() {
-            " Results are kept while command and files are unchanged."
-        } else {
-            ""
-        };
         let run = format!(
-            "{}, for at most {} s a case.{kept}",
+            "{}, for at most {} s a case.",
             self.words.join(" "),
             self.timeout.as_secs_f64()
         );

@@ -15,14 +15,23 @@ const LONGEST_LINE: usize = 1 << 20;
 const LAST_LINES: usize = 3;
 const LAST_CHARACTERS: usize = 160;
 
+/// Why a program has not answered.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct NoAnswer {
+    /// In words.
+    pub(super) reason: String,
+    /// The last line that it printed; empty without one.
+    pub(super) last_line: String,
+}
+
 /// Reads standard output to its end: the last line that is a JSON object, or why there is none.
-pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, String> {
+pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, NoAnswer> {
     let (mut object, mut near_miss, mut last) = (None, None, String::new());
     for_each_line(stream, |line, is_whole| {
         match answer::object(line) {
             // It may be the answer, and then no earlier object is.
             Some(_) if !is_whole => {
-                (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()))
+                (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()));
             }
             Some(Ok(found)) => (object, near_miss) = (Some(found), None),
             Some(Err((reason, is_answer))) => {
@@ -36,16 +45,18 @@ pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, Strin
             line.clone_into(&mut last);
         }
     });
-    object.ok_or_else(|| match near_miss {
-        _ if last.is_empty() => "its standard output is empty".to_owned(),
-        None => format!(
-            "no line of its standard output is a JSON object; the last line is `{}`",
-            shown(&last)
-        ),
-        Some(reason) => {
-            let what = "its last line that begins with a brace is no JSON object";
-            format!("{what} ({reason}); the last line is `{}`", shown(&last))
-        }
+    let last_line = shown(&last);
+    let quoted = format!("the last line is `{last_line}`");
+    object.ok_or_else(|| NoAnswer {
+        reason: match near_miss {
+            _ if last.is_empty() => "its standard output is empty".to_owned(),
+            None => format!("no line of its standard output is a JSON object; {quoted}"),
+            Some(error) => {
+                let what = "its last line that begins with a brace is no JSON object";
+                format!("{what} ({error}); {quoted}")
+            }
+        },
+        last_line,
     })
 }
 
@@ -77,7 +88,8 @@ fn shown(line: &str) -> String {
     }
 }
 
-/// Calls `each` for every line, and for the text after the last line end, with whether the line is whole. A failing stream has ended.
+/// Calls `each` for every line, and for the text after the last line end, with whether the line is
+/// whole. A failing stream has ended.
 fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
     let mut buffer = [0; 1 << 16];
     let mut line = Vec::new();
@@ -114,18 +126,20 @@ mod tests {
         assert_eq!(printed.unwrap().keys().collect::<Vec<_>>(), ["b"]);
         let open = read_output("{x}\n{\"c\": 3}".as_bytes());
         assert_eq!(open.unwrap().len(), 1);
-        let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes()).unwrap_err();
+        let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes())
+            .unwrap_err()
+            .reason;
         assert!(
             none.contains("key must be a string") && none.ends_with("; the last line is `done`"),
             "{none}"
         );
         let none = read_output(&b"\xff\n"[..]).unwrap_err();
         assert_eq!(
-            none,
+            none.reason,
             "no line of its standard output is a JSON object; the last line is `\u{fffd}`"
         );
         assert_eq!(
-            read_output(&b"\n"[..]).unwrap_err(),
+            read_output(&b"\n"[..]).unwrap_err().reason,
             "its standard output is empty"
         );
     }
@@ -143,7 +157,9 @@ mod tests {
             ),
             ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
         ] {
-            let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes()).unwrap_err();
+            let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes())
+                .unwrap_err()
+                .reason;
             assert!(reason.contains(told), "{last}: {reason}");
             let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes());
             assert!(
@@ -184,7 +200,9 @@ mod tests {
                 "x".repeat(LONGEST_LINE)
             )
         };
-        let reason = read_output(long(" {\"mesh\": \"").as_bytes()).unwrap_err();
+        let reason = read_output(long(" {\"mesh\": \"").as_bytes())
+            .unwrap_err()
+            .reason;
         assert!(
             reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"),
             "{reason}"

@@ -178,7 +178,8 @@ impl Resolution {
         }
     }
 
-    /// Everything that the program receives, as one JSON object on one line; whole numbers have no decimal point.
+    /// Everything that the program receives, as one JSON object on one line; whole numbers have no
+    /// decimal point.
     pub(super) fn json(&self) -> String {
         let entries: Vec<String> = self
             .told
@@ -245,7 +246,8 @@ pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     })
 }
 
-/// The list under one of two names, from coarse to fine: increasing counts, or decreasing steps; using both names is refused.
+/// The list under one of two names, from coarse to fine: increasing counts, or decreasing steps;
+/// using both names is refused.
 fn one_of(
     section: &Section<'_>,
     count: &'static str,

@@ -1,5 +1,6 @@
-//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the terminal. Then, in Markdown, what differs
-//! from the baseline: claims first and in full, then the worst number of each study.
+//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the
+//! terminal. Then, in Markdown, what differs from the baseline: claims first and in full, then the
+//! worst number of each study.
 
 use std::cmp::Reverse;
 use std::collections::HashSet;
@@ -13,8 +14,8 @@ use crate::input::visible;
 use crate::judge::verdict::{Cause, Reason, Verdict};
 use crate::run::Finished;
 use crate::store::{Change, Movement, Record, diagnosis::Diagnosis};
-use crate::study::kind::{COMPLETION, by_reason};
-use crate::study::outcome::Check;
+use crate::study::kind::by_reason;
+use crate::study::outcome::{Check, Origin};
 use crate::text::number::short_text;
 
 /// Most reasons listed for one study; its section has all of them.
@@ -44,8 +45,8 @@ impl NotPassed {
     }
 }
 
-/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that did not pass because
-/// others did not.
+/// The studies that did not pass: failed ones first, then inconclusive ones, and last those that
+/// did not pass because others did not.
 pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed> {
     in_order(finished).into_iter().map(reasons).collect()
 }
@@ -71,15 +72,11 @@ fn names_another(
     }: &Finished,
     ids: &HashSet<&str>,
 ) -> bool {
-    let is_of_an_id = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-');
     let names = |check: &Check| {
-        let words = check
-            .evidence
-            .split(|c: char| !is_of_an_id(c))
-            .map(|word| word.trim_end_matches('.'));
-        words
-            .into_iter()
-            .any(|word| word != header.id && ids.contains(word))
+        let others = check.other_studies.iter();
+        others
+            .map(String::as_str)
+            .any(|id| id != header.id && ids.contains(id))
     };
     outcome
         .checks
@@ -112,12 +109,12 @@ fn reasons(
         .collect();
     let rates = rates.map(|(name, rate)| format!("{name}: {} ({})", rate.line(), rate.kind.code()));
     // The reasons already say that cases are missing.
-    let is_said = |check: &Check| check.claim == COMPLETION && !failed_cases.is_empty();
+    let is_said = |check: &Check| check.origin == Origin::Completion && !failed_cases.is_empty();
     let checks = outcome
         .checks
         .iter()
         .filter(|check| check.verdict != Verdict::Pass && !is_said(check));
-    let checks = checks.map(|check| format!("{}: {}", check.claim, check.evidence));
+    let checks = checks.map(|check| format!("{}: {}", check.statement(), check.evidence));
     // Missing cases first: they make rates and checks fail.
     let cases = by_reason(
         failed_cases
@@ -221,7 +218,8 @@ pub(super) fn html(record: &Record) -> String {
 
 /// The same in plain text; empty if everything passed.
 ///
-/// * `clearest`: the studies to show, with their first reasons; `None` for all studies with all their reasons.
+/// * `clearest`: the studies to show, with their first reasons; `None` for all studies with all
+///   their reasons.
 pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let text = |study: NotPassed| {
         let lines: String = study
@@ -289,8 +287,8 @@ pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     )
 }
 
-/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may be empty, otherwise
-/// it ends with an empty line.
+/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may
+/// be empty, otherwise it ends with an empty line.
 ///
 /// * `link`: a study's id in Markdown, with a link if the text can have one.
 pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Vec<String> {
@@ -380,7 +378,8 @@ fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
         .max_by(|a, b| a.movement.weight().total_cmp(&b.movement.weight()))
 }
 
-/// By how many times its tolerance a number has moved, with two digits; a dash if that is undefined.
+/// By how many times its tolerance a number has moved, with two digits; a dash if that is
+/// undefined.
 fn times(movement: &Movement) -> String {
     let weight = movement.weight();
     if weight == 0.0 || !weight.is_finite() {

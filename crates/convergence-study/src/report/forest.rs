@@ -1,48 +1,87 @@
-//! The picture of all judged rates at the head of a report.
+//! The picture of the rates nearest to a failure at the head of a report.
 
-use super::words::range;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::plots::{ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::Figure;
 use crate::text::lists;
-use crate::text::number::order_text;
+use crate::text::number::{RATE_PLACES, interval_text, rate_text};
 
 /// The name of its file.
 ///
-/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's figure.
+/// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's
+/// figure.
 pub(super) const FILE: &str = "rates.svg";
 
-/// Every judged rate relative to its claim, studies in groups; `None` if no rate was judged.
-pub(super) fn figure(project: &Project, finished: &[Finished]) -> Option<Figure> {
-    let rows = |(label, studies): (_, Vec<&Finished>)| {
-        (label, studies.into_iter().filter_map(row).collect())
-    };
-    let mut groups: Vec<(&str, Vec<ForestRow>)> =
-        grouped(project, finished).into_iter().map(rows).collect();
-    groups.retain(|(_, rows)| !rows.is_empty());
-    let rates: usize = groups
+/// Most rates in the picture.
+const MOST: usize = 10;
+
+/// The judged rates that do not pass, then those whose intervals are the widest, in tolerances;
+/// `None` if no rate was judged.
+pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
+    let mut rates: Vec<(&str, &str, &RateVerdict)> = finished
         .iter()
-        .flat_map(|(_, rows)| rows)
-        .map(|row| row.rates.len())
-        .sum();
-    if rates == 0 {
-        return None;
-    }
-    let title = format!("All {rates} judged rates, relative to their claims");
+        .flat_map(|study| {
+            let of_study = study.outcome.rates.iter();
+            of_study.map(|(name, rate)| (study.header.id.as_str(), name.as_str(), rate))
+        })
+        .collect();
+    let count = rates.len();
+    let failing = rates
+        .iter()
+        .filter(|(.., rate)| rate.verdict != Verdict::Pass)
+        .count();
+    // Stable, so that equal rates keep the order of the studies.
+    rates.sort_by(|(.., a), (.., b)| {
+        let worst_first = b.verdict.cmp(&a.verdict);
+        worst_first.then(width(b).total_cmp(&width(a)))
+    });
+    rates.truncate(MOST);
+    let title = match (count, failing) {
+        (0, _) => return None,
+        (_, 1..) => format!("{failing} of {count} judged rates do not pass"),
+        (..=MOST, 0) => format!("All {count} judged rates lie within their tolerances"),
+        (_, 0) => format!("The {MOST} widest of {count} intervals, within their tolerances"),
+    };
+    let which = match (count, failing) {
+        (..=MOST, _) => format!("All {count} judged rates"),
+        (_, 0) => format!("The {MOST} of {count} judged rates with the widest intervals"),
+        _ => format!("{MOST} of {count} judged rates, those that do not pass first"),
+    };
     let caption = format!(
-        "All {rates} judged rates with their intervals: 0 is the order claimed, the shaded band its tolerance. A rate passes \
-         where its whole interval lies in the band."
+        "{which}: 0 is the order claimed, the shaded band its tolerance. A rate passes where its whole interval lies in \
+         the band."
     );
+    let rows: Vec<ForestRow> = rates.into_iter().map(row).collect();
     Some(Figure {
         file: FILE.to_owned(),
         caption,
-        svg: forest(&title, &groups),
+        svg: forest(&title, &rows),
     })
 }
 
-/// Studies by the property they claim, in the project's order of groups; those of unknown groups last.
+/// The width of a rate's interval in units of its tolerance; infinite without one.
+fn width(rate: &RateVerdict) -> f64 {
+    let width = |[low, high]: [f64; 2]| (high - low) / rate.tolerance;
+    rate.interval.map_or(f64::INFINITY, width)
+}
+
+fn row((study, name, rate): (&str, &str, &RateVerdict)) -> ForestRow {
+    let numbers = match (rate.interval, rate.fitted) {
+        (Some(interval), _) => interval_text(interval, RATE_PLACES),
+        (None, Some(fitted)) => rate_text(Some(fitted)),
+        (None, None) => "no rate".to_owned(),
+    };
+    ForestRow {
+        label: format!("{study}: {name}"),
+        numbers: format!("{numbers}, claimed {}", rate.claim()).replace('-', "\u{2212}"),
+        rate: rate.clone(),
+    }
+}
+
+/// Studies by the property they claim, in the project's order of groups; those of unknown groups
+/// last.
 pub(super) fn grouped<'f>(
     project: &Project,
     finished: &'f [Finished],
@@ -61,53 +100,4 @@ pub(super) fn grouped<'f>(
     };
     groups.sort_by_key(|(label, _)| place(label));
     groups
-}
-
-fn row(study: &Finished) -> Option<ForestRow> {
-    let rates: Vec<RateVerdict> = study
-        .outcome
-        .rates
-        .iter()
-        .map(|(_, rate)| rate.clone())
-        .collect();
-    (!rates.is_empty()).then(|| ForestRow {
-        label: study.header.id.clone(),
-        rates,
-        note: failed(study),
-    })
-}
-
-/// Most claims that fit next to the rates of one study.
-const MOST_CLAIMS: usize = 2;
-
-/// The failing rates, grouped by order: `1.000 to 1.004, claimed 2`; empty if none fails.
-fn failed(study: &Finished) -> String {
-    let rates = study
-        .outcome
-        .rates
-        .iter()
-        .map(|(_, rate)| (rate.order, rate));
-    let orders = lists::grouped(
-        rates.filter(|(_, rate)| rate.verdict == Verdict::Fail && rate.fitted.is_some()),
-    );
-    let one = |(order, rates): &(f64, Vec<_>)| {
-        format!(
-            "{}, claimed {}",
-            range(rates.iter().copied()),
-            order_text(*order)
-        )
-    };
-    let more = if orders.len() > MOST_CLAIMS {
-        "; \u{2026}"
-    } else {
-        ""
-    };
-    orders
-        .iter()
-        .take(MOST_CLAIMS)
-        .map(one)
-        .collect::<Vec<_>>()
-        .join("; ")
-        .replace('-', "\u{2212}")
-        + more
 }

@@ -1,7 +1,8 @@
 //! Markdown of the report as HTML.
 //!
-//! Texts of studies are already escaped in Markdown. If one of them slips through as markup, it stops here: tags that
-//! the report does not write itself are shown as text, and pictures are those of the study.
+//! Texts of studies are already escaped in Markdown. If one of them slips through as markup, it
+//! stops here: tags that the report does not write itself are shown as text, and pictures are those
+//! of the study.
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
@@ -49,7 +50,7 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                 ]);
             }
             Event::End(TagEnd::Table) => {
-                kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())])
+                kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())]);
             }
             Event::Html(text) if is_own(&text) => {
                 title = without_own_tags(&text).trim().to_owned();

@@ -1,7 +1,8 @@
-//! The report for readers: what was claimed, what was found, and how to see it again. It only reads, it never computes.
+//! The report for readers: what was claimed, what was found, and how to see it again. It only
+//! reads, it never computes.
 //!
-//! The same outcomes give the same bytes, except for the page: it names its commit, day and machine, if given, and
-//! should not be committed.
+//! The same outcomes give the same bytes, except for the page: it names its commit, day and
+//! machine, if given, and should not be committed.
 
 mod failures;
 mod forest;
@@ -35,13 +36,15 @@ pub struct Findings<'f> {
     pub project: &'f Project,
     /// What was found.
     pub record: &'f Record,
-    /// The page of the report on the full tier to point to, relative to this one's folder; its Markdown if it has no page.
+    /// The page of the report on the full tier to point to, relative to this one's folder; its
+    /// Markdown if it has no page.
     pub see_also: Option<&'f str>,
     /// Where the run comes from: only for the page.
     pub provenance: Option<&'f Provenance>,
 }
 
-/// The report on the full tier in Markdown, which is committed, as seen from the folder of that on the quick one.
+/// The report on the full tier in Markdown, which is committed, as seen from the folder of that on
+/// the quick one.
 pub const FULL: &str = "full/README.md";
 
 /// Bytes of the longest comment: GitHub takes 65536 characters.
@@ -84,9 +87,9 @@ impl Findings<'_> {
             .flat_map(|finished| &finished.outcome.figures)
     }
 
-    /// The picture of all rates.
+    /// The picture of the rates nearest to a failure.
     fn rates(&self) -> Option<Figure> {
-        forest::figure(self.project, &self.record.studies)
+        forest::figure(&self.record.studies)
     }
 
     /// The report in Markdown: the verdict, one table, then a section for each study.
@@ -146,7 +149,8 @@ impl Findings<'_> {
 
     /// The part of the report for the page of a CI run and for a comment: no links, no sections.
     ///
-    /// Failures come first; a part that would make the text longer than [`LONGEST`] is left out, and the text says so.
+    /// Failures come first; a part that would make the text longer than [`LONGEST`] is left out,
+    /// and the text says so.
     pub fn digest(&self) -> String {
         let mut digest = format!(
             "## Verification, {}\n\n{}",

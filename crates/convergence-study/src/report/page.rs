@@ -1,4 +1,5 @@
-//! The report as one self-contained page: no network, no other file. It reads as well without scripts.
+//! The report as one self-contained page: no network, no other file. It reads as well without
+//! scripts.
 //!
 //! Its elements are closed as in XML, so that tests can parse it.
 
@@ -56,20 +57,18 @@ fn head(findings: &Findings<'_>) -> String {
     )
 }
 
-/// What did not pass, what changed, the origin of the report, and all rates in one picture.
+/// What did not pass, what changed, the origin of the report, and the widest intervals in one
+/// picture.
 fn front(findings: &Findings<'_>) -> String {
     let changes = failures::changes(findings, &|id| findings.linked(id, id)).concat();
     let picture = findings
         .rates()
         .map(|figure| html(&section::figure(&figure), &[figure]));
-    let (verified, plot) = section::front(findings, &|id| findings.linked(id, id));
+    let (verified, figures) = section::front(findings, &|id| findings.linked(id, id));
     html(&findings.diagnosis(), &[])
         + &failures::html(findings.record)
         + &html(&changes, &[])
-        + &html(
-            &verified,
-            plot.map(std::slice::from_ref).unwrap_or_default(),
-        )
+        + &html(&verified, &figures)
         + &origin(findings)
         + &picture.unwrap_or_default()
 }
@@ -98,7 +97,8 @@ fn origin(findings: &Findings<'_>) -> String {
     origin
 }
 
-/// Studies with their group, in the order of the page: those that did not pass, then the others by the property they claim.
+/// Studies with their group, in the order of the page: those that did not pass, then the others by
+/// the property they claim.
 fn groups<'f>(findings: &Findings<'f>) -> Vec<(&'f str, Vec<&'f Finished>)> {
     let mut groups = vec![("did not pass", failures::in_order(&findings.record.studies))];
     for (label, mut studies) in forest::grouped(findings.project, &findings.record.studies) {

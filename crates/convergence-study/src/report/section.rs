@@ -1,5 +1,5 @@
-//! The section of one study, and the head of the report of a passing run: sentences of the project, one plot, and its
-//! statements, each with the numbers that answer it.
+//! The section of one study, and the head of the report of a passing run: sentences of the project,
+//! one plot, and its statements, each with the numbers that answer it.
 
 use super::Findings;
 use super::html::phrase;
@@ -75,7 +75,8 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
     head + &parts.join("\n")
 }
 
-/// A whole section except heading and claim, nothing left out: verdict in words, tables, figures, and how to run the study again.
+/// A whole section except heading and claim, nothing left out: verdict in words, tables, figures,
+/// and how to run the study again.
 pub(super) fn body(finished: &Finished, again: &str) -> String {
     let Finished {
         header, outcome, ..
@@ -144,13 +145,13 @@ pub(super) fn figure(figure: &Figure) -> String {
     )
 }
 
-/// In Markdown, with its plot; empty if the run does not pass or contains none of the studies.
+/// In Markdown, with its figures; empty if the run does not pass or contains none of the studies.
 ///
 /// * `link`: how a study's id is written.
-pub(super) fn front<'f>(
-    findings: &'f Findings<'_>,
+pub(super) fn front(
+    findings: &Findings<'_>,
     link: &dyn Fn(&str) -> String,
-) -> (String, Option<&'f Figure>) {
+) -> (String, Vec<Figure>) {
     let record = findings.record;
     let front = &findings.project.front;
     let find = |id: &str| record.studies.iter().find(|study| study.header.id == id);
@@ -160,21 +161,12 @@ pub(super) fn front<'f>(
         .filter_map(|(statement, id, rate)| Some((*statement, find(id)?, *rate)));
     let answered: Vec<(&str, &Finished, &str)> = answered.collect();
     if record.verdict != Verdict::Pass || answered.is_empty() {
-        return (String::new(), None);
+        return (String::new(), vec![]);
     }
-    let picture = findings.figures().find(|figure| figure.file == front.plot);
-    let row = |(statement, study, name): &(&str, &Finished, &str)| {
-        let rate = study.outcome.rates.iter().find(|(norm, _)| norm == name);
-        let rate = rate.map(|(_, rate)| {
-            format!(
-                "rate {}, claimed {}",
-                rate.rate_in_words(RATE_PLACES),
-                rate.claim()
-            )
-        });
+    let row = |(statement, study, rate): &(&str, &Finished, &str)| {
         vec![
             cell(statement),
-            cell(&rate.unwrap_or_else(|| key_numbers(&study.outcome))),
+            cell(&answer(study, rate)),
             link(&study.header.id),
         ]
     };
@@ -182,12 +174,39 @@ pub(super) fn front<'f>(
         &["statement", "found", "study"],
         answered.iter().map(row).collect(),
     );
-    let plot = picture.map(figure).unwrap_or_default();
-    (
-        format!(
-            "## What is verified\n\n{}\n\n{plot}\n{statements}\n",
-            text(front.verified)
-        ),
-        picture,
-    )
+    let drawn = |file: &str| {
+        record.studies.iter().find_map(|study| {
+            let mut figures = study.outcome.figures.iter();
+            Some((study, figures.find(|figure| figure.file == file)?.clone()))
+        })
+    };
+    let mut parts = vec!["## What is verified\n".to_owned()];
+    let mut figures = vec![];
+    if let Some((_, picture)) = drawn(front.picture) {
+        parts.push(figure(&Figure {
+            caption: front.subject.to_owned(),
+            ..picture.clone()
+        }));
+        figures.push(picture);
+    }
+    if !front.finding.is_empty() {
+        parts.push(text(front.finding) + "\n");
+    }
+    parts.push(statements);
+    if let Some((study, plot)) = drawn(front.plot) {
+        parts.push(format!("**{}**\n", link(&study.header.id)));
+        parts.push(figure(&plot));
+        figures.push(plot);
+    }
+    parts.push(text(front.verified) + "\n\n");
+    (parts.join("\n"), figures)
+}
+
+/// The numbers of a study that answer a statement: the rate of this name, or its key numbers.
+fn answer(study: &Finished, name: &str) -> String {
+    let mut rates = study.outcome.rates.iter();
+    let rate = rates
+        .find(|(known, _)| known == name)
+        .map(|(_, rate)| format!("rate {}", rate.against(RATE_PLACES)));
+    rate.unwrap_or_else(|| key_numbers(&study.outcome))
 }

@@ -1,5 +1,5 @@
-//! The tables of one study, as plain text, the same for report and terminal: rates, checks, and the errors of each
-//! level, each with the rate from the previous level.
+//! The tables of one study, as plain text, the same for report and terminal: rates, checks, and the
+//! errors of each level, each with the rate from the previous level.
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
@@ -12,7 +12,8 @@ use crate::text::number::{
 /// Title of the table of checks.
 pub(super) const CHECKS: &str = "Checks";
 
-/// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is empty.
+/// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is
+/// empty.
 ///
 /// * `judged`: whether to leave out errors whose rate was not judged.
 pub fn tables(
@@ -80,7 +81,8 @@ fn rates(outcome: &Outcome) -> Table {
     rates
 }
 
-/// The levels that the rate was fitted to, counted from the coarsest; without a fit, those of the finest pair.
+/// The levels that the rate was fitted to, counted from the coarsest; without a fit, those of the
+/// finest pair.
 fn levels(rate: &RateVerdict) -> String {
     let all = if rate.pairwise.is_empty() {
         0
@@ -97,7 +99,7 @@ fn levels(rate: &RateVerdict) -> String {
 fn checks(checks: &[Check]) -> Table {
     let row = |check: &Check| {
         vec![
-            check.claim.clone(),
+            check.statement(),
             check.verdict.name().to_owned(),
             check.evidence.clone(),
         ]
@@ -118,10 +120,12 @@ fn failures(failed: &[FailedCase]) -> Table {
     )
 }
 
-/// Widest table in characters, with three for the gap between columns: this fits on the page, and nearly in Markdown.
+/// Widest table in characters, with three for the gap between columns: this fits on the page, and
+/// nearly in Markdown.
 const WIDEST: usize = 120;
 
-/// A parameter of the levels; or the errors of one name on their levels, with the rate from the previous level.
+/// A parameter of the levels; or the errors of one name on their levels, with the rate from the
+/// previous level.
 struct Column {
     /// Name, and the word above the rates, if there are any.
     head: Vec<String>,
@@ -129,7 +133,8 @@ struct Column {
     cells: Vec<Option<Vec<String>>>,
 }
 
-/// As many tables as needed to cut none: a row for each level, and for each error its rates if it was judged.
+/// As many tables as needed to cut none: a row for each level, and for each error its rates if it
+/// was judged.
 ///
 /// * `judged`: only errors whose rate was judged, unless none was.
 fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
@@ -160,7 +165,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
         let width = |columns: &[Column]| columns.iter().map(Column::width).sum::<usize>();
         match tables.last_mut() {
             Some(last) if width(last) + column.width() <= room && last[0].rows_like(&column) => {
-                last.push(column)
+                last.push(column);
             }
             _ => tables.push(vec![column]),
         }

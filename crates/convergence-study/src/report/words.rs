@@ -1,11 +1,11 @@
 //! Verdicts in words, the same ones for report and terminal.
 
-use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::levels;
-use crate::study::outcome::Outcome;
+use crate::study::coverage::incomplete;
+use crate::study::outcome::{Outcome, joined};
 use crate::text::lists::{self, and_more};
 use crate::text::number::{
     RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text,
@@ -94,7 +94,8 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
     }
 }
 
-/// The command that blesses these changes: for the full tier if a study changed that was not run, with a reason if a claim did.
+/// The command that blesses these changes: for the full tier if a study changed that was not run,
+/// with a reason if a claim did.
 ///
 /// * `command`: the command that was run.
 pub fn blessing(
@@ -136,12 +137,14 @@ pub fn can_be_blessed(finished: &[Finished]) -> bool {
         .all(|finished| finished.outcome.verdict == Verdict::Pass)
 }
 
-/// The numbers to read first: the study's own, or the rate that decides against its order; then the failures.
+/// The numbers to read first: the study's own, or the rate that decides against its order; then the
+/// failures, and how much was not judged.
 pub fn key_numbers(outcome: &Outcome) -> String {
     let Outcome {
         headline,
         rates,
         checks,
+        coverage,
         ..
     } = outcome;
     let mut parts = if headline.is_empty() {
@@ -157,27 +160,31 @@ pub fn key_numbers(outcome: &Outcome) -> String {
         checks.iter().map(|check| check.verdict),
         "checks",
     ));
-    match (parts.is_empty(), checks.len()) {
-        (true, 0) => "nothing judged".to_owned(),
-        (true, n) => format!("all {n} checks pass"),
-        (false, _) => parts.join("; "),
+    if parts.is_empty() {
+        parts.push(match checks.len() {
+            0 => "nothing judged".to_owned(),
+            n => format!("all {n} checks pass"),
+        });
     }
+    parts.extend(incomplete(coverage));
+    parts.join("; ")
 }
 
-/// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a table has each of them.
+/// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a
+/// table has each of them.
 pub fn summary(outcome: &Outcome) -> String {
-    let each = levels::summary(&outcome.rates);
-    if outcome
+    let all_pass = outcome
         .rates
         .iter()
-        .all(|(_, rate)| rate.verdict == Verdict::Pass)
-    {
-        return outcome.summary.clone();
+        .all(|(_, rate)| rate.verdict == Verdict::Pass);
+    match &outcome.after_rates {
+        Some(more) if !all_pass => joined(&grouped(&outcome.rates), more),
+        _ => outcome.summary.clone(),
     }
-    outcome.summary.replacen(&each, &grouped(&outcome.rates), 1)
 }
 
-/// The rates that do not pass, grouped by reason and claim: `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
+/// The rates that do not pass, grouped by reason and claim:
+/// `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
 fn grouped(rates: &[(String, RateVerdict)]) -> String {
     let missed = rates
         .iter()
@@ -189,15 +196,17 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
         }
         let (found, why) = (range(group.iter().map(|(_, rate)| rate)), kind.brief());
         let count = format!("{} of {} rates", group.len(), rates.len());
+        let rates = against_claim(&found, claim);
         match kind {
-            Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {found}, claimed {claim}"),
-            _ => format!("{count}: {found}, claimed {claim}: {why}"),
+            Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {rates}"),
+            _ => format!("{count}: {rates}: {why}"),
         }
     };
     groups.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
-/// From the lowest to the highest of several rates, with digits that all of them have in their table.
+/// From the lowest to the highest of several rates, with digits that all of them have in their
+/// table.
 pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
     let known: Vec<(f64, usize)> = rates
         .filter_map(|rate| {

@@ -15,7 +15,8 @@ thread_local! {
 pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let before = WATCHED.replace(true);
-    // State that a panic leaves half done lives inside `compute` and goes with it: studies are shared only as `&self`.
+    // State that a panic leaves half done lives inside `compute` and goes with it: studies are
+    // shared only as `&self`.
     let result = panic::catch_unwind(AssertUnwindSafe(compute));
     WATCHED.set(before);
     result.map_err(|_| LAST.take().unwrap_or_else(|| "panicked".to_owned()))
@@ -52,7 +53,8 @@ fn message(info: &PanicHookInfo<'_>) -> String {
     }
 }
 
-/// The name without its folders, which may depend on the machine and would appear in committed reports.
+/// The name without its folders, which may depend on the machine and would appear in committed
+/// reports.
 fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }

@@ -6,13 +6,14 @@ use crate::judge::shown::{self, Shown};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict, judge};
 use crate::study::{ErrorsOverLevels, IntoErrors};
 
-/// Judges errors against the order that theory claims, in any test; the tolerance is [`DEFAULT_TOLERANCE`].
+/// Judges errors against the order that theory claims, in any test; the tolerance is
+/// [`DEFAULT_TOLERANCE`].
 ///
 /// * `h`: the steps, coarse to fine; `errors`: the errors at these steps.
 ///
 /// # Panics
-/// Unless the verdict is a pass; the message has the table, the rate, its interval, the reason and what to do.
-/// Inconclusive is not a pass. Also if the numbers of errors and steps differ.
+/// Unless the verdict is a pass; the message has the table, the rate, its interval, the reason and
+/// what to do. Inconclusive is not a pass. Also if the numbers of errors and steps differ.
 ///
 /// ```
 /// let h = [0.1, 0.05, 0.025, 0.0125];
@@ -71,7 +72,8 @@ impl Finished {
     /// Asserts that the study passes.
     ///
     /// # Panics
-    /// Unless the verdict is a pass, with the table of errors and rates, the reasons and what to do; inconclusive is not a pass.
+    /// Unless the verdict is a pass, with the table of errors and rates, the reasons and what to
+    /// do; inconclusive is not a pass.
     #[track_caller]
     pub fn assert_passes(&self) {
         assert!(self.outcome.verdict.is_pass(), "{}", self.explained());
@@ -104,7 +106,12 @@ impl Finished {
             .iter()
             .filter(|check| check.verdict != Verdict::Pass)
         {
-            text += &format!("{}: {}: {}\n", check.claim, check.verdict, check.evidence);
+            text += &format!(
+                "{}: {}: {}\n",
+                check.statement(),
+                check.verdict,
+                check.evidence
+            );
         }
         text
     }

@@ -1,8 +1,8 @@
 //! Runs the cases of all studies on all threads; only this module uses threads.
 //!
-//! Parallel across cases only: one thread computes a case from start to end, and the results are put back into the
-//! order of the cases, so an [`Outcome`] has the same bits for any number of threads. The time varies from run to run
-//! and is kept separately in [`Spent`].
+//! Parallel across cases only: one thread computes a case from start to end, and the results are
+//! put back into the order of the cases, so an [`Outcome`] has the same bits for any number of
+//! threads. The time varies from run to run and is kept separately in [`Spent`].
 
 mod caught;
 mod levels;
@@ -20,7 +20,9 @@ use thiserror::Error;
 use crate::judge::verdict::Verdict;
 use crate::study::kind::{plan, reasons};
 use crate::study::outcome::{self, NotFinite};
-use crate::study::{Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Untested};
+use crate::study::{
+    Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,
+};
 use caught::caught;
 use queue::{Counter, Done, Job};
 
@@ -71,8 +73,6 @@ pub struct Spent {
     pub wall: Duration,
     /// The number of its cases.
     pub cases: usize,
-    /// How many of them were not computed: their results come from an earlier run.
-    pub kept: usize,
 }
 
 /// Why nothing was run.
@@ -93,7 +93,8 @@ pub struct Effort {
     pub jobs: NonZeroUsize,
     /// The longest time that a case may take; `None` for no limit.
     pub case_limit: Option<Duration>,
-    /// Whether no case begins after a study has failed: studies that had not ended are then left out.
+    /// Whether no case begins after a study has failed: studies that had not ended are then left
+    /// out.
     pub fail_fast: bool,
 }
 
@@ -116,8 +117,9 @@ impl From<NonZeroUsize> for Effort {
 /// * `progress`: called after every case, by one thread at a time.
 /// * Returns the studies in the order given.
 ///
-/// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A study fails if it
-/// panics while listing its cases or judging them, or if one of its cases was stopped at its limit.
+/// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A
+/// study fails if it panics while listing its cases or judging them, or if one of its cases was
+/// stopped at its limit.
 ///
 /// # Errors
 /// [`RunError`], before anything is run.
@@ -143,7 +145,8 @@ pub fn run_within(
     run_planned(planned.collect(), effort, allowed, progress)
 }
 
-/// The outcome of one study, run on all threads of the machine, as [`run`] does; its figures are called `study-<what>.svg`.
+/// The outcome of one study, run on all threads of the machine, as [`run`] does; its figures are
+/// called `study-<what>.svg`.
 ///
 /// # Panics
 /// The operating system refuses the threads.
@@ -177,7 +180,8 @@ fn run_planned(
         .num_threads(effort.jobs.get().min(cases.max(1)))
         .build()?;
     run_cases(&pool, &planned, effort, allowed, progress);
-    // A study without cases ends here. With `fail_fast` other studies may not have ended: they are left out.
+    // A study without cases ends here. With `fail_fast` other studies may not have ended: they are
+    // left out.
     let of = |planned: Planned<'_>| {
         let own = || planned.cases.is_empty().then(|| conclude(&planned, &[]));
         planned.finished.get().cloned().or_else(own)
@@ -287,7 +291,8 @@ fn run_cases(
         });
         counter.count(&job, ended);
     };
-    // A parallel iterator over the vector would split it in halves; the bridge hands out one job after the other.
+    // A parallel iterator over the vector would split it in halves; the bridge hands out one job
+    // after the other.
     pool.install(|| jobs.into_iter().par_bridge().for_each(run));
 }
 
@@ -343,7 +348,6 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
                 done.into_iter()
                     .map(|done| (cases[done.case].label.clone(), done.work)),
             );
-            spent.kept = (0..cases.len()).filter(|case| plan.is_kept(*case)).count();
             caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
         }
         Err(reason) => broken("list its cases", reason),
@@ -351,11 +355,14 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     spent.busy += started.elapsed();
     // Whatever the study concludes: a failed case cannot pass.
     if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
-        outcome.checks.push(Check::that(
-            false,
-            "every case has a result",
-            format!("{} have none", failed_cases.len()),
-        ));
+        outcome.checks.push(
+            Check::that(
+                false,
+                "every case has a result",
+                format!("{} have none", failed_cases.len()),
+            )
+            .about(Subject::of("completion")),
+        );
     }
     let outcome = outcome::settle(&header.id, outcome);
     let not_finite = outcome.not_finite();
@@ -375,6 +382,6 @@ fn broken(what: &str, reason: &str) -> Outcome {
     Outcome::new(
         format!("the study cannot {what}: {reason}"),
         vec![],
-        vec![Check::that(false, claim, reason)],
+        vec![Check::that(false, claim, reason).about(Subject::of("study"))],
     )
 }

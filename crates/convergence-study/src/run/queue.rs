@@ -55,7 +55,8 @@ impl Job {
     }
 }
 
-/// All cases of all studies. The costliest come first, so that no thread is left alone with a long one at the end.
+/// All cases of all studies. The costliest come first, so that no thread is left alone with a long
+/// one at the end.
 pub(super) fn costliest_first<'c>(plans: impl Iterator<Item = &'c [Case<()>]>) -> Vec<Job> {
     let mut jobs = Vec::new();
     for (study, cases) in plans.enumerate() {
@@ -92,7 +93,6 @@ pub(super) fn spent(done: &[Done]) -> Spent {
         busy,
         wall,
         cases: done.len(),
-        kept: 0,
     }
 }
 

@@ -1,5 +1,6 @@
-//! Writes files atomically: a reader sees the old content or the new one, never a part. Code that writes several holds the guard of
-//! [`begin_write`] until they are complete; code that ends the process on request calls [`finish_writes`] first.
+//! Writes files atomically: a reader sees the old content or the new one, never a part. Code that
+//! writes several holds the guard of [`begin_write`] until they are complete; code that ends the
+//! process on request calls [`finish_writes`] first.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -14,10 +15,12 @@ use crate::text::visible;
 
 /// Writes a file so that every reader, and every crash, sees the old bytes or the new ones.
 ///
-/// The bytes go to a separate file next to it, which then takes its name. Missing folders are created.
+/// The bytes go to a separate file next to it, which then takes its name. Missing folders are
+/// created.
 ///
 /// # Errors
-/// The error of the operating system, preceded by `path`; the old file is then untouched and nothing is left behind.
+/// The error of the operating system, preceded by `path`; the old file is then untouched and
+/// nothing is left behind.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<()> {
     write_with(path, |file| file.write_all(bytes.as_ref()))
 }
@@ -56,7 +59,8 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
         .map_err(naming(folder))
 }
 
-/// Proves that a file of this name can be made. It makes one next to it: another process may be writing the file itself.
+/// Proves that a file of this name can be made. It makes one next to it: another process may be
+/// writing the file itself.
 fn probe(path: &Path) -> io::Result<()> {
     let beside = name_beside(path)?;
     fs::write(&beside, "")?;
@@ -64,7 +68,8 @@ fn probe(path: &Path) -> io::Result<()> {
     if_there(fs::remove_file(&beside)).map(drop)
 }
 
-/// Removes the unfinished files that killed writers of `path` have left next to it. No other process may be writing this file.
+/// Removes the unfinished files that killed writers of `path` have left next to it. No other
+/// process may be writing this file.
 pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     let (Some(folder), Some(name)) = (
         path.parent(),
@@ -128,21 +133,23 @@ fn name_beside(path: &Path) -> io::Result<PathBuf> {
     Ok(path.with_file_name(beside))
 }
 
-/// Read by pending writes. It is never waited for with `write`: a thread may begin a write within another one.
+/// Read by pending writes. It is never waited for with `write`: a thread may begin a write within
+/// another one.
 static PENDING: RwLock<()> = RwLock::new(());
 
 /// Between two looks at the pending writes.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Registers a write, which is pending until the guard is dropped. After [`finish_writes`] it blocks until the process ends.
+/// Registers a write, which is pending until the guard is dropped. After [`finish_writes`] it
+/// blocks until the process ends.
 pub fn begin_write() -> RwLockReadGuard<'static, ()> {
     PENDING.read().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Waits for pending writes and blocks new ones. Call it right before the process exits.
 ///
-/// * `patience`: it returns after this time even if a write is pending, for example on a disk that hangs; new ones are then
-///   not blocked.
+/// * `patience`: it returns after this time even if a write is pending, for example on a disk that
+///   hangs; new ones are then not blocked.
 pub fn finish_writes(patience: Duration) {
     close_of(&PENDING, patience);
 }

@@ -1,8 +1,8 @@
-//! The baseline: numbers of an earlier run that a new one must reproduce, each within its tolerance, and the claims of
-//! the study files when they were blessed: every value of every file.
+//! The baseline: numbers of an earlier run that a new one must reproduce, each within its
+//! tolerance, and the claims of the study files when they were blessed: every value of every file.
 //!
-//! The file is `studies/baseline.json`: it states expectations, so it lives with the claims and not with the files that
-//! a run writes. Only a blessing changes it. Numbers have all their digits.
+//! The file is `studies/baseline.json`: it states expectations, so it lives with the claims and not
+//! with the files that a run writes. Only a blessing changes it. Numbers have all their digits.
 //!
 //! ```json
 //! {
@@ -12,15 +12,17 @@
 //! }
 //! ```
 //!
-//! A changed claim is blessed only with a reason, which is kept with it; a withdrawn claim stays as `null` with the
-//! reason. A blessing accepts the claims of the studies that were run: a claim changes only with a run that passes.
+//! A changed claim is blessed only with a reason, which is kept with it; a withdrawn claim stays as
+//! `null` with the reason. A blessing accepts the claims of the studies that were run: a claim
+//! changes only with a run that passes.
 //!
 //! A number that is accepted alone, or blessed with a reason, keeps its reason, too.
 //!
-//! The baseline can only make a run worse: studies are first judged on their own, and a run that did not pass is not blessed.
+//! The baseline can only make a run worse: studies are first judged on their own, and a run that
+//! did not pass is not blessed.
 //!
-//! The file `studies/work.json` next to it has the work of each case when it was blessed. It guards nothing: it stops runs that go
-//! wrong, at the same step on every machine.
+//! The file `studies/work.json` next to it has the work of each case when it was blessed. It guards
+//! nothing: it stops runs that go wrong, at the same step on every machine.
 
 mod change;
 
@@ -73,8 +75,9 @@ pub struct Guarded {
     pub reason: Option<String>,
 }
 
-/// Why a run was not accepted as baseline, in words: a study does not pass, or was not run; a number cannot be met by any
-/// run, because it is not finite or its tolerance is invalid; a claim has changed, and no reason is given.
+/// Why a run was not accepted as baseline, in words: a study does not pass, or was not run; a
+/// number cannot be met by any run, because it is not finite or its tolerance is invalid; a claim
+/// has changed, and no reason is given.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct Refusal(String);
@@ -107,11 +110,12 @@ impl Baseline {
         write_json(path, self)
     }
 
-    /// Every guarded number of these studies and every claim that differs: moved, changed, new or vanished.
+    /// Every guarded number of these studies and every claim that differs: moved, changed, new or
+    /// vanished.
     ///
-    /// * `known`: the headers of all existing studies, run or not: claims are compared for all of them, numbers for
-    ///   those that were run. A study of the baseline that is not among them was deleted, which is one change,
-    ///   including its numbers; `None` if only a selection matters.
+    /// * `known`: the headers of all existing studies, run or not: claims are compared for all of
+    ///   them, numbers for those that were run. A study of the baseline that is not among them was
+    ///   deleted, which is one change, including its numbers; `None` if only a selection matters.
     pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<Change> {
         let none = BTreeMap::new();
         let mut changes = Vec::new();
@@ -162,11 +166,13 @@ impl Baseline {
         blessed.difference(&known).map(|id| (*id).clone()).collect()
     }
 
-    /// Accepts the numbers of these studies that have moved or are new; all others keep their digits. Likewise accepts
-    /// their claims; unchanged claims keep their reasons.
+    /// Accepts the numbers of these studies that have moved or are new; all others keep their
+    /// digits. Likewise accepts their claims; unchanged claims keep their reasons.
     ///
-    /// * `known`: as for [`Baseline::compare`]; the numbers of studies that have vanished are dropped, their claims withdrawn.
-    /// * `reason`: why claims have changed or vanished; not required if none has, nor for a new study.
+    /// * `known`: as for [`Baseline::compare`]; the numbers of studies that have vanished are
+    ///   dropped, their claims withdrawn.
+    /// * `reason`: why claims have changed or vanished; not required if none has, nor for a new
+    ///   study.
     ///
     /// # Errors
     /// [`Refusal`]; the baseline then stays unchanged.
@@ -206,7 +212,8 @@ impl Baseline {
     /// * `reason`: kept with the number or the claim.
     ///
     /// # Errors
-    /// [`Refusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the study must pass.
+    /// [`Refusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the study must
+    /// pass.
     pub fn accept(
         &mut self,
         finished: &[Finished],
@@ -240,14 +247,9 @@ impl Baseline {
             (Movement::VanishedFile { .. }, _) => {
                 numbers.remove(study);
                 // The reason stays.
-                let withdrawn = (
-                    change::ID.to_owned(),
-                    BlessedClaim {
-                        value: None,
-                        reason,
-                    },
-                );
-                claims.insert(study.clone(), [withdrawn].into());
+                let value = None;
+                let withdrawn = BlessedClaim { value, reason };
+                claims.insert(study.clone(), [(change::ID.to_owned(), withdrawn)].into());
             }
             // It changes only with a run that passes.
             (_, None) => {
@@ -256,45 +258,33 @@ impl Baseline {
                 )));
             }
             (Movement::NewFile { guarded, .. }, Some(ran)) => {
-                let claim = |value: &String| BlessedClaim {
-                    value: Some(value.clone()),
-                    reason: reason.clone().filter(|_| *guarded > 0),
+                let reason = reason.filter(|_| *guarded > 0);
+                let claim = |(path, value): &(String, String)| {
+                    let value = Some(value.clone());
+                    let reason = reason.clone();
+                    (path.clone(), BlessedClaim { value, reason })
                 };
-                let all = ran
-                    .header
-                    .settings
-                    .iter()
-                    .map(|(path, value)| (path.clone(), claim(value)));
-                claims.entry(study.clone()).or_default().extend(all);
+                let of_study = claims.entry(study.clone()).or_default();
+                of_study.extend(ran.header.settings.iter().map(claim));
             }
             (Movement::Claim { to, .. }, Some(_)) => {
-                let claim = BlessedClaim {
-                    value: to.clone(),
-                    reason,
-                };
-                claims
-                    .entry(study.clone())
-                    .or_default()
-                    .insert(name.clone(), claim);
+                let value = to.clone();
+                let of_study = claims.entry(study.clone()).or_default();
+                of_study.insert(name.clone(), BlessedClaim { value, reason });
             }
             (
                 Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. },
                 Some(ran),
             ) => {
-                let found = ran
-                    .outcome
-                    .quantities
-                    .iter()
-                    .find(|quantity| quantity.name == *name);
-                let new = found.map(|found| Guarded {
-                    value: found.value,
-                    tolerance: found.tolerance,
+                let mut quantities = ran.outcome.quantities.iter();
+                let quantity = quantities.find(|quantity| quantity.name == *name);
+                let new = quantity.map(|quantity| Guarded {
+                    value: quantity.value,
+                    tolerance: quantity.tolerance,
                     reason,
                 });
-                numbers
-                    .entry(study.clone())
-                    .or_default()
-                    .extend(new.map(|new| (name.clone(), new)));
+                let of_study = numbers.entry(study.clone()).or_default();
+                of_study.extend(new.map(|new| (name.clone(), new)));
             }
         }
         numbers.retain(|_, guarded| !guarded.is_empty());
@@ -335,7 +325,7 @@ fn acceptable(
     }
     let cannot_be_met =
         |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
-    outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance }| {
+    outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance, .. }| {
         let refused =
             format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
         Err(Refusal(format!("not blessed: {refused}")))
@@ -360,8 +350,9 @@ impl Works {
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }
 
-    /// The most work that a case may do: three times that of its blessing, or of the largest case of its study if the
-    /// case is new, plus two per cent of its tier's; `None` for a study that was never blessed.
+    /// The most work that a case may do: three times that of its blessing, or of the largest case
+    /// of its study if the case is new, plus two per cent of its tier's; `None` for a study that
+    /// was never blessed.
     pub fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
         let tier = self.0.get(header.tier.name())?;
         let cases = tier.get(&header.id)?;

@@ -1,17 +1,17 @@
-//! What a failing run says about its cause: which settings separate failing from passing items, which fields moved
-//! first, which known mistake it resembles, and where to look.
+//! What a failing run says about its cause: which settings separate failing from passing items,
+//! which fields moved first, which known mistake it resembles, and where to look.
 
 mod contrast;
+mod fields;
 mod fingerprint;
 
 use serde::{Deserialize, Serialize};
 
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::header::field;
-use crate::study::kind::COMPLETION;
+use crate::study::{Check, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::short_text;
@@ -26,7 +26,8 @@ const NAMED: usize = 3;
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is named, and no place.
+    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is
+    /// named, and no place.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
     /// Which settings separate failing from passing items.
@@ -92,23 +93,13 @@ pub fn diagnose(
         .filter(|change| change.movement.needs_a_reason());
     let claims: Vec<String> = claims.map(Change::words).collect();
     let contrast = contrast(&votes(project, finished, changes));
-    let first = first(finished, changes);
+    let first = fields::first(finished, changes);
     let clearest = clearest(&failing);
-    let words = contrast
-        .settings
-        .iter()
-        .map(|(_, value)| value)
-        .chain(first.iter().take(1).map(|field| &field.name));
-    let mut look_at: Vec<String> = words
-        .filter(|_| claims.is_empty())
-        .filter_map(|word| {
-            project
-                .places
-                .iter()
-                .find(|(of, _)| names(word, of))
-                .map(|(_, place)| (*place).to_owned())
-        })
-        .collect();
+    let mut look_at = if claims.is_empty() {
+        places(project, &contrast, first.first())
+    } else {
+        vec![]
+    };
     let again = clearest
         .first()
         .map(String::as_str)
@@ -134,6 +125,20 @@ pub fn diagnose(
         clearest,
         moved: moved(finished, changes),
     })
+}
+
+/// Where to look: the places that belong to the settings of a contrast and to a field.
+fn places(project: &Project, contrast: &Contrast, first: Option<&Field>) -> Vec<String> {
+    let settings = contrast.settings.iter().map(|(_, value)| value);
+    let words = settings.chain(first.map(|field| &field.name));
+    let place = |word: &String| {
+        let mut places = project.places.iter();
+        places.find(|(of, _)| names(word, of))
+    };
+    words
+        .filter_map(place)
+        .map(|(_, place)| (*place).to_owned())
+        .collect()
 }
 
 /// Whether the words of a setting are `what`, alone or in brackets: `ID alone (SETTING)`.
@@ -172,8 +177,8 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
     } in finished
     {
         let mut own: Vec<Vote> = vec![];
-        let mut count = |item: &str, fails: bool, counts: bool| {
-            let settings = (project.settings)(header, item);
+        let mut count = |subject: &Subject, fails: bool, counts: bool| {
+            let settings = project.settings(header, subject);
             let new = [usize::from(fails && counts), usize::from(counts)];
             match own.iter_mut().find(|vote| vote.settings == settings) {
                 Some(Vote {
@@ -189,15 +194,21 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
                 }),
             }
         };
-        outcome
-            .rates
-            .iter()
-            .for_each(|(norm, rate)| count(norm, !rate.verdict.is_pass(), any_judged));
+        outcome.rates.iter().for_each(|(norm, rate)| {
+            let subject = outcome.subject_of_rate(norm);
+            count(&subject, !rate.verdict.is_pass(), any_judged);
+        });
         let checks = outcome
             .checks
             .iter()
-            .filter(|check| check.claim != COMPLETION || !check.verdict.is_pass());
-        checks.for_each(|check| count(&check.claim, !check.verdict.is_pass(), any_judged));
+            .filter(|check| check.origin != Origin::Completion || !check.verdict.is_pass());
+        checks.for_each(|check| {
+            let subject = Subject {
+                quantity: check.quantity().to_owned(),
+                ..check.subject.clone()
+            };
+            count(&subject, !check.verdict.is_pass(), any_judged);
+        });
         let moved: Vec<&str> = numbers(changes, &header.id).map(|(name, _)| name).collect();
         let kept = outcome
             .quantities
@@ -207,122 +218,53 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
             .iter()
             .copied()
             .filter(|name| !outcome.quantities.iter().any(|known| known.name == *name));
-        kept.chain(gone)
-            .for_each(|name| count(name, moved.contains(&name), !any_judged));
+        kept.chain(gone).for_each(|name| {
+            let subject = subject_of_number(outcome, name);
+            count(&subject, moved.contains(&name), !any_judged);
+        });
         votes.append(&mut own);
     }
     votes
 }
 
-/// Fields by their share of the movement: within a study each is measured by its tolerance, on its finest level, where
-/// its own error has had the least time to mix with those of others.
-fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
-    let mut fields: Vec<Field> = vec![];
-    for Finished {
-        header, outcome, ..
-    } in finished
-    {
-        // Levels are in order: the last number of a field belongs to its finest level.
-        let mut finest: Vec<(String, f64, f64)> = vec![];
-        for (name, movement) in
-            numbers(changes, &header.id).filter(|(name, _)| !name.starts_with("rate "))
-        {
-            let weight = movement.weight().clamp(0.0, 1e12);
-            let Movement::Moved { from, to, .. } = movement else {
-                continue;
-            };
-            let factor = (to / from).abs();
-            finest.retain(|(known, ..)| *known != field(name));
-            finest.push((
-                field(name),
-                weight.ln_1p(),
-                if factor.is_nan() {
-                    f64::INFINITY
-                } else {
-                    factor
-                },
-            ));
-        }
-        let rates = outcome
-            .rates
-            .iter()
-            .filter(|(_, rate)| !rate.verdict.is_pass());
-        let rates: Vec<(String, &RateVerdict)> =
-            rates.map(|(norm, rate)| (field(norm), rate)).collect();
-        let unmoved = |name: &&String| finest.iter().all(|(known, ..)| known != *name);
-        let unmoved: Vec<_> = rates
-            .iter()
-            .map(|(name, _)| name)
-            .filter(unmoved)
-            .cloned()
-            .collect();
-        finest.extend(unmoved.into_iter().map(|name| (name, 1.0, 1.0)));
-        let most = finest
-            .iter()
-            .map(|(_, weight, _)| *weight)
-            .fold(f64::MIN_POSITIVE, f64::max);
-        for (name, weight, factor) in &finest {
-            let rate = rates
-                .iter()
-                .filter(|(of, _)| of == name)
-                .find_map(|(_, rate)| Some([rate.fitted?, rate.order]));
-            // A study with one wrong field does not show which is first.
-            let share = if finest.len() > 1 {
-                (weight / most).powi(8)
-            } else {
-                0.1
-            };
-            let found = fields
-                .iter()
-                .position(|field| field.name == *name)
-                .unwrap_or(fields.len());
-            if found == fields.len() {
-                fields.push(Field {
-                    name: name.clone(),
-                    share: 0.0,
-                    rate: None,
-                    factor: 1.0,
-                });
-            }
-            let field = &mut fields[found];
-            field.share += share;
-            field.rate = [field.rate, rate]
-                .into_iter()
-                .flatten()
-                .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
-            field.factor = if factor.ln().abs() > field.factor.ln().abs() {
-                *factor
-            } else {
-                field.factor
-            };
-        }
+/// What a guarded number is about; its name stands in for a quantity that is not known.
+fn subject_of_number(outcome: &Outcome, name: &str) -> Subject {
+    let known = outcome.quantities.iter().find(|known| known.name == name);
+    let subject = known.map_or_else(Subject::default, |known| known.subject.clone());
+    Subject {
+        quantity: subject.quantity_or(name).to_owned(),
+        ..subject
     }
-    fields.sort_by(|one, next| next.share.total_cmp(&one.share));
-    fields
 }
 
-/// The claims of failing checks without the case before the colon, the commonest first.
+/// The claim of several checks, if it is the same.
+fn common_claim<'c>(checks: &[&'c Check]) -> Option<&'c str> {
+    let (first, rest) = checks.split_first()?;
+    rest.iter()
+        .all(|check| check.claim == first.claim)
+        .then_some(&first.claim)
+}
+
+/// The quantities of failing checks, each with the number of checks, the commonest first; in the
+/// words of the claim if all of these claim the same.
 fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     let checks = failing
         .iter()
         .flat_map(|study| &study.outcome.checks)
         .filter(|check| !check.verdict.is_pass());
-    let claims = checks.map(|check| {
-        check
-            .claim
-            .rsplit_once(": ")
-            .map_or(check.claim.as_str(), |(_, rest)| rest)
-    });
-    let claims = grouped(claims.map(|claim| (claim, ()))).into_iter();
-    let mut claims: Vec<(String, usize)> = claims
-        .map(|(claim, count)| (claim.to_owned(), count.len()))
+    let groups = grouped(checks.map(|check| (check.quantity(), check)));
+    let mut claims: Vec<(String, usize)> = groups
+        .into_iter()
+        .map(|(quantity, checks)| (common_claim(&checks).unwrap_or(quantity), checks.len()))
+        .map(|(words, count)| (words.to_owned(), count))
         .collect();
     claims.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     claims.truncate(2 * NAMED);
     claims
 }
 
-/// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then studies with failing checks.
+/// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then
+/// studies with failing checks.
 fn clearest(failing: &[&Finished]) -> Vec<String> {
     let distance = |study: &Finished| {
         let missed = study
@@ -346,24 +288,30 @@ fn clearest(failing: &[&Finished]) -> Vec<String> {
         .collect()
 }
 
-/// Moved numbers of passing studies: those of the same field that changed by the same factor have one cause.
+/// Moved numbers of passing studies: those of the same field that changed by the same factor have
+/// one cause.
 fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
     let passing = finished
         .iter()
         .filter(|study| study.outcome.verdict == Verdict::Pass);
-    let moved = passing.flat_map(|Finished { header, .. }| {
-        numbers(changes, &header.id).map(|(name, movement)| {
-            let how = match movement {
-                Movement::Moved { from, to, .. } => {
-                    let change = 100.0 * (to - from) / from.abs();
-                    format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
-                }
-                Movement::Vanished { .. } => "gone".to_owned(),
-                _ => "another tolerance".to_owned(),
-            };
-            (format!("{} {how}", field(name)), header.id.as_str())
-        })
-    });
+    let moved = passing.flat_map(
+        |Finished {
+             header, outcome, ..
+         }| {
+            numbers(changes, &header.id).map(|(name, movement)| {
+                let how = match movement {
+                    Movement::Moved { from, to, .. } => {
+                        let change = 100.0 * (to - from) / from.abs();
+                        format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
+                    }
+                    Movement::Vanished { .. } => "gone".to_owned(),
+                    _ => "another tolerance".to_owned(),
+                };
+                let field = subject_of_number(outcome, name).quantity;
+                (format!("{field} {how}"), header.id.as_str())
+            })
+        },
+    );
     let mut groups = grouped(moved);
     groups.sort_by_key(|(_, studies)| std::cmp::Reverse(studies.len()));
     let line = |(group, mut studies): (String, Vec<&str>)| {

@@ -1,12 +1,16 @@
-//! A report replaces the last one as a set of files: after a crash the next run finds the old set or completes the new one.
+//! A report replaces the last one as a set of files: after a crash the next run finds the old set
+//! or completes the new one.
 //!
-//! 1. All files that differ from those of the previous set are written into the folder `staging` of the workshop.
+//! 1. All files that differ from those of the previous set are written into the folder `staging` of
+//!    the workshop.
 //! 2. `staging` is renamed to `pending`. From this moment on, the new set counts.
-//! 3. Its files are moved to their places, files only in the previous set are removed, and the manifest, which lists
-//!    the set, is moved last. After an interruption the whole step is repeated.
+//! 3. Its files are moved to their places, files only in the previous set are removed, and the
+//!    manifest, which lists the set, is moved last. After an interruption the whole step is
+//!    repeated.
 //!
-//! Files that no manifest lists are never touched. (Exchanging the whole folder would lose files that others write to
-//! it meanwhile.) A lock, which the operating system releases even after a crash, keeps two runs apart.
+//! Files that no manifest lists are never touched. (Exchanging the whole folder would lose files
+//! that others write to it meanwhile.) A lock, which the operating system releases even after a
+//! crash, keeps two runs apart.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -82,7 +86,8 @@ pub struct ReportFolder {
     pub workshop: PathBuf,
 }
 
-/// Waits until no other process is writing reports, and keeps others waiting until the file is dropped.
+/// Waits until no other process is writing reports, and keeps others waiting until the file is
+/// dropped.
 pub fn lock(path: &Path) -> io::Result<File> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     let file = store::open(path, File::options().create(true).append(true))?;
@@ -119,10 +124,12 @@ impl ReportFolder {
         store::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
     }
 
-    /// Completes an interrupted replacement, and removes an unfinished set. The caller must hold the [`lock`].
+    /// Completes an interrupted replacement, and removes an unfinished set. The caller must hold
+    /// the [`lock`].
     ///
     /// # Errors
-    /// The error of the operating system, and a manifest that names files outside the folder: then nothing is moved.
+    /// The error of the operating system, and a manifest that names files outside the folder: then
+    /// nothing is moved.
     pub fn tidy(&self) -> io::Result<()> {
         self.complete_interrupted()?;
         remove_if_there(&self.staging())

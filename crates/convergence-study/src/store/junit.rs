@@ -1,7 +1,8 @@
 //! The verdicts as JUnit XML, for CI systems.
 //!
-//! One suite for each study, one test case for each rate and check; inconclusive is a separate type of failure. There
-//! are no times: the file is committed and must not change when nothing has changed.
+//! One suite for each study, one test case for each rate and check; inconclusive is a separate type
+//! of failure. There are no times: the file is committed and must not change when nothing has
+//! changed.
 
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
 
@@ -62,12 +63,13 @@ fn suite(
     for check in &outcome.checks {
         suite.add_test_case(case(
             &header.id,
-            &check.claim,
+            &check.statement(),
             check.verdict,
             &check.evidence,
         ));
     }
-    // A study may fail although each rate and check passes, or may have none: then its verdict is a test case.
+    // A study may fail although each rate and check passes, or may have none: then its verdict is a
+    // test case.
     if outcome.verdict != Verdict::Pass && suite.failures == 0 {
         suite.add_test_case(case(
             &header.id,

@@ -1,7 +1,8 @@
-//! What a run compares with and leaves behind: baseline, records, JUnit, provenance, and files written as one set.
+//! What a run compares with and leaves behind: baseline, records, JUnit, provenance, and files
+//! written as one set.
 //!
-//! Files that the harness itself has written are read only if they are regular files: a pipe or a device in their place would
-//! block it for ever.
+//! Files that the harness itself has written are read only if they are regular files: a pipe or a
+//! device in their place would block it for ever.
 
 pub mod atomic;
 mod baseline;
@@ -75,7 +76,8 @@ pub(crate) fn read_if_there<T: DeserializeOwned>(
         .transpose()
 }
 
-/// An object as JSON text with a line end, as in files; a number that is not finite becomes `null`, because JSON has none.
+/// An object as JSON text with a line end, as in files; a number that is not finite becomes `null`,
+/// because JSON has none.
 pub fn json(object: &impl Serialize) -> io::Result<String> {
     Ok(serde_json::to_string_pretty(object)? + "\n")
 }
@@ -85,7 +87,8 @@ pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> io::Result<()>
     atomic::write(path, json(object)?)
 }
 
-/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by splitmix64.
+/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by
+/// splitmix64.
 ///
 /// Not cryptographic. With FNV alone the low bits of similar texts would be correlated.
 pub fn content_hash(bytes: &[u8]) -> u64 {
@@ -126,7 +129,8 @@ pub(crate) fn if_there<T>(result: io::Result<T>) -> io::Result<Option<T>> {
     }
 }
 
-/// Links are followed. The check comes first because opening a pipe already waits for its other end.
+/// Links are followed. The check comes first because opening a pipe already waits for its other
+/// end.
 fn check(path: &Path) -> io::Result<()> {
     if fs::metadata(path)?.is_file() {
         Ok(())

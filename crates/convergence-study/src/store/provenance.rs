@@ -1,4 +1,5 @@
-//! Where a record comes from: machine, tools, revision and times. Everything that varies between two runs is here.
+//! Where a record comes from: machine, tools, revision and times. Everything that varies between
+//! two runs is here.
 
 use std::path::Path;
 use std::process::Command;
@@ -52,14 +53,6 @@ pub struct StudyTime {
     pub busy_seconds: f64,
     /// From the start of the first case to the end of the last one.
     pub wall_seconds: f64,
-    /// Cases with results kept from an earlier run.
-    #[serde(default, skip_serializing_if = "is_none")]
-    pub kept_cases: usize,
-}
-
-/// Whether to leave out a count.
-fn is_none(count: &usize) -> bool {
-    *count == 0
 }
 
 impl Provenance {
@@ -143,7 +136,6 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
         id: header.id.clone(),
         busy_seconds: spent.busy.as_secs_f64(),
         wall_seconds: spent.wall.as_secs_f64(),
-        kept_cases: spent.kept,
     }
 }
 

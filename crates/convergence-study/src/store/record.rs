@@ -1,11 +1,14 @@
-//! The record of a run: its findings, as data with a versioned schema. Reports are made from it, and programs read it.
+//! The record of a run: its findings, as data with a versioned schema. Reports are made from it,
+//! and programs read it.
 //!
-//! A study of a record is a [`Finished`] without its times: machine, revision and times belong to the
-//! [`Provenance`](crate::store::Provenance). [`Record::committed`] has the digits of the file under version control, which must not
-//! change by a byte when nothing has changed; reports are made from it, so that this file suffices to make them anew.
+//! A study of a record is a [`Finished`] without its times: machine, revision and times belong to
+//! the [`Provenance`](crate::store::Provenance). [`Record::committed`] has the digits of the file
+//! under version control, which must not change by a byte when nothing has changed; reports are
+//! made from it, so that this file suffices to make them anew.
 //!
-//! A number that is not finite is `null`; `not_finite` says where it is and what it was, `failed_cases` says why. Read
-//! back, `null` is NaN. The pictures are separate files next to the record, in [`FIGURES`].
+//! A number that is not finite is `null`; `not_finite` says where it is and what it was,
+//! `failed_cases` says why. Read back, `null` is NaN. The pictures are separate files next to the
+//! record, in [`FIGURES`].
 
 use std::io;
 use std::path::Path;
@@ -17,7 +20,8 @@ use crate::run::Finished;
 use crate::store::{self, Change, atomic, diagnosis::Diagnosis, parsed};
 use crate::text::number::{committed, committed_rate};
 
-/// Version of the schema; it increases when a field changes its name or meaning, not when one is added.
+/// Version of the schema; it increases when a field changes its name or meaning, not when one is
+/// added.
 pub const SCHEMA: u32 = 1;
 
 /// What counts as a record.
@@ -99,7 +103,8 @@ impl Record {
         self.changes.as_deref().unwrap_or_default()
     }
 
-    /// The same with digits that do not vary between runs and hardly between machines: see [`committed`].
+    /// The same with digits that do not vary between runs and hardly between machines: see
+    /// [`committed`].
     #[must_use]
     pub fn committed(mut self) -> Self {
         for Finished {

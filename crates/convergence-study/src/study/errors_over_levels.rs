@@ -4,6 +4,7 @@ use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran, completion};
 use super::levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::outcome::{Check, Outcome};
+use super::subject::Subject;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
 
 /// The errors of one level, by name.
@@ -12,8 +13,8 @@ pub type NamedErrors = Vec<(String, f64)>;
 /// Names under which a level reports its own step, if that is not 1/n.
 pub const STEPS: [&str; 2] = ["h", "dt"];
 
-/// What the function of a study may return: errors with their names, or a single error, which is then called `error`;
-/// or a [`Result`] of either.
+/// What the function of a study may return: errors with their names, or a single error, which is
+/// then called `error`; or a [`Result`] of either.
 pub trait IntoErrors {
     /// The errors by name.
     fn into_errors(self) -> Result<NamedErrors, CaseFailure>;
@@ -46,11 +47,12 @@ impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
     }
 }
 
-/// A study that computes errors on every level of refinement and judges each against its claimed order; made by [`levels()`](levels()).
+/// A study that computes errors on every level of refinement and judges each against its claimed
+/// order; made by [`levels()`](levels()).
 ///
-/// Its outcome holds a rate with its verdict for each claim, all errors, a figure, and the numbers that the baseline
-/// guards. Errors without a claim are only recorded. If a level fails, or lacks an error that others have, the study
-/// fails.
+/// Its outcome holds a rate with its verdict for each claim, all errors, a figure, and the numbers
+/// that the baseline guards. Errors without a claim are only recorded. If a level fails, or lacks
+/// an error that others have, the study fails.
 #[derive(Debug, Clone)]
 pub struct ErrorsOverLevels<F> {
     pub(crate) header: Header,
@@ -63,9 +65,10 @@ pub struct ErrorsOverLevels<F> {
 
 /// A study of the errors that a function computes on each level of refinement.
 ///
-/// * `counts`: what distinguishes the levels, such as the number of cells in one direction: coarse to fine.
-/// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The step is 1/count,
-///   unless `solve` returns it with the errors under one of the names [`STEPS`].
+/// * `counts`: what distinguishes the levels, such as the number of cells in one direction: coarse
+///   to fine.
+/// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The
+///   step is 1/count, unless `solve` returns it with the errors under one of the names [`STEPS`].
 ///
 /// ```
 /// // The midpoint rule for the integral of exp over (0, 1).
@@ -100,7 +103,8 @@ impl<F> ErrorsOverLevels<F> {
         Self { header, ..self }
     }
 
-    /// The same study with a word for the counts, such as `cells`, and the refined quantity, which names the step in figures.
+    /// The same study with a word for the counts, such as `cells`, and the refined quantity, which
+    /// names the step in figures.
     pub fn counting(self, counted: impl Into<String>, axis: Axis) -> Self {
         Self {
             counted: counted.into(),
@@ -109,7 +113,8 @@ impl<F> ErrorsOverLevels<F> {
         }
     }
 
-    /// The same study with a claim: the error of this name falls like `step^order`, within [`DEFAULT_TOLERANCE`].
+    /// The same study with a claim: the error of this name falls like `step^order`, within
+    /// [`DEFAULT_TOLERANCE`].
     pub fn claim(self, error: impl Into<String>, order: f64) -> Self {
         self.claiming(error, Claim::new(order, DEFAULT_TOLERANCE))
     }
@@ -213,7 +218,7 @@ where
             );
             checks.push(Check {
                 verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, evidence)
+                ..Check::that(false, claim, evidence).about(Subject::of("claims"))
             });
         }
         levels.outcome("errors", None, "Errors over levels of refinement.", checks)

@@ -1,9 +1,10 @@
-//! Studies described by files: the kinds that a project knows, what a kind reads, the table `[study]` of every file,
-//! and the claims of files about an error: `order = 2` or `order = ">= 2"`, optionally with `constant = [0.9, 1.1]`.
+//! Studies described by files: the kinds that a project knows, what a kind reads, the table
+//! `[study]` of every file, and the claims of files about an error: `order = 2` or
+//! `order = ">= 2"`, optionally with `constant = [0.9, 1.1]`.
 
 use std::path::{Path, PathBuf};
 
-use super::header::{DEFAULT_KIND, Header, NAME, Tier, is_name};
+use super::header::{DEFAULT_KIND, Exercised, Header, NAME, Tier, is_name};
 use super::kind::{Described, Kind, Study, erased};
 use super::levels::Claim;
 use crate::input::{self, Field, InputError, Section};
@@ -37,6 +38,9 @@ pub struct KindRow {
     pub judged: &'static str,
     /// What a failure would mean.
     pub failure: &'static str,
+    /// The settings that an item of such a study exercises: by these a diagnosis separates failing
+    /// from passing items.
+    pub settings: Exercised,
 }
 
 /// A study file, read once.
@@ -125,7 +129,8 @@ pub trait FromFile: Kind + Sized {
         folder: &Path,
     ) -> Result<Self, InputError>;
 
-    /// Reads a study from `text`; messages name `file`, and other files are searched for next to it.
+    /// Reads a study from `text`; messages name `file`, and other files are searched for next to
+    /// it.
     fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         Ok(Described::parse(text, file)?.kind)
     }
@@ -210,7 +215,8 @@ fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
     }
 }
 
-/// The claim of a table, with the default tolerance: each kind decides which claims its studies allow.
+/// The claim of a table, with the default tolerance: each kind decides which claims its studies
+/// allow.
 ///
 /// * `key`: the key of the order, or of a number written in the same way.
 ///

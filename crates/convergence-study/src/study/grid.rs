@@ -1,14 +1,18 @@
-//! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in one way.
+//! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in
+//! one way.
 
 use super::levels::{Claim, summary};
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, Outcome};
+use super::subject::Subject;
 use crate::judge::grid::{Adding, GridErrors};
 use crate::judge::verdict::Verdict;
 #[cfg(feature = "reports")]
-use crate::plots;
+use crate::plots::{self, ErrorSeries, xy::Xy};
 use crate::text::number::plain_text;
+#[cfg(feature = "reports")]
+use crate::text::number::{order_text, short_text};
 
 /// Root mean square misfit in log e up to which contributions are considered to add.
 const MISFIT: f64 = 0.1;
@@ -24,7 +28,8 @@ pub struct GridColumn {
     pub space: Claim,
     /// The order in dt.
     pub time: f64,
-    /// The errors, for each point of the grid; NaN without a result: the fit then uses the others, and a check fails.
+    /// The errors, for each point of the grid; NaN without a result: the fit then uses the others,
+    /// and a check fails.
     pub errors: Vec<f64>,
 }
 
@@ -37,21 +42,22 @@ pub struct Grid {
     pub times: usize,
     /// The errors.
     pub columns: Vec<GridColumn>,
-    /// Whether theory says that the squares of the contributions of space and time add, which are then orthogonal; otherwise it is
-    /// not known, and they or their squares are taken to add, whichever describes the errors better.
+    /// Whether theory says that the squares of the contributions of space and time add, which are
+    /// then orthogonal; otherwise it is not known, and they or their squares are taken to add,
+    /// whichever describes the errors better.
     pub squares_add: bool,
 }
 
 impl Grid {
-    /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by [`judge::grid`](crate::judge::grid); for each error a check
-    /// of how the contributions add.
+    /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
+    /// [`judge::grid`](crate::judge::grid); for each error a check of how the contributions add.
     pub fn judge(&self) -> Outcome {
         let [h, dt] = self.steps();
         if let Some(different) = self.off_grid(&h, &dt) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
             let check = Check {
                 verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, different)
+                ..Check::that(false, claim, different).about(Subject::of("steps"))
             };
             return Outcome::new("", vec![], vec![check]);
         }
@@ -88,12 +94,15 @@ impl Grid {
                 })),
                 // Readers of study files have already refused such a tolerance.
                 Err(error) => {
-                    checks.extend(names.map(|name| Check::that(false, name, error.to_string())))
+                    checks.extend(names.map(|name| {
+                        let subject = Subject::of(&name);
+                        Check::that(false, name, error.to_string()).about(subject)
+                    }));
                 }
             }
             checks.push(self.judge_model(&column.name, misfits));
         }
-        Outcome::new(summary(&rates), rates, checks)
+        Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
     }
 
     /// The points without a result.
@@ -141,41 +150,18 @@ impl Grid {
     }
 
     #[cfg(feature = "reports")]
-    /// Each error over the grid, as a picture `surface-<name>.svg`.
+    /// Each error over the mesh width, with a line for each time step, as a picture
+    /// `over-h-<name>.svg`.
     ///
-    /// * `what`: the meaning of an error's name, such as `norm`.
-    pub fn figures(&self, what: &str) -> Vec<Figure> {
-        let widths: Vec<f64> = self
-            .points
-            .iter()
-            .step_by(self.times.max(1))
-            .map(|[h, _]| *h)
-            .collect();
-        let steps: Vec<f64> = self
-            .points
-            .iter()
-            .take(self.times)
-            .map(|[_, dt]| *dt)
-            .collect();
+    /// * `label`: an error, by its name, as the vertical axis shows it.
+    pub fn figures(&self, label: impl Fn(&str) -> String) -> Vec<Figure> {
         let figure = |column: &GridColumn| {
-            let at = |k: usize, j: usize| {
-                column
-                    .errors
-                    .get(j * self.times + k)
-                    .copied()
-                    .unwrap_or(f64::NAN)
+            let xy = Xy {
+                title: Some("Errors fall with h until the error of dt is left".to_owned()),
+                y: plots::Axis::log(label(&column.name)),
+                ..Xy::of_errors("mesh width h")
             };
-            let svg = plots::surface(&plots::Surface {
-                x: plots::Axis::log("mesh width h"),
-                y: plots::Axis::log("time step dt"),
-                z: plots::Axis::log(format!("error, {}", column.name)),
-                x_values: widths.clone(),
-                y_values: steps.clone(),
-                values: (0..steps.len())
-                    .map(|k| (0..widths.len()).map(|j| at(k, j)).collect())
-                    .collect(),
-                ..plots::Surface::default()
-            });
+            let lines: Vec<ErrorSeries> = (0..self.times).map(|k| self.line(column, k)).collect();
             let plain = |c: char| {
                 if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') {
                     c
@@ -185,21 +171,39 @@ impl Grid {
             };
             let name: String = column.name.chars().map(plain).collect();
             let caption = format!(
-                "Error in the {what} `{}` over mesh width and time step.",
-                column.name
+                "Error `{}` over the mesh width, with a line for each time step: of order {} (triangle) where the error \
+                 of the time step is small.",
+                column.name,
+                order_text(column.space.order)
             );
-            Figure::new(&format!("surface-{name}"), caption, svg)
+            let svg = plots::convergence(xy, &lines, &[column.space.order]);
+            Figure::new(&format!("over-h-{name}"), caption, svg)
         };
         self.columns.iter().map(figure).collect()
+    }
+
+    /// The errors at the k-th time step of each mesh.
+    #[cfg(feature = "reports")]
+    fn line(&self, column: &GridColumn, k: usize) -> ErrorSeries {
+        let points = self.points.iter().zip(&column.errors);
+        let of_step = points.skip(k).step_by(self.times.max(1));
+        let dt = self.points.get(k).map_or(f64::NAN, |[_, dt]| *dt);
+        ErrorSeries {
+            label: format!("dt = {}", short_text(dt)),
+            points: of_step.map(|([h, _], error)| (*h, *error)).collect(),
+            ..ErrorSeries::default()
+        }
     }
 
     fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
         let evidence = format!(
             "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"
         );
+        let subject = Subject::of("sum of errors").in_case(name);
         if self.squares_add {
-            let claim = format!("{name}: the squares of space and time error add");
-            return Check::that(squares < plain && squares <= MISFIT, claim, evidence);
+            let claim = "the squares of space and time error add";
+            let holds = squares < plain && squares <= MISFIT;
+            return Check::that(holds, claim, evidence).about(subject);
         }
         // Nobody claimed it: if it does not hold, the orders are unknown.
         let verdict = if plain.min(squares) <= MISFIT {
@@ -211,9 +215,10 @@ impl Grid {
             verdict,
             ..Check::that(
                 false,
-                format!("{name}: the errors of space and time add, or their squares"),
+                "the errors of space and time add, or their squares",
                 evidence,
             )
+            .about(subject)
         }
     }
 }

@@ -1,5 +1,7 @@
-//! The table `[study]`, which every kind of study file has; and the settings that a judged item exercises, pairs of text by which a
-//! diagnosis separates failing from passing items.
+//! The table `[study]`, which every kind of study file has; and the settings that a judged item
+//! exercises, pairs of text by which a diagnosis separates failing from passing items.
+
+use super::subject::Subject;
 
 /// The kind of a study whose file has no `kind`.
 pub(super) const DEFAULT_KIND: &str = "convergence";
@@ -46,8 +48,9 @@ pub struct Header {
     /// The group under which reports list the study, by the property claimed; by default the kind.
     #[serde(default)]
     pub group: String,
-    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of `input::Section::settings`: the
-    /// baseline keeps them, so that no claim changes unnoticed. Empty for a study without a file.
+    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of
+    /// `input::Section::settings`: the baseline keeps them, so that no claim changes unnoticed.
+    /// Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
 }
@@ -55,7 +58,8 @@ pub struct Header {
 impl Header {
     /// The header of a study without a file: of the quick tier, of the kind `convergence`.
     ///
-    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part of file names.
+    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part
+    ///   of file names.
     /// * `claim`: one line of text.
     pub fn new(id: impl Into<String>, claim: impl Into<String>) -> Self {
         Self {
@@ -81,32 +85,12 @@ pub fn is_name(text: &str) -> bool {
         && text.chars().all(|c| plain(c) || c == '.' || c == '-')
 }
 
-/// A setting: its key, and its value in words that can stand alone, such as `axis` and `refined in space`.
+/// A setting: its key, and its value in words that can stand alone, such as `axis` and
+/// `refined in space`.
 pub type Setting = (String, String);
 
-/// The field or norm of a judged item: its name without the level, and without the case before a colon.
-///
-/// * `item`: the name of a rate, the claim of a check, or the name of a guarded number.
-pub fn field(item: &str) -> String {
-    let item = ["error ", "rate "]
-        .iter()
-        .fold(item, |item, kind| item.strip_prefix(kind).unwrap_or(item));
-    let item = item.rsplit_once(": ").map_or(item, |(_, rest)| rest);
-    let is_level = |part: &&str| {
-        let is_set = part
-            .split_once(" = ")
-            .is_some_and(|(name, _)| !name.contains(' '));
-        // The second argument of `u(1, 1)` is no level.
-        let is_number = part.starts_with(|c: char| c.is_ascii_digit()) && !part.ends_with(')');
-        is_set || is_number || *part == "finest level"
-    };
-    let parts: Vec<&str> = item.split(", ").filter(|part| !is_level(part)).collect();
-    if parts.is_empty() {
-        item.to_owned()
-    } else {
-        parts.join(", ")
-    }
-}
+/// The settings that an item exercises, by the header of its study and what it is about.
+pub type Exercised = fn(&Header, &Subject) -> Vec<Setting>;
 
 /// The setting that only the items of one study share.
 pub const STUDY: &str = "study";
@@ -116,15 +100,16 @@ pub fn study(header: &Header) -> Setting {
     (STUDY.to_owned(), format!("{} alone", header.id))
 }
 
-/// The settings of an item that exist in any project: study, kind, field, and every value of the study's file.
+/// The settings of an item that exist in any project: study, kind, field, and every value of the
+/// study's file.
 ///
-/// * `item`: as for [`field`].
-pub fn of_file(header: &Header, item: &str) -> Vec<Setting> {
+/// * `subject`: what the item is about; its quantity is known.
+pub fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
     let told = |path: &str| !path.starts_with("study.") && !path.contains('[');
     let own = [
         study(header),
-        pair("field", &field(item)),
+        pair("field", &subject.quantity),
         pair("kind", &header.kind),
     ];
     // Each entry of a list, such as the words of a command, is a separate setting.
@@ -144,26 +129,4 @@ pub fn of_file(header: &Header, item: &str) -> Vec<Setting> {
         .filter(|(path, _)| told(path))
         .flat_map(entries);
     own.into_iter().chain(of_file).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::field;
-
-    #[test]
-    fn the_field_of_an_item_has_neither_level_nor_case() {
-        for (item, expected) in [
-            ("error shear, n = 8, 128 steps", "shear"),
-            ("rate p = 1, fields", "fields"),
-            (
-                "error mean, successive, n = 16, 800 steps",
-                "mean, successive",
-            ),
-            ("case-1: u(1) at t = 1", "u(1) at t = 1"),
-            ("error u(1, 1), n = 8", "u(1, 1)"),
-            ("n = 8", "n = 8"),
-        ] {
-            assert_eq!(field(item), expected);
-        }
-    }
 }

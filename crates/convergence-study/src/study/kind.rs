@@ -1,9 +1,12 @@
-//! A kind of study: typed for its author, erased for the runner; its computations, and the result of each or the reason why it is missing.
+//! A kind of study: typed for its author, erased for the runner; its computations, and the result
+//! of each or the reason why it is missing.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use super::coverage::{Coverage, NO_RESULT};
 use super::header::Header;
 use super::outcome::{Check, Origin, Outcome};
+use super::subject::Subject;
 use crate::text::lists::{and_more, grouped};
 
 /// One computation of a study.
@@ -11,7 +14,8 @@ use crate::text::lists::{and_more, grouped};
 pub struct Case<D> {
     /// What distinguishes it from the study's other cases, such as `n = 64, 20 steps`.
     pub label: String,
-    /// Estimate of the work, in a unit common to all studies of a project: the runner starts with the costliest case.
+    /// Estimate of the work, in a unit common to all studies of a project: the runner starts with
+    /// the costliest case.
     pub cost: f64,
     /// The input of the computation.
     pub data: D,
@@ -44,12 +48,14 @@ impl<D, F> Ran<D, F> {
     }
 }
 
-/// Why a case has no result: an error of the computation, a panic caught by the runner, or the time limit.
+/// Why a case has no result: an error of the computation, a panic caught by the runner, or the time
+/// limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseFailure {
     /// In words, with step, time and numbers.
     pub reason: String,
-    /// What to do about it, which a study says once, with its first case that has any; may be empty.
+    /// What to do about it, which a study says once, with its first case that has any; may be
+    /// empty.
     pub advice: String,
 }
 
@@ -84,7 +90,8 @@ pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
     failures.into_iter().enumerate().map(reason).collect()
 }
 
-/// Cases without a result in words, `label: reason`; those with the same reason share one line, which counts them.
+/// Cases without a result in words, `label: reason`; those with the same reason share one line,
+/// which counts them.
 ///
 /// * `failed`: label and reason of each.
 pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
@@ -97,7 +104,8 @@ pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>
 
 /// A study of one kind, read and validated: its cases, how to compute one, how to judge all.
 ///
-/// A case is a pure function of its data, so the study has the same outcome for any number of threads.
+/// A case is a pure function of its data, so the study has the same outcome for any number of
+/// threads.
 pub trait Kind: Send + Sync {
     /// The input of a case.
     type Data: Clone + Send + Sync;
@@ -107,8 +115,8 @@ pub trait Kind: Send + Sync {
     /// The computations, in the order in which they are judged.
     fn cases(&self) -> Vec<Case<Self::Data>>;
 
-    /// Another case after all earlier ones have run, such as a finer level while the rates decide nothing; called
-    /// repeatedly until it returns `None`.
+    /// Another case after all earlier ones have run, such as a finer level while the rates decide
+    /// nothing; called repeatedly until it returns `None`.
     ///
     /// * `ran`: all results so far, in the order of the cases.
     fn more(&self, _ran: &[Ran<Self::Data, Self::Found>]) -> Option<Case<Self::Data>> {
@@ -118,20 +126,14 @@ pub trait Kind: Send + Sync {
     /// Computes one case: the same result on every thread, at every time.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Why a result counts as a failed case although part of it is kept: a required number is missing. `None` for a complete one.
+    /// Why a result counts as a failed case although part of it counts: a required number is
+    /// missing. `None` for a complete one.
     fn failure(&self, _found: &Self::Found) -> Option<CaseFailure> {
         None
     }
 
-    /// Whether a result was not computed but kept from an earlier run.
-    fn is_kept(&self, _found: &Self::Found) -> bool {
-        false
-    }
-
-    /// From now on every case is computed, ignoring results kept from earlier runs.
-    fn compute_anew(&mut self) {}
-
-    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must show in the outcome.
+    /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must
+    /// show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
     /// What this study does, for `explain`: paragraphs, each with its title.
@@ -139,7 +141,8 @@ pub trait Kind: Send + Sync {
         vec![]
     }
 
-    /// What a passing study fails to test, found by trial; only `study` requests it, because it may take longer than the study.
+    /// What a passing study fails to test, found by trial; only `study` requests it, because it may
+    /// take longer than the study.
     fn untested(&self) -> Vec<Untested> {
         vec![]
     }
@@ -167,8 +170,18 @@ pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
     ran
 }
 
-/// The claim of the check of [`completion`].
-pub(crate) const COMPLETION: &str = "every case completes, with finite numbers";
+/// Judges the results of a study, and counts its cases in addition to what its kind counts.
+///
+/// * `ran`: one result for each case, in the order of [`Kind::cases`].
+pub fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
+    // A result counts as a failed case where part of it is missing.
+    let is_complete = |found: &K::Found| kind.failure(found).is_none();
+    let left_out = |ran: &Ran<_, _>| (!ran.ok().is_some_and(is_complete)).then_some(NO_RESULT);
+    let mut outcome = kind.judge(ran);
+    let cases = Coverage::of("cases", ran.iter().map(left_out));
+    outcome.coverage.push(cases);
+    outcome
+}
 
 /// Number of reasons that a check of completion lists.
 const SHOWN: usize = 8;
@@ -210,9 +223,10 @@ pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String
     }
     Check::that(
         complaints.is_empty() && !ran.is_empty(),
-        COMPLETION,
+        "every case completes, with finite numbers",
         evidence,
     )
+    .about(Subject::of("completion"))
     .stated_by(Origin::Completion)
 }
 
@@ -229,9 +243,6 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
-
-    /// From now on every case is computed, ignoring results kept from earlier runs.
-    fn compute_anew(&mut self);
 }
 
 /// The cases of a study while they are run.
@@ -239,7 +250,8 @@ pub trait Plan: Send + Sync {
     /// Label and cost of each case.
     fn cases(&self) -> Vec<Case<()>>;
 
-    /// Adds the case that [`Kind::more`] requests after all others have run; its number, or `None` if there are enough.
+    /// Adds the case that [`Kind::more`] requests after all others have run; its number, or `None`
+    /// if there are enough.
     fn more(&self) -> Option<usize>;
 
     /// Runs case number `index` and keeps its result.
@@ -250,9 +262,6 @@ pub trait Plan: Send + Sync {
 
     /// Why case number `index` has no result; `None` if it has one.
     fn failure(&self, index: usize) -> Option<CaseFailure>;
-
-    /// Whether the result of case number `index` was kept from an earlier run.
-    fn is_kept(&self, index: usize) -> bool;
 
     /// Judges the results after each case has run.
     fn judge(&self) -> Outcome;
@@ -303,10 +312,6 @@ impl<K: Kind> Study for Described<K> {
 
     fn untested(&self) -> Vec<Untested> {
         self.kind.untested()
-    }
-
-    fn compute_anew(&mut self) {
-        self.kind.compute_anew();
     }
 }
 
@@ -359,14 +364,8 @@ impl<K: Kind> Plan for Typed<'_, K> {
         }
     }
 
-    fn is_kept(&self, index: usize) -> bool {
-        self.ran()[index]
-            .ok()
-            .is_some_and(|found| self.kind.is_kept(found))
-    }
-
     fn judge(&self) -> Outcome {
-        self.kind.judge(&self.ran())
+        judge(self.kind, &self.ran())
     }
 }
 

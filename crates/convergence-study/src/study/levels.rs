@@ -1,4 +1,5 @@
-//! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all kinds of study.
+//! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
+//! kinds of study.
 
 #[cfg(feature = "reports")]
 use std::ops::Range;
@@ -6,6 +7,7 @@ use std::ops::Range;
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
+use super::subject::{Sort, Subject};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
@@ -20,8 +22,8 @@ use crate::text::number::{
 #[cfg(feature = "reports")]
 const LINES: &str = " Lines: the rates observed, each through the finest error that it uses.";
 
-/// Relative change of an error that the baseline tolerates: another processor or mathematical library changes it by at
-/// most 1e-8, a change of the computation by more.
+/// Relative change of an error that the baseline tolerates: another processor or mathematical
+/// library changes it by at most 1e-8, a change of the computation by more.
 pub const ERROR_TOLERANCE: f64 = 1e-6;
 
 /// The same for an observed rate.
@@ -51,6 +53,16 @@ impl Axis {
         }
     }
 
+    /// The step that is refined, in a title.
+    #[cfg(feature = "reports")]
+    fn symbol(self) -> &'static str {
+        match self {
+            Axis::Space => "h",
+            Axis::Time => "dt",
+            Axis::Both => "h and dt",
+        }
+    }
+
     /// The step that is refined, as the label of an axis of a figure.
     pub fn label(self) -> &'static str {
         match self {
@@ -66,6 +78,8 @@ impl Axis {
 pub struct ErrorColumn {
     /// Its name: a norm, a quantity.
     pub name: String,
+    /// Its notation in the legends of figures; `None`: its name.
+    pub symbol: Option<String>,
     /// As measured; `None` without a result: the case failed, or found no such error.
     pub errors: Vec<Option<f64>>,
     /// The claim about it, if there is one.
@@ -75,7 +89,8 @@ pub struct ErrorColumn {
 }
 
 impl ErrorColumn {
-    /// A column for every error claimed or found: claimed ones first, then the others in order of occurrence.
+    /// A column for every error claimed or found: claimed ones first, then the others in order of
+    /// occurrence.
     ///
     /// * `found`: the errors of each level by name, coarse to fine; `None` if the case failed.
     pub fn of<N: AsRef<str>, M: AsRef<str>>(
@@ -101,6 +116,7 @@ impl ErrorColumn {
         };
         let column = |(look, name): (usize, &str)| Self {
             name: name.to_owned(),
+            symbol: None,
             errors: found.iter().map(|errors| error(errors, name)).collect(),
             claim: claims
                 .iter()
@@ -147,8 +163,11 @@ pub struct Levels {
     pub refinements: Vec<Refinement>,
     /// The errors.
     pub columns: Vec<ErrorColumn>,
-    /// Fine levels with errors up to this one are not used: a thousand times the round-off, where that is known.
+    /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
+    /// that is known.
     pub floor: f64,
+    /// What errors are about, by their names, where that is more than the name.
+    pub subjects: Vec<(String, Subject)>,
 }
 
 /// Rates that were judged, each with the name of its error.
@@ -170,6 +189,7 @@ impl Levels {
             refinements,
             columns,
             floor: 0.0,
+            subjects: vec![],
         }
     }
 
@@ -178,6 +198,16 @@ impl Levels {
     /// * `floor`: finite, at least 0.
     pub fn with_floor(self, floor: f64) -> Self {
         Self { floor, ..self }
+    }
+
+    /// The same where errors of these names are about more than their names.
+    pub fn with_subjects(self, subjects: Vec<(String, Subject)>) -> Self {
+        Self { subjects, ..self }
+    }
+
+    fn subject(&self, name: &str) -> Subject {
+        let known = self.subjects.iter().find(|(of, _)| of == name);
+        known.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
     }
 
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
@@ -217,7 +247,8 @@ impl Levels {
             .collect()
     }
 
-    /// One verdict for each error with a claimed order. A level without a result makes it fail; the rate is that of the others.
+    /// One verdict for each error with a claimed order. A level without a result makes it fail; the
+    /// rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
         let labels: Vec<&str> = self
             .refinements
@@ -232,7 +263,8 @@ impl Levels {
         let verdict = |column: &ErrorColumn| {
             let claim = column.claim?;
             let points = self.points(column);
-            // No verdict can be based on such a tolerance; readers of study files have already refused it.
+            // No verdict can be based on such a tolerance; readers of study files have already
+            // refused it.
             let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
             let judged = judge.map(|judge| claim.judge(&judge, &points));
             let judged =
@@ -257,13 +289,16 @@ impl Levels {
     }
 
     #[cfg(feature = "reports")]
-    /// The judged errors, each with the line of its rate if that is known, and triangles for the orders claimed.
+    /// The judged errors, each with the line of its rate if that is known, and triangles for the
+    /// orders claimed.
     ///
-    /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there are any.
+    /// * `subject`: what has these errors, for the title, which says what one should see.
+    /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there
+    ///   are any.
     pub fn figure(
         &self,
         what: &str,
-        title: Option<String>,
+        subject: Option<String>,
         caption: String,
         rates: &Rates,
     ) -> Figure {
@@ -275,7 +310,7 @@ impl Levels {
             let points = self.points(column);
             let rate = rates.iter().find(|(name, _)| *name == column.name);
             ErrorSeries {
-                label: column.name.clone(),
+                label: column.symbol.clone().unwrap_or(column.name.clone()),
                 fit: rate.and_then(|(_, rate)| rate.power_law()),
                 interval: rate.and_then(|(_, rate)| rate.interval),
                 points: points
@@ -300,8 +335,16 @@ impl Levels {
         } else {
             format!(" No result: {}.", without.join("; "))
         };
+        let step = self.axis.symbol();
+        let seen = match subject {
+            Some(subject) => format!("{subject}: errors fall with {step} as the triangles do"),
+            None => format!("Errors fall with {step} as the triangles do"),
+        };
+        let has_triangle = series
+            .iter()
+            .any(|series| series.order.is_some_and(|order| order > 0.0));
         let xy = Xy {
-            title,
+            title: has_triangle.then_some(seen),
             notes,
             ..Xy::of_errors(self.axis.label())
         };
@@ -319,27 +362,34 @@ impl Levels {
             ..column.clone()
         };
         let refinements = self.refinements.iter().take(levels).cloned();
-        Self::new(self.axis, refinements, self.columns.iter().map(column)).with_floor(self.floor)
+        Self::new(self.axis, refinements, self.columns.iter().map(column))
+            .with_floor(self.floor)
+            .with_subjects(self.subjects.clone())
     }
 
-    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and the figure `what`.
+    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and
+    /// the figure `what`.
+    ///
+    /// * `subject`, `caption`: as in [`figure`](Self::figure).
     pub fn outcome(
         &self,
         what: &str,
-        title: Option<&str>,
+        subject: Option<&str>,
         caption: &str,
         checks: Vec<Check>,
     ) -> Outcome {
         let rates = self.judge();
         #[cfg(feature = "reports")]
-        let figure = Some(self.figure(what, title.map(str::to_owned), caption.to_owned(), &rates));
+        let figure =
+            Some(self.figure(what, subject.map(str::to_owned), caption.to_owned(), &rates));
         #[cfg(not(feature = "reports"))]
-        let (figure, _) = (None, (what, title, caption));
+        let (figure, _) = (None, (what, subject, caption));
         Outcome {
             levels: self.errors(),
             figures: figure.into_iter().collect(),
             quantities: self.quantities(&rates),
-            ..Outcome::new(summary(&rates), rates, checks)
+            rate_subjects: self.subjects.clone(),
+            ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
         }
     }
 
@@ -370,10 +420,13 @@ impl Levels {
             let name = |column: &ErrorColumn| format!("error {}, {}", column.name, level.label);
             let quantity = move |column| {
                 Quantity::new(name(column), number(&column.errors, i), ERROR_TOLERANCE)
+                    .about(self.subject(&column.name).at(&level.label))
+                    .of_sort(Sort::Error)
             };
             self.columns.iter().map(quantity)
         });
-        rate_quantities(rates).chain(errors).collect()
+        let subject = |name: &str| self.subject(name);
+        rate_quantities(rates, subject).chain(errors).collect()
     }
 }
 
@@ -395,17 +448,20 @@ fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
 }
 
 /// The observed rates, as numbers that the baseline guards.
-pub fn rate_quantities(rates: &Rates) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(|(name, rate)| {
-        Some(Quantity::new(
-            format!("rate {name}"),
-            rate.fitted?,
-            RATE_TOLERANCE,
-        ))
+///
+/// * `subject`: what the rate of that name is about.
+pub fn rate_quantities(
+    rates: &Rates,
+    subject: impl Fn(&str) -> Subject,
+) -> impl Iterator<Item = Quantity> {
+    rates.iter().filter_map(move |(name, rate)| {
+        let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
+        Some(guarded.about(subject(name)).of_sort(Sort::Rate))
     })
 }
 
-/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide nothing.
+/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
+/// nothing.
 pub fn rate_table(title: &str, rates: &Rates) -> Table {
     let row = |(name, rate): &(String, RateVerdict)| {
         let pairwise: Vec<String> = rate
@@ -448,7 +504,8 @@ fn rate_in(rate: &RateVerdict) -> String {
     }
 }
 
-/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with its reason.
+/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with
+/// its reason.
 pub fn summary(rates: &Rates) -> String {
     let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
     let shown = rates
@@ -485,6 +542,7 @@ mod tests {
             let claim = Some(Claim::new(2.0, tolerance));
             let column = ErrorColumn {
                 name: "L2".into(),
+                symbol: None,
                 errors,
                 claim,
                 look: 0,
@@ -530,6 +588,7 @@ mod tests {
             refinements,
             [ErrorColumn {
                 name: "L2".into(),
+                symbol: None,
                 errors,
                 claim,
                 look: 0,

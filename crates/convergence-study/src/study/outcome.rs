@@ -1,10 +1,13 @@
 //! The findings of a study: studies of every kind reach record, baseline and report in this form.
 //!
-//! Requirements on every outcome, whatever the kind of study: its verdict is not better than those of its rates and checks, nothing
-//! passes on numbers that are not finite, and names used as keys by record, baseline and report are unique.
+//! Requirements on every outcome, whatever the kind of study: its verdict is not better than those
+//! of its rates and checks, nothing passes on numbers that are not finite, and names used as keys
+//! by record, baseline and report are unique.
 
 use std::collections::HashSet;
 
+use super::coverage::{self, Coverage};
+use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::json;
@@ -16,6 +19,10 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// The verdict in a sentence.
     pub summary: String,
+    /// What the summary says after the rates, if these sum up the study; `None` if it is in the
+    /// study's own words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after_rates: Option<String>,
     /// The numbers to read first, in a few words; empty if the rates are the claim.
     #[serde(default)]
     pub headline: String,
@@ -24,8 +31,14 @@ pub struct Outcome {
     /// Judged rates, each with its norm.
     #[serde(with = "rates")]
     pub rates: Vec<(String, RateVerdict)>,
+    /// What rates are about, by their names, where that is more than the name.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rate_subjects: Vec<(String, Subject)>,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
+    /// How many items of each sort were judged, and why not the others; empty in older records.
+    #[serde(default)]
+    pub coverage: Vec<Coverage>,
     /// Tables of the report.
     #[serde(default)]
     pub tables: Vec<Table>,
@@ -96,8 +109,11 @@ pub enum Origin {
 /// Something judged.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Check {
-    /// The claim.
+    /// The claim, without its case.
     pub claim: String,
+    /// What it is about; unknown in older records, whose claims begin with the case.
+    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    pub subject: Subject,
     /// The outcome.
     pub verdict: Verdict,
     /// The evidence, with numbers.
@@ -105,6 +121,9 @@ pub struct Check {
     /// Whose statement it is; [`Origin::Own`] in records that do not say.
     #[serde(default)]
     pub origin: Origin,
+    /// Ids of the other studies that do not pass, where it judges those.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_studies: Vec<String>,
 }
 
 impl Check {
@@ -114,9 +133,30 @@ impl Check {
         Self {
             claim: claim.into(),
             verdict,
+            subject: Subject::default(),
             evidence: evidence.into(),
             origin: Origin::Own,
+            other_studies: vec![],
         }
+    }
+
+    /// The same about a subject.
+    #[must_use]
+    pub fn about(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    /// The claim as it is printed: after its case, if it has one.
+    pub fn statement(&self) -> String {
+        match &self.subject.case {
+            Some(case) => format!("{case}: {}", self.claim),
+            None => self.claim.clone(),
+        }
+    }
+
+    /// What it is about; the claim stands in for a quantity that is not known.
+    pub fn quantity(&self) -> &str {
+        self.subject.quantity_or(&self.claim)
     }
 
     /// The same as somebody's statement.
@@ -156,7 +196,8 @@ impl Table {
 /// A picture.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Figure {
-    /// File name without folder: `<what>.svg`, and `<id>-<what>.svg` once the study's outcome is settled.
+    /// File name without folder: `<what>.svg`, and `<id>-<what>.svg` once the study's outcome is
+    /// settled.
     pub file: String,
     /// What the figure shows, in a sentence: caption and alternative text.
     pub caption: String,
@@ -181,6 +222,12 @@ impl Figure {
 pub struct Quantity {
     /// Name, unique within the study.
     pub name: String,
+    /// What it is about; unknown in older records.
+    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    pub subject: Subject,
+    /// Whether it is an error, a rate or another number.
+    #[serde(default)]
+    pub sort: Sort,
     /// Value.
     #[serde(deserialize_with = "json::nan")]
     pub value: f64,
@@ -190,13 +237,30 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// A number about the quantity of its name.
+    ///
     /// * `tolerance`: relative change tolerated.
     pub fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
+        let name = name.into();
         Self {
-            name: name.into(),
+            subject: Subject::of(&name),
+            name,
+            sort: Sort::Value,
             value,
             tolerance,
         }
+    }
+
+    /// The same about a subject.
+    #[must_use]
+    pub fn about(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    /// The same as an error or a rate.
+    #[must_use]
+    pub fn of_sort(self, sort: Sort) -> Self {
+        Self { sort, ..self }
     }
 }
 
@@ -255,6 +319,12 @@ mod rates {
 }
 
 impl Outcome {
+    /// What a rate is about: by default the error of its name.
+    pub fn subject_of_rate(&self, name: &str) -> Subject {
+        let known = self.rate_subjects.iter().find(|(of, _)| of == name);
+        known.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
+    }
+
     /// The errors of that name over their steps; NaN on a level without one.
     pub fn levels_of(&self, name: &str) -> Vec<Level> {
         let level = |level: &LevelErrors| Level {
@@ -277,13 +347,33 @@ impl Outcome {
         Self {
             verdict: Verdict::worst(verdicts),
             summary: summary.into(),
+            after_rates: None,
             headline: String::new(),
             levels: vec![],
             rates,
+            rate_subjects: vec![],
             checks,
+            coverage: vec![],
             tables: vec![],
             figures: vec![],
             quantities: vec![],
+        }
+    }
+
+    /// The same, whose summary is that of its rates and these words.
+    #[must_use]
+    pub fn summed_up_by_rates(self, more: impl Into<String>) -> Self {
+        Self {
+            after_rates: Some(more.into()),
+            ..self
+        }
+    }
+
+    /// Says more in the summary.
+    pub(super) fn add_to_summary(&mut self, words: &str) {
+        self.summary = joined(&self.summary, words);
+        if let Some(more) = &mut self.after_rates {
+            *more = joined(more, words);
         }
     }
 
@@ -292,7 +382,9 @@ impl Outcome {
         self.verdict = Verdict::worst([self.verdict, part.verdict]);
         self.levels.extend(part.levels);
         self.rates.extend(part.rates);
+        self.rate_subjects.extend(part.rate_subjects);
         self.checks.extend(part.checks);
+        coverage::merge(&mut self.coverage, part.coverage);
         self.tables.extend(part.tables);
         self.figures.extend(part.figures);
         self.quantities.extend(part.quantities);
@@ -338,7 +430,9 @@ impl Outcome {
     }
 }
 
-/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a failing check if it does not meet the requirements.
+/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
+/// failing check if it does not meet the requirements. Its summary says how many items were not
+/// judged, if any.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     outcome
         .figures
@@ -346,29 +440,36 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
         .for_each(|figure| figure.file = format!("{id}-{}", figure.file));
     let defects = defects(id, &outcome);
     if !defects.is_empty() {
-        outcome.checks.push(Check::that(
-            false,
-            "the outcome of the study is sound",
-            defects.join("; "),
-        ));
+        outcome.checks.push(
+            Check::that(
+                false,
+                "the outcome of the study is sound",
+                defects.join("; "),
+            )
+            .about(Subject::of("outcome")),
+        );
     }
     let claimed = outcome.verdict;
     let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
     let parts = Verdict::worst(rates.chain(outcome.checks.iter().map(|check| check.verdict)));
     outcome.verdict = parts.max(claimed);
     if outcome.rates.is_empty() && outcome.checks.is_empty() {
-        outcome.summary = joined(&outcome.summary, "nothing was judged");
+        outcome.add_to_summary("nothing was judged");
     } else if outcome.verdict != claimed {
-        outcome.summary = joined(&outcome.summary, "but a rate or a check does not pass");
+        outcome.add_to_summary("but a rate or a check does not pass");
+    }
+    for left_out in coverage::incomplete(&outcome.coverage) {
+        outcome.add_to_summary(&left_out);
     }
     outcome
 }
 
-pub(super) fn joined(summary: &str, more: &str) -> String {
-    if summary.is_empty() {
-        more.to_owned()
-    } else {
-        format!("{summary}; {more}")
+/// Two parts of a summary; either may be empty.
+pub(crate) fn joined(summary: &str, more: &str) -> String {
+    match (summary, more) {
+        ("", more) => more.to_owned(),
+        (summary, "") => summary.to_owned(),
+        (summary, more) => format!("{summary}; {more}"),
     }
 }
 
@@ -408,6 +509,15 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
             "the figure `{}` is not called {id}-<what>.svg",
             figure.file
         ));
+    }
+    defects.extend(twice(
+        "the count of",
+        outcome.coverage.iter().map(|coverage| &coverage.items),
+    ));
+    for coverage in &outcome.coverage {
+        if !coverage.adds_up() {
+            defects.push(format!("the counts of `{}` do not add up", coverage.items));
+        }
     }
     for table in &outcome.tables {
         if table.rows.iter().any(|row| row.len() != table.head.len()) {
@@ -512,12 +622,25 @@ mod tests {
     }
 
     #[test]
-    fn every_defect_of_an_outcome_fails_and_is_named() {
-        let quantity = |value| Quantity {
-            name: "q".into(),
-            value,
-            tolerance: 0.1,
+    fn a_summary_says_how_many_items_were_not_judged() {
+        let summary = |reasons: &[Option<&str>]| {
+            let coverage = vec![Coverage::of("points", reasons.iter().copied())];
+            let outcome = Outcome {
+                coverage,
+                ..passing()
+            };
+            settle("id", outcome).summary
         };
+        assert_eq!(
+            summary(&[None, Some("short")]),
+            "fine; 1 of 2 points judged; 1 not: short"
+        );
+        assert_eq!(summary(&[None, None]), "fine");
+    }
+
+    #[test]
+    fn every_defect_of_an_outcome_fails_and_is_named() {
+        let quantity = |value| Quantity::new("q", value, 0.1);
         refused(
             Outcome {
                 quantities: vec![quantity(1.0), quantity(2.0)],
@@ -550,6 +673,15 @@ mod tests {
                 ..passing()
             },
             "ragged",
+        );
+        let mut twice_judged = Coverage::of("points", [None, Some("short")]);
+        twice_judged.judged = 2;
+        refused(
+            Outcome {
+                coverage: vec![twice_judged],
+                ..passing()
+            },
+            "the counts of `points` do not add up",
         );
         let mut nan = passing();
         nan.rates[0].1.fitted = Some(f64::NAN);

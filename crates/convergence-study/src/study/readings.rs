@@ -1,7 +1,18 @@
-//! Numbers that a case finds, each declared once: shown in tables, checked for NaN, guarded by the baseline.
+//! Numbers that a case finds, each declared once: shown in tables, checked for NaN, guarded by the
+//! baseline.
 
 use super::outcome::{Quantity, Table};
+use super::subject::Subject;
 use crate::text::lists::distinct;
+
+/// How the baseline guards a number.
+#[derive(Debug, Clone, PartialEq)]
+struct Guard {
+    name: String,
+    subject: Subject,
+    /// Relative change tolerated.
+    tolerance: f64,
+}
 
 /// A number that a case finds.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +24,7 @@ pub struct Reading {
     /// Its text in a table; `None` if no table shows it.
     text: Option<String>,
     /// The name under which the baseline guards it, and the relative change tolerated.
-    guard: Option<(String, f64)>,
+    guard: Option<Guard>,
 }
 
 impl Reading {
@@ -57,10 +68,45 @@ impl Reading {
     ///
     /// * `tolerance`: relative change tolerated.
     pub fn guarded(self, name: impl Into<String>, tolerance: f64) -> Self {
+        let name = name.into();
+        let guard = Guard {
+            subject: Subject::of(&name),
+            name,
+            tolerance,
+        };
         Self {
-            guard: Some((name.into(), tolerance)),
+            guard: Some(guard),
             ..self
         }
+    }
+
+    /// The same number, guarded as this quantity of a case, under the name `case: quantity`.
+    ///
+    /// * `tolerance`: relative change tolerated.
+    pub fn guarded_in(
+        self,
+        case: impl Into<String>,
+        quantity: impl Into<String>,
+        tolerance: f64,
+    ) -> Self {
+        let (case, quantity) = (case.into(), quantity.into());
+        let guard = Guard {
+            name: format!("{case}: {quantity}"),
+            subject: Subject::of(quantity).in_case(case),
+            tolerance,
+        };
+        Self {
+            guard: Some(guard),
+            ..self
+        }
+    }
+
+    /// The guarded number is about this subject.
+    pub fn about(mut self, subject: Subject) -> Self {
+        if let Some(guard) = &mut self.guard {
+            guard.subject = subject;
+        }
+        self
     }
 }
 
@@ -75,12 +121,13 @@ pub fn not_finite(readings: &[Reading]) -> Vec<String> {
 /// The readings that the baseline guards; one without a value is NaN.
 pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quantity> {
     let quantity = |reading: &Reading| {
-        let (name, tolerance) = reading.guard.clone()?;
-        Some(Quantity {
+        let Guard {
             name,
-            value: reading.value.unwrap_or(f64::NAN),
+            subject,
             tolerance,
-        })
+        } = reading.guard.clone()?;
+        let value = reading.value.unwrap_or(f64::NAN);
+        Some(Quantity::new(name, value, tolerance).about(subject))
     };
     readings.into_iter().filter_map(quantity).collect()
 }

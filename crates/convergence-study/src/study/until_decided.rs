@@ -1,14 +1,15 @@
-//! Levels until there is a decision: a study begins with four and adds the next finer one while its rates decide
-//! nothing, another level can help, and its cost fits the budget.
+//! Levels until there is a decision: a study begins with four and adds the next finer one while its
+//! rates decide nothing, another level can help, and its cost fits the budget.
 //!
-//! Looking again causes few wrong passes: the rule stands by its interval at every look, and a wrong claim fails at one
-//! of them. `rule-calibration` has a row that measures this. A limit on the number of levels keeps it so.
+//! Looking again causes few wrong passes: the rule stands by its interval at every look, and a
+//! wrong claim fails at one of them. `rule-calibration` has a row that measures this. A limit on
+//! the number of levels keeps it so.
 
 #[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
 use crate::study::levels::{Levels, Rates};
-use crate::study::outcome::{Outcome, joined};
+use crate::study::outcome::Outcome;
 
 /// Levels at the first look, each twice as fine as the previous one.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
@@ -53,7 +54,8 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     }
 }
 
-/// The same with time as cost: the next level takes longer by the same factor as the last one did, and by at least two.
+/// The same with time as cost: the next level takes longer by the same factor as the last one did,
+/// and by at least two.
 ///
 /// * `seconds`: time of each level; at least two.
 pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
@@ -69,8 +71,8 @@ pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
     )
 }
 
-/// The outcome of a study that adds levels: it says how the study ended, and guards only its first levels, because
-/// another machine may afford others.
+/// The outcome of a study that adds levels: it says how the study ended, and guards only its first
+/// levels, because another machine may afford others.
 pub fn ended(
     mut outcome: Outcome,
     next: Next,
@@ -79,16 +81,12 @@ pub fn ended(
     unit: &str,
 ) -> Outcome {
     let words = in_words(next, levels, &outcome.rates, budget, unit);
-    outcome.summary = joined(&outcome.summary, &words);
-    let first: Vec<String> = levels
-        .refinements
-        .iter()
-        .take(FIRST.len())
-        .map(|level| format!(", {}", level.label))
-        .collect();
+    outcome.add_to_summary(&words);
+    let first = &levels.refinements[..levels.refinements.len().min(FIRST.len())];
+    let is_of_first = |level: &String| first.iter().any(|first| first.label == *level);
     outcome
         .quantities
-        .retain(|quantity| first.iter().any(|label| quantity.name.ends_with(label)));
+        .retain(|quantity| quantity.subject.level.as_ref().is_some_and(is_of_first));
     outcome
 }
 
@@ -155,7 +153,8 @@ pub fn is_auto(field: &Field<'_>) -> bool {
 /// * `allowed`: what a budget may be, in words.
 ///
 /// # Errors
-/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`, or a budget without it.
+/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`,
+/// or a budget without it.
 #[cfg(feature = "files")]
 pub fn budget(
     section: &Section<'_>,

@@ -49,7 +49,8 @@ fn every_reading_of_a_pure_power_is_its_order() {
 
 #[test]
 fn the_interval_of_a_line_is_that_of_the_textbook() {
-    // log2 h = -1, -2, -3, -4 and log2 e = -1, -2.1, -2.9, -4: slope 0.98, rss 0.018, s² = 0.009, Σ(x - mean)² = 5.
+    // log2 h = -1, -2, -3, -4 and log2 e = -1, -2.1, -2.9, -4: slope 0.98, rss 0.018, s² = 0.009,
+    // Σ(x - mean)² = 5.
     let data: Vec<Level> = [-1.0, -2.1, -2.9, -4.0_f64]
         .iter()
         .zip(1..)
@@ -127,13 +128,15 @@ fn pairwise_rates_keep_what_is_not_finite() {
 
 #[test]
 fn the_range_is_what_its_three_rules_leave() {
-    // Rates 1.75, 1.5, 1.0, 1.0, all exact: the first differs by 0.75 from the finest, the second by 0.5.
+    // Rates 1.75, 1.5, 1.0, 1.0, all exact: the first differs by 0.75 from the finest, the second
+    // by 0.5.
     let data = with_log2(&[0.0, -1.75, -3.25, -4.25, -5.25]);
     assert_eq!(asymptotic_range(&data, 0.0), 1..5);
     // A level counts while its error is above, not at, the floor.
     assert_eq!(asymptotic_range(&data, data[4].error * (1.0 - 1e-12)), 1..5);
     assert_eq!(asymptotic_range(&data, data[4].error), 1..4);
-    // Only the finest levels are dropped for the floor: one that dips down to it and recovers counts.
+    // Only the finest levels are dropped for the floor: one that dips down to it and recovers
+    // counts.
     let dip = with_log2(&[0.0, -1.0, -30.0, -3.0]);
     assert_eq!(asymptotic_range(&dip, 1e-10).end, 4);
     // The five finest of those above the floor.

@@ -1,4 +1,5 @@
-//! Lines and candidates compared with multiple linear regression over the same columns, by a general library.
+//! Lines and candidates compared with multiple linear regression over the same columns, by a
+//! general library.
 
 use convergence_study::judge::fit::{
     FACTOR, FACTOR_OF_THREE, Level, POLLUTION_EXPONENTS, fit_line, rate_interval, student_t,
@@ -100,7 +101,8 @@ fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     (rate, pollution, [rate - half_width, rate + half_width])
 }
 
-/// Errors of order 1.4 with pollution of either sign and scatter of some percent, on the first `m` of the steps.
+/// Errors of order 1.4 with pollution of either sign and scatter of some percent, on the first `m`
+/// of the steps.
 fn data(steps: &[f64], m: usize, case: usize) -> Vec<Level> {
     let pollution = [0.0, 0.5, -0.4][case % 3];
     let scatter = [1e-5, 1e-3, 0.03][case / 3];
@@ -197,7 +199,8 @@ fn models_are_those_of_multiple_regression() {
     );
 }
 
-/// e = h: every model gives 1 with no residual, so that only the round-off of the logarithms remains.
+/// e = h: every model gives 1 with no residual, so that only the round-off of the logarithms
+/// remains.
 #[test]
 fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
     for (m, unit) in [(3, 5.0), (3, 1e-9), (4, 5.0), (6, 1.0), (6, 1e-9)] {

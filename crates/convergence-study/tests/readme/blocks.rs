@@ -31,7 +31,7 @@ pub(crate) fn printed(page: &str) -> Vec<Printed> {
                 command = text
                     .lines()
                     .rfind(|line| !line.starts_with('#'))
-                    .map(str::to_owned)
+                    .map(str::to_owned);
             }
             "text" => all.push(Printed {
                 command: command

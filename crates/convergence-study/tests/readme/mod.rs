@@ -1,4 +1,5 @@
-//! The README of the harness shows what the program prints: each command before a block of output is run.
+//! The README of the harness shows what the program prints: each command before a block of output
+//! is run.
 
 mod blocks;
 
@@ -14,7 +15,8 @@ use convergence_study::study::{Header, LevelErrors, Outcome};
 
 const README: &str = include_str!("../../README.md");
 
-/// A study with errors `L2`, claimed to be of order 2, and `H1`, of order 1, for n = 8, 16, ...; NaN: no such error.
+/// A study with errors `L2`, claimed to be of order 2, and `H1`, of order 1, for n = 8, 16, ...;
+/// NaN: no such error.
 fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f64) -> Finished {
     let counts: Vec<f64> = (0..levels)
         .map(|k| 8.0 * f64::powi(2.0, k as i32))
@@ -59,7 +61,8 @@ fn smooth(constant: f64, order: f64) -> impl Fn(f64) -> f64 {
     move |h: f64| constant * h.powf(order) * (1.0 + 0.3 * h)
 }
 
-/// Two records: the new one has a larger error, a lost order, and lacks an error on the finest level.
+/// Two records: the new one has a larger error, a lost order, and lacks an error on the finest
+/// level.
 fn records() -> [Record; 2] {
     let coarse = |h: f64| {
         if h < 1.0 / 200.0 {

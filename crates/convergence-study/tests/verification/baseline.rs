@@ -196,11 +196,8 @@ fn a_number_that_no_run_can_meet_is_not_blessed() {
         (1.0, f64::INFINITY),
     ] {
         let mut run = run(vec![fake("a", Does::Converge)]);
-        run[0].outcome.quantities.push(Quantity {
-            name: "odd".into(),
-            value,
-            tolerance,
-        });
+        let odd = Quantity::new("odd", value, tolerance);
+        run[0].outcome.quantities.push(odd);
         let refused = Baseline::default().bless(&run, None, None).unwrap_err();
         assert!(
             refused

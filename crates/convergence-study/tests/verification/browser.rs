@@ -73,7 +73,8 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
     let page =
         page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
     std::fs::write(&file, page).expect("a file");
-    // On a busy machine the browser may give up before the page has finished: so there are several attempts.
+    // On a busy machine the browser may give up before the page has finished: so there are several
+    // attempts.
     let said =
         (0..3).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
     assert_eq!(said.as_deref(), Some("RIGHT"));

@@ -32,7 +32,8 @@ pub(crate) enum Does {
     Fail,
     /// First order, but the second case panics.
     Panic,
-    /// First order, but the second case runs until its time limit stops it, and then returns its error regardless.
+    /// First order, but the second case runs until its time limit stops it, and then returns its
+    /// error regardless.
     Dawdle,
     /// Judging the results panics.
     PanicAtTheEnd,
@@ -136,11 +137,7 @@ impl Kind for Fake {
             without: vec![],
         };
         let finest = *errors.last().unwrap();
-        let quantity = Quantity {
-            name: self.quantity.to_owned(),
-            value: finest,
-            tolerance: self.tolerance,
-        };
+        let quantity = Quantity::new(self.quantity, finest, self.tolerance);
         let table = Table {
             title: "Two | three".into(),
             head: vec!["a|b".into()],

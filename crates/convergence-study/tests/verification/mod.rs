@@ -1,4 +1,5 @@
-//! From studies to reports: runner, baseline, record, report and its files, with studies of a prescribed behaviour.
+//! From studies to reports: runner, baseline, record, report and its files, with studies of a
+//! prescribed behaviour.
 
 mod baseline;
 mod browser;
@@ -9,4 +10,5 @@ mod page;
 mod record;
 mod report;
 mod runner;
+mod texts;
 mod whole;

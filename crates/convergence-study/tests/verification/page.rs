@@ -211,13 +211,16 @@ fn of_many_studies_that_fail_three_are_unfolded() {
 #[test]
 fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record() {
     let front = Front {
-        verified: "Errors fall.",
-        plot: "a-errors.svg",
+        subject: "A rod.",
+        picture: "a-errors.svg",
+        finding: "It is not as printed.",
         statements: &[
             ("First order", "a", "velocity"),
             ("All checks", "a", ""),
             ("Elsewhere", "gone", ""),
         ],
+        plot: "a-errors.svg",
+        verified: "Errors fall.",
     };
     let project = Project { front, ..PROJECT };
     let page = |does: Does, verdict: Verdict| {
@@ -237,10 +240,17 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
             .find(text)
             .unwrap_or_else(|| panic!("{text} in {passing}"))
     };
-    assert!(
-        place("Errors fall.") < place("](figures/a-errors.svg)")
-            && place("| First order") < place("## All studies")
-    );
+    let parts = [
+        "![A rod.](figures/a-errors.svg)",
+        "It is not as printed.",
+        "| First order",
+        "**[a](#a)**",
+        "![errors | h](figures/a-errors.svg)",
+        "Errors fall.",
+        "## All studies",
+    ];
+    let places = parts.map(place);
+    assert!(places.is_sorted(), "{places:?}");
     assert!(
         passing.contains("| rate 1.0000 ± 0.00005, claimed 1 ± 0.1 |")
             && !passing.contains("Elsewhere"),

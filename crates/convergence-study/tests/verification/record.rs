@@ -119,7 +119,8 @@ fn norms_keep_their_order() {
     assert!(at("z") < at("a") && at("a") < at("m"));
 }
 
-/// A report needs only a record and the pictures: made from a written record it is the same in every byte.
+/// A report needs only a record and the pictures: made from a written record it is the same in
+/// every byte.
 #[test]
 fn a_record_that_is_read_makes_the_same_report() {
     for does in [

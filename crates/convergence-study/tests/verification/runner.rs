@@ -192,7 +192,7 @@ fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
     let told = Mutex::new(Vec::new());
     let studies = vec![study("a", Does::Converge), study("b", Does::Panic)];
     run::run(&studies, jobs(1), &|progress| {
-        told.lock().unwrap().push(progress)
+        told.lock().unwrap().push(progress);
     })
     .unwrap();
     let told = told.into_inner().unwrap();

@@ -1,4 +1,5 @@
-//! `run SCENE --target-error E` and `--estimate-error`: a run chosen by its error, and the error of a run.
+//! `run SCENE --target-error E` and `--estimate-error`: a run chosen by its error, and the error of
+//! a run.
 
 use clap::ValueEnum;
 use convergence_study::cli::{exit, running};
@@ -39,8 +40,6 @@ pub(super) fn target(text: &str) -> Result<f64, String> {
 pub(crate) struct Planned {
     quantity: choice::Quantity,
     target: f64,
-    /// The value of `time.scheme` of the scene.
-    scheme: &'static str,
     choice: Choice,
     spent: Cost,
 }
@@ -89,7 +88,6 @@ pub(super) fn plan(
     Ok(Planned {
         quantity,
         target,
-        scheme: scene.method.name(),
         choice: choice?,
         spent,
     })
@@ -117,18 +115,6 @@ pub(super) struct Object<'a> {
     search_work: f64,
     search_runs: usize,
     search_seconds: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    own_scheme: Option<OwnScheme>,
-}
-
-/// The needs of the scene's own scheme.
-#[derive(Debug, Serialize)]
-struct OwnScheme {
-    scheme: &'static str,
-    elements: f64,
-    steps: f64,
-    node_steps: f64,
-    seconds: f64,
 }
 
 impl Planned {
@@ -142,7 +128,6 @@ impl Planned {
             scene,
             parts: [space_error, time_error],
             run,
-            needed,
             ..
         } = &self.choice;
         let is_dg = scene.method.dg().is_some();
@@ -158,13 +143,6 @@ impl Planned {
             search_work: self.spent.work,
             search_runs: self.spent.runs,
             search_seconds: self.spent.seconds,
-            own_scheme: needed.map(|needed| OwnScheme {
-                scheme: self.scheme,
-                elements: needed.at[0],
-                steps: needed.at[1],
-                node_steps: needed.node_steps(),
-                seconds: needed.seconds,
-            }),
         }
     }
 
@@ -176,10 +154,8 @@ impl Planned {
             parts_by,
             error,
             run,
-            needed,
             is_kept,
         } = &self.choice;
-        let line = |name, value: String, meaning: &str| (name, value, meaning.to_owned());
         let why = if *is_kept {
             "the scene's own, as --keep-scheme asks for"
         } else {
@@ -209,35 +185,7 @@ impl Planned {
             line("scheme", scene.method.name().to_owned(), why),
         ];
         if let Some(stepping) = scene.method.dg() {
-            let nodes: Vec<String> = scene
-                .mesh
-                .nodes()
-                .iter()
-                .map(|x| format!("{x:.4}"))
-                .collect();
-            lines.push(line(
-                "growth",
-                format!("{:.4}", stepping.growth),
-                "of the steps after a contact event",
-            ));
-            let between = format!("between x = {}", nodes.join(", "));
-            lines.push(line(
-                "elements",
-                scene.mesh.elements().to_string(),
-                &between,
-            ));
-        }
-        if let Some(needed) = needed {
-            let [elements, steps] = needed.at;
-            let meaning = format!(
-                "node-steps by {}: {elements:.0} elements, {steps:.1e} steps, about {:.1e} s",
-                self.scheme, needed.seconds
-            );
-            lines.push(line(
-                "instead of",
-                format!("{:.0e}", needed.node_steps()),
-                &meaning,
-            ));
+            lines.extend(lines_of_dg(scene, stepping.growth));
         }
         let ratio = self.spent.work / run.work;
         let meaning = format!(
@@ -251,4 +199,31 @@ impl Planned {
         ));
         lines
     }
+}
+
+fn line(name: &'static str, value: String, meaning: &str) -> Line {
+    (name, value, meaning.to_owned())
+}
+
+/// What a run by dG has that one-step schemes have not.
+fn lines_of_dg(scene: &Scene, growth: f64) -> [Line; 2] {
+    let nodes: Vec<String> = scene
+        .mesh
+        .nodes()
+        .iter()
+        .map(|x| format!("{x:.4}"))
+        .collect();
+    let elements = scene.mesh.elements().to_string();
+    [
+        line(
+            "growth",
+            format!("{growth:.4}"),
+            "of the steps after a contact event",
+        ),
+        line(
+            "elements",
+            elements,
+            &format!("between x = {}", nodes.join(", ")),
+        ),
+    ]
 }

@@ -5,7 +5,7 @@ use super::{Folder, ended, thermobeam};
 const SWING: &str = "[beam]\na = 0\n[initial]\nu_t = \"0.1*x\"\n[time]\nt_end = 1\ndt = 0.1";
 
 #[test]
-fn an_accuracy_asked_for_is_told_with_its_method_and_what_the_scenes_own_would_need() {
+fn a_target_error_is_met_and_reported_with_method_parts_and_cost() {
     let folder = Folder::new();
     let scene = folder.file("swing.toml", SWING);
     let with = |arguments: &[&str]| ended(thermobeam().arg("run").arg(&scene).args(arguments));
@@ -28,39 +28,19 @@ fn an_accuracy_asked_for_is_told_with_its_method_and_what_the_scenes_own_would_n
             && (1e-9..=1e-5).contains(&number(accuracy, "believed_error"))
     );
     assert!(number(accuracy, "search_work") > number(accuracy, "unknown_solves"));
-    let own = &accuracy["own_scheme"];
-    assert_eq!(own["scheme"], "euler-crank-nicolson");
-    assert!(
-        number(own, "node_steps") > 1e5 && number(own, "seconds") > 0.0,
-        "{own}"
-    );
 
     let kept = object(&["--target-error", "1e-3", "--keep-scheme"]);
     let accuracy = &kept["accuracy"];
     assert_eq!(kept["scheme"], "euler-crank-nicolson");
-    assert!(
-        accuracy.get("own_scheme").is_none()
-            && (1e-4..=1e-3).contains(&number(accuracy, "believed_error"))
-    );
+    assert!((1e-4..=1e-3).contains(&number(accuracy, "believed_error")));
     assert_eq!(
         number(accuracy, "node_steps"),
         number(&kept, "elements") * number(&kept, "steps")
     );
-    let gone = ["pilot_node_steps", "pilot_seconds", "confidence"];
-    assert!(
-        gone.iter().all(|key| accuracy.get(key).is_none()),
-        "{accuracy}"
-    );
 
     let text = with(&["--target-error", "1e-2", "--quantity", "theorem-3.4"]);
     assert_eq!(text.status, Some(0));
-    for piece in [
-        "target",
-        "estimated",
-        "Theorem 3.4",
-        "the cheapest",
-        "node-steps by euler-crank-nicolson",
-    ] {
+    for piece in ["target", "estimated", "Theorem 3.4", "the cheapest"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
 }
@@ -136,7 +116,8 @@ fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
     }
 }
 
-/// Scenes whose steps are far from solved, and what is found: an open balance by the midpoint rule, a rise by dG.
+/// Scenes whose steps are far from solved, and what is found: an open balance by the midpoint rule,
+/// a rise by dG.
 pub(super) const UNSOLVED: [(&str, &str); 2] = [
     (
         "[beam]\nrho = 5000.0\n[initial]\nu_t = \"x\"\n[mesh]\nelements = 5\n[time]\nscheme = \"midpoint\"\nt_end = 10.0\n\

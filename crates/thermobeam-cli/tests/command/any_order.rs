@@ -2,7 +2,8 @@
 
 use super::{Folder, ended, keys, run_json, thermobeam};
 
-/// The paper's first experiment at β = 0 over [0, 0.5], with the given lines in `[mesh]` and `[time]`.
+/// The paper's first experiment at β = 0 over [0, 0.5], with the given lines in `[mesh]` and
+/// `[time]`.
 pub(crate) fn thrown(mesh: &str, time: &str) -> String {
     format!(
         "[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\

@@ -153,7 +153,8 @@ fn a_diverging_iteration_keeps_what_was_done() {
 #[test]
 fn a_number_that_is_none_is_null() {
     let folder = Folder::new();
-    // Fails in the first step: there is no largest increase of the energy, and no second increment to compare.
+    // Fails in the first step: there is no largest increase of the energy, and no second increment
+    // to compare.
     let scene = folder.file(
         "short.toml",
         &thrown("dt = 0.1\nsolver = \"fixed-point\"\nmax_iterations = 1"),

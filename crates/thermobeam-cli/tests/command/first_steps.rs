@@ -106,7 +106,15 @@ fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
 
 #[test]
 fn studies_norms_reasons_and_files_are_explained() {
-    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    let folder = Folder::new();
+    let studies = folder.path("studies");
+    let of_repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    std::fs::create_dir_all(studies.join("scenes")).expect("a folder");
+    let scenes = std::fs::read_dir(of_repository.join("scenes")).expect("scenes");
+    let scenes = scenes.map(|scene| Path::new("scenes").join(scene.expect("a scene").file_name()));
+    for name in scenes.chain(["theorem-3.4-space.toml", "energy-decay.toml"].map(Into::into)) {
+        std::fs::copy(of_repository.join(&name), studies.join(&name)).expect("a copy");
+    }
     let explain = |name: &str| ended(thermobeam().args(["explain", name, "--dir"]).arg(&studies));
     let study = explain("theorem-3.4-space");
     assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));

@@ -12,7 +12,8 @@ use thermobeam_cli::{GROUPS, Thermobeam, project};
 use super::workspace::{quick, workspace};
 use super::{Ended, Folder, ended, thermobeam, thrown};
 
-/// Each command with arguments that work in [`place`], its exit status there, and the file that `--out out` produces.
+/// Each command with arguments that work in [`place`], its exit status there, and the file that
+/// `--out out` produces.
 const COMMANDS: [(&[&str], i32, &str); 13] = [
     // Every number is new.
     (&["verify"], 1, "results.json"),
@@ -35,8 +36,8 @@ const COMMANDS: [(&[&str], i32, &str); 13] = [
     (&["manufacture", "heat.toml"], 0, "manufacture.json"),
 ];
 
-/// Commands missing from [`COMMANDS`]: a script for a shell; times, which take minutes; the help.
-const OTHERS: [&str; 3] = ["completions", "bench", "help"];
+/// Commands missing from [`COMMANDS`]: a script for a shell; the help.
+const OTHERS: [&str; 2] = ["completions", "help"];
 
 fn place(folder: &Folder) -> PathBuf {
     let root = workspace(folder, "w", &[("short", quick("short"))]);
@@ -111,7 +112,8 @@ fn every_json_has_a_schema_and_the_verdict_and_every_out_its_file() {
             object["schema"].as_u64().is_some_and(|schema| schema >= 1),
             "{arguments:?}: {stdout}"
         );
-        // The list contains a study that never ran; for all other commands verdict and exit status agree.
+        // The list contains a study that never ran; for all other commands verdict and exit status
+        // agree.
         let verdict = match (arguments[0], status) {
             ("list", _) => "inconclusive",
             (_, 0) => "pass",
@@ -159,7 +161,8 @@ fn quiet_leaves_the_verdict_and_what_went_wrong() {
             "{arguments:?}: {}",
             quiet.stderr
         );
-        // The verdict comes last if it passes and first if it fails, so that the cause is read at once.
+        // The verdict comes last if it passes and first if it fails, so that the cause is read at
+        // once.
         let line = if status == 0 {
             quiet.stdout.lines().last()
         } else {

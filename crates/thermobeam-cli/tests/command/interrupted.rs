@@ -12,7 +12,8 @@ use super::{Ended, Folder, ended, thermobeam, thrown};
 /// Starts a program, interrupts it like Ctrl-C while it is at work, and waits for its end.
 ///
 /// * `command`: the same for every attempt.
-/// * `is_at_work`: whether it had begun when it was interrupted; if not, it is started again and interrupted later.
+/// * `is_at_work`: whether it had begun when it was interrupted; if not, it is started again and
+///   interrupted later.
 fn interrupted(command: impl Fn() -> Command, is_at_work: impl Fn(&Ended) -> bool) -> Ended {
     let mut after = Duration::from_millis(250);
     loop {

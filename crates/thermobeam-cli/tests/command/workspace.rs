@@ -56,7 +56,8 @@ pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
 /// Files below a folder with their bytes, except those with machine and time.
 pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = all(reports);
-    // A run killed while testing the folder leaves an empty file outside the set, which the next run removes.
+    // A run killed while testing the folder leaves an empty file outside the set, which the next
+    // run removes.
     files.retain(|name, _| !name.starts_with("local/") && !name.starts_with(".probe."));
     for (_, page) in files
         .iter_mut()

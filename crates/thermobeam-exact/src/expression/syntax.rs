@@ -86,16 +86,6 @@ pub(super) const FUNCTIONS: [(&str, Function); 16] = [
     ("max", Function::Max),
 ];
 
-impl Function {
-    /// Number of arguments.
-    pub(super) fn arguments(self) -> usize {
-        match self {
-            Function::Min | Function::Max => 2,
-            _ => 1,
-        }
-    }
-}
-
 /// A node of the syntax tree. Subtrees without the variable are constants.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Node {
@@ -170,12 +160,13 @@ impl Node {
         }
     }
 
-    /// Appends the numbers at `x` whose signs select branches: arguments of `abs`, differences of those of `min` and `max`.
+    /// Appends the numbers at `x` whose signs select branches: arguments of `abs`, differences of
+    /// those of `min` and `max`.
     pub(super) fn push_branches(&self, x: f64, branches: &mut Vec<f64>) {
         match self {
             Node::Constant(_) | Node::Variable => (),
             Node::Negate(operand) | Node::ConstantPower(operand, _) => {
-                operand.push_branches(x, branches)
+                operand.push_branches(x, branches);
             }
             Node::Call1(function, argument) => {
                 if *function == Function::Abs {
@@ -208,8 +199,9 @@ fn operate<D: Number>(operator: Operator, left: D, right: D) -> D {
 
 /// x^n with its derivatives n x^(n-1) and n (n-1) x^(n-2).
 ///
-/// `powf` is exact for integer n whenever the result is representable, also for negative x, and 0^0 = 1. A term with a
-/// zero factor is zero, although the power in it is infinite at x = 0 for n = 0 or 1.
+/// `powf` is exact for integer n whenever the result is representable, also for negative x, and
+/// 0^0 = 1. A term with a zero factor is zero, although the power in it is infinite at x = 0 for
+/// n = 0 or 1.
 fn constant_power<D: Number>(base: D, n: f64) -> D {
     let x = base.value();
     let term = |factor: f64, exponent: f64| {
@@ -262,7 +254,8 @@ fn call<D: Number>(function: Function, argument: D) -> D {
     }
 }
 
-/// The smaller or the larger of two numbers; NaN if either is NaN, which `f64::min` and `f64::max` would drop.
+/// The smaller or the larger of two numbers; NaN if either is NaN, which `f64::min` and `f64::max`
+/// would drop.
 fn choose<D: Number>(function: Function, left: D, right: D) -> D {
     let (a, b) = (left.value(), right.value());
     let take_left = a.is_nan()

@@ -1,7 +1,8 @@
 //! Free vibrations of the linear beam as exact solutions in the form of the manufactured ones.
 //!
-//! For a = β = ρ = 0 and no obstacles each damped mode solves (1.1) without any load, and so does `sin kπx e^{-κ²t}`, κ
-//! = kπ, as a temperature. Sums of such products work wherever manufactured solutions do; their loads are zero.
+//! For a = β = ρ = 0 and no obstacles each damped mode solves (1.1) without any load, and so does
+//! `sin kπx e^{-κ²t}`, κ = kπ, as a temperature. Sums of such products work wherever manufactured
+//! solutions do; their loads are zero.
 
 use std::f64::consts::PI;
 
@@ -9,7 +10,7 @@ use crate::exact::function::Factor;
 use crate::exact::solution::{Manufactured, Product};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, ParameterError};
-use thermobeam::vibration::{Mode, TimeFactor};
+use thermobeam_exact::vibration::{Mode, TimeFactor};
 
 /// The freely vibrating beam with viscosity ζ: all other terms are switched off.
 pub fn beam(zeta: f64) -> Beam {
@@ -22,7 +23,8 @@ pub fn beam(zeta: f64) -> Beam {
     }
 }
 
-/// The P1 function with the given values at the nodes of a mesh; its second derivative is 0 on each element.
+/// The P1 function with the given values at the nodes of a mesh; its second derivative is 0 on each
+/// element.
 pub(crate) fn piecewise_linear(mesh: &Mesh, values: Vec<f64>) -> Factor {
     let nodes = mesh.nodes().to_vec();
     Factor::new(move |x: f64| {
@@ -102,7 +104,8 @@ pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64
     });
 }
 
-/// The exact solution made of `modes`, each with its index from 0 and its tip displacement at t = 0, released at rest.
+/// The exact solution made of `modes`, each with its index from 0 and its tip displacement at t =
+/// 0, released at rest.
 ///
 /// # Errors
 /// [`ParameterError`] if ζ is negative or not finite.

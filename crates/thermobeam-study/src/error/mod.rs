@@ -1,18 +1,20 @@
-//! The error of a discrete level: in the norm of Theorem 3.4, to the interpolant (superclose), and at the tip.
+//! The errors of a discrete level: in the norm of Theorem 3.4, and at the tip.
 //!
-//! Against an exact solution, or against a run of any order ([`Traced`]), whose own error is negligible. The reference's mesh must
-//! contain the nodes of the measured mesh; a coarse P1 function is then P1 on the fine mesh, and all norms are exact.
+//! Against an exact solution, or against a run of any order ([`Polynomials`]), whose own error is
+//! negligible.
 
 pub mod free_vibration;
+pub mod polynomials;
 pub mod reference;
 
-use crate::error::reference::Traced;
+use crate::error::polynomials::{OfAnyOrder, OfLinear, Polynomials, missing};
+use crate::exact::any_order;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::norm::Norm;
 use crate::exact::solution::{Factors, Manufactured, Product};
 use crate::run::family::{Family, OnMesh};
 use convergence_study::study::CaseFailure;
-use thermobeam::mesh::Mesh;
+use thermobeam::dg;
 use thermobeam::solve::Level;
 
 /// What is measured.
@@ -20,26 +22,46 @@ use thermobeam::solve::Level;
 pub enum ErrorMeasure {
     /// The norm of (3.14).
     Theorem34,
-    /// The same norm of the distance to the nodal interpolant.
-    Superclose,
     /// |u_h(1) - u(1)|.
     Tip,
 }
 
 impl ErrorMeasure {
-    /// All measures, in the order of [`Evaluator::measure`].
-    pub const ALL: [ErrorMeasure; 3] = [
-        ErrorMeasure::Theorem34,
-        ErrorMeasure::Superclose,
-        ErrorMeasure::Tip,
-    ];
+    /// All measures.
+    pub const ALL: [ErrorMeasure; 2] = [ErrorMeasure::Theorem34, ErrorMeasure::Tip];
 
-    /// The name in files, reports and on the command line.
+    /// The name in files and tables.
     pub fn name(self) -> &'static str {
         match self {
             ErrorMeasure::Theorem34 => "theorem-3.4",
-            ErrorMeasure::Superclose => "superclose",
             ErrorMeasure::Tip => "tip",
+        }
+    }
+
+    /// The name in titles and on axes.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            ErrorMeasure::Theorem34 => "the norm of Theorem 3.4",
+            ErrorMeasure::Tip => "u(1, t)",
+        }
+    }
+}
+
+/// The errors of a level, or the largest over time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Errors {
+    /// In the norm of (3.14).
+    pub norm: f64,
+    /// |u_h(1) - u(1)|.
+    pub tip: f64,
+}
+
+impl Errors {
+    /// The error in a measure.
+    pub fn of(self, measure: ErrorMeasure) -> f64 {
+        match measure {
+            ErrorMeasure::Theorem34 => self.norm,
+            ErrorMeasure::Tip => self.tip,
         }
     }
 }
@@ -50,11 +72,7 @@ enum Answer<'a> {
         meter: Box<(ErrorMeter, Factors)>,
         tip: Vec<f64>,
     },
-    Computed {
-        reference: &'a Traced,
-        mesh: Mesh,
-    },
-    Tip(&'a [f64]),
+    Computed(OfLinear<'a>),
 }
 
 /// Measures the levels of one mesh.
@@ -63,77 +81,88 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Measures against `reference`, or against the family's exact solution if there is no reference.
+    /// Measures against `reference`, or against the family's exact solution if there is no
+    /// reference.
     ///
     /// # Errors
-    /// [`CaseFailure`] if there is neither, or if the reference's mesh does not contain the nodes.
+    /// [`CaseFailure`] if there is neither.
     pub fn new(
         family: &'a Family,
         on: &OnMesh<'_>,
-        reference: Option<&'a Traced>,
+        reference: Option<&'a Polynomials>,
     ) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
-        let answer = match (reference, family.exact()) {
-            (Some(reference), _) if !reference.mesh.elements().is_multiple_of(mesh.elements()) => {
-                return Err(CaseFailure::new(
-                    "the reference's number of elements is no multiple of this mesh's",
-                ));
+        if let Some(reference) = reference {
+            let answer = Answer::Computed(OfLinear::new(mesh.clone(), reference));
+            return Ok(Self { answer });
+        }
+        let exact = family.exact().ok_or_else(missing)?;
+        let mut meter = ErrorMeter::new(exact, mesh, false);
+        meter.lift(mesh, family.beam.theta_a);
+        let tip = |product: &Product| product.x.eval(1.0);
+        let answer = Answer::Exact {
+            exact,
+            meter: Box::new((meter, Factors::default())),
+            tip: exact.u.iter().map(tip).collect(),
+        };
+        Ok(Self { answer })
+    }
+
+    /// The errors of a level at time t, which is observation number `index` from 0.
+    pub fn measure(&mut self, level: &Level, index: usize, t: f64) -> Errors {
+        match &mut self.answer {
+            Answer::Exact { exact, meter, tip } => {
+                let (meter, factors) = &mut **meter;
+                factors.at(exact, t);
+                let norm = meter.measure(level, factors)[Norm::Theorem34];
+                let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
+                let tip = (level.u[level.u.len() - 1] - u).abs();
+                Errors { norm, tip }
             }
-            (Some(reference), _) => Answer::Computed {
-                reference,
-                mesh: mesh.clone(),
-            },
-            (None, Some(exact)) => {
-                let mut meter = ErrorMeter::new(exact, mesh, false);
-                meter.lift(mesh, family.beam.theta_a);
-                let tip = exact
-                    .u
-                    .iter()
-                    .map(|product: &Product| product.x.eval(1.0))
-                    .collect();
-                Answer::Exact {
-                    exact,
-                    meter: Box::new((meter, Factors::default())),
-                    tip,
-                }
-            }
-            (None, None) => {
-                return Err(CaseFailure::new(
-                    "there is nothing to measure the error against",
-                ));
+            Answer::Computed(meter) => meter.errors(level, index),
+        }
+    }
+}
+
+enum AnyOrderAnswer<'a> {
+    Exact(Box<any_order::ErrorMeter<'a>>),
+    Computed(OfAnyOrder<'a>),
+}
+
+/// Measures the levels of one space of any order.
+pub struct AnyOrderEvaluator<'a> {
+    answer: AnyOrderAnswer<'a>,
+}
+
+impl<'a> AnyOrderEvaluator<'a> {
+    /// Arguments as in [`Evaluator::new`].
+    ///
+    /// # Errors
+    /// [`CaseFailure`] if there is neither a reference nor an exact solution.
+    pub fn new(
+        family: &'a Family,
+        space: &'a dg::Space,
+        reference: Option<&'a Polynomials>,
+    ) -> Result<Self, CaseFailure> {
+        let answer = match reference {
+            Some(reference) => AnyOrderAnswer::Computed(OfAnyOrder::new(space, reference)),
+            None => {
+                let exact = family.exact().ok_or_else(missing)?;
+                let meter = any_order::ErrorMeter::new(exact, family.beam.theta_a, space);
+                AnyOrderAnswer::Exact(Box::new(meter))
             }
         };
         Ok(Self { answer })
     }
 
-    /// Measures only u(1), against its values at the times of observation.
-    pub(crate) fn of_tip(tip: &'a [f64]) -> Self {
-        Self {
-            answer: Answer::Tip(tip),
-        }
-    }
-
-    /// The three errors of a level at time t, which is observation number `index` from 0; NaN if not measured.
-    pub fn measure(&mut self, level: &Level, index: usize, t: f64) -> [f64; 3] {
-        let u_tip = level.u[level.u.len() - 1];
+    /// The errors of a level, which is observation number `index` from 0.
+    pub fn measure(&mut self, level: &dg::Level, index: usize) -> Errors {
         match &mut self.answer {
-            Answer::Tip(tip) => [f64::NAN, f64::NAN, (u_tip - tip[index]).abs()],
-            Answer::Exact { exact, meter, tip } => {
-                let (meter, factors) = &mut **meter;
-                factors.at(exact, t);
-                let errors = meter.measure(level, factors);
-                let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
-                [
-                    errors[Norm::Theorem34],
-                    errors[Norm::Superclose],
-                    (u_tip - u).abs(),
-                ]
-            }
-            Answer::Computed { reference, mesh } => {
-                let [full, nodal] = reference.errors_of(level, mesh, index);
-                let fine = &reference.levels[index];
-                [full, nodal, (u_tip - fine.u[fine.u.len() - 1]).abs()]
-            }
+            AnyOrderAnswer::Exact(meter) => Errors {
+                norm: meter.theorem_34(level),
+                tip: meter.tip(level),
+            },
+            AnyOrderAnswer::Computed(meter) => meter.errors(level, index),
         }
     }
 }

@@ -1,9 +1,9 @@
-//! A scene by dG(q), as a reference for one-step schemes: it is accurate to many digits, and its discretisation is different,
-//! so that it reveals a fault that all runs of one scheme share.
+//! A scene by dG(q), as a reference for one-step schemes: it is accurate to many digits, and its
+//! discretisation is different, so that it reveals a fault that all runs of one scheme share.
 //!
 //! * On one element of high degree: the solution of the equations themselves.
-//! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements of degree 1 are those of
-//!   (3.7)-(3.8), with the same initial data.
+//! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements
+//!   of degree 1 are those of (3.7)-(3.8), with the same initial data.
 
 use convergence_study::study::CaseFailure;
 use convergence_study::text::number::max_or_nan;
@@ -11,15 +11,17 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 
 use crate::exact::norm::TheoremSquares;
-use crate::run::driver::{map_fields, on_mesh};
 use crate::run::simulate::{Recording, Simulator};
+use crate::run::snapshot::{map_fields, on_mesh};
 use crate::scene::{Scene, resampled};
 
-/// Polynomials are kept as linear functions, on this many elements for each of the finest mesh compared. The interpolation
-/// error is orthogonal to that mesh's error in slopes, its square smaller by 16²: a 512th of the error.
+/// Polynomials are kept as linear functions, on this many elements for each of the finest mesh
+/// compared. The interpolation error is orthogonal to that mesh's error in slopes, its square
+/// smaller by 16²: a 512th of the error.
 pub(crate) const FINER: usize = 16;
 
-/// The mesh on which the polynomials of a scene are stored, for comparison with runs on at most `finest` elements.
+/// The mesh on which the polynomials of a scene are stored, for comparison with runs on at most
+/// `finest` elements.
 ///
 /// # Errors
 /// [`MeshError`] if its elements are too small.
@@ -30,7 +32,8 @@ pub fn fine_mesh(scene: &Scene, finest: usize) -> Result<Mesh, MeshError> {
 /// A run at equidistant times, stored as its values at the nodes of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// The mesh; if it is finer than the mesh of a run of any order, its linear functions represent the polynomials.
+    /// The mesh; if it is finer than the mesh of a run of any order, its linear functions represent
+    /// the polynomials.
     pub mesh: Mesh,
     /// At `t_end k / samples`, k = 1 ..., without the contact force.
     pub levels: Vec<Level>,
@@ -38,14 +41,16 @@ pub struct Traced {
     pub energies: Vec<f64>,
     /// Smallest and largest u(1) over all time levels.
     pub tip_range: [f64; 2],
-    /// Largest defect of the energy balance in a step of a fixed number of iterations; 0 for solved steps, whose defect is round-off.
+    /// Largest defect of the energy balance in a step of a fixed number of iterations; 0 for solved
+    /// steps, whose defect is round-off.
     pub energy_defect: f64,
 }
 
 impl Traced {
     /// Runs a scene over [0, t_end], by any method.
     ///
-    /// * `mesh`: where the values are stored; it contains the nodes of every mesh compared. For a one-step scheme its own mesh.
+    /// * `mesh`: where the values are stored; it contains the nodes of every mesh compared. For a
+    ///   one-step scheme its own mesh.
     /// * `samples`: times of comparison, each the end of a step.
     ///
     /// # Errors
@@ -62,8 +67,8 @@ impl Traced {
         let times: Vec<f64> = (1..=samples).map(time).collect();
         let (mut levels, mut energies) = (vec![], vec![]);
         let run = Simulator::new(scene)?.read_at(Recording::Summary, &times, |motion| {
-            levels.push(motion.on(&mesh));
-            energies.push(motion.at(motion.t()).energy);
+            levels.push(motion.snapshot().on(&mesh));
+            energies.push(motion.sample().energy);
         })?;
         let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
         let is_solved = scene.method.stopping().tolerance().is_some();
@@ -81,7 +86,8 @@ impl Traced {
         })
     }
 
-    /// The largest distance between two references over their times, in the norm of Theorem 3.4; NaN if not comparable.
+    /// The largest distance between two references over their times, in the norm of Theorem 3.4;
+    /// NaN if not comparable.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.mesh != other.mesh
             || self.levels.len() != other.levels.len()
@@ -96,8 +102,9 @@ impl Traced {
             .fold(0.0, max_or_nan)
     }
 
-    /// Distances in the norm of Theorem 3.4 between a level of a coarser mesh, whose nodes are nodes here, and the level at time `k`
-    /// (from 0): as functions, since a coarse P1 function is also one on the fine mesh, and at the nodes of the coarser mesh.
+    /// Distances in the norm of Theorem 3.4 between a level of a coarser mesh, whose nodes are
+    /// nodes here, and the level at time `k` (from 0): as functions, since a coarse P1 function is
+    /// also one on the fine mesh, and at the nodes of the coarser mesh.
     pub(crate) fn errors_of(&self, level: &Level, mesh: &Mesh, k: usize) -> [f64; 2] {
         let (fine, [few, many]) = (
             &self.levels[k],

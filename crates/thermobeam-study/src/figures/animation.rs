@@ -4,13 +4,14 @@ use convergence_study::plots::Scale;
 use convergence_study::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
 use convergence_study::plots::look::look;
 use convergence_study::plots::ruler::{Ruler, fixed, on_scale};
-use convergence_study::plots::sheet::elide;
+use convergence_study::plots::style::elide;
 use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 
-use crate::run::driver::thinned;
 pub use crate::run::history::Frames;
+use crate::run::snapshot::thinned;
 
-/// Maximum numbers of frames and of points per frame; their product bounds the size of the document.
+/// Maximum numbers of frames and of points per frame; their product bounds the size of the
+/// document.
 const MOST_FRAMES: usize = 120;
 const MOST_POINTS: usize = 61;
 
@@ -36,8 +37,8 @@ pub struct Animation {
     pub seconds: f64,
 }
 
-/// Draws the clamped wall, the obstacles and the moving beam. If nothing moves, the beam is drawn as in its most bent
-/// frame.
+/// Draws the clamped wall, the obstacles and the moving beam. If nothing moves, the beam is drawn
+/// as in its most bent frame.
 pub fn animation(figure: &Animation) -> String {
     let frames = drawable_frames(figure);
     let stage = Stage::new(figure, &frames);

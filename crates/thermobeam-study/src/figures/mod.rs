@@ -1,4 +1,5 @@
-//! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document out.
+//! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document
+//! out.
 
 mod animation;
 
@@ -37,8 +38,9 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     })
 }
 
-/// The [`look`](convergence_study::plots::look::look) of each scene of a figure: an experiment of the paper has its own; any
-/// other scene gets, by its place in the figure, one that no experiment has.
+/// The [`look`](convergence_study::plots::look::look) of each scene of a figure: an experiment of
+/// the paper has its own; any other scene gets, by its place in the figure, one that no experiment
+/// has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
     let look = |(place, name): (usize, &str)| {
         PAPER
@@ -49,9 +51,28 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
     scenes.into_iter().enumerate().map(look).collect()
 }
 
+/// The values of β in the paper's experiments.
+const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
+
+/// The [`look`](convergence_study::plots::look::look) of a value of β, the same in all figures
+/// whose curves are its values; of other values the next one.
+pub(crate) fn look_of_beta(beta: f64) -> usize {
+    BETAS
+        .iter()
+        .position(|known| *known == beta)
+        .unwrap_or(BETAS.len())
+}
+
+/// The name of a beam by its axial force at rest.
+pub(crate) fn beta_label(beam: &Beam) -> String {
+    // A minus sign, not a hyphen.
+    format!("β = {}", beam.beta).replace('-', "−")
+}
+
 impl Run {
-    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip displacement with the obstacles, tip
-    /// rotation, energy with its limit β²/(4ρ). None if no frames were kept.
+    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip
+    /// displacement with the obstacles, tip rotation, energy with its limit β²/(4ρ). None if no
+    /// frames were kept.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
         let Some(history) = self
             .history
@@ -137,8 +158,22 @@ pub struct Branch {
     pub stable: bool,
 }
 
-/// Draws tip displacements of equilibria over β; open markers show those in which simulations ended.
-pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) -> String {
+/// Tip displacements of equilibria over β.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bifurcation {
+    /// What the reader should see.
+    pub title: String,
+    /// Families of equilibria.
+    pub branches: Vec<Branch>,
+    /// A line for each obstacle.
+    pub obstacles: Vec<Guide>,
+    /// Those in which simulations ended.
+    pub ends: Series,
+}
+
+/// Draws families of equilibria; open markers show those in which simulations ended.
+pub fn bifurcation(figure: &Bifurcation) -> String {
+    let branches = &figure.branches;
     let labels = distinct(branches.iter().map(|branch| branch.label.as_str()));
     let family = |b: &Branch| labels.iter().position(|l| *l == b.label).unwrap_or(0);
     let mut curves: Vec<Curve> = branches
@@ -153,7 +188,7 @@ pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) ->
         look: ends_look,
         width: 0.0,
         marks: Marks::Open,
-        ..Curve::line(0, ends)
+        ..Curve::line(0, &figure.ends)
     });
     let parameters = || {
         curves
@@ -169,11 +204,12 @@ pub fn bifurcation(branches: &[Branch], obstacles: Vec<Guide>, ends: &Series) ->
     // Branches end at the limits of the parameter, so these must not coincide with the frame.
     let room = 0.03 * (high - low);
     Xy {
+        title: Some(figure.title.clone()),
         show_x: vec![low - room, high + room],
         x: Axis::linear("axial force at rest β"),
         y: Axis::linear("tip displacement u(1) (dimensionless)"),
         curves,
-        guides: obstacles,
+        guides: figure.obstacles.clone(),
         ..Xy::default()
     }
     .draw()
@@ -208,16 +244,29 @@ fn branch_curve(branch: &Branch, look: Look) -> Curve {
     }
 }
 
-/// Draws measured over predicted contraction, log-log, with the identity and the region where the iteration diverges. Markers
-/// there are open.
-///
-/// * `series`: `(predicted, measured)`, one for each kind of case.
-pub fn contraction(series: &[Series]) -> String {
+/// Contraction factors over the predicted one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ContractionFactors {
+    /// What the reader should see.
+    pub title: String,
+    /// What predicts them: the horizontal axis.
+    pub predicted: String,
+    /// `(predicted, measured)`, one series for each kind of case.
+    pub measured: Vec<Series>,
+    /// `(predicted, estimated)`; not drawn if there are no points.
+    pub estimates: Series,
+}
+
+/// Draws measured over predicted contraction, log-log, with the identity and the region where the
+/// iteration diverges. Markers there are open.
+pub fn contraction(factors: &ContractionFactors) -> String {
+    let measured = &factors.measured;
     let mut xy = Xy {
-        x: Axis::log("spectral radius of the linearised iteration"),
+        title: Some(factors.title.clone()),
+        x: Axis::log(factors.predicted.clone()),
         y: Axis::log("measured factor per iteration"),
-        curves: series.iter().enumerate().flat_map(sides).collect(),
-        beyond: Some((1.0, "divergence (radius ≥ 1)".into())),
+        curves: measured.iter().enumerate().flat_map(sides).collect(),
+        beyond: Some((1.0, "divergence".into())),
         ..Xy::default()
     };
     let is_split = |series: &Series| {
@@ -225,15 +274,35 @@ pub fn contraction(series: &[Series]) -> String {
             .iter()
             .all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above))
     };
-    if series.iter().any(is_split) {
+    if measured.iter().any(is_split) {
         xy.notes.push("open markers: divergence".to_owned());
     }
     // Up to 100, so that the text fits above its region.
     xy.show_x = vec![1.0, 100.0];
     xy.show_y = vec![1.0];
+    if !factors.estimates.points.is_empty() {
+        xy.curves.insert(0, estimates(&factors.estimates));
+    }
     xy.curves.insert(0, identity(&xy));
     xy.draw()
 }
+
+/// Grey strokes below the markers, which stay in view.
+fn estimates(series: &Series) -> Curve {
+    let line = Curve::line(ESTIMATES, series);
+    Curve {
+        look: Look {
+            colour: style::MUTED,
+            ..line.look
+        },
+        width: 0.0,
+        marks: Marks::Open,
+        ..line
+    }
+}
+
+/// The look whose marker is a plus.
+const ESTIMATES: usize = 6;
 
 /// A series on both sides of 1, under one legend entry, whose marker is open if all points are.
 fn sides((k, series): (usize, &Series)) -> Vec<Curve> {

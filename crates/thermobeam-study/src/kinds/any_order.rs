@@ -29,6 +29,7 @@ use convergence_study::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::Stepping;
 
 use super::prelude::*;
+use super::settings;
 use super::tables::{Layout, control, manufactured};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
@@ -45,18 +46,21 @@ pub const ROW: KindRow = KindRow {
              must fall by the factor claimed for each degree until it reaches round-off.",
     failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \
               is stopped too early: look at the highest degree that still passes.",
+    settings: settings::of_any_order,
 };
 
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;
 
-/// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors are smaller.
+/// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors
+/// are smaller.
 const INSIDE: [f64; 2] = [0.13, 0.61];
 
 /// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
 const ROUND_OFF: f64 = 2e-12;
 
-/// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities of order 1.
+/// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities
+/// of order 1.
 const FLOOR: f64 = FLOOR_MARGIN * 1e-13;
 
 /// What is refined.
@@ -83,8 +87,9 @@ pub struct Resolution {
     pub steps: usize,
 }
 
-/// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the initial data divided by h: 4e-13 for
-/// 256 elements. A quadrature that is too coarse for the projection leaves 3e-7 and more.
+/// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the
+/// initial data divided by h: 4e-13 for 256 elements. A quadrature that is too coarse for the
+/// projection leaves 3e-7 and more.
 const PROJECTED: f64 = 1e-11;
 
 /// The judged errors of one run.
@@ -92,7 +97,8 @@ const PROJECTED: f64 = 1e-11;
 pub struct Errors {
     /// Each with its name; errors in the fields at the end come first.
     pub named: Vec<(&'static str, f64)>,
-    /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the projection (3.6).
+    /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the
+    /// projection (3.6).
     pub start: f64,
 }
 
@@ -184,7 +190,8 @@ impl FromFile for AnyOrder {
     }
 }
 
-/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement of 0.1.
+/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement
+/// of 0.1.
 fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
     const AMPLITUDE: f64 = 0.1;
     section.allow(&["zeta", "modes"])?;
@@ -204,7 +211,8 @@ fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputErro
 }
 
 impl Over {
-    /// The keys of a table `[[series]]`: the refined parameter, the fixed one, and the criterion. The rest is in `[run]`.
+    /// The keys of a table `[[series]]`: the refined parameter, the fixed one, and the criterion.
+    /// The rest is in `[run]`.
     fn keys(self) -> (&'static str, &'static [&'static str], &'static str) {
         match self {
             Over::Space => ("elements", &["degree"], "tolerance"),
@@ -283,8 +291,9 @@ impl Kind for AnyOrder {
             .collect()
     }
 
-    /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their slopes. A study over time has the
-    /// largest L2 errors of u and u_t inside steps instead of the slopes.
+    /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their
+    /// slopes. A study over time has the largest L2 errors of u and u_t inside steps instead of the
+    /// slopes.
     fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
         let mut motion = self.motion(*resolution)?;
         // The solver's temperature: its unknown is lifted by the solver's own θ_A.
@@ -294,10 +303,10 @@ impl Kind for AnyOrder {
         let mut meter = ErrorMeter::new(&self.exact, theta_a, motion.simulation().space());
         // The initial data have the θ_A of the loads, whatever the solver's is.
         let start = meter.slope_moments(motion.simulation().level(), self.theory.beam.theta_a);
-        while motion.step(self.t_end)?.is_some() {
-            let simulation = motion.simulation();
+        run_to(&mut motion, self.t_end, |motion, _| {
             // Only a study over time judges these.
             if self.over == Over::Time {
+                let simulation = motion.simulation();
                 let (from, to) = (simulation.old_level().t, simulation.t());
                 for s in INSIDE {
                     if simulation.level_into(from + s * (to - from), &mut level) {
@@ -307,7 +316,7 @@ impl Kind for AnyOrder {
                     }
                 }
             }
-        }
+        })?;
         let [values, slopes] = meter.errors(motion.simulation().level());
         let together =
             |errors: [f64; 5]| errors.iter().map(|error| error * error).sum::<f64>().sqrt();
@@ -388,17 +397,17 @@ impl AnyOrder {
             } else {
                 ("p", degree)
             };
-            let title = format!("{letter} = {degree}");
-            let caption = format!("Errors for {title}, with the orders of theory (triangles).");
+            let subject = format!("{letter} = {degree}");
+            let caption = format!("Errors for {subject}, with the orders of theory (triangles).");
             let what = format!("{letter}{degree}");
             all.extend(
                 self.levels(series, runs)
-                    .outcome(&what, Some(&title), &caption, vec![]),
+                    .outcome(&what, Some(&subject), &caption, vec![]),
             );
         }
         Outcome {
             summary: summary(&all.rates),
-            ..all
+            ..all.summed_up_by_rates("")
         }
     }
 
@@ -425,9 +434,14 @@ impl AnyOrder {
             .map(|ran| ran.ok().map(|errors| errors.named.as_slice()))
             .collect();
         let mut columns = ErrorColumn::of(&claims, &errors);
-        columns
-            .iter_mut()
-            .for_each(|column| column.name = format!("{name}, {}", column.name));
+        let mut subjects = vec![];
+        for column in &mut columns {
+            let subject = Subject::of(&column.name).in_case(&name);
+            // The degree is in the title.
+            column.symbol = Some(column.name.replace("u_t", "uₜ"));
+            column.name = format!("{name}, {}", column.name);
+            subjects.push((column.name.clone(), subject));
+        }
         let refinement = |ran: &Ran<Resolution, Errors>| {
             let Resolution {
                 degree,
@@ -455,10 +469,13 @@ impl AnyOrder {
         } else {
             Axis::Space
         };
-        Levels::new(axis, ran.iter().map(refinement), columns).with_floor(FLOOR)
+        Levels::new(axis, ran.iter().map(refinement), columns)
+            .with_floor(FLOOR)
+            .with_subjects(subjects)
     }
 
-    /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the one that reaches round-off.
+    /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the
+    /// one that reaches round-off.
     fn over_degrees(
         &self,
         runs: &[(&RunsOfDegree, &[Ran<Resolution, Errors>])],
@@ -478,6 +495,8 @@ impl AnyOrder {
             let measurable = points.iter().filter(|(_, error)| !(*error <= ROUND_OFF));
             let guarded = |(p, error): &(f64, f64)| {
                 Quantity::new(format!("error fields, p = {p}"), *error, 1e-4)
+                    .about(Subject::of("fields").at(format!("p = {p}")))
+                    .of_sort(Sort::Error)
             };
             quantities.extend(measurable.map(guarded));
             let name = counted(series.runs[0].elements, "element");
@@ -498,7 +517,7 @@ impl AnyOrder {
             ..history
         };
         let svg = drawing
-            .titled("Error over the degree of the elements")
+            .titled("The error falls exponentially with the degree, to round-off")
             .draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let summary = checks
@@ -521,7 +540,8 @@ impl AnyOrder {
     }
 }
 
-/// Whether every run starts from the projection (3.6) of its initial data; with none, completion fails.
+/// Whether every run starts from the projection (3.6) of its initial data; with none, completion
+/// fails.
 fn projected(ran: &[Ran<Resolution, Errors>]) -> Check {
     let largest = ran
         .iter()
@@ -530,7 +550,7 @@ fn projected(ran: &[Ran<Resolution, Errors>]) -> Check {
         .fold(0.0, max_or_nan);
     let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";
     let evidence = format!("largest moment on an element {largest:.1e}, allowed {PROJECTED:e}");
-    Check::that(largest <= PROJECTED, claim, evidence)
+    Check::that(largest <= PROJECTED, claim, evidence).about(Subject::of("initial projection"))
 }
 
 fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
@@ -555,11 +575,13 @@ fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
             fall >= factor && monotone,
             format!("the error falls with every degree, {factor} times on average"),
             format!("{fall:.1} times a degree, up to p = {end}"),
-        ),
+        )
+        .about(Subject::of("error over the degree")),
         Check::that(
             reached.is_some() && rest,
             format!("it reaches round-off, {ROUND_OFF:e}, and stays there"),
             format!("error at most {ROUND_OFF:e} from p = {end} on"),
-        ),
+        )
+        .about(Subject::of("round-off")),
     ]
 }

@@ -1,10 +1,12 @@
 //! The ends of long runs, compared with exact steady states, which no source term keeps in place.
 //!
-//! A beam at rest solves the discrete static problem to round-off for any time step. What remains is the error of P1 elements, O(h²) at
-//! the nodes in u and in φ; with elements of high degree and dG(q) it nearly vanishes. A straight steady state has no such error: the
-//! beam is only checked to end straight, up to the remaining motion.
+//! A beam at rest solves the discrete static problem to round-off for any time step. What remains
+//! is the error of P1 elements, O(h²) at the nodes in u and in φ; with elements of high degree and
+//! dG(q) it nearly vanishes. A straight steady state has no such error: the beam is only checked to
+//! end straight, up to the remaining motion.
 
 use super::prelude::*;
+use super::settings;
 pub use super::steady::{AtRest, Nearest};
 use super::steady::{
     cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
@@ -20,12 +22,14 @@ pub const ROW: KindRow = KindRow {
     judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
              state; a run of any order ends in it.",
     failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
+    settings: settings::of_ends,
 };
 
 /// Order of the elements in u and φ.
 const ORDER: f64 = 2.0;
 
-/// Remaining share of the tip's error after extrapolation from two meshes: the next term of the expansion, and the motion.
+/// Remaining share of the tip's error after extrapolation from two meshes: the next term of the
+/// expansion, and the motion.
 const EXTRAPOLATED: f64 = 1e-2;
 
 /// Errors below this multiple of the velocity at rest are motion.
@@ -165,7 +169,12 @@ impl Kind for EndStates {
         checks.extend(scenes.iter().filter_map(Ends::check_any_order));
         let caption =
             "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
-        let figure = bent.figure("errors", None, caption.to_owned(), &rates);
+        let figure = bent.figure(
+            "errors",
+            Some("Steady states".to_owned()),
+            caption.to_owned(),
+            &rates,
+        );
         let rows: Vec<_> = scenes
             .iter()
             .map(|ends| (vec![ends.scene.name.clone()], ends.readings()))
@@ -184,8 +193,17 @@ impl Kind for EndStates {
             "{} long runs end at most {worst:.1e} from an exact steady state",
             scenes.len()
         );
+        let straight = |ends: &Ends<'_>| {
+            ends.is_straight()
+                .then_some("straight, so that the mesh causes no error")
+        };
         Outcome {
+            coverage: vec![Coverage::of(
+                "ends for the order",
+                scenes.iter().map(straight),
+            )],
             levels: self.levels(scenes.iter()).errors(),
+            rate_subjects: bent.subjects.clone(),
             tables: vec![readings::table(title, &["scene"], &rows)],
             figures: vec![figure],
             quantities: [tips, bent.quantities(&rates)].concat(),
@@ -201,21 +219,30 @@ impl Kind for EndStates {
 impl EndStates {
     /// Largest errors at the nodes over the mean mesh width.
     fn levels<'e>(&self, scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
-        let columns = scenes.enumerate().flat_map(|(k, ends)| {
-            [(0, "u"), (1, "φ")].map(|(field, name)| ErrorColumn {
-                name: format!("{}: {name}", ends.scene.name),
-                errors: ends
-                    .ends
-                    .iter()
-                    .map(|end| end.map(|end| end.errors()[field]))
-                    .collect(),
-                claim: Some(Claim::new(ORDER, self.tolerance)),
-                look: 2 * k + field,
-            })
-        });
+        let mut columns = vec![];
+        let mut subjects = vec![];
+        for (k, ends) in scenes.enumerate() {
+            for (field, name) in ["u", "φ"].into_iter().enumerate() {
+                let scene = &ends.scene.name;
+                let column = ErrorColumn {
+                    name: format!("{scene}: {name}"),
+                    symbol: None,
+                    errors: ends
+                        .ends
+                        .iter()
+                        .map(|end| end.map(|end| end.errors()[field]))
+                        .collect(),
+                    claim: Some(Claim::new(ORDER, self.tolerance)),
+                    look: 2 * k + field,
+                };
+                subjects.push((column.name.clone(), Subject::of(name).in_case(scene)));
+                columns.push(column);
+            }
+        }
         let refinement =
             |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
         Levels::new(Axis::Space, self.elements.iter().map(refinement), columns)
+            .with_subjects(subjects)
     }
 }
 
@@ -278,10 +305,19 @@ impl<'a> Ends<'a> {
         last + richardson::correction(before, last, fine as f64 / coarse as f64, ORDER)
     }
 
+    /// The end of a run, which either the run or the exact state may miss: other items tell the
+    /// methods apart.
+    fn end(&self) -> Subject {
+        Subject::of("end")
+            .in_case(&self.scene.name)
+            .by(ItemMethod::Exact)
+    }
+
     fn check(&self) -> Check {
         let allowed = self.study.error;
         let (u, exact) = (self.extrapolated(0), self.number(|end| end.exact_tip()[0]));
-        // The beam may buckle to either side, but errors are comparable only if it is the same side on all meshes.
+        // The beam may buckle to either side, but errors are comparable only if it is the same side
+        // on all meshes.
         let contact = self.finest().and_then(AtRest::contact);
         let same_side = self
             .ends
@@ -293,27 +329,27 @@ impl<'a> Ends<'a> {
         let errors = format!("largest error at {n} elements: u {of_u:.2e}, φ {of_phi:.2e}");
         Check::that(
             self.error() <= allowed && (u - exact).abs() <= EXTRAPOLATED * allowed && same_side,
-            format!(
-                "{} comes to rest in the exact steady state, to {allowed:.0e}",
-                self.scene.name
-            ),
+            format!("the beam comes to rest in the exact steady state, to {allowed:.0e}"),
             format!("{errors}; u(1) extrapolated from the last two meshes {found} for {expected}"),
         )
+        .about(self.end())
     }
 
     /// The run of any order must end in an exact state, whichever of the stable ones it is.
     fn check_any_order(&self) -> Option<Check> {
         let (how, _, allowed) = self.study.any_order.as_ref()?;
         let [u, phi] = self.any_order.map_or([f64::NAN; 2], AtRest::errors);
-        Some(Check::that(
-            max_or_nan(u, phi) <= *allowed,
-            format!(
-                "{} by {} comes to rest in the exact steady state, to {allowed:.0e}",
-                self.scene.name,
-                how.label()
-            ),
-            format!("largest error: u {u:.1e}, φ {phi:.1e}"),
-        ))
+        Some(
+            Check::that(
+                max_or_nan(u, phi) <= *allowed,
+                format!(
+                    "by {} the beam comes to rest in the exact steady state, to {allowed:.0e}",
+                    how.label()
+                ),
+                format!("largest error: u {u:.1e}, φ {phi:.1e}"),
+            )
+            .about(self.end()),
+        )
     }
 
     /// Tips on the finest mesh, extrapolated, and of the exact state.
@@ -322,7 +358,13 @@ impl<'a> Ends<'a> {
         let shown =
             |head: &str, value: f64| Reading::new(head, value).shown(|value| decimals(value, 10));
         let tip = |reading: Reading, name: &str, tolerance: f64| {
-            reading.guarded(format!("{}: {name}", self.scene.name), tolerance)
+            reading.guarded_in(&self.scene.name, name, tolerance)
+        };
+        let exact_tip = |reading: Reading, name: &str| {
+            let subject = Subject::of(name)
+                .in_case(&self.scene.name)
+                .by(ItemMethod::Exact);
+            tip(reading, name, exact).about(subject)
         };
         vec![
             Reading::text(
@@ -341,16 +383,14 @@ impl<'a> Ends<'a> {
                 discrete,
             ),
             shown("extrapolated", self.extrapolated(0)),
-            tip(
+            exact_tip(
                 shown("exact", self.number(|end| end.exact_tip()[0])),
                 "exact_u_tip",
-                exact,
             ),
             shown("φ(1) extrapolated", self.extrapolated(1)),
-            tip(
+            exact_tip(
                 shown("φ(1) exact", self.number(|end| end.exact_tip()[1])),
                 "exact_phi_tip",
-                exact,
             ),
             Reading::new("at rest by t", self.number(|end| end.t)).fixed(0),
         ]

@@ -1,7 +1,9 @@
-//! The experiments of Section 5 by the scheme of any order: values to ten decimals, and the error of the paper's own scheme.
+//! The experiments of Section 5 by the scheme of any order: values to ten decimals, and the error
+//! of the paper's own scheme.
 //!
-//! Two different discretisations (degree, elements, degree in time, steps) of one scene must agree. What they agree on is
-//! then the reference for the scene's own scheme at its own resolution, over the whole time.
+//! Two different discretisations (degree, elements, degree in time, steps) of one scene must agree.
+//! What they agree on is then the reference for the scene's own scheme at its own resolution, over
+//! the whole time.
 //!
 //! ```toml
 //! [experiments]
@@ -22,6 +24,7 @@
 use thermobeam::dg::ContactEvent;
 
 use super::prelude::*;
+use super::settings;
 use super::tables::{Discretisation, discretisations};
 use crate::run::object::phase_name;
 
@@ -34,6 +37,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Both must agree at each time listed within the tolerance, in the state of the free end and the energy, and on every \
              contact event. The energy must fall, its balance close to round-off.",
     failure: "One of the two is not resolved: raise the degrees or lower the steps of both and see which one moves.",
+    settings: settings::of_exact_experiments,
 };
 
 /// Times at which the free end is compared over the whole time.
@@ -109,7 +113,8 @@ impl FromFile for ExactExperiments {
     }
 }
 
-/// Refuses scenes whose time levels do not include the times of comparison: a difference in time would pass for an error.
+/// Refuses scenes whose time levels do not include the times of comparison: a difference in time
+/// would pass for an error.
 fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
     for scene in scenes {
         let steps = |t: &f64| t / scene.dt();
@@ -127,7 +132,8 @@ fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<
 }
 
 impl Kind for ExactExperiments {
-    /// A scene, by its place in the list, and the number of the discretisation that it is run by; `None`: its own scheme, mesh and steps.
+    /// A scene, by its place in the list, and the number of the discretisation that it is run by;
+    /// `None`: its own scheme, mesh and steps.
     type Data = (usize, Option<usize>);
     type Found = ShownStates;
 
@@ -204,6 +210,7 @@ impl Kind for ExactExperiments {
         tables.push(self.how(&scenes));
         Outcome {
             headline: format!("{agreement}{}", if self.compare { &own } else { "" }),
+            coverage: self.own_schemes().into_iter().collect(),
             tables,
             figures: self.figures(&scenes),
             quantities: readings::guarded(values.iter().flat_map(|(_, readings)| readings)),
@@ -217,9 +224,17 @@ impl Kind for ExactExperiments {
 }
 
 impl ExactExperiments {
+    /// No statement is made about the scenes' own schemes: their errors are measured. `None` if the
+    /// study does not run them.
+    fn own_schemes(&self) -> Option<Coverage> {
+        let reason = Some("measured, without a claim");
+        self.compare
+            .then(|| Coverage::of("own schemes", self.scenes.iter().map(|_| reason)))
+    }
+
     fn shown(&self, scene: &Scene) -> Result<ShownStates, CaseFailure> {
         let mut states = vec![];
-        let read = |motion: &mut dyn Motion| states.push(motion.at(motion.t()));
+        let read = |motion: &mut dyn Motion| states.push(motion.sample());
         let run = Simulator::new(scene)?.read_at(Recording::Curve(TIP_TIMES), &self.times, read)?;
         let balance = [
             run.energy.largest_balance_residual / run.energy.initial,
@@ -274,40 +289,86 @@ impl ExactExperiments {
     }
 
     fn figures(&self, scenes: &[OfScene<'_>]) -> Vec<Figure> {
-        let figure = |what: &str,
-                      caption: &str,
-                      title: &str,
-                      y,
-                      points: fn(&OfScene<'_>) -> Vec<(f64, f64)>| {
-            let curve = |scene: &OfScene<'_>| plots::Series::new(scene.name, points(scene));
-            let history =
-                plots::history(y, &scenes.iter().map(curve).collect::<Vec<_>>()).titled(title);
-            Figure::new(
-                what,
-                caption,
-                history
-                    .with_looks(&looks(scenes.iter().map(|scene| scene.name)))
-                    .draw(),
-            )
-        };
-        let y = plots::Axis::linear("displacement u(1, t) (dimensionless)");
-        let (caption, title) = (
-            "The free end of every experiment, to ten decimals.",
-            "Displacement of the free end",
+        let agreement = scenes.iter().map(OfScene::difference).fold(0.0, max_or_nan);
+        let tip = self.over_time(
+            scenes,
+            "the free end bounces, faster for larger β",
+            plots::Axis::linear("displacement u(1, t) (dimensionless)"),
+            |scene| scene.tip(),
         );
-        let tip =
-            |scene: &OfScene<'_>| scene.any_order[0].map_or(vec![], |shown| shown.tip.clone());
-        let mut figures = vec![figure("tip", caption, title, y, tip)];
+        let tip: Vec<Xy> = tip
+            .into_iter()
+            .map(|panel| Xy {
+                guides: figures::obstacle_lines(
+                    self.scenes.first().and_then(|scene| scene.obstacles),
+                ),
+                ..panel
+            })
+            .collect();
+        let caption = format!(
+            "The free end of every experiment by dG; two discretisations agree within {agreement:.1e}."
+        );
+        let mut figures = vec![Figure::new("tip", &caption, plots::panels(&caption, &tip))];
         if self.compare {
-            let y = plots::Axis::log("error of u(1, t) (dimensionless)");
-            let title = "Error of the scenes' own scheme at their own resolution";
+            let error = self.over_time(
+                scenes,
+                "the error jumps where contact begins",
+                plots::Axis::log("error of u(1, t) (dimensionless)"),
+                |scene| scene.error_over_time(),
+            );
             let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of \
                            the free end.";
-            figures.push(figure("error", caption, title, y, |scene| {
-                scene.error_over_time()
-            }));
+            figures.push(Figure::new(
+                "error",
+                caption,
+                plots::panels(caption, &error),
+            ));
         }
         figures
+    }
+
+    /// A panel for the experiments without heating and one for those with, if there are any; a
+    /// curve for each β.
+    fn over_time(
+        &self,
+        scenes: &[OfScene<'_>],
+        title: &str,
+        y: plots::Axis,
+        points: fn(&OfScene<'_>) -> Vec<(f64, f64)>,
+    ) -> Vec<Xy> {
+        let mut heatings: Vec<f64> = self.scenes.iter().map(|scene| scene.beam.theta_a).collect();
+        heatings.sort_by(f64::total_cmp);
+        heatings.dedup();
+        let panel = |&theta_a: &f64| {
+            let mut shown: Vec<(&Scene, &OfScene<'_>)> = self
+                .scenes
+                .iter()
+                .zip(scenes)
+                .filter(|(scene, _)| scene.beam.theta_a == theta_a)
+                .collect();
+            shown.sort_by(|(one, _), (other, _)| one.beam.beta.total_cmp(&other.beam.beta));
+            let curve = |(scene, runs): &(&Scene, &OfScene<'_>)| {
+                plots::Series::new(figures::beta_label(&scene.beam), points(runs))
+            };
+            let looks: Vec<usize> = shown
+                .iter()
+                .map(|(scene, _)| figures::look_of_beta(scene.beam.beta))
+                .collect();
+            let curves: Vec<plots::Series> = shown.iter().map(curve).collect();
+            plots::history(y.clone(), &curves)
+                .with_looks(&looks)
+                .titled(format!("{}: {title}", heating(theta_a)))
+        };
+        heatings.iter().map(panel).collect()
+    }
+}
+
+/// The temperature of the clamped end in words.
+fn heating(theta_a: f64) -> String {
+    if theta_a == 0.0 {
+        "Without heating (θ_A = 0)".to_owned()
+    } else {
+        format!("Heated (θ_A = {theta_a})")
     }
 }
 
@@ -360,6 +421,11 @@ impl<'r> OfScene<'r> {
         }
     }
 
+    /// `(t, u(1, t))` by the first discretisation.
+    fn tip(&self) -> Vec<(f64, f64)> {
+        self.any_order[0].map_or(vec![], |shown| shown.tip.clone())
+    }
+
     /// The states of the first discretisation.
     fn states(&self) -> &'r [Sample] {
         self.any_order[0].map_or(&[], |shown| &shown.states)
@@ -386,22 +452,25 @@ impl<'r> OfScene<'r> {
 
     fn checks(&self, agreement: f64) -> [Check; 3] {
         let difference = self.difference();
-        let claim = format!(
-            "{}: two discretisations agree within {agreement:e}",
-            self.name
-        );
+        let claim = format!("two discretisations agree within {agreement:e}");
         let agree = Check::that(
             difference <= agreement,
             claim,
             format!("largest difference {difference:.1e}"),
-        );
+        )
+        .about(self.subject("agreement"));
         [agree, self.events_agree(agreement), self.balance()]
     }
 
+    fn subject(&self, quantity: &str) -> Subject {
+        Subject::of(quantity).in_case(self.name)
+    }
+
     fn events_agree(&self, agreement: f64) -> Check {
-        let claim = format!("{}: they agree on every contact event", self.name);
+        let claim = "they agree on every contact event";
+        let subject = self.subject("contact events");
         let [Some(one), Some(other)] = self.any_order else {
-            return Check::that(false, claim, "a run is missing");
+            return Check::that(false, claim, "a run is missing").about(subject);
         };
         let alike = one.events.len() == other.events.len()
             && one
@@ -413,15 +482,19 @@ impl<'r> OfScene<'r> {
             .events
             .iter()
             .zip(&other.events)
-            .map(|(a, b)| (a.t - b.t).abs())
-            .fold(0.0, max_or_nan);
+            .map(|(a, b)| (a.t - b.t).abs());
+        let apart = largest_of(apart);
+        let times = apart.map_or(String::new(), |apart| {
+            format!(", times at most {apart:.1e} apart")
+        });
         let evidence = format!(
-            "{} and {} events, times at most {apart:.1e} apart",
+            "{} and {} events{times}",
             one.events.len(),
             other.events.len()
         );
         // Times are of order 10, the other numbers of order 1.
-        Check::that(alike && apart <= 10.0 * agreement, claim, evidence)
+        let close = apart.is_none_or(|apart| apart <= 10.0 * agreement);
+        Check::that(alike && close, claim, evidence).about(subject)
     }
 
     fn balance(&self) -> Check {
@@ -435,11 +508,11 @@ impl<'r> OfScene<'r> {
         Check::that(
             residual <= CLOSED && increase <= 0.0,
             format!(
-                "{}: the energy falls in every step and its balance closes within {CLOSED:e} of E0",
-                self.name
+                "the energy falls in every step and its balance closes within {CLOSED:e} of E0"
             ),
             format!("largest residual {residual:.1e} of E0, largest change {increase:.1e}"),
         )
+        .about(self.subject("energy and balance"))
     }
 
     /// The numbers, to the digits that both discretisations agree on and one more.
@@ -453,10 +526,10 @@ impl<'r> OfScene<'r> {
         let row = |state: &Sample| {
             let guard = |reading: Reading| {
                 let name = reading.name.replace('φ', "phi").replace('θ', "theta");
-                reading.fixed(decimals).guarded(
-                    format!("{}: {name} at t = {}", self.name, state.t),
-                    TOLERANCE,
-                )
+                let quantity = format!("{name} at t = {}", state.t);
+                reading
+                    .fixed(decimals)
+                    .guarded_in(self.name, quantity, TOLERANCE)
             };
             let apart = Reading::text("largest difference", format!("{apart:.0e}"));
             let numbers = numbers(state)
@@ -494,7 +567,8 @@ impl<'r> OfScene<'r> {
         let (Some(own), Some(exact)) = (self.own, self.any_order[0]) else {
             return vec![];
         };
-        // The history of the exact run begins at t = 0. The reader has made sure that both have the same times.
+        // The history of the exact run begins at t = 0. The reader has made sure that both have the
+        // same times.
         own.tip
             .iter()
             .zip(&exact.tip)

@@ -1,7 +1,8 @@
 //! Frequencies of the beam on elements of degree p against the exact ones: order 2p, from above.
 //!
-//! Rayleigh-Ritz: the frequencies of a subspace lie above those of the beam, and their error is the square of the
-//! modes' error in the energy norm, h^2p. On linear elements `ω_h - ω` is `ω³h²/24` to leading order for high modes.
+//! Rayleigh-Ritz: the frequencies of a subspace lie above those of the beam, and their error is the
+//! square of the modes' error in the energy norm, h^2p. On linear elements `ω_h - ω` is `ω³h²/24`
+//! to leading order for high modes.
 //!
 //! ```toml
 //! [frequencies]
@@ -13,9 +14,10 @@
 //! tolerance = 0.1
 //! ```
 
-use thermobeam::vibration::{discrete_frequencies_until, frequencies};
+use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::prelude::*;
+use super::settings;
 use super::tables::Layout;
 
 /// The row of the table of kinds.
@@ -27,11 +29,13 @@ pub const ROW: KindRow = KindRow {
     judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
              below the first must be met on the finest mesh.",
     failure: "Mass, stiffness or coupling of the discretisation is wrong.",
+    settings: settings::of_frequencies,
 };
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
-/// Between frequencies the determinant is of order 1, as is its slope near one: 16 rounding errors mean 14 digits.
+/// Between frequencies the determinant is of order 1, as is its slope near one: 16 rounding errors
+/// mean 14 digits.
 const ROUNDING_ERRORS: f64 = 16.0;
 
 /// Allowed relative error of frequencies without a judged rate.
@@ -145,8 +149,8 @@ impl Kind for Frequencies {
         let caption = format!(
             "Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}."
         );
-        let title = Some("Discrete frequencies, ω_h - ω");
-        let outcome = levels.outcome("errors", title, &caption, checks);
+        let subject = Some("Frequencies ωₕ − ω");
+        let outcome = levels.outcome("errors", subject, &caption, checks);
         Outcome {
             tables: vec![self.table(&levels, &outcome.rates)],
             ..outcome
@@ -167,6 +171,7 @@ impl Frequencies {
         };
         let column = |mode: usize| ErrorColumn {
             name: format!("omega-{}", mode + 1),
+            symbol: Some(format!("ω{}", subscript(mode + 1))),
             errors: ran
                 .iter()
                 .map(|level| Some(level.ok()?.get(mode)? - exact[mode]))
@@ -242,6 +247,7 @@ impl Frequencies {
             "the exact frequencies solve the frequency equation 1 + C+ C- - ω² S+ S- = 0",
             format!("largest residual {worst:.1} rounding errors, allowed {ROUNDING_ERRORS}"),
         )
+        .about(Subject::of("frequency equation"))
     }
 
     /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
@@ -266,6 +272,7 @@ impl Frequencies {
             ),
             format!("largest relative error {worst:.1e}"),
         )
+        .about(Subject::of("low frequencies"))
     }
 
     fn lie_above(&self, levels: &Levels) -> Check {
@@ -284,11 +291,20 @@ impl Frequencies {
             ),
             format!("the smallest ω_h - ω of all levels and modes is {least:.3e}"),
         )
+        .about(Subject::of("sign of the errors"))
     }
 }
 
-/// `1 + C+ C- - ω² S+ S-` at x = 1 for ω > 1, half the determinant of the boundary conditions, by plain sines.
+/// `1 + C+ C- - ω² S+ S-` at x = 1 for ω > 1, half the determinant of the boundary conditions, by
+/// plain sines.
 fn determinant(omega: f64) -> f64 {
     let [plus, minus] = [omega * omega - omega, omega * omega + omega].map(f64::sqrt);
     1.0 + plus.cos() * minus.cos() - omega * omega * (plus.sin() / plus) * (minus.sin() / minus)
+}
+
+/// A number in small digits below the line.
+fn subscript(number: usize) -> String {
+    let digits = number.to_string().into_bytes();
+    let small = |digit: u8| char::from_u32('₀' as u32 + u32::from(digit - b'0'));
+    digits.into_iter().filter_map(small).collect()
 }

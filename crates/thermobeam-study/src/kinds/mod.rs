@@ -1,11 +1,11 @@
 //! The kinds of study of the beam: one file each, or a folder if the mathematics is long.
 //!
-//! A study is data in a TOML file. Its kind reads the file (`from_document`), lists and computes its cases, and judges their
-//! results: checks with verdicts, rates, tables, figures, and the numbers that the baseline guards.
+//! A study is data in a TOML file. Its kind reads the file (`from_document`), lists and computes
+//! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
+//! numbers that the baseline guards.
 
 pub mod any_order;
 pub mod bifurcation;
-pub mod calibration;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
@@ -18,7 +18,8 @@ pub mod random_errors;
 pub mod rigid;
 pub mod scenes;
 pub mod self_convergence;
-mod settings;
+pub mod settings;
+mod side_by_side;
 pub mod solvers;
 mod steady;
 pub mod tables;
@@ -26,7 +27,7 @@ pub mod vibration;
 mod watch;
 pub mod work_precision;
 
-pub use settings::{PLACES, settings};
+pub use settings::PLACES;
 pub use tables::TERMS;
 
 use convergence_study::input::InputError;
@@ -35,7 +36,7 @@ use convergence_study::study::{KindRow, Study, StudyFile};
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 18] = [
+pub const KINDS: [KindRow; 17] = [
     convergence::ROW,
     any_order::ROW,
     controls::ROW,
@@ -52,8 +53,10 @@ pub const KINDS: [KindRow; 18] = [
     random_errors::ROW,
     rigid::ROW,
     work_precision::ROW,
-    calibration::ROW,
-    program::ROW,
+    KindRow {
+        settings: settings::of_harness,
+        ..program::ROW
+    },
 ];
 
 /// Reads a study file of any of the beam's kinds.

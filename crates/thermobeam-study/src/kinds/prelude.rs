@@ -9,18 +9,18 @@ pub(crate) use convergence_study::judge::verdict::{Judge, RateVerdict, Verdict};
 pub(crate) use convergence_study::plots;
 pub(crate) use convergence_study::plots::xy::Xy;
 pub(crate) use convergence_study::run::time_limit::Patience;
+pub(crate) use convergence_study::study::coverage::NO_RESULT;
 pub(crate) use convergence_study::study::kind::completion;
 pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_study::study::{
-    Axis, Case, CaseFailure, Check, Claim, Described, Figure, FromFile, Header, Kind, KindRow,
-    Origin, Outcome, Quantity, Ran, Reading, Refinement, Study, Table, Untested, read_claim,
-    reader, readings,
+    Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
+    KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
+    Untested, read_claim, reader, readings,
 };
 pub(crate) use convergence_study::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
 };
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
-pub(crate) use thermobeam::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
 pub(crate) use thermobeam::mesh::{Mesh, MeshError};
@@ -28,19 +28,27 @@ pub(crate) use thermobeam::parameters::{Beam, Obstacles};
 pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 pub(crate) use thermobeam::simulation::{Initial, Problem, Stepping};
 pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
-pub(crate) use thermobeam::vibration::Mode;
+pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
+pub(crate) use thermobeam_exact::vibration::Mode;
 
+pub(crate) use super::settings::ItemMethod;
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};
 pub(crate) use crate::exact::solution::{Factors, Manufactured, Product};
 pub(crate) use crate::expression::{Expression, Variable};
 pub(crate) use crate::figures::{self, looks};
-pub(crate) use crate::run::driver::{Driver, Step};
+pub(crate) use crate::run::driver::Driver;
 pub(crate) use crate::run::family::{Family, OnMesh};
 pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator, driver};
-pub(crate) use crate::run::{Motion, RunError, Sample};
+pub(crate) use crate::run::{AnyMotion, Motion, Report, RunError, Sample, run, run_to};
 pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
+
+/// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect
+/// result.
+pub(crate) fn largest_of(numbers: impl IntoIterator<Item = f64>) -> Option<f64> {
+    numbers.into_iter().reduce(max_or_nan)
+}
 
 /// Whether each value is larger than its predecessor.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {

@@ -1,7 +1,9 @@
-//! Whole scenes, read and run as `run` does it, against the answers of an independent implementation.
+//! Whole scenes, read and run as `run` does it, against the answers of an independent
+//! implementation.
 //!
-//! Studies of orders take loads and initial data from an exact solution; everything else that a scene says, from its initial rotation
-//! to its stopping criterion, is tested here. The work of a run is guarded as well.
+//! Studies of orders take loads and initial data from an exact solution; everything else that a
+//! scene says, from its initial rotation to its stopping criterion, is tested here. The work of a
+//! run is guarded as well.
 //!
 //! ```toml
 //! [[case]]
@@ -25,8 +27,11 @@
 //! t_end = 1.0
 //! ```
 
+use std::ops::ControlFlow;
+
 use super::energy::{End, named_cases};
 use super::prelude::*;
+use super::settings;
 use super::steady::exact_states;
 use super::tables::cost_of_run;
 use super::watch::SOLVED;
@@ -50,13 +55,14 @@ pub const ROW: KindRow = KindRow {
              run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
+    settings: settings::of_scenes,
 };
 
 /// Times of a history.
 const TIMES: usize = 200;
 
-/// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10 or more, and may stop one
-/// earlier where rounding differs.
+/// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10
+/// or more, and may stop one earlier where rounding differs.
 const TOLERANCE: f64 = 1e-7;
 
 /// The same of a count: below 50 it must be equal.
@@ -86,7 +92,8 @@ struct Whole {
 struct Most {
     /// On the mean number of iterations of a step.
     iterations: Option<f64>,
-    /// On the distance of a step to the same step solved to round-off, in the norm of (3.14) and in units of the tolerance.
+    /// On the distance of a step to the same step solved to round-off, in the norm of (3.14) and in
+    /// units of the tolerance.
     unsolved: Option<f64>,
 }
 
@@ -135,11 +142,13 @@ const MOST_WORK: f64 = 2e8;
 pub struct Shown {
     /// How it ended.
     pub end: End,
-    /// The last level, the free end's range and the energy's largest change, in the order of [`NUMBERS`].
+    /// The last level, the free end's range and the energy's largest change, in the order of
+    /// [`NUMBERS`].
     pub numbers: [f64; NUMBERS.len()],
     /// Counts, in the order of [`COUNTS`].
     pub counts: [usize; COUNTS.len()],
-    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it can only run alone.
+    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it
+    /// can only run alone.
     pub alike_in_lanes: Option<bool>,
     /// `(t, u(1, t))`.
     pub tip: Vec<(f64, f64)>,
@@ -147,7 +156,8 @@ pub struct Shown {
     pub contact: Vec<(f64, f64)>,
     /// Predictions and steady states, where the answer has them.
     others: Expected,
-    /// Distance of the least solved step to its solution over the tolerance, where the case bounds it.
+    /// Distance of the least solved step to its solution over the tolerance, where the case bounds
+    /// it.
     pub unsolved: Option<f64>,
 }
 
@@ -164,7 +174,8 @@ pub const NUMBERS: [&str; 9] = [
     "largest_increase",
 ];
 
-/// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any order.
+/// Names of counts; `contact` counts steps in contact, or the contact events of the scheme of any
+/// order.
 pub const COUNTS: [&str; 6] = [
     "steps",
     "iterations",
@@ -252,15 +263,17 @@ impl Most {
         let [steps, iterations, ..] = shown.counts;
         let mean = iterations as f64 / steps as f64;
         let of_iterations = self.iterations.map(|most| {
-            let claim = format!("{name}: a step takes at most {most} iterations on average");
+            let claim = format!("a step takes at most {most} iterations on average");
             Check::that(mean <= most, claim, format!("{mean:.2} in {steps} steps"))
+                .about(Subject::of("iterations").in_case(name))
         });
         let of_solution = self.unsolved.map(|most| {
             let share = shown.unsolved.unwrap_or(f64::NAN);
             let claim = format!(
-                "{name}: each step is at most {most} times the tolerance from the same step solved to round-off"
+                "each step is at most {most} times the tolerance from the same step solved to round-off"
             );
             Check::that(share <= most, claim, format!("{} times", short_text(share)))
+                .about(Subject::of("solved steps").in_case(name))
         });
         of_iterations.into_iter().chain(of_solution).collect()
     }
@@ -355,17 +368,12 @@ impl Kind for Scenes {
         );
         checks.push(alike_in_lanes(&found));
         let answered = found.iter().filter(|(whole, _)| !whole.answer.is_empty());
-        let strain = answered
-            .map(|(whole, shown)| whole.farthest(shown).1 / whole.within)
-            .fold(0.0, max_or_nan);
-        let distance =
-            format!(", at most {strain:.2} of the distance allowed to an independent answer");
-        let any_answer = self.scenes.iter().any(|whole| !whole.answer.is_empty());
-        let headline = format!(
-            "{} scenes{}",
-            found.len(),
-            if any_answer { &distance } else { "" }
-        );
+        let strain =
+            largest_of(answered.map(|(whole, shown)| whole.farthest(shown).1 / whole.within));
+        let distance = strain.map_or(String::new(), |strain| {
+            format!(", at most {strain:.2} of the distance allowed to an independent answer")
+        });
+        let headline = format!("{} scenes{distance}", found.len());
         let head = [
             "scene",
             "scheme",
@@ -385,9 +393,33 @@ impl Kind for Scenes {
                 &rows,
             )],
             quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
+            coverage: self.coverage(ran),
             headline: headline.clone(),
             ..Outcome::new(headline, vec![], checks)
         }
+    }
+}
+
+impl Scenes {
+    /// The scenes that are compared with an answer, and with themselves in lanes.
+    fn coverage(&self, ran: &[Ran<usize, Shown>]) -> Vec<Coverage> {
+        let count = |items: &str, reason: fn(&Whole, &Shown) -> Option<&'static str>| {
+            let of_scene = |ran: &Ran<usize, Shown>| match ran.ok() {
+                Some(shown) => reason(&self.scenes[ran.case.data], shown),
+                None => Some(NO_RESULT),
+            };
+            Coverage::of(items, ran.iter().map(of_scene))
+        };
+        vec![
+            count("scenes against an answer", |whole, _| {
+                let unknown = whole.answer.is_empty();
+                unknown.then_some("with bounds or an end only")
+            }),
+            count("scenes in lanes", |_, shown| {
+                let alone = shown.alike_in_lanes.is_none();
+                alone.then_some("without a scheme that runs in lanes")
+            }),
+        ]
     }
 }
 
@@ -459,18 +491,18 @@ impl Whole {
         } else {
             format!("{} after {} steps", shown.end.name(), shown.counts[0])
         };
-        Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
+        Check::that(holds, self.claim.clone(), evidence)
+            .about(Subject::of("answer").in_case(&self.name))
     }
 
     /// All numbers and counts of a run, unless a run without a step has no change of the energy.
     fn readings(&self, shown: &Shown) -> Vec<Reading> {
-        let name = |of: &str| format!("{}: {of}", self.name);
         let numbers = NUMBERS
             .into_iter()
             .zip(shown.numbers)
             .filter(|(_, value)| value.is_finite());
-        let numbers =
-            numbers.map(|(of, value)| Reading::new(of, value).guarded(name(of), TOLERANCE));
+        let numbers = numbers
+            .map(|(of, value)| Reading::new(of, value).guarded_in(&self.name, of, TOLERANCE));
         let counts = COUNTS
             .into_iter()
             .zip(shown.counts)
@@ -478,7 +510,7 @@ impl Whole {
         let counts = counts.map(|(of, count)| {
             Reading::new(of, count)
                 .fixed(0)
-                .guarded(name(of), COUNT_TOLERANCE)
+                .guarded_in(&self.name, of, COUNT_TOLERANCE)
         });
         numbers.chain(counts).collect()
     }
@@ -507,8 +539,8 @@ impl Whole {
     }
 }
 
-/// The largest distance of a step to the same step solved to round-off from the same level, in the norm of (3.14), over the
-/// tolerance of the scene.
+/// The largest distance of a step to the same step solved to round-off from the same level, in the
+/// norm of (3.14), over the tolerance of the scene.
 fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
     let stepping = scene.one_step()?;
     let tolerance = stepping.settings.stopping.tolerance();
@@ -530,9 +562,10 @@ fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
         .map(|x| scene.beam.theta_a * (1.0 - x))
         .collect();
     let lengths: Vec<f64> = scene.mesh.lengths().collect();
-    let (mut driver, mut farthest) = (Driver::new(problem.clone(), stepping)?, 0.0);
-    for _ in 0..scene.steps() {
-        let Step { old, new, .. } = driver.stepped()?;
+    let mut driver = Driver::new(problem.clone(), stepping)?;
+    let mut farthest = 0.0;
+    let mut solve_again = |driver: &mut Driver<'_>, _: &Report| {
+        let old = driver.old_level();
         let theta = old
             .theta
             .iter()
@@ -548,8 +581,11 @@ fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
             theta,
         };
         let mut same = Driver::new(problem.clone(), solved)?;
-        farthest = max_or_nan(farthest, distance(&lengths, new, same.stepped()?.new));
-    }
+        run_to(&mut same, solved.dt, |_, _| ())?;
+        farthest = max_or_nan(farthest, distance(&lengths, driver.level(), same.level()));
+        Ok(ControlFlow::Continue(()))
+    };
+    run(&mut driver, scene.t_end, &[], &mut [&mut solve_again])?;
     Ok(farthest / tolerance)
 }
 
@@ -571,6 +607,7 @@ fn alike_in_lanes(found: &[(&Whole, &Shown)]) -> Check {
             apart.join(", ")
         ),
     )
+    .about(Subject::of("lanes"))
 }
 
 impl Shown {

@@ -1,8 +1,13 @@
-//! The settings that an item of a study exercises; by these a diagnosis separates failing from passing items.
+//! The settings that an item of a study exercises; by these a diagnosis separates failing from
+//! passing items.
+//!
+//! Each kind of study says in its row what its items exercise: the group of statements, and the
+//! method that computes them. What an item is about is data of its [`Subject`].
 
-use convergence_study::study::Header;
-use convergence_study::study::header::{Setting, field, study};
+use convergence_study::study::header::{Setting, study};
+use convergence_study::study::{Header, Subject};
 use thermobeam::parameters::Beam;
+use thermobeam::scheme::{MIDPOINT, Scheme};
 
 use crate::exact::norm::Norm;
 
@@ -18,7 +23,7 @@ pub const PLACES: [(&str, &str); 18] = [
     ),
     (
         "no time steps",
-        "crates/thermobeam/src/equilibrium, vibration",
+        "crates/thermobeam-exact/src/equilibrium, vibration",
     ),
     (
         "the fixed point",
@@ -47,11 +52,11 @@ pub const PLACES: [(&str, &str); 18] = [
     ("obstacles", "crates/thermobeam/src/contact.rs"),
     (
         "a graded mesh",
-        "the lengths of elements: crates/thermobeam/src/mesh.rs, assembly.rs, norms.rs",
+        "the lengths of elements: crates/thermobeam/src/mesh.rs, norms.rs",
     ),
     (
         "listed nodes",
-        "the lengths of elements: crates/thermobeam/src/mesh.rs, assembly.rs",
+        "the lengths of elements: crates/thermobeam/src/mesh.rs",
     ),
     (
         "whole scenes",
@@ -67,16 +72,192 @@ pub const PLACES: [(&str, &str); 18] = [
     ("rotation-rate", "the second equation of (3.7)"),
 ];
 
-/// The settings of an item, found by a rate's norm, a check's claim, or a guarded number's name.
+/// What a kind of study puts to the test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Group {
+    Harness,
+    Manufactured,
+    Vibrations,
+    Energy,
+    Steady,
+    Scenes,
+    Maps,
+    Cost,
+    Experiments,
+}
+
+impl Group {
+    /// In words that can stand alone.
+    fn name(self) -> &'static str {
+        match self {
+            Group::Harness => "the harness",
+            Group::Manufactured => "manufactured solutions",
+            Group::Vibrations => "free vibrations",
+            Group::Energy => "the energy's laws",
+            Group::Steady => "steady states",
+            Group::Scenes => "whole scenes",
+            Group::Maps => "maps of the solvers",
+            Group::Cost => "cost",
+            Group::Experiments => "experiments with contact",
+        }
+    }
+
+    /// Whether its studies take the beam and the obstacles of the paper, from scenes in other
+    /// files.
+    fn has_the_papers_beam(self) -> bool {
+        matches!(
+            self,
+            Group::Experiments | Group::Maps | Group::Energy | Group::Steady
+        )
+    }
+}
+
+/// How an item is computed, where that is not the method of its study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ItemMethod {
+    /// By a one-step scheme: the study's, or the paper's.
+    OneStep,
+    /// By the midpoint rule.
+    Midpoint,
+    /// By the paper's iteration.
+    FixedPoint,
+    /// By elements of any degree and dG(q).
+    AnyOrder,
+    /// By a formula, without time steps.
+    Exact,
+}
+
+impl ItemMethod {
+    const ALL: [(&str, ItemMethod); 5] = [
+        ("one-step", ItemMethod::OneStep),
+        ("midpoint", ItemMethod::Midpoint),
+        ("fixed-point", ItemMethod::FixedPoint),
+        ("dg", ItemMethod::AnyOrder),
+        ("exact", ItemMethod::Exact),
+    ];
+
+    /// That of a scheme.
+    pub(crate) fn of_scheme(scheme: &Scheme) -> Self {
+        if *scheme == MIDPOINT {
+            ItemMethod::Midpoint
+        } else {
+            ItemMethod::OneStep
+        }
+    }
+
+    fn named(name: &str) -> Option<Self> {
+        let row = Self::ALL.iter().find(|(known, _)| *known == name);
+        row.map(|(_, method)| *method)
+    }
+}
+
+impl From<ItemMethod> for String {
+    /// Its word in a [`Subject`].
+    fn from(method: ItemMethod) -> Self {
+        let row = ItemMethod::ALL.iter().find(|(_, known)| *known == method);
+        row.map_or("", |(name, _)| name).to_owned()
+    }
+}
+
+/// Of the harness itself.
+pub fn of_harness(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Harness, ItemMethod::OneStep)
+}
+
+/// Of errors against a manufactured solution, or a vibration where the file has one, by one-step
+/// schemes.
+pub(super) fn of_solution(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, solution(header), ItemMethod::OneStep)
+}
+
+/// The same by the scheme of any order.
+pub(super) fn of_any_order(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, solution(header), ItemMethod::AnyOrder)
+}
+
+/// Of planted faults: in studies by one-step schemes, or by the scheme of any order.
+pub(super) fn of_controls(header: &Header, subject: &Subject) -> Vec<Setting> {
+    if has_table(header, "any-order.") {
+        of_any_order(header, subject)
+    } else {
+        of_solution(header, subject)
+    }
+}
+
+/// Of vibrations.
+pub(super) fn of_vibrations(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Vibrations, ItemMethod::OneStep)
+}
+
+/// Of frequencies.
+pub(super) fn of_frequencies(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Vibrations, ItemMethod::Exact)
+}
+
+/// Of the energy and its balance.
+pub(super) fn of_energy(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Energy, ItemMethod::OneStep)
+}
+
+/// Of the ends of runs.
+pub(super) fn of_ends(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Steady, ItemMethod::OneStep)
+}
+
+/// Of steady states themselves.
+pub(super) fn of_branches(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Steady, ItemMethod::Exact)
+}
+
+/// Of whole scenes.
+pub(super) fn of_scenes(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Scenes, ItemMethod::OneStep)
+}
+
+/// Of the two solvers.
+pub(super) fn of_solvers(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Maps, ItemMethod::OneStep)
+}
+
+/// Of work against errors.
+pub(super) fn of_cost(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Cost, ItemMethod::OneStep)
+}
+
+/// Of experiments with contact by one-step schemes.
+pub(super) fn of_experiments(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Experiments, ItemMethod::OneStep)
+}
+
+/// The same by the scheme of any order.
+pub(super) fn of_exact_experiments(header: &Header, subject: &Subject) -> Vec<Setting> {
+    exercised(header, subject, Group::Experiments, ItemMethod::AnyOrder)
+}
+
+fn solution(header: &Header) -> Group {
+    if has_table(header, "vibration.") {
+        Group::Vibrations
+    } else {
+        Group::Manufactured
+    }
+}
+
+/// Whether a study file has values in a table.
+fn has_table(header: &Header, table: &str) -> bool {
+    let mut paths = header.settings.iter().map(|(path, _)| path);
+    paths.any(|path| path.starts_with(table))
+}
+
+/// The settings of an item.
 ///
-/// In a study with named cases: the settings of the case whose name the item's name begins with.
-pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
+/// * `subject`: what it is about; in a study with named cases, its case has settings of its own.
+/// * `method`: that of the study, unless the file or the subject names another.
+fn exercised(header: &Header, subject: &Subject, group: Group, method: ItemMethod) -> Vec<Setting> {
     let of = Of {
         header,
-        item,
-        case: case(header, item),
+        case: case(header, subject),
+        group,
     };
-    let field = field(item);
     let axis = of
         .text("refine.axis")
         .or(of.text("run.over"))
@@ -89,16 +270,17 @@ pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
             axis
         }
     );
-    let mut settings = vec![("kind", of.kind())];
-    if Norm::ALL.iter().any(|norm| norm.name() == field) {
-        settings.push(("field", &field));
+    let mut settings = vec![("kind", group.name())];
+    let quantity = subject.quantity.as_str();
+    if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
+        settings.push(("field", quantity));
     }
-    if !axis.is_empty() && (of.kind() == "manufactured solutions" || of.kind() == "free vibrations")
-    {
+    if !axis.is_empty() && matches!(group, Group::Manufactured | Group::Vibrations) {
         settings.push(("axis", &refined));
     }
-    if of.kind() != "the harness" {
-        settings.extend(of.method());
+    if group != Group::Harness {
+        let own = subject.method.as_deref().and_then(ItemMethod::named);
+        settings.extend(of.method(own, method));
         settings.extend(of.beam());
         settings.push(("mesh", of.mesh()));
     }
@@ -107,18 +289,16 @@ pub fn settings(header: &Header, item: &str) -> Vec<Setting> {
         .map(|(key, value)| (key.to_owned(), value.to_owned()));
     // A study on its own: its kind tells where to look.
     let (key, alone) = study(header);
-    std::iter::once((key, format!("{alone} ({})", of.kind())))
+    std::iter::once((key, format!("{alone} ({})", group.name())))
         .chain(settings)
         .collect()
 }
 
 /// The dotted path of the item's case, such as `case[2].`; empty without a case.
-fn case(header: &Header, item: &str) -> String {
-    let name = item
-        .trim_start_matches("error ")
-        .trim_start_matches("rate ")
-        .split_once(": ")
-        .map_or("", |(name, _)| name);
+fn case(header: &Header, subject: &Subject) -> String {
+    let Some(name) = &subject.case else {
+        return String::new();
+    };
     let is_named =
         |(path, value): &&Setting| path.ends_with("].name") && value.trim_matches('"') == name;
     header
@@ -133,8 +313,8 @@ fn case(header: &Header, item: &str) -> String {
 /// An item of a study.
 struct Of<'s> {
     header: &'s Header,
-    item: &'s str,
     case: String,
+    group: Group,
 }
 
 impl Of<'_> {
@@ -152,15 +332,11 @@ impl Of<'_> {
     }
 
     fn has(&self, table: &str) -> bool {
-        let path = self.case.clone() + table;
-        self.header
-            .settings
-            .iter()
-            .any(|(known, _)| known.starts_with(&path) || known.starts_with(table))
+        has_table(self.header, &(self.case.clone() + table)) || has_table(self.header, table)
     }
 
-    /// Whether the item or the file mentions a word.
-    fn speaks_of(&self, word: &str) -> bool {
+    /// Whether the file names this scheme or solver.
+    fn names(&self, word: &str) -> bool {
         let time = [
             "time.scheme",
             "time.solver",
@@ -169,51 +345,31 @@ impl Of<'_> {
             "scheme",
             "solver",
         ];
-        self.item.contains(word) || time.iter().any(|key| self.text(key) == Some(word))
+        time.iter().any(|key| self.text(key) == Some(word))
     }
 
-    fn kind(&self) -> &str {
-        match self.header.kind.as_str() {
-            "calibration" | "program" => "the harness",
-            "convergence" | "any-order" | "controls" if !self.has("vibration.") => {
-                "manufactured solutions"
-            }
-            "vibration" | "frequencies" | "convergence" | "any-order" | "controls" => {
-                "free vibrations"
-            }
-            "energy" => "the energy's laws",
-            "equilibrium" | "bifurcation" => "steady states",
-            "scenes" => "whole scenes",
-            "solvers" => "maps of the solvers",
-            "work-precision" => "cost",
-            _ => "experiments with contact",
-        }
-    }
-
-    fn method(&self) -> [(&'static str, &'static str); 3] {
+    /// * `own`: the method of the item, if it has one of its own; `of_study`: that of its study.
+    fn method(
+        &self,
+        own: Option<ItemMethod>,
+        of_study: ItemMethod,
+    ) -> [(&'static str, &'static str); 3] {
         // A method without this choice is named instead.
         let all = |method: &'static str| ["method", "scheme", "solver"].map(|key| (key, method));
-        let kind = self.header.kind.as_str();
-        let any_order =
-            matches!(kind, "any-order" | "exact-experiments") || self.has("any-order.studies");
-        if any_order
-            || self.item.contains("any-order")
-            || self.speaks_of("dg")
-            || self.item.contains("any order")
-        {
-            return all("any order");
+        match own.unwrap_or(of_study) {
+            ItemMethod::AnyOrder => return all("any order"),
+            ItemMethod::Exact => return all("no time steps"),
+            _ if self.names("dg") => return all("any order"),
+            _ => {}
         }
-        let is_steady =
-            kind == "frequencies" || (kind == "bifurcation" && !self.item.contains("rest"));
-        if is_steady || self.item.contains("exact") {
-            return all("no time steps");
-        }
-        let scheme = if self.speaks_of("midpoint") {
+        let is_midpoint = own == Some(ItemMethod::Midpoint) || self.names("midpoint");
+        let is_fixed_point = own == Some(ItemMethod::FixedPoint) || self.names("fixed-point");
+        let scheme = if is_midpoint {
             "the midpoint rule"
         } else {
             "the paper's scheme"
         };
-        let solver = if self.speaks_of("fixed-point") || self.item.contains("contraction") {
+        let solver = if is_fixed_point {
             "the fixed point"
         } else {
             "Newton's method"
@@ -225,9 +381,10 @@ impl Of<'_> {
         ]
     }
 
-    /// The active terms of the equations; scenes in other files are those of the paper, whose beam is the default.
+    /// The active terms of the equations; scenes in other files are those of the paper, whose beam
+    /// is the default.
     fn beam(&self) -> [(&'static str, &'static str); 5] {
-        let free = self.kind() == "free vibrations";
+        let free = self.group == Group::Vibrations;
         let default = if free {
             Beam {
                 a: 0.0,
@@ -242,15 +399,8 @@ impl Of<'_> {
                 .map_or(default, |text| text.parse().unwrap_or(default))
         };
         let on = |is_on: bool, on: &'static str, off: &'static str| if is_on { on } else { off };
-        let meets = [
-            "experiments with contact",
-            "maps of the solvers",
-            "the energy's laws",
-            "steady states",
-        ];
-        let paper = meets.contains(&self.kind())
-            || self.item.contains("paper-")
-            || self.text("refine.scene").is_some();
+        let is_of_the_paper =
+            self.group.has_the_papers_beam() || self.text("refine.scene").is_some();
         [
             (
                 "coupling",
@@ -286,7 +436,11 @@ impl Of<'_> {
             ),
             (
                 "obstacles",
-                on(paper || self.has("obstacles."), "obstacles", "a free end"),
+                on(
+                    is_of_the_paper || self.has("obstacles."),
+                    "obstacles",
+                    "a free end",
+                ),
             ),
         ]
     }
@@ -308,8 +462,9 @@ impl Of<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::settings;
-    use convergence_study::study::Header;
+    use super::{ItemMethod, of_branches, of_scenes, of_solution};
+    use convergence_study::study::header::Setting;
+    use convergence_study::study::{Header, Subject};
 
     fn header(kind: &str, values: &[(&str, &str)]) -> Header {
         let settings = values
@@ -323,6 +478,22 @@ mod tests {
         }
     }
 
+    fn values(settings: Vec<Setting>) -> Vec<String> {
+        settings.into_iter().map(|(_, value)| value).collect()
+    }
+
+    #[test]
+    fn the_method_of_an_item_replaces_that_of_its_study() {
+        let of = |subject: Subject| values(of_branches(&header("bifurcation", &[]), &subject));
+        let state = Subject::of("steady state");
+        assert!(of(state.clone()).contains(&"no time steps".to_owned()));
+        let run = of(state.by(ItemMethod::OneStep));
+        assert!(run.contains(&"one-step schemes".to_owned()), "{run:?}");
+        for (_, method) in ItemMethod::ALL {
+            assert_eq!(ItemMethod::named(&String::from(method)), Some(method));
+        }
+    }
+
     #[test]
     fn a_case_has_its_own_settings_and_a_study_of_orders_those_of_its_file() {
         let whole = header(
@@ -333,13 +504,7 @@ mod tests {
                 ("case[1].time.scheme", "\"dg\""),
             ],
         );
-        let values = |header: &Header, item: &str| -> Vec<String> {
-            settings(header, item)
-                .into_iter()
-                .map(|(_, value)| value)
-                .collect()
-        };
-        let cold = values(&whole, "cold: u_tip");
+        let cold = values(of_scenes(&whole, &Subject::of("u_tip").in_case("cold")));
         assert!(
             ["whole scenes", "any order", "no coupling"]
                 .iter()
@@ -352,7 +517,10 @@ mod tests {
             ("refine.scheme", "\"midpoint\""),
             ("refine.map", "\"s\""),
         ];
-        let found = values(&header("convergence", &file), "temperature");
+        let found = values(of_solution(
+            &header("convergence", &file),
+            &Subject::of("temperature"),
+        ));
         for expected in [
             "temperature",
             "refined in time",

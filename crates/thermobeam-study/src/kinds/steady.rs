@@ -1,8 +1,12 @@
-//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they should end.
+//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they
+//! should end.
 
-use thermobeam::equilibrium::{EquilibriumError, equilibria};
+use std::ops::ControlFlow;
+
+use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
 
 use super::prelude::*;
+use super::tables::Discretisation;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
 pub(super) fn listed_scenes(
@@ -30,17 +34,29 @@ pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
     Ok(scene)
 }
 
-/// Settings of the runs to rest: with these β, on a uniform mesh, until the beam is slow.
+/// Settings of the runs to rest: with these β, until the beam is slow.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ToRest {
     pub(super) betas: Vec<f64>,
-    elements: usize,
-    dt: f64,
+    method: MethodToRest,
     /// Largest velocity that counts as rest.
     speed: f64,
     /// A longer run fails.
     t_max: f64,
 }
+
+/// How a beam is stepped until it rests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum MethodToRest {
+    /// By the scheme of its scene, on a uniform mesh.
+    OneStep { elements: usize, dt: f64 },
+    /// By dG.
+    AnyOrder(Discretisation),
+}
+
+/// Elements of the mesh on whose nodes a run by dG is compared with speeds and steady states: more
+/// than two nodes for each half wave of a polynomial of degree 12.
+const COMPARED: usize = 32;
 
 impl ToRest {
     /// The keys of a table.
@@ -48,14 +64,30 @@ impl ToRest {
 
     /// Reads a table that has [`ToRest::KEYS`], and possibly others.
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let fits = |list: &[f64]| !list.is_empty() && increases(list);
-        let betas = section.list("beta", "a list of numbers, ascending", Field::number, fits)?;
         let (dt, t_max) = steps_to_rest(section)?;
         let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
+        Self::with(section, MethodToRest::OneStep { elements, dt }, t_max)
+    }
+
+    /// The keys of a table for runs by dG.
+    pub(super) const ANY_ORDER_KEYS: [&str; 3] = ["beta", "speed", "t_max"];
+
+    /// Reads a table with [`ToRest::ANY_ORDER_KEYS`].
+    pub(super) fn read_any_order(
+        section: &Section<'_>,
+        discretisation: Discretisation,
+    ) -> Result<Self, InputError> {
+        let t_max = section.positive("t_max")?;
+        let field = section.require("t_max", POSITIVE)?;
+        limits::steps_until(&field, t_max, discretisation.stepping.dt, limits::STEPS)?;
+        Self::with(section, MethodToRest::AnyOrder(discretisation), t_max)
+    }
+
+    fn with(section: &Section<'_>, method: MethodToRest, t_max: f64) -> Result<Self, InputError> {
+        let fits = |list: &[f64]| !list.is_empty() && increases(list);
         Ok(Self {
-            betas,
-            elements,
-            dt,
+            betas: section.list("beta", "a list of numbers, ascending", Field::number, fits)?,
+            method,
             speed: section.positive("speed")?,
             t_max,
         })
@@ -63,7 +95,10 @@ impl ToRest {
 
     /// What a run costs.
     pub(super) fn cost(&self) -> f64 {
-        cost_to_rest(self.elements, self.dt)
+        match &self.method {
+            MethodToRest::OneStep { elements, dt } => cost_to_rest(*elements, *dt),
+            MethodToRest::AnyOrder(discretisation) => discretisation.cost(RESTS),
+        }
     }
 
     /// Runs the scene with the β of this index to rest.
@@ -72,12 +107,26 @@ impl ToRest {
     /// As [`settle`], and if the steady states cannot be found.
     pub(super) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
         let beta = self.betas[place];
-        let mut scene = scene.at(Mesh::uniform(self.elements)?, self.dt);
+        let mut scene = match &self.method {
+            MethodToRest::OneStep { elements, dt } => scene.at(Mesh::uniform(*elements)?, *dt),
+            MethodToRest::AnyOrder(discretisation) => discretisation.of(scene, self.t_max)?,
+        };
         scene.beam.beta = beta;
         scene.name = format!("beta = {beta}");
         let (t, level) = settle(&scene, self.speed, self.t_max)?;
-        AtRest::of(&scene, &scene.mesh, t, &level, |_| true)
+        AtRest::of(&scene, &compared(&scene)?, t, &level, |_| true)
     }
+}
+
+/// The mesh on whose nodes a run is compared with exact steady states.
+///
+/// # Errors
+/// The mesh has elements that are too small.
+pub(super) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
+    Ok(match scene.method {
+        Method::OneStep(_) => scene.mesh.clone(),
+        Method::Dg(_) => resampled(&scene.mesh, COMPARED)?,
+    })
 }
 
 /// The keys dt and t_max of a run to rest.
@@ -108,9 +157,12 @@ pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
         .number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
 }
 
-/// The cost until a beam has come to rest, at about t = 200.
+/// When a beam has come to rest, roughly.
+const RESTS: f64 = 200.0;
+
+/// The cost until a beam has come to rest.
 pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
-    200.0 / dt * elements as f64
+    RESTS / dt * elements as f64
 }
 
 /// Where a moving beam comes to rest, and the exact steady states. Pairs are of u and of φ.
@@ -193,33 +245,62 @@ impl AtRest {
     }
 }
 
-/// A beam is at rest when it has been slow for this time: at the turning points of an oscillation it is slow for a moment,
-/// and near buckling the slowest oscillation differs from rest by its speed alone.
+/// A beam is at rest when it has been slow for this time: at the turning points of an oscillation
+/// it is slow for a moment, and near buckling the slowest oscillation differs from rest by its
+/// speed alone.
 const QUIET: f64 = 5.0;
 
-/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and level.
+/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and
+/// level.
+///
+/// * `scene`: by any method; a run by dG is observed at the nodes of its mesh of comparison.
 ///
 /// # Errors
 /// A step that fails, or motion beyond `t_max`.
 pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
-    let (mut driver, mut moved) = (simulate::driver(scene)?, 0.0);
-    loop {
-        let Step {
-            new, simulation, ..
-        } = driver.stepped()?;
-        let t = simulation.t();
-        if !new.is_slow(speed) {
-            moved = t;
-        } else if t - moved >= QUIET {
-            return Ok((t, new.clone()));
+    match scene.method {
+        Method::OneStep(_) => {
+            let level = |driver: &Driver<'_>| driver.level().clone();
+            let is_slow = |driver: &Driver<'_>| driver.level().is_slow(speed);
+            quiet(&mut simulate::driver(scene)?, t_max, is_slow, level)?
         }
-        if !(t < t_max) {
-            return Err(CaseFailure::new(format!(
-                "{} still moves faster than {speed:e} at t = {t_max}",
-                scene.name
-            )));
+        Method::Dg(_) => {
+            let nodes = compared(scene)?;
+            let level = |motion: &AnyMotion| motion.snapshot().on(&nodes);
+            let is_slow = |motion: &AnyMotion| level(motion).is_slow(speed);
+            quiet(&mut *simulate::motion(scene)?, t_max, is_slow, level)?
         }
     }
+    .ok_or_else(|| {
+        CaseFailure::new(format!(
+            "{} still moves faster than {speed:e} at t = {t_max}",
+            scene.name
+        ))
+    })
+}
+
+/// Steps a motion until it has been slow for a while; `None` if it still moves at `t_max`.
+fn quiet<M: Motion + ?Sized>(
+    motion: &mut M,
+    t_max: f64,
+    is_slow: impl Fn(&M) -> bool,
+    level: impl Fn(&M) -> Level,
+) -> Result<Option<(f64, Level)>, RunError> {
+    let mut moved = 0.0;
+    let mut watch = |motion: &mut M, _: &Report| {
+        let t = motion.work().t;
+        if !is_slow(motion) {
+            moved = t;
+        }
+        Ok(if t - moved >= QUIET {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    };
+    run(motion, t_max, &[], &mut [&mut watch])?;
+    let t = motion.work().t;
+    Ok((t - moved >= QUIET).then(|| (t, level(motion))))
 }
 
 /// All exact steady states of the scene.

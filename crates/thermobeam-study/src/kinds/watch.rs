@@ -1,22 +1,28 @@
 //! The energy over the steps of a run: its largest rise, and the largest residual of its balance.
 
+use std::ops::ControlFlow;
+
 use thermobeam::energy::{Balance, Rounding};
 
 use super::prelude::*;
 use crate::run::together::EnsembleDriver;
 
-/// Increment at which a step counts as solved: only the exact solution of a step satisfies the balance.
+/// Increment at which a step counts as solved: only the exact solution of a step satisfies the
+/// balance.
 pub(super) const SOLVED: f64 = 1e-14;
 
-/// Share of the energy within which the balance of a step closes, unless rounding errors explain more.
+/// Share of the energy within which the balance of a step closes, unless rounding errors explain
+/// more.
 pub(super) const CLOSED: f64 = 1e-12;
 
-/// Largest rise of the energy and largest residual of its balance, over the steps of one run or of several; NaN stays.
+/// Largest rise of the energy and largest residual of its balance, over the steps of one run or of
+/// several; NaN stays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Worst {
     /// Residual of a step, in units of the energy's size.
     pub residual: f64,
-    /// Change of the energy in a step, in the same units; negative if it falls in every step, -∞ without steps.
+    /// Change of the energy in a step, in the same units; negative if it falls in every step, -∞
+    /// without steps.
     pub rise: f64,
     /// Residual in units of its bound: at most 1 if every balance closes.
     pub open: f64,
@@ -115,7 +121,7 @@ impl EnergyWatch {
     }
 
     /// Adds a step; `rounding` is evaluated only if needed.
-    pub(super) fn step(
+    pub(super) fn add(
         &mut self,
         balance: &Balance,
         scale: f64,
@@ -154,10 +160,11 @@ impl EnergyWatch {
         self.worst = self.worst.max(step);
     }
 
-    /// The term that does not close, and the factor of it that is left over; `None` where no term explains the residuals.
+    /// The term that does not close, and the factor of it that is left over; `None` where no term
+    /// explains the residuals.
     ///
-    /// A term T with a wrong factor 1 + c leaves r = c T in every step: the cosine of the angle between r and T is then 1, and
-    /// c = Σ r T / Σ T².
+    /// A term T with a wrong factor 1 + c leaves r = c T in every step: the cosine of the angle
+    /// between r and T is then 1, and c = Σ r T / Σ T².
     pub(super) fn open_term(&self) -> Option<(&'static str, f64)> {
         let cosine = |[product, square]: [f64; 2]| (product / (self.squares * square).sqrt()).abs();
         let named = TERMS
@@ -177,9 +184,11 @@ pub(super) struct Watched {
     pub(super) failure: Option<StepError>,
 }
 
-/// Runs problems with the same number of elements in lanes by Newton's method, each to its last or failing step.
+/// Runs problems with the same number of elements in lanes by Newton's method, each to its last or
+/// failing step.
 ///
-/// * `see`: receives each completed step: index of the problem, iterations of the step, and the new level.
+/// * `see`: receives each completed step: index of the problem, iterations of the step, and the new
+///   level.
 pub(super) fn watched(
     problems: Vec<Problem>,
     dts: &[f64],
@@ -206,10 +215,7 @@ pub(super) fn watched(
         )
     };
     let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
-    for _ in 0..steps {
-        let Some((ensemble, balances)) = driver.stepped()? else {
-            break;
-        };
+    driver.run(steps, |ensemble, balances| {
         for (k, ((watch, old), balance)) in runs.iter_mut().zip(balances).enumerate() {
             let Ok(report) = ensemble.report(k) else {
                 continue;
@@ -217,12 +223,13 @@ pub(super) fn watched(
             ensemble.observe(k, &mut new);
             see(k, report.iterations, &new);
             let case = &ensemble.cases()[k];
-            watch.step(balance, case.energy_scale(&new), || {
+            watch.add(balance, case.energy_scale(&new), || {
                 case.rounding(old, &new)
             });
             std::mem::swap(old, &mut new);
         }
-    }
+        ControlFlow::Continue(())
+    })?;
     let ended = |(k, (watch, _)): (usize, &(EnergyWatch, Level))| Watched {
         worst: watch.worst,
         failure: driver.ensemble().report(k).err(),
@@ -255,7 +262,7 @@ mod tests {
                     residual: residual(&balance),
                     ..balance
                 };
-                watch.step(&balance, 1.0, || Rounding {
+                watch.add(&balance, 1.0, || Rounding {
                     residual: 0.0,
                     contact: 0.0,
                 });

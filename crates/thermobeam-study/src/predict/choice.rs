@@ -1,9 +1,10 @@
-//! Runs chosen by accuracy: the cheapest run with at most the wanted error, or such a run by the scene's own scheme.
+//! Runs chosen by accuracy: the cheapest run with at most the wanted error, or such a run by the
+//! scene's own scheme.
 //!
-//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: the error of any other run could only be found by
-//! comparison with such a run. The needs of the scene's own scheme follow from two constants: with n elements and s steps its error
-//! is about `S (n0/n)^p + T (s0/s)^q`. S and T are the reductions of a coarse run's error when only h or only dt is halved, divided
-//! by `1 - 2^-p` and `1 - 2^-q`.
+//! The cheapest is dG with the degrees, elements and steps of [`super::reference`]: the error of
+//! any other run could only be found by comparison with such a run. The scene's own scheme starts
+//! coarse; two more runs, one with twice the elements and one with half of dt, show the parts of
+//! space and time in its error, and the larger part is halved until the target is met.
 //!
 //! ```
 //! use thermobeam_study::predict::choice::{Quantity, choose};
@@ -26,20 +27,11 @@ use crate::scene::{Method, Scene, resampled};
 /// Elements of the coarsest run by the scene's own scheme.
 const ELEMENTS: f64 = 16.0;
 
-/// Maximum number of steps in runs that predict the needs of the scene's own scheme: some milliseconds.
-const MOST_STEPS: f64 = 4000.0;
-
-/// Part of the target that a one-step scheme aims at; the rest allows for constants that change from level to level.
-const AIM: f64 = 0.75;
-
 /// Allowed error of the reference of a one-step scheme, as part of the target.
 const TENTH: f64 = 0.1;
 
-/// Maximum growth of elements and steps in one round: constants of coarse runs reach no further.
-const MOST_GROWTH: f64 = 8.0;
-
 /// Rounds of refinement.
-const ROUNDS: usize = 16;
+const ROUNDS: usize = 40;
 
 /// Allowed number of failed runs.
 const FAILURES: usize = 4;
@@ -87,22 +79,6 @@ impl Quantity {
     }
 }
 
-/// Predicted discretisation and cost of the scene's own scheme for the wanted error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Needed {
-    /// Elements and steps.
-    pub at: [f64; 2],
-    /// Seconds, at the speed of the coarse runs.
-    pub seconds: f64,
-}
-
-impl Needed {
-    /// Elements times steps.
-    pub fn node_steps(&self) -> f64 {
-        self.at[0] * self.at[1]
-    }
-}
-
 /// The chosen run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
@@ -114,8 +90,6 @@ pub struct Choice {
     pub parts_by: String,
     /// The cost of the run itself.
     pub run: Cost,
-    /// The needs of the scene's own scheme; `None` if it is the chosen one, or if its coarse runs fail.
-    pub needed: Option<Needed>,
     /// The error of the run.
     pub error: f64,
     /// Whether the scheme is the scene's own, as in [`keep_scheme`].
@@ -140,19 +114,8 @@ pub fn choose(
         time,
         run,
         finer_space,
-        is_narrow,
         ..
     } = reference(scene, None, &quantity.wanted(target), work)?;
-    // Coarse levels that miss a narrow feature say nothing about finer ones.
-    let own_scheme = if is_narrow {
-        None
-    } else {
-        own_scheme(scene, target, MOST_STEPS)
-    };
-    let law = own_scheme.and_then(|coarse| {
-        let own = Own::run(&coarse, quantity, chosen.mesh.nodes(), work).ok()?;
-        Law::of(&coarse, &own, work).ok()
-    });
     Ok(Choice {
         scene: chosen,
         parts: [space[0], time[0]],
@@ -160,11 +123,11 @@ pub fn choose(
         error: space[0] + time[0],
         is_kept: false,
         run,
-        needed: law.map(|law| law.needed(target)),
     })
 }
 
-/// The scene's own scheme with the required elements and steps; its error is the difference to a run of any order.
+/// The scene's own scheme with the required elements and steps; its error is the difference to a
+/// run of any order.
 ///
 /// # Errors
 /// As [`choose`].
@@ -174,12 +137,11 @@ pub fn keep_scheme(
     target: f64,
     work: &mut Work<'_>,
 ) -> Result<Choice, Unreachable> {
-    let Some(mut scene) = own_scheme(scene, target, f64::INFINITY) else {
+    let Some(mut scene) = coarsest(scene, target) else {
         return choose(scene, quantity, target, work);
     };
     let reference = reference(&scene, None, &quantity.wanted(TENTH * target), work)?;
     let mut best = (f64::INFINITY, [f64::NAN; 2]);
-    let (mut law, mut failures) = (None, 0);
     let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| Unreachable::NotReached {
         target,
         reached,
@@ -187,64 +149,64 @@ pub fn keep_scheme(
         time,
         reason,
     };
+    let mut parts: Option<Parts> = None;
+    let mut failures = 0;
     for _ in 0..ROUNDS {
         let outcome = work
             .leaves(size(&scene).iter().product())
             .and_then(|()| Own::run(&scene, quantity, reference.scene.mesh.nodes(), work))
             .and_then(|own| {
                 let error = own.error(&reference, work)?;
-                // A law for the first run, and after each run that misses the target.
-                if law.is_none() || error > target {
-                    law = Some(Law::of(&scene, &own, work)?);
+                if parts.is_none() || error > target {
+                    parts = Some(Parts::of(&scene, &own, work)?);
                 }
                 Ok((own, error))
             });
-        let finer = match (outcome, &law) {
-            (Ok((own, error)), Some(law)) if error <= target => {
-                let parts = law.parts(size(&scene));
-                let parts_by = "by runs with twice the elements and with half of dt".to_owned();
+        let refined = match (outcome, &mut parts) {
+            (Ok((own, error)), Some(parts)) if error <= target => {
                 return Ok(Choice {
                     scene,
-                    parts,
-                    parts_by,
+                    parts: parts.errors,
+                    parts_by: "by runs with twice the elements and with half of dt".to_owned(),
                     error,
                     is_kept: true,
                     run: own.curves.cost,
-                    needed: None,
                 });
             }
-            (Ok((_, error)), Some(law)) => {
+            (Ok((_, error)), Some(parts)) => {
                 if error < best.0 {
-                    best = (error, law.parts(size(&scene)));
+                    best = (error, parts.errors);
                 }
                 // A run that is clearly too expensive is not started.
-                let [elements, steps] = law.cheapest(AIM * target);
-                work.leaves(0.25 * elements * steps)
+                let least: f64 = size(&scene).iter().product();
+                work.leaves(0.5 * least * parts.growth(0.5 * target))
                     .map_err(|reason| not_reached(best, reason))?;
-                law.next(size(&scene), target)
+                parts.halve_larger()
             }
             // Coarse steps may fail although finer ones succeed.
             (Err(Reason::Run(_)), _) if failures < FAILURES => {
                 failures += 1;
-                size(&scene).map(|count| 2.0 * count)
+                [2.0; 2]
             }
             (Err(reason), _) => return Err(not_reached(best, reason)),
             (Ok(_), None) => return Err(not_reached(best, Reason::NotFinite)),
         };
-        scene = resized(&scene, finer).ok_or_else(|| not_reached(best, Reason::Finest))?;
+        let [elements, steps] = size(&scene);
+        scene = resized(&scene, [refined[0] * elements, refined[1] * steps])
+            .ok_or_else(|| not_reached(best, Reason::Finest))?;
     }
     Err(not_reached(best, Reason::Rounds))
 }
 
-/// The scene with its own one-step scheme on coarse levels; `None` for a scene by dG.
-fn own_scheme(scene: &Scene, target: f64, most_steps: f64) -> Option<Scene> {
+/// The scene with its own one-step scheme on the coarsest level; `None` for a scene by dG.
+fn coarsest(scene: &Scene, target: f64) -> Option<Scene> {
     let Method::OneStep(mut stepping) = scene.method else {
         return None;
     };
     if let Stopping::Converged { tolerance, .. } = &mut stepping.settings.stopping {
         *tolerance = tolerance.min((1e-4 * target).clamp(1e-13, 1e-9));
     }
-    let steps = (2.0 * scene.t_end / impact(scene)).clamp(8.0, most_steps);
+    let steps = (2.0 * scene.t_end / impact(scene)).max(8.0);
     resized(
         &Scene {
             method: Method::OneStep(stepping),
@@ -277,7 +239,8 @@ struct Own {
 }
 
 impl Own {
-    /// * `nodes`: of the reference, whose polynomials may be steep where the scene's mesh is coarse.
+    /// * `nodes`: of the reference, whose polynomials may be steep where the scene's mesh is
+    ///   coarse.
     fn run(
         scene: &Scene,
         quantity: Quantity,
@@ -308,17 +271,15 @@ impl Own {
     }
 }
 
-/// How the error of a one-step scheme falls with elements and steps.
+/// The parts of space and time in the error of a one-step scheme.
 #[derive(Debug, Clone, Copy)]
-struct Law {
-    at: [f64; 2],
-    /// Errors of space and time on that level.
-    parts: [f64; 2],
+struct Parts {
+    errors: [f64; 2],
+    /// The orders in h and in dt at which they fall.
     orders: [f64; 2],
-    seconds_per_node_step: f64,
 }
 
-impl Law {
+impl Parts {
     /// From two runs: one with twice the elements, one with dt/2.
     fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
         let [space, time] = finer(scene).map(|finer| own.other(&finer?, work));
@@ -329,49 +290,25 @@ impl Law {
             Rows::Norm(_) => (1.0, 0.75_f64.sqrt()),
             _ => (2.0, 0.75),
         };
-        let cost = own.curves.cost;
         Ok(Self {
-            at: size(scene),
-            parts: [space / left, time / (1.0 - 0.5_f64.powf(order))],
+            errors: [space / left, time / (1.0 - 0.5_f64.powf(order))],
             orders: [p, order],
-            seconds_per_node_step: cost.seconds / cost.work,
         })
     }
 
-    fn parts(&self, [elements, steps]: [f64; 2]) -> [f64; 2] {
-        let ([n, s], [p, q]) = (self.at, self.orders);
-        [
-            self.parts[0] * (n / elements).powf(p),
-            self.parts[1] * (s / steps).powf(q),
-        ]
+    /// Halves h or dt, whichever has the larger part: the factors of elements and steps. The part
+    /// that remains follows from its order until it is measured again.
+    fn halve_larger(&mut self) -> [f64; 2] {
+        let larger = usize::from(self.errors[1] > self.errors[0]);
+        self.errors[larger] *= 0.5_f64.powf(self.orders[larger]);
+        let mut factors = [1.0; 2];
+        factors[larger] = 2.0;
+        factors
     }
 
-    /// The fewest node-steps with a given error: there the errors of space and time are in the ratio q to p.
-    fn cheapest(&self, error: f64) -> [f64; 2] {
-        let ([n, s], [p, q]) = (self.at, self.orders);
-        let wanted = [error * q / (p + q), error * p / (p + q)];
-        [
-            n * (self.parts[0] / wanted[0]).powf(1.0 / p),
-            s * (self.parts[1] / wanted[1]).powf(1.0 / q),
-        ]
-    }
-
-    /// The size after a run that misses the target: larger, but within the range of the law.
-    fn next(&self, now: [f64; 2], target: f64) -> [f64; 2] {
-        let best = self.cheapest(AIM * target);
-        let next: [f64; 2] = std::array::from_fn(|k| best[k].clamp(now[k], MOST_GROWTH * now[k]));
-        if next[0] * next[1] >= 1.5 * now[0] * now[1] {
-            next
-        } else {
-            now.map(|count| 1.3 * count)
-        }
-    }
-
-    fn needed(&self, target: f64) -> Needed {
-        let at = self.cheapest(target).map(|count| count.max(1.0).ceil());
-        Needed {
-            at,
-            seconds: self.seconds_per_node_step * at[0] * at[1],
-        }
+    /// By how much the product of elements and steps must grow until each part is at most `target`.
+    fn growth(&self, target: f64) -> f64 {
+        let factor = |(error, order): (&f64, &f64)| (error / target).max(1.0).powf(order.recip());
+        self.errors.iter().zip(&self.orders).map(factor).product()
     }
 }

@@ -1,6 +1,8 @@
-//! Runs reduced to their curves: numbers over time, by any method, and the distance between two such runs.
+//! Runs reduced to their curves: numbers over time, by any method, and the distance between two
+//! such runs.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use convergence_study::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::{self, Field};
@@ -8,13 +10,13 @@ use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
-use crate::run::Motion;
 use crate::run::dg::DgMotion;
-use crate::run::driver::Step;
-use crate::run::simulate;
+use crate::run::driver::Driver;
+use crate::run::{Motion, Report, run, simulate};
 use crate::scene::{Method, Scene};
 
-/// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the start may be shorter than the step.
+/// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the
+/// start may be shorter than the step.
 const POINTS: usize = 12;
 
 /// Maximum number of compared steps of the largest length; longer runs skip steps evenly.
@@ -23,10 +25,12 @@ const MOST_LONG_STEPS: f64 = 20_000.0;
 /// Maximum number of times at which a one-step scheme is read.
 const TIMES: usize = 4000;
 
-/// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest length by dG.
+/// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest
+/// length by dG.
 const MOST_KEPT: usize = 4_000_000;
 
-/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the norm.
+/// The compared quantities and the required difference: in u(1), φ(1) and the energy, or in the
+/// norm.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wanted {
     pub(super) rows: Rows,
@@ -40,7 +44,8 @@ pub(super) enum Rows {
     Tip,
     /// u(1), φ(1) and the energy.
     Numbers,
-    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of a weight.
+    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of
+    /// a weight.
     Norm(Vec<(f64, f64)>),
 }
 
@@ -57,8 +62,8 @@ impl Rows {
         Self::Norm(points.collect())
     }
 
-    /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares of its polynomials' errors of
-    /// degree p + 1, whose zeros are no points.
+    /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares
+    /// of its polynomials' errors of degree p + 1, whose zeros are no points.
     pub(super) fn on(&self, scene: &Scene) -> Self {
         match self {
             Self::Norm(_) => Self::of_norm(scene.mesh.nodes(), scene.degree + 2),
@@ -75,7 +80,8 @@ impl Rows {
         }
     }
 
-    /// The distance of two rows in units of a tolerance: the largest for single numbers, or that of the norm.
+    /// The distance of two rows in units of a tolerance: the largest for single numbers, or that of
+    /// the norm.
     fn distance(&self, one: &[f64], other: &[f64], tolerance: &[f64; 3]) -> f64 {
         let differences = one.iter().zip(other).map(|(a, b)| a - b);
         match self {
@@ -173,7 +179,8 @@ pub(super) struct Instance {
     pub(super) t: f64,
     /// Time since the start or the last contact event; 0 for a one-step scheme.
     pub(super) since: f64,
-    /// Whether the step is longer than normal steps at that distance from the last event: a smaller `restart_dt` shortens it.
+    /// Whether the step is longer than normal steps at that distance from the last event: a smaller
+    /// `restart_dt` shortens it.
     pub(super) early: bool,
 }
 
@@ -226,8 +233,9 @@ impl Curves {
 
 /// Runs a scene.
 ///
-/// * `at`: increasing times of reading, for a one-step scheme ends of steps. `None` selects the run's own times: by dG also inside
-///   steps, by a one-step scheme the last level and at most [`TIMES`] evenly spaced levels before.
+/// * `at`: increasing times of reading, for a one-step scheme ends of steps. `None` selects the
+///   run's own times: by dG also inside steps, by a one-step scheme the last level and at most
+///   [`TIMES`] evenly spaced levels before.
 ///
 /// # Errors
 /// The scene is refused, a step fails, or the limit of time or work is reached.
@@ -243,6 +251,28 @@ pub(super) fn curves(
     }?;
     work.ran(&curves.cost);
     Ok(curves)
+}
+
+/// Steps a motion to `until`, or to the step at which `read` gives a reason to end.
+fn run_within<M: Motion>(
+    motion: &mut M,
+    until: f64,
+    read: &mut dyn FnMut(&mut M) -> Result<(), Reason>,
+) -> Result<(), Reason> {
+    let mut reason = None;
+    let mut watch = |motion: &mut M, _: &Report| {
+        reason = read(motion).err();
+        Ok(if reason.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    };
+    let ended = run(motion, until, &[], &mut [&mut watch]);
+    match reason {
+        Some(reason) => Err(reason),
+        None => ended.map_err(Reason::of_run),
+    }
 }
 
 fn by_dg(
@@ -261,7 +291,7 @@ fn by_dg(
     let early = stepping.restart_dt / (stepping.growth - 1.0);
     let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
     let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
-    while motion.step(scene.t_end).map_err(Reason::of_run)?.is_some() {
+    let mut read = |motion: &mut DgMotion| {
         let simulation = motion.simulation();
         let done = simulation.work().solves;
         work.add((unknowns * (done - solves)) as f64)?;
@@ -273,12 +303,12 @@ fn by_dg(
                 rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
-            continue;
+            return Ok(());
         }
         let is_long = to - from >= stepping.dt && to < scene.t_end;
         long += usize::from(is_long);
         if is_long && !long.is_multiple_of(stride) {
-            continue;
+            return Ok(());
         }
         for instance in instances(simulation, early) {
             rows.of_dg(
@@ -290,10 +320,12 @@ fn by_dg(
             );
             curves.times.push(instance);
         }
-    }
+        Ok(())
+    };
+    run_within(&mut motion, scene.t_end, &mut read)?;
     curves.cost = Cost {
         work: (unknowns * solves) as f64,
-        seconds: motion.wall().as_secs_f64(),
+        seconds: motion.work().wall.as_secs_f64(),
         runs: 1,
     };
     Ok(curves)
@@ -335,10 +367,8 @@ fn by_one_step(
     let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
-    for n in 1..=steps {
-        let Step {
-            new, simulation, ..
-        } = driver.stepped().map_err(Reason::of_run)?;
+    let mut read = |driver: &mut Driver<'_>| {
+        let (simulation, new, n) = (driver.simulation(), driver.level(), driver.work().steps);
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {
@@ -361,11 +391,12 @@ fn by_one_step(
                 &mut curves.values,
             );
         }
-        work.add(elements as f64)?;
-    }
+        work.add(elements as f64)
+    };
+    run_within(&mut driver, scene.t_end, &mut read)?;
     curves.cost = Cost {
         work: (elements * steps) as f64,
-        seconds: driver.wall().as_secs_f64(),
+        seconds: driver.work().wall.as_secs_f64(),
         runs: 1,
     };
     Ok(curves)
@@ -385,7 +416,8 @@ pub(super) struct Apart {
 }
 
 impl Apart {
-    /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not match.
+    /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not
+    /// match.
     pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
             return Self {

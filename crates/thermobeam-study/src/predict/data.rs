@@ -1,8 +1,10 @@
-//! Initial data on the meshes of a search: nodes where a mesh would miss a feature, before the first run.
+//! Initial data on the meshes of a search: nodes where a mesh would miss a feature, before the
+//! first run.
 //!
-//! Two discretisations that miss the same feature agree, so their difference says nothing about it. Therefore each field of the
-//! initial data is compared with its projection (3.6) on the first mesh; elements on which they differ are halved until the
-//! difference is a tenth of the wanted error, or the search is refused with the field and x.
+//! Two discretisations that miss the same feature agree, so their difference says nothing about it.
+//! Therefore each field of the initial data is compared with its projection (3.6) on the first
+//! mesh; elements on which they differ are halved until the difference is a tenth of the wanted
+//! error, or the search is refused with the field and x.
 //!
 //! # The measure of a difference e
 //!
@@ -11,18 +13,21 @@
 //! | u(1, t), φ(1, t), energy | ∫ abs(e) | ∫ abs(e_x) |
 //! | the norm of Theorem 3.4 | its square, ∫ e² | ∫ e_x² |
 //!
-//! Let G(x, t) be the displacement at x = 1 at time t after a unit impulse at x. It is about 1 at most: the step behind the front
-//! of a wave has the height 1, and viscosity only smooths it. By linearity e in u_t changes u(1, t) by ∫ e G, at most by ∫ abs(e),
-//! and e in u by ∫ e G_t, at most by max abs(e) <= ∫ abs(e_x). The energy changes by at most the largest value of the field times the
-//! same integrals. Contact and N(u) amplify these errors as they amplify those of a step.
+//! Let G(x, t) be the displacement at x = 1 at time t after a unit impulse at x. It is about 1 at
+//! most: the step behind the front of a wave has the height 1, and viscosity only smooths it. By
+//! linearity e in u_t changes u(1, t) by ∫ e G, at most by ∫ abs(e), and e in u by ∫ e G_t, at most
+//! by max abs(e) <= ∫ abs(e_x). The energy changes by at most the largest value of the field times
+//! the same integrals. Contact and N(u) amplify these errors as they amplify those of a step.
 //!
-//! A jump of u_t, φ_t or θ takes elements of 1e-4 to 1e-7 for the former; for the norm it is refused.
+//! A jump of u_t, φ_t or θ takes elements of 1e-4 to 1e-7 for the former; for the norm it is
+//! refused.
 //!
 //! # What is seen
 //!
-//! An integral is a sum over equal parts of an element, between those of the scene's nodes that lie in it. A part is at most
-//! [`NARROWEST`] long, so that a Gaussian exp(-((x - c)/w)²) of width w >= 1e-4 has a point where it exceeds e^(-1/4) of its height.
-//! A narrower feature is seen only where the scene has nodes, or where `abs`, `min` or `max` have a kink in it.
+//! An integral is a sum over equal parts of an element, between those of the scene's nodes that lie
+//! in it. A part is at most [`NARROWEST`] long, so that a Gaussian exp(-((x - c)/w)²) of width w >=
+//! 1e-4 has a point where it exceeds e^(-1/4) of its height. A narrower feature is seen only where
+//! the scene has nodes, or where `abs`, `min` or `max` have a kink in it.
 
 use thermobeam::dg::{self, Field};
 use thermobeam::mesh::Mesh;
@@ -78,8 +83,9 @@ impl Datum {
         }
     }
 
-    /// Where the field jumps in an element by more than `least`: a difference that stays when the interval becomes shorter, down to
-    /// [`SHORTEST`]. The interval is the half over which the field changes more.
+    /// Where the field jumps in an element by more than `least`: a difference that stays when the
+    /// interval becomes shorter, down to [`SHORTEST`]. The interval is the half over which the
+    /// field changes more.
     fn jump(&self, [mut from, mut to]: [f64; 2], least: f64) -> Option<f64> {
         let change = |from: f64, to: f64| (self.function.eval(to) - self.function.eval(from)).abs();
         // An element may be short itself, because of the jump.
@@ -90,9 +96,9 @@ impl Datum {
             }
             let middle = 0.5 * (from + to);
             if change(from, middle) > change(middle, to) {
-                to = middle
+                to = middle;
             } else {
-                from = middle
+                from = middle;
             }
         }
         let stays = change(from, to);
@@ -153,7 +159,8 @@ impl Data {
             .iter()
             .flat_map(|datum| datum.function.kinks())
             .collect();
-        // A function such as x/abs(x) has no value at its jump, which is then inside a short element.
+        // A function such as x/abs(x) has no value at its jump, which is then inside a short
+        // element.
         let is_defined = |x: f64| {
             fields
                 .iter()
@@ -215,8 +222,9 @@ impl Data {
         Ok((scene, is_finer))
     }
 
-    /// Refuses u_t, φ_t and θ that jump, for the norm: in the first steps the front of a jump J leaves an error of about J (ζ dt)^¼ in
-    /// it. That falls so slowly that the difference to shorter steps is a third of the error.
+    /// Refuses u_t, φ_t and θ that jump, for the norm: in the first steps the front of a jump J
+    /// leaves an error of about J (ζ dt)^¼ in it. That falls so slowly that the difference to
+    /// shorter steps is a third of the error.
     fn refuse_jumps(&self, elements: &[Element], allowed: f64) -> Result<(), Unreachable> {
         for (k, datum) in self
             .fields
@@ -401,8 +409,8 @@ pub(super) fn add_node(nodes: &mut Vec<f64>, x: f64, least: f64) {
     }
 }
 
-/// Nodes added until no element is longer than its neighbour by more than [`GRADING`]: a feature widens by viscosity into the elements
-/// next to it.
+/// Nodes added until no element is longer than its neighbour by more than [`GRADING`]: a feature
+/// widens by viscosity into the elements next to it.
 fn neighbours_comparable(mut nodes: Vec<f64>) -> Vec<f64> {
     let mut i = 1;
     while i + 1 < nodes.len() {

@@ -1,8 +1,10 @@
-//! The errors of a scene's numbers: their differences to a run of any order whose own error is at most a tenth of them.
+//! The errors of a scene's numbers: their differences to a run of any order whose own error is at
+//! most a tenth of them.
 //!
-//! What to refine first is measured as well: the scene is run with only space refined and with only steps refined, and both runs are
-//! compared with the same reference. A one-step scheme gets twice the elements or dt/2, dG gets p + 4 or halved steps. No rate is
-//! assumed: if impacts make errors fall irregularly, the table shows it.
+//! What to refine first is measured as well: the scene is run with only space refined and with only
+//! steps refined, and both runs are compared with the same reference. A one-step scheme gets twice
+//! the elements or dt/2, dG gets p + 4 or halved steps. No rate is assumed: if impacts make errors
+//! fall irregularly, the table shows it.
 
 use std::fmt;
 
@@ -27,7 +29,8 @@ const FLOOR: f64 = 1e-11;
 /// Maximum number of references, each at least ten times better than the last.
 const ROUNDS: usize = 8;
 
-/// A finer run whose error is this many times the total contradicts it: less may be due to errors of space and time that cancel.
+/// A finer run whose error is this many times the total contradicts it: less may be due to errors
+/// of space and time that cancel.
 const CONTRADICTION: f64 = 10.0;
 
 /// Refinement pays if it removes at least this part of the error.
@@ -47,7 +50,8 @@ pub enum Source {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// A curve: the largest error over time; for dG also inside steps, for a one-step scheme at its time levels.
+    /// A curve: the largest error over time; for dG also inside steps, for a one-step scheme at its
+    /// time levels.
     Curve,
     /// The largest value of u(1, t).
     Largest,
@@ -141,9 +145,11 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
     })
 }
 
-/// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at the scene's times.
+/// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at
+/// the scene's times.
 ///
-/// The reference is improved until it qualifies; otherwise the last one is taken if its error does not exceed the scene's.
+/// The reference is improved until it qualifies; otherwise the last one is taken if its error does
+/// not exceed the scene's.
 fn against(
     scene: &Scene,
     own: &Curves,
@@ -201,8 +207,8 @@ fn against(
     ))
 }
 
-/// The largest value of each curve: that of the scene or, if its mesh may miss narrow features of the initial data, of the first dG run
-/// on a mesh that resolves them.
+/// The largest value of each curve: that of the scene or, if its mesh may miss narrow features of
+/// the initial data, of the first dG run on a mesh that resolves them.
 fn scales(
     scene: &Scene,
     own: &Curves,
@@ -245,7 +251,8 @@ fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
     (value, (value - truth).abs())
 }
 
-/// A curve whose error grows much if only space or only steps are refined: single numbers may have small errors by chance.
+/// A curve whose error grows much if only space or only steps are refined: single numbers may have
+/// small errors by chance.
 fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
     for &Estimate {
         name,
@@ -272,7 +279,8 @@ fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
     None
 }
 
-/// The refinement that lowers the errors of the curves more; errors of single numbers may be small by chance.
+/// The refinement that lowers the errors of the curves more; errors of single numbers may be small
+/// by chance.
 fn dominant(quantities: &[Estimate]) -> Option<Source> {
     let gain = |finer: fn(&Estimate) -> Option<f64>| -> f64 {
         let curves = quantities.iter().filter(|of| of.kind == Kind::Curve);

@@ -1,13 +1,14 @@
-//! Error estimates, and runs that reach a wanted error: both against a run of any order whose own error is known.
+//! Error estimates, and runs that reach a wanted error: both against a run of any order whose own
+//! error is known.
 //!
 //! * `data`: nodes where the initial data have features that a mesh would miss.
-//! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough. Its error is the difference to degree
-//!   p + 4 and to halved steps.
+//! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough.
+//!   Its error is the difference to degree p + 4 and to halved steps.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
 //! * [`choice`]: the cheapest run with the wanted error, and the needs of the scene's own scheme.
 //!
-//! All searches have a limit on their work, which is counted: unknowns times linear solves for dG, elements times steps for a
-//! one-step scheme. A unit of either takes about 20 ns.
+//! All searches have a limit on their work, which is counted: unknowns times linear solves for dG,
+//! elements times steps for a one-step scheme. A unit of either takes about 20 ns.
 
 pub mod choice;
 mod curves;
@@ -28,7 +29,8 @@ pub const MOST_WORK_KEPT: f64 = 2e10;
 /// The cost of runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cost {
-    /// For dG unknowns times linear solves, for a one-step scheme elements times steps: the same on every machine.
+    /// For dG unknowns times linear solves, for a one-step scheme elements times steps: the same on
+    /// every machine.
     pub work: f64,
     /// Seconds in steps.
     pub seconds: f64,

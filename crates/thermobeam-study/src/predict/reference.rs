@@ -1,23 +1,32 @@
-//! A run of any order whose own error is known: degrees, elements and steps are refined until it is small enough.
+//! A run of any order whose own error is known: degrees, elements and steps are refined until it is
+//! small enough.
 //!
-//! Two comparisons judge a discretisation by its curves, at several times inside each of its steps: with a finer space (p + 4, or the
-//! longest elements halved) and with finer steps. Finer steps have half the length *everywhere*: dt, `restart_dt` and `growth - 1`
-//! are halved, since at a distance s from a contact event a step is about `(growth - 1) s` long; `restart_dt` is halved twice. The
-//! difference estimates the error of the coarser run: p + 4 leaves up to a third of the error where elements do not resolve a layer,
-//! halved steps leave less. If a difference exceeds half of the target, space or time is refined according to their ratio, and both
-//! runs are compared again. Before that, the first two steps are refined on their own.
+//! Two comparisons judge a discretisation by its curves, at several times inside each of its steps:
+//! with a finer space (p + 4, or the longest elements halved) and with finer steps. Finer steps
+//! have half the length *everywhere*: dt, `restart_dt` and `growth - 1` are halved, since at a
+//! distance s from a contact event a step is about `(growth - 1) s` long; `restart_dt` is halved
+//! twice. The difference estimates the error of the coarser run: p + 4 leaves up to a third of the
+//! error where elements do not resolve a layer, halved steps leave less. If a difference exceeds
+//! half of the target, space or time is refined according to their ratio, and both runs are
+//! compared again. Before that, the first two steps are refined on their own.
 //!
-//! * The start: initial data that violate the condition at x = 1 make u(1, t) behave like t^(3/2). The error peaks inside the
-//!   first steps, which only `restart_dt` makes shorter, and in the element at x = 1, which is split.
-//! * Steps: at the peak of an impact, on the time scale (ε √ζ)^(2/3), u_tt behaves like t^(1/2); there the error peaks inside steps, and is
-//!   not visible at their ends. The degree q helps between impacts, short steps during them.
-//! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; after time t its width is √(ζ t).
-//! * Initial data: nodes at narrow features and at kinks, see `data`. From a kink a layer of width √(ζ t) begins at the start: the
-//!   elements on both sides of it are split like the last one, until there is a contact event.
-//! * Short waves: u ~ e^(λt) sin(kx) has λ² + ζk²λ + (1 + N)k² = 0. While N < -1 every wave grows, shorter waves faster, up to the
-//!   rate s/ζ, s = -(1 + N), which waves with k > √s/ζ come close to. Unresolved waves grow most, and p and p + 4 agree on waves that
-//!   both lack: errors of 300 times the difference were observed. N ≥ β, so this requires β < -1. Then the first mesh resolves k =
-//!   √s/ζ, in elements no longer than 2p/k, and the first steps are at most 2ζ/s long, with s at N = β.
+//! * The start: initial data that violate the condition at x = 1 make u(1, t) behave like t^(3/2).
+//!   The error peaks inside the first steps, which only `restart_dt` makes shorter, and in the
+//!   element at x = 1, which is split.
+//! * Steps: at the peak of an impact, on the time scale (ε √ζ)^(2/3), u_tt behaves like t^(1/2);
+//!   there the error peaks inside steps, and is not visible at their ends. The degree q helps
+//!   between impacts, short steps during them.
+//! * Elements: the last one, at x = 1, covers the layer that an impact sends into the beam; after
+//!   time t its width is √(ζ t).
+//! * Initial data: nodes at narrow features and at kinks, see `data`. From a kink a layer of width
+//!   √(ζ t) begins at the start: the elements on both sides of it are split like the last one,
+//!   until there is a contact event.
+//! * Short waves: u ~ e^(λt) sin(kx) has λ² + ζk²λ + (1 + N)k² = 0. While N < -1 every wave grows,
+//!   shorter waves faster, up to the rate s/ζ, s = -(1 + N), which waves with k > √s/ζ come close
+//!   to. Unresolved waves grow most, and p and p + 4 agree on waves that both lack: errors of 300
+//!   times the difference were observed. N ≥ β, so this requires β < -1. Then the first mesh
+//!   resolves k = √s/ζ, in elements no longer than 2p/k, and the first steps are at most 2ζ/s long,
+//!   with s at N = β.
 
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
 use thermobeam::mesh::Mesh;
@@ -32,28 +41,33 @@ use crate::scene::{Method, Scene, resampled};
 /// Share of the target allowed for each of the two differences.
 const SHARE: f64 = 0.5;
 
-/// Least factor by which each degree lowers the error in x, measured in the worst scene: a front after an impact.
+/// Least factor by which each degree lowers the error in x, measured in the worst scene: a front
+/// after an impact.
 const FALL_PER_DEGREE: f64 = 1.8;
 
 /// Rate of the error inside steps near a contact event, where u_tt behaves like t^(1/2).
 const EVENT_RATE: f64 = 2.5;
 
-/// Rate of the error in the first steps, where data that violate a condition at x = 1 make u_tt behave like t^(-1/2).
+/// Rate of the error in the first steps, where data that violate a condition at x = 1 make u_tt
+/// behave like t^(-1/2).
 const START_RATE: f64 = 1.5;
 
 /// Smallest and largest divisor of `restart_dt` in one round.
 const SHORTENED: [f64; 2] = [2.0, 32.0];
 
-/// A layer at x = 1 is resolved if its width is at least this multiple of length / p², the finest detail of an element.
+/// A layer at x = 1 is resolved if its width is at least this multiple of length / p², the finest
+/// detail of an element.
 const RESOLVED: f64 = 12.0;
 
-/// Smallest and largest factor of all steps in one round: a large difference gives no reliable factor.
+/// Smallest and largest factor of all steps in one round: a large difference gives no reliable
+/// factor.
 const SHORTER: [f64; 2] = [0.25, 0.8];
 
 /// A difference that must fall by more than this also raises the degree in time.
 const MUCH: f64 = 4.0;
 
-/// Extra degrees of the finer space: two would give only half of the error where a layer is not resolved.
+/// Extra degrees of the finer space: two would give only half of the error where a layer is not
+/// resolved.
 const FINER_DEGREES: usize = 4;
 
 /// Degrees added in one round, and the degree above which elements are halved instead.
@@ -66,7 +80,8 @@ const LEAST_GROWTH: f64 = 1.02;
 /// A node this close to one that is kept, in units of the distance from x = 1, is left out.
 const CLOSE: f64 = 0.2;
 
-/// Elements longer than this part of the longest are halved; shorter ones wait until the lengths are closer.
+/// Elements longer than this part of the longest are halved; shorter ones wait until the lengths
+/// are closer.
 const LONG: f64 = 0.25;
 
 /// Rounds of refinement: each at least halves something.
@@ -75,7 +90,8 @@ const ROUNDS: usize = 14;
 /// A round that lowers the difference by less than this factor has stalled.
 const STALLED: f64 = 0.7;
 
-/// Below this difference a stalled round has reached round-off: that of the solver's stopping rule, 1e-14 per step.
+/// Below this difference a stalled round has reached round-off: that of the solver's stopping rule,
+/// 1e-14 per step.
 const ROUND_OFF: f64 = 1e-11;
 
 /// Upper bound on the first time steps, in units of the time in which the fastest wave grows by e.
@@ -95,18 +111,18 @@ const SHORT_WAVES_GROW: f64 = -1.0;
 pub struct Reference {
     /// The scene with the chosen mesh, degrees and steps.
     pub scene: Scene,
-    /// Largest difference to a finer space: of u(1, t), φ(1, t) and the energy, or once in the norm.
+    /// Largest difference to a finer space: of u(1, t), φ(1, t) and the energy, or once in the
+    /// norm.
     pub space: [f64; 3],
     /// The same to finer steps.
     pub time: [f64; 3],
-    /// Both together at the end, in units of the largest value of the curve; the largest of all curves.
+    /// Both together at the end, in units of the largest value of the curve; the largest of all
+    /// curves.
     pub(super) end: f64,
     /// The cost of the run.
     pub run: Cost,
     /// The finer space of the last comparison, in words.
     pub finer_space: String,
-    /// Whether the initial data have features so narrow that they took nodes of their own.
-    pub(super) is_narrow: bool,
 }
 
 impl Reference {
@@ -137,11 +153,10 @@ pub(super) fn reference(
     let first = start
         .cloned()
         .unwrap_or_else(|| first(scene, wanted, &data.kept));
-    let (first, is_narrow) = data.resolve(first, wanted)?;
+    let (first, _) = data.resolve(first, wanted)?;
     let mut search = Search {
         wanted,
         data,
-        is_narrow,
         work,
         last: 0.0,
         best: [f64::INFINITY; 2],
@@ -176,7 +191,6 @@ struct Compared {
 struct Search<'s, 'w> {
     wanted: &'s Wanted,
     data: Data,
-    is_narrow: bool,
     work: &'s mut Work<'w>,
     /// Work of the last run.
     last: f64,
@@ -185,7 +199,8 @@ struct Search<'s, 'w> {
 }
 
 impl Search<'_, '_> {
-    /// Refines for the first two steps only, which cost little: the start often needs the shortest steps of all.
+    /// Refines for the first two steps only, which cost little: the start often needs the shortest
+    /// steps of all.
     ///
     /// Returns the given discretisation if that fails.
     fn begin(&mut self, first: &Scene) -> Scene {
@@ -247,7 +262,6 @@ impl Search<'_, '_> {
             time: [compared.time.most() * self.wanted.tolerance[0]; 3],
             end: 0.0,
             run: base.cost,
-            is_narrow: self.is_narrow,
         };
         if !matches!(self.wanted.rows, Rows::Norm(_)) {
             for k in 0..base.width {
@@ -285,7 +299,8 @@ impl Search<'_, '_> {
 
     /// Runs a scene for comparison with the run whose times are `at`.
     fn run(&mut self, scene: &Scene, rows: &Rows, at: Option<&[f64]>) -> Result<Curves, Reason> {
-        // A run has at most four times the steps of its predecessor; higher degrees cost more on top.
+        // A run has at most four times the steps of its predecessor; higher degrees cost more on
+        // top.
         self.work.leaves(2.0 * self.last)?;
         let run = curves(scene, rows, at, self.work)?;
         self.last = run.cost.work;
@@ -317,8 +332,8 @@ pub(super) fn impact(scene: &Scene) -> f64 {
         .map_or(LONGEST, |obstacles| obstacles.impact_time(scene.beam.zeta))
 }
 
-/// The first discretisation, from experience with the scenes of the paper: two degrees in space for every decimal digit,
-/// half a degree in time, and steps that shrink by two for every four digits.
+/// The first discretisation, from experience with the scenes of the paper: two degrees in space for
+/// every decimal digit, half a degree in time, and steps that shrink by two for every four digits.
 ///
 /// * `kept`: nodes that the mesh must have.
 pub(super) fn first(scene: &Scene, wanted: &Wanted, kept: &[f64]) -> Scene {
@@ -354,8 +369,8 @@ pub(super) fn first(scene: &Scene, wanted: &Wanted, kept: &[f64]) -> Scene {
     }
 }
 
-/// 1/k of the shortest wave that still grows faster, and the time in which it grows by e, at the axial force at rest: infinite
-/// if no wave grows.
+/// 1/k of the shortest wave that still grows faster, and the time in which it grows by e, at the
+/// axial force at rest: infinite if no wave grows.
 fn short_waves(beam: &Beam) -> [f64; 2] {
     let beyond = (SHORT_WAVES_GROW - beam.beta).max(0.0);
     [beam.zeta / beyond.sqrt(), beam.zeta / beyond]
@@ -372,7 +387,8 @@ fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
     nodes.windows(2).flat_map(between).chain([1.0]).collect()
 }
 
-/// Nodes that are kept, and those others that are not close to them, measured by their distance from x = 1.
+/// Nodes that are kept, and those others that are not close to them, measured by their distance
+/// from x = 1.
 fn with_nodes(kept: &[f64], others: &[f64]) -> Vec<f64> {
     let mut nodes = vec![0.0, 1.0];
     for &x in kept {
@@ -395,7 +411,8 @@ fn graded(layer: f64) -> Vec<f64> {
     ends.chain([1.0]).collect()
 }
 
-/// The scene, refined where a difference exceeds its share; `None` if no finer elements are possible.
+/// The scene, refined where a difference exceeds its share; `None` if no finer elements are
+/// possible.
 ///
 /// * `kinks`: points of the initial data from which layers begin at the start.
 fn refined(scene: &Scene, space: &Apart, time: &Apart, kinks: &[f64]) -> Option<Scene> {
@@ -416,8 +433,9 @@ fn refined(scene: &Scene, space: &Apart, time: &Apart, kinks: &[f64]) -> Option<
     })
 }
 
-/// The scene with only space refined, and with only steps refined: p + 4 or the longest elements halved, and all steps halved, with
-/// even shorter first steps, since the error there falls more slowly; for a one-step scheme twice the elements, and dt/2.
+/// The scene with only space refined, and with only steps refined: p + 4 or the longest elements
+/// halved, and all steps halved, with even shorter first steps, since the error there falls more
+/// slowly; for a one-step scheme twice the elements, and dt/2.
 pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
     let Method::Dg(stepping) = scene.method else {
         let (elements, steps) = (scene.mesh.elements(), scene.steps());

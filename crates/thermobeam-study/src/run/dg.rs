@@ -3,25 +3,18 @@
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::Patience;
-use thermobeam::dg::{self, ContactEvent, Field, Phase};
+use thermobeam::dg::{self, Field, Phase};
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::solve::Level;
 
-use super::tally::EnergySize;
-use super::{Motion, Report, RunError, Sample, Solves};
+use super::snapshot::Snapshot;
+use super::{Motion, Report, RunError, Sample, Solves, Work};
 use crate::exact::any_order;
 use crate::exact::defect::Defect;
 use crate::exact::solution::Manufactured;
 use crate::scene::{Coefficients, Scene};
-
-/// Maximum number of times of a history by dG: more than a figure has columns.
-const ROWS: usize = 4000;
-
-/// Points of a frame by dG.
-const POINTS: usize = 141;
 
 /// A problem by dG.
 pub(crate) struct DgMotion {
@@ -45,7 +38,8 @@ impl DgMotion {
 
     /// A manufactured solution at t = 0.
     ///
-    /// * `loads`: the coefficients of the loads that keep it in place; a free vibration of a cold beam needs none.
+    /// * `loads`: the coefficients of the loads that keep it in place; a free vibration of a cold
+    ///   beam needs none.
     /// * `defect`: a mistake in loads and initial data, for a negative control.
     /// * `solver`: the solver's own coefficients.
     ///
@@ -60,7 +54,8 @@ impl DgMotion {
         degree: usize,
         by: dg::Stepping,
     ) -> Result<Self, SetupError> {
-        // A clamped end that is too hot is so from the start: the initial data must match it, or the first step fails.
+        // A clamped end that is too hot is so from the start: the initial data must match it, or
+        // the first step fails.
         let exact_theta_a = loads.map_or(0.0, |theory| theory.beam.theta_a);
         let shift = beam.theta_a - exact_theta_a;
         let start = any_order::initial(exact);
@@ -70,7 +65,8 @@ impl DgMotion {
         } else {
             0.0
         };
-        // The value at x = 0 stays: the solver refuses initial data that contradict the boundary conditions.
+        // The value at x = 0 stays: the solver refuses initial data that contradict the boundary
+        // conditions.
         let planted =
             move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
         let initial = dg::Initial {
@@ -134,78 +130,37 @@ impl Motion for DgMotion {
             Report {
                 dt: done.dt,
                 iterations: done.iterations,
+                contraction: None,
                 in_contact: phase != Phase::Free,
+                unsound: None,
             }
         }))
     }
 
-    fn t(&self) -> f64 {
-        self.simulation.t()
+    fn sample(&mut self) -> Sample {
+        self.inside(self.simulation.t())
     }
 
-    fn steps(&self) -> usize {
-        self.simulation.work().steps
-    }
-
-    fn at(&mut self, t: f64) -> Sample {
+    fn inside(&mut self, t: f64) -> Sample {
         let Self {
             simulation, level, ..
         } = self;
         simulation.level_into(t, level);
-        let value = |field, x| level.value_and_slope(simulation.space(), field, x).0;
-        let u_tip = value(Field::U, 1.0);
+        let end = level.values_and_slopes(simulation.space(), 1.0);
+        let [u_tip, phi_tip, u_t_tip, phi_t_tip, _] = end.map(|(value, _)| value);
+        let (theta, _) = level.value_and_slope(simulation.space(), Field::Theta, 0.5);
         Sample {
             t,
             u_tip,
-            phi_tip: value(Field::Phi, 1.0),
-            u_t_tip: value(Field::V, 1.0),
-            phi_t_tip: value(Field::W, 1.0),
-            theta_mid: value(Field::Theta, 0.5) + 0.5 * self.theta_a,
+            phi_tip,
+            u_t_tip,
+            phi_t_tip,
+            theta_mid: theta + 0.5 * self.theta_a,
             contact_force: self
                 .obstacles
                 .map_or(0.0, |obstacles| obstacles.force(u_tip)),
             energy: simulation.energy(level).total(),
         }
-    }
-
-    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
-        let (from, to) = (self.simulation.old_level().t, self.simulation.t());
-        let time = |k: usize| {
-            if k == count {
-                t_end
-            } else {
-                t_end * k as f64 / count as f64
-            }
-        };
-        let first = (from / t_end * count as f64).floor() as usize;
-        (first.max(1)..=count)
-            .map(time)
-            .skip_while(|&t| t <= from)
-            .take_while(|&t| t <= to)
-            .collect()
-    }
-
-    fn rows(&self) -> usize {
-        ROWS
-    }
-
-    fn points(&self) -> Vec<f64> {
-        (0..POINTS)
-            .map(|i| i as f64 / (POINTS - 1) as f64)
-            .collect()
-    }
-
-    fn shape(&self, t: f64) -> Vec<f64> {
-        let u = |x: f64| self.simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
-        self.points().into_iter().map(u).collect()
-    }
-
-    fn on(&self, mesh: &Mesh) -> Level {
-        nodal(
-            self.simulation.space(),
-            self.simulation.level(),
-            mesh.nodes(),
-        )
     }
 
     fn extremes(&self) -> [f64; 2] {
@@ -216,46 +171,25 @@ impl Motion for DgMotion {
         self.simulation.balance()
     }
 
-    fn energy_size(&self) -> EnergySize {
-        let [terms, rounding] = [self.simulation.energy_scale(), self.simulation.rounding()];
-        EnergySize { terms, rounding }
-    }
-
-    fn solves(&self) -> Solves {
+    fn work(&self) -> Work {
         let dg::Work {
+            steps,
             solves,
             factorizations,
             ..
         } = self.simulation.work();
-        Solves {
-            passes: solves,
-            factorizations,
+        Work {
+            t: self.simulation.t(),
+            steps,
+            solves: Solves {
+                passes: solves,
+                factorizations,
+            },
+            wall: self.wall,
         }
     }
 
-    fn wall(&self) -> Duration {
-        self.wall
-    }
-
-    fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
-        Some((self.simulation.phase(), self.simulation.events()))
-    }
-}
-
-/// A level of any order by its values at the nodes, without the contact force.
-pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
-    let at = |field| {
-        nodes
-            .iter()
-            .map(|&x| level.value_and_slope(space, field, x).0)
-            .collect()
-    };
-    Level {
-        u: at(Field::U),
-        v: at(Field::V),
-        phi: at(Field::Phi),
-        w: at(Field::W),
-        theta: at(Field::Theta),
-        contact_force: 0.0,
+    fn snapshot(&self) -> Snapshot<'_> {
+        Snapshot::Dg(&self.simulation)
     }
 }

@@ -10,33 +10,24 @@ use thermobeam::parameters::Obstacles;
 use thermobeam::simulation::{Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, StepReport};
 
-use super::tally::{EnergySize, EnergySummary};
-use super::{Motion, Report, RunError, Sample, Solves};
+use super::snapshot::{EnergySize, Snapshot};
+use super::tally::EnergySummary;
+use super::{Motion, Report, RunError, Sample, Unsound, Work};
 
-/// A completed step.
-pub(crate) struct Step<'s> {
-    /// Iterations and contraction of the step.
-    pub(crate) report: StepReport,
-    /// The level before it.
-    pub(crate) old: &'s Level,
-    /// The level after it.
-    pub(crate) new: &'s Level,
-    /// The simulation, standing at the new level.
-    pub(crate) simulation: &'s Simulation,
-}
-
-/// Steps between checks of the energy in [`Driver::stepped`]: one evaluation costs a fifth of a step, one in sixteen steps a hundredth.
+/// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps
+/// a hundredth.
 const CHECKED: usize = 16;
 
-/// Rounding errors of an energy, relative to it: of sums over at most millions of elements, whose errors mostly cancel.
+/// Rounding errors of an energy, relative to it: of sums over at most millions of elements, whose
+/// errors mostly cancel.
 const ROUNDED: f64 = 1e-12;
 
 /// A running simulation.
-pub(crate) struct Driver {
+pub(crate) struct Driver<'l> {
     simulation: Simulation,
-    /// The level before the last observed step.
+    /// The level before the last step.
     old: Level,
-    /// The last observed level.
+    /// The current level.
     new: Level,
     /// The energy at t = 0, and its size.
     initial: f64,
@@ -47,19 +38,21 @@ pub(crate) struct Driver {
     wall: Duration,
     is_timed: bool,
     /// Computes the loads of a step at its middle.
-    fill: Box<Fill>,
+    fill: Box<Fill<'l>>,
+    is_loaded: bool,
 }
 
 /// Writes the loads at a time.
-type Fill = dyn FnMut(f64, &mut [[f64; 3]]);
+type Fill<'l> = dyn FnMut(f64, &mut [[f64; 3]]) + 'l;
 
-impl Driver {
+impl<'l> Driver<'l> {
     /// Starts at t = 0.
     ///
     /// # Errors
     /// [`SetupError`] if the solver refuses the problem.
     pub(crate) fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let is_solved = stepping.settings.stopping.tolerance().is_some();
+        let is_loaded = stepping.loaded;
         let mut simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
@@ -78,11 +71,12 @@ impl Driver {
             wall: Duration::ZERO,
             is_timed: false,
             fill: Box::new(|_, _| ()),
+            is_loaded,
         })
     }
 
-    /// Fills the loads of each step by [`Motion::step`] at its middle t_{n-½}; [`Stepping::loaded`] must be set.
-    pub(crate) fn loaded(self, fill: impl FnMut(f64, &mut [[f64; 3]]) + 'static) -> Self {
+    /// Fills the loads of each step at its middle t_{n-½}; [`Stepping::loaded`] must be set.
+    pub(crate) fn loaded(self, fill: impl FnMut(f64, &mut [[f64; 3]]) + 'l) -> Self {
         Self {
             fill: Box::new(fill),
             ..self
@@ -103,29 +97,21 @@ impl Driver {
     }
 
     /// The current level.
-    pub(crate) fn level(&mut self) -> &Level {
-        self.present().1
+    pub(crate) fn level(&self) -> &Level {
+        &self.new
     }
 
-    /// The simulation and its current level.
-    pub(crate) fn present(&mut self) -> (&Simulation, &Level) {
-        self.simulation.observe(&mut self.new);
-        (&self.simulation, &self.new)
+    /// The level before the last step.
+    pub(crate) fn old_level(&self) -> &Level {
+        &self.old
     }
 
-    /// Does one step.
-    ///
-    /// * `fill`: computes the loads of the step at its middle t_{n-½}, if [`Stepping::loaded`] is set.
-    ///
-    /// # Errors
-    /// [`RunError`]; the simulation then remains at its old level.
-    pub(crate) fn advance(
-        &mut self,
-        fill: impl FnOnce(f64, &mut [[f64; 3]]),
-    ) -> Result<StepReport, RunError> {
+    /// Solves a step and reads the level at its end.
+    fn advance(&mut self) -> Result<StepReport, RunError> {
         let Self {
             simulation,
             patience,
+            fill,
             ..
         } = self;
         patience.check(simulation.step(), || simulation.t())?;
@@ -138,32 +124,22 @@ impl Driver {
         self.wall += started.map(|started| started.elapsed()).unwrap_or_default();
         let report = outcome?;
         self.patience.also(report.iterations.saturating_sub(1));
+        std::mem::swap(&mut self.old, &mut self.new);
+        self.simulation.observe(&mut self.new);
         Ok(report)
     }
 
-    /// Does a step without loads and returns it for observation.
+    /// What is wrong with the current level: an energy that is not finite or has risen since t = 0,
+    /// where no exactly solved step raises it. A load may.
     ///
-    /// Refuses a u(1) that is not finite, and an energy that is not finite or has risen since t = 0. The energy is checked after
-    /// 1, 2, 4, 8 steps and every [`CHECKED`] steps: no exactly solved step raises it.
-    ///
-    /// # Errors
-    /// [`RunError`]; the simulation then stands at the last observed level.
-    pub(crate) fn stepped(&mut self) -> Result<Step<'_>, RunError> {
-        let report = self.shown()?;
-        let (u_tip, n) = (self.new.u[self.new.u.len() - 1], self.simulation.step());
-        if !u_tip.is_finite() || n.is_multiple_of(CHECKED) || n.is_power_of_two() {
-            self.check()?;
+    /// Looks at the energy after 1, 2, 4, 8 steps and every [`CHECKED`] steps, and wherever u(1) is
+    /// not finite.
+    fn unsound(&self) -> Option<Unsound> {
+        let n = self.simulation.step();
+        let is_due = n.is_multiple_of(CHECKED) || n.is_power_of_two();
+        if self.is_loaded || !is_due && self.new.u[self.new.u.len() - 1].is_finite() {
+            return None;
         }
-        Ok(Step {
-            report,
-            old: &self.old,
-            new: &self.new,
-            simulation: &self.simulation,
-        })
-    }
-
-    /// Refuses an energy that is not finite or has risen.
-    fn check(&self) -> Result<(), RunError> {
         let Self { initial, size, .. } = *self;
         let last = self.simulation.energy(&self.new).total();
         let largest_increase = last - initial;
@@ -174,108 +150,38 @@ impl Driver {
             largest_balance_residual: 0.0,
             size,
         };
-        let (step, t, dt) = (
-            self.simulation.step(),
-            self.simulation.t(),
-            self.simulation.dt(),
-        );
         // Both energies are rounded, and contain the constant of Kirchhoff's term.
         let rounded = |now: EnergySize| EnergySize {
             rounding: now.rounding + ROUNDED * initial.abs(),
             ..now
         };
         energy
-            .sound(|| rounded(self.energy_size()))
-            .map_err(|unsound| RunError::unsound(step, t, dt, unsound))
-    }
-
-    /// Does a step, and reads the level at its end.
-    fn shown(&mut self) -> Result<StepReport, RunError> {
-        let mut fill = std::mem::replace(&mut self.fill, Box::new(|_, _| ()));
-        let outcome = self.advance(&mut fill);
-        self.fill = fill;
-        let report = outcome?;
-        std::mem::swap(&mut self.old, &mut self.new);
-        self.simulation.observe(&mut self.new);
-        Ok(report)
+            .sound(|| rounded(self.snapshot().energy_size()))
+            .err()
     }
 }
 
-/// Maximum number of rows of a history: every step up to this number, then every second, third, ... step.
-pub(crate) const MOST_ROWS: usize = 200_000;
-
-/// Maximum number of nodes of a frame: twice the rows of a picture over space and time.
-const MOST_POINTS: usize = 281;
-
-/// At most `most` of `0..len`, evenly spaced, including both ends.
-pub(crate) fn thinned(len: usize, most: usize) -> Vec<usize> {
-    if len <= most {
-        return (0..len).collect();
-    }
-    (0..most).map(|k| k * (len - 1) / (most - 1)).collect()
-}
-
-/// A level with each field replaced.
-pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
-    let Level {
-        u,
-        v,
-        phi,
-        w,
-        theta,
-        contact_force,
-    } = level;
-    Level {
-        u: map(u),
-        v: map(v),
-        phi: map(phi),
-        w: map(w),
-        theta: map(theta),
-        contact_force: *contact_force,
-    }
-}
-
-/// The P1 functions of a level at the nodes of another mesh.
-pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
-    let (nodes, mut left) = (mesh.nodes(), 0);
-    let place = |&x: &f64| {
-        while left + 2 < nodes.len() && nodes[left + 1] <= x {
-            left += 1;
-        }
-        (left, (x - nodes[left]) / (nodes[left + 1] - nodes[left]))
-    };
-    let places: Vec<(usize, f64)> = other.nodes().iter().map(place).collect();
-    map_fields(level, |y| {
-        places
-            .iter()
-            .map(|&(i, s)| (1.0 - s) * y[i] + s * y[i + 1])
-            .collect()
-    })
-}
-
-impl Motion for Driver {
+impl Motion for Driver<'_> {
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
         let dt = self.simulation.dt();
         if !(self.simulation.t() + 0.5 * dt < until) {
             return Ok(None);
         }
-        let StepReport { iterations, .. } = self.shown()?;
+        let StepReport {
+            iterations,
+            contraction,
+            ..
+        } = self.advance()?;
         Ok(Some(Report {
             dt,
             iterations,
+            contraction,
             in_contact: self.new.contact_force != 0.0,
+            unsound: self.unsound(),
         }))
     }
 
-    fn t(&self) -> f64 {
-        self.simulation.t()
-    }
-
-    fn steps(&self) -> usize {
-        self.simulation.step()
-    }
-
-    fn at(&mut self, _: f64) -> Sample {
+    fn sample(&mut self) -> Sample {
         let (simulation, level) = (&self.simulation, &self.new);
         let Problem {
             beam,
@@ -293,43 +199,9 @@ impl Motion for Driver {
         }
     }
 
-    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
-        let steps = (t_end / self.simulation.dt()).round() as usize;
-        let is_shown = self
-            .simulation
-            .step()
-            .is_multiple_of(steps.div_ceil(count).max(1));
-        if is_shown {
-            vec![self.simulation.t()]
-        } else {
-            vec![]
-        }
-    }
-
-    fn rows(&self) -> usize {
-        MOST_ROWS
-    }
-
-    fn points(&self) -> Vec<f64> {
-        let nodes = self.simulation.problem().mesh.nodes();
-        thinned(nodes.len(), MOST_POINTS)
-            .into_iter()
-            .map(|i| nodes[i])
-            .collect()
-    }
-
-    fn shape(&self, _: f64) -> Vec<f64> {
-        thinned(self.new.u.len(), MOST_POINTS)
-            .into_iter()
-            .map(|i| self.new.u[i])
-            .collect()
-    }
-
-    fn on(&self, mesh: &Mesh) -> Level {
-        Level {
-            contact_force: 0.0,
-            ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh)
-        }
+    /// At its end: the scheme has no values inside.
+    fn inside(&mut self, _: f64) -> Sample {
+        self.sample()
     }
 
     fn extremes(&self) -> [f64; 2] {
@@ -340,29 +212,22 @@ impl Motion for Driver {
         self.simulation.balance(&self.old, &self.new)
     }
 
-    fn energy_size(&self) -> EnergySize {
-        let rounding = if self.is_solved {
-            self.simulation.rounding(&self.old, &self.new).total()
-        } else {
-            // A fixed number of iterations leaves a defect that nothing bounds.
-            f64::INFINITY
-        };
-        EnergySize {
-            terms: self.simulation.energy_scale(&self.new),
-            rounding,
+    fn work(&self) -> Work {
+        Work {
+            t: self.simulation.t(),
+            steps: self.simulation.step(),
+            solves: self.simulation.work().into(),
+            wall: self.wall,
         }
     }
 
-    fn solves(&self) -> Solves {
-        self.simulation.work().into()
-    }
-
-    fn wall(&self) -> Duration {
-        self.wall
-    }
-
-    fn is_heated(&self) -> bool {
-        self.simulation.is_heated()
+    fn snapshot(&self) -> Snapshot<'_> {
+        Snapshot::OneStep {
+            simulation: &self.simulation,
+            old: &self.old,
+            level: &self.new,
+            is_solved: self.is_solved,
+        }
     }
 }
 
@@ -386,7 +251,8 @@ impl Sample {
             phi_t_tip: level.w[tip],
             // The lifting θ_A (1 - x) is linear, so adding its midpoint value is exact on any mesh.
             theta_mid: middle(mesh, &level.theta) + 0.5 * theta_a,
-            // For a free tip the solver returns a zero with the sign of the displacement: -0 + 0 is 0.
+            // For a free tip the solver returns a zero with the sign of the displacement: -0 + 0
+            // is 0.
             contact_force: level.contact_force + 0.0,
             energy,
         }
@@ -405,6 +271,7 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::run_to;
     use crate::run::simulate::{Recording, Simulator, driver};
     use crate::scene::Scene;
 
@@ -417,19 +284,13 @@ mod tests {
             driver(&Scene::parse(text, "loose.toml").expect("a scene")).expect("a driver");
         let initial = driver.simulation.energy(&driver.new).total();
         let mut risen = usize::MAX;
-        let ended = loop {
-            match driver.stepped() {
-                Err(error) => break error,
-                Ok(step) => {
-                    let rise = step.simulation.energy(step.new).total() - initial;
-                    if rise > 1e-3 * initial.max(1.0) {
-                        risen = risen.min(step.simulation.step());
-                    }
-                    assert!(step.simulation.step() < 1000, "risen at {risen}");
-                }
+        let ended = run_to(&mut driver, 100.0, |driver, _| {
+            let rise = driver.simulation.energy(driver.level()).total() - initial;
+            if rise > 1e-3 * initial.max(1.0) {
+                risen = risen.min(driver.simulation.step());
             }
-        };
-        let RunError::Unsound { step, t, dt, .. } = ended else {
+        });
+        let Err(RunError::Unsound { step, t, dt, .. }) = ended else {
             panic!("{ended:?}")
         };
         assert!(
@@ -439,7 +300,8 @@ mod tests {
         assert!((t + dt - 0.1 * step as f64).abs() < 1e-9, "{step} {t} {dt}");
     }
 
-    /// For ρ s² = 5000 a motion of size s is s times that of size 1, exactly: powers of 2 change no rounding.
+    /// For ρ s² = 5000 a motion of size s is s times that of size 1, exactly: powers of 2 change no
+    /// rounding.
     #[test]
     fn a_small_motion_ends_at_the_same_step_as_a_large_one() {
         let ended = |exponent: i32| {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
 
-use super::{Motion, Report, RunError, Sample, Watch};
+use super::{AnyMotion, Report, RunError, Sample, Snapshot, Watch};
 
 /// Maximum number of frames: twice the columns of a picture over space and time.
 const FRAMES: usize = 440;
@@ -15,7 +15,8 @@ const FRAMES: usize = 440;
 pub struct Row {
     /// The state.
     pub sample: Sample,
-    /// The terms of the energy's balance, summed over the steps since the previous row; zeros at the start and without pictures.
+    /// The terms of the energy's balance, summed over the steps since the previous row; zeros at
+    /// the start and without pictures.
     pub balance: Balance,
 }
 
@@ -44,9 +45,10 @@ pub struct RunHistory {
 }
 
 impl RunHistory {
-    /// * `parts`: approximate number of rows after the first; `None` chooses one for the method, and adds frames.
+    /// * `parts`: approximate number of rows after the first; `None` chooses one for the method,
+    ///   and adds frames.
     pub(super) fn new(
-        motion: &dyn Motion,
+        start: &Snapshot<'_>,
         t_end: f64,
         parts: Option<usize>,
         first: Sample,
@@ -58,12 +60,12 @@ impl RunHistory {
         let mut frames = Frames::default();
         if parts.is_none() {
             frames = Frames {
-                points: motion.points(),
+                points: start.points(),
                 times: vec![first.t],
-                u: vec![motion.shape(first.t)],
+                u: vec![start.shape(first.t)],
             };
         }
-        let parts = parts.unwrap_or_else(|| motion.rows());
+        let parts = parts.unwrap_or_else(|| start.rows());
         Self {
             rows,
             frames,
@@ -74,12 +76,12 @@ impl RunHistory {
     }
 
     /// Adds the last level unless it is already there.
-    pub(super) fn finish(&mut self, motion: &dyn Motion, last: Sample) {
+    pub(super) fn finish(&mut self, end: &Snapshot<'_>, last: Sample) {
         if self.rows.last().is_none_or(|row| row.sample.t < last.t) {
             self.push_row(last);
         }
         if self.frames.times.last().is_some_and(|&t| t < last.t) {
-            self.push_frame(motion, last.t);
+            self.push_frame(end, last.t);
         }
     }
 
@@ -90,9 +92,9 @@ impl RunHistory {
         });
     }
 
-    fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
+    fn push_frame(&mut self, snapshot: &Snapshot<'_>, t: f64) {
         self.frames.times.push(t);
-        self.frames.u.push(motion.shape(t));
+        self.frames.u.push(snapshot.shape(t));
     }
 
     /// u(1) over time.
@@ -159,20 +161,20 @@ impl RunHistory {
 }
 
 impl Watch for RunHistory {
-    fn see(&mut self, motion: &mut dyn Motion, _: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(&mut self, motion: &mut AnyMotion, _: &Report) -> Result<ControlFlow<()>, RunError> {
         let is_drawn = !self.frames.times.is_empty();
         if is_drawn {
             self.since_row += motion.balance();
         }
-        for t in motion.parts(self.t_end, self.parts) {
-            let sample = motion.at(t);
-            self.push_row(sample);
+        let times = motion.snapshot().parts(self.t_end, self.parts);
+        for t in times {
+            self.push_row(motion.inside(t));
         }
         if is_drawn {
-            motion
-                .parts(self.t_end, FRAMES)
-                .iter()
-                .for_each(|&t| self.push_frame(motion, t));
+            let snapshot = motion.snapshot();
+            for t in snapshot.parts(self.t_end, FRAMES) {
+                self.push_frame(&snapshot, t);
+            }
         }
         Ok(ControlFlow::Continue(()))
     }

@@ -1,4 +1,5 @@
-//! A beam in motion, by any method: what a step does, what can be read from it, and why it ends early.
+//! A beam in motion, by any method: what a step does, what can be read from it, and why it ends
+//! early.
 
 pub(crate) mod dg;
 pub mod driver;
@@ -6,23 +7,21 @@ pub mod family;
 pub mod history;
 pub mod object;
 pub mod simulate;
-pub mod step_time;
+pub(crate) mod snapshot;
 pub mod tally;
 pub mod together;
 
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use tally::EnergySize;
-
 use convergence_study::run::time_limit::TimeUp;
 use serde::Serialize;
-use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
-use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::solve::Level;
+use thermobeam::mesh::MeshError;
 use thiserror::Error;
+
+pub use snapshot::{EnergySize, Snapshot};
 
 /// Observed quantities at one time; the JSON object of a run has them, except the contact force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -39,7 +38,8 @@ pub struct Sample {
     pub phi_t_tip: f64,
     /// The physical temperature at x = 1/2.
     pub theta_mid: f64,
-    /// The contact force, positive on the upper obstacle: g(u(1)); for a one-step scheme that of the last step.
+    /// The contact force, positive on the upper obstacle: g(u(1)); for a one-step scheme that of
+    /// the last step.
     #[serde(skip)]
     pub contact_force: f64,
     /// The energy (3.9), with the term of θ_A.
@@ -71,8 +71,14 @@ pub struct Report {
     pub dt: f64,
     /// Number of iterations.
     pub iterations: usize,
-    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout a step of dG.
+    /// Ratio of the last two increments, if the method has measured it.
+    pub contraction: Option<f64>,
+    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout
+    /// a step of dG.
     pub in_contact: bool,
+    /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at
+    /// it.
+    pub unsound: Option<Unsound>,
 }
 
 /// Why a problem did not reach its end.
@@ -139,38 +145,33 @@ pub enum Unsound {
 
 const EXPECTED: &str = "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
+/// Where a motion stands, and counts of the work done so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Work {
+    /// The current time.
+    pub t: f64,
+    /// Steps done.
+    pub steps: usize,
+    /// Linear systems solved.
+    pub solves: Solves,
+    /// Time spent in steps.
+    pub wall: Duration,
+}
+
 /// A beam in motion, one step at a time. Observed values are computed only on request.
 pub trait Motion {
-    /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until` is the end of a step.
+    /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until`
+    /// is the end of a step. Only [`run`] calls it.
     ///
     /// # Errors
     /// [`RunError`]; the state is then unchanged.
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError>;
 
-    /// The current time.
-    fn t(&self) -> f64;
-
-    /// Steps done.
-    fn steps(&self) -> usize;
+    /// The current state.
+    fn sample(&mut self) -> Sample;
 
     /// The state at a time in the last step; for a one-step scheme at its end.
-    fn at(&mut self, t: f64) -> Sample;
-
-    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the first is `t_end /
-    /// count`. A one-step scheme shows levels at equal numbers of steps, at most `count` of them.
-    fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
-
-    /// Times of a history.
-    fn rows(&self) -> usize;
-
-    /// Points x of a picture.
-    fn points(&self) -> Vec<f64>;
-
-    /// Displacement at those points, at a time in the last step.
-    fn shape(&self, t: f64) -> Vec<f64>;
-
-    /// The values of the current level at the nodes of a mesh, without the contact force.
-    fn on(&self, mesh: &Mesh) -> Level;
+    fn inside(&mut self, t: f64) -> Sample;
 
     /// Smallest and largest u(1) in the last step; for a one-step scheme at its end.
     fn extremes(&self) -> [f64; 2];
@@ -178,64 +179,70 @@ pub trait Motion {
     /// The energy's balance over the last step.
     fn balance(&self) -> Balance;
 
-    /// The size of the current level's energy, with which errors of the balance are compared.
-    fn energy_size(&self) -> EnergySize;
+    /// Where it stands, and the work so far.
+    fn work(&self) -> Work;
 
-    /// Counts of the work done so far.
-    fn solves(&self) -> Solves;
-
-    /// Time spent in steps.
-    fn wall(&self) -> Duration;
-
-    /// Whether the temperature is computed.
-    fn is_heated(&self) -> bool {
-        true
-    }
-
-    /// What the free end touches, and where contact began and ended; `None` if the method does not locate events.
-    fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
-        None
-    }
+    /// The whole state, for pictures and comparisons.
+    fn snapshot(&self) -> Snapshot<'_>;
 }
 
-/// Observes a motion after each of its steps.
-pub trait Watch {
+/// A motion by whatever method.
+pub type AnyMotion = dyn Motion;
+
+/// Observes a motion after each of its steps: any motion, or those of one method.
+pub trait Watch<M: ?Sized = AnyMotion> {
     /// Observes the last step, and reads what it needs.
     ///
     /// # Errors
     /// [`RunError`] ends the run at this step.
-    fn see(
-        &mut self,
-        motion: &mut dyn Motion,
-        report: &Report,
-    ) -> Result<ControlFlow<()>, RunError>;
+    fn see(&mut self, motion: &mut M, report: &Report) -> Result<ControlFlow<()>, RunError>;
 }
 
-impl<F: FnMut(&mut dyn Motion, &Report) -> Result<ControlFlow<()>, RunError>> Watch for F {
-    fn see(
-        &mut self,
-        motion: &mut dyn Motion,
-        report: &Report,
-    ) -> Result<ControlFlow<()>, RunError> {
+impl<M: ?Sized, F> Watch<M> for F
+where
+    F: FnMut(&mut M, &Report) -> Result<ControlFlow<()>, RunError>,
+{
+    fn see(&mut self, motion: &mut M, report: &Report) -> Result<ControlFlow<()>, RunError> {
         self(motion, report)
     }
 }
 
-/// Steps a motion to `until`, or until a watch ends it.
-///
-/// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of steps.
+/// Steps a motion to `until` and shows every step to one observer, which cannot end it: see
+/// [`run`].
 ///
 /// # Errors
-/// [`RunError`] of the failed step, or of a watch; the motion then stands at the last level.
-pub fn run(
-    motion: &mut dyn Motion,
+/// [`RunError`] of the failed step; the motion then stands at the last level.
+pub(crate) fn run_to<M: Motion + ?Sized>(
+    motion: &mut M,
+    until: f64,
+    mut see: impl FnMut(&mut M, &Report),
+) -> Result<(), RunError> {
+    let mut watch = |motion: &mut M, report: &Report| {
+        see(motion, report);
+        Ok(ControlFlow::Continue(()))
+    };
+    run(motion, until, &[], &mut [&mut watch])
+}
+
+/// Steps a motion to `until`, or until a watch ends it.
+///
+/// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of
+///   steps.
+///
+/// Every watch sees the step that ends the run, also one whose state is [unsound](Report::unsound).
+///
+/// # Errors
+/// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at
+/// the last level.
+pub fn run<M: Motion + ?Sized>(
+    motion: &mut M,
     until: f64,
     ends: &[f64],
-    watches: &mut [&mut dyn Watch],
+    watches: &mut [&mut dyn Watch<M>],
 ) -> Result<(), RunError> {
     let mut passed = 0;
     loop {
-        while ends.get(passed).is_some_and(|&end| end <= motion.t()) {
+        while ends.get(passed).is_some_and(|&end| end <= motion.work().t) {
             passed += 1;
         }
         let Some(report) = motion.step(ends.get(passed).copied().unwrap_or(until).min(until))?
@@ -247,10 +254,16 @@ pub fn run(
             passed += 1;
             continue;
         };
+        let mut is_ended = false;
         for watch in &mut *watches {
-            if watch.see(motion, &report)?.is_break() {
-                return Ok(());
-            }
+            is_ended |= watch.see(motion, &report)?.is_break();
+        }
+        if let Some(unsound) = report.unsound {
+            let Work { t, steps, .. } = motion.work();
+            return Err(RunError::unsound(steps, t, report.dt, unsound));
+        }
+        if is_ended {
+            return Ok(());
         }
     }
 }

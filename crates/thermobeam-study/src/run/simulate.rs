@@ -1,10 +1,12 @@
 //! A scene, run from its initial state to its end, by any method.
 //!
-//! Every step is observed: the energy's balance, its change and the extremes cover the whole time, whatever a report shows. The
-//! clock runs only during steps, so the time is that of the solver alone; reading the clock twice a step adds some 50 ns.
+//! Every step is observed: the energy's balance, its change and the extremes cover the whole time,
+//! whatever a report shows. The clock runs only during steps, so the time is that of the solver
+//! alone; reading the clock twice a step adds some 50 ns.
 //!
-//! A run ends early at a step that fails, at a step that violates the law of the energy, and at a [limit on its
-//! time](convergence_study::run::time_limit). The results so far are kept: [`Run::failure`] says why it ended.
+//! A run ends early at a step that fails, at a step that violates the law of the energy, and at a
+//! [limit on its time](convergence_study::run::time_limit). The results so far are kept:
+//! [`Run::failure`] says why it ended.
 //!
 //! ```
 //! use thermobeam_study::scene::Scene;
@@ -30,7 +32,7 @@ use super::dg::DgMotion;
 use super::driver::Driver;
 use super::history::RunHistory;
 pub use super::tally::{Contact, Run};
-use super::{Motion, Report, RunError, Watch, run};
+use super::{AnyMotion, Motion, Report, RunError, Watch, Work, run};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};
 
@@ -40,16 +42,18 @@ pub enum Recording {
     /// Nothing: memory does not grow with the number of steps.
     #[default]
     Summary,
-    /// This number of equidistant rows, without pictures; for a one-step scheme at most this number, at its levels.
+    /// This number of equidistant rows, without pictures; for a one-step scheme at most this
+    /// number, at its levels.
     Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`].
     History,
 }
 
-/// The solver's view of a scene: initial data at the nodes, which in one dimension is the projection (3.6).
+/// The solver's view of a scene: initial data at the nodes, which in one dimension is the
+/// projection (3.6).
 ///
-/// Boundary values are set exactly. The scene has checked that its functions satisfy them up to their round-off, which
-/// for a function such as sin(1000πx) exceeds what the solver accepts.
+/// Boundary values are set exactly. The scene has checked that its functions satisfy them up to
+/// their round-off, which for a function such as sin(1000πx) exceeds what the solver accepts.
 pub fn problem(scene: &Scene) -> Problem {
     Problem {
         beam: scene.beam,
@@ -63,7 +67,7 @@ pub fn problem(scene: &Scene) -> Problem {
 ///
 /// # Errors
 /// [`SetupError`] if the solver refuses the scene's numbers.
-pub(crate) fn driver(scene: &Scene) -> Result<Driver, SetupError> {
+pub(crate) fn driver(scene: &Scene) -> Result<Driver<'static>, SetupError> {
     Driver::new(problem(scene), scene.one_step()?)
 }
 
@@ -119,8 +123,9 @@ impl Simulator {
 
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
-        let mut told = |motion: &mut dyn Motion, _: &Report| {
-            progress(motion.steps(), motion.t());
+        let mut told = |motion: &mut AnyMotion, _: &Report| {
+            let Work { t, steps, .. } = motion.work();
+            progress(steps, t);
             Ok(ControlFlow::Continue(()))
         };
         self.watched(recording, &[], &mut told)
@@ -137,11 +142,11 @@ impl Simulator {
         mut read: impl FnMut(&mut dyn Motion),
     ) -> Result<Run, RunError> {
         let mut passed = 0;
-        let mut watch = |motion: &mut dyn Motion, _: &Report| {
+        let mut watch = |motion: &mut AnyMotion, _: &Report| {
             // A level of a one-step scheme is there up to rounding.
             if times
                 .get(passed)
-                .is_some_and(|time| (motion.t() - time).abs() <= 1e-9 * time)
+                .is_some_and(|time| (motion.work().t - time).abs() <= 1e-9 * time)
             {
                 read(motion);
                 passed += 1;
@@ -151,34 +156,35 @@ impl Simulator {
         self.watched(recording, times, &mut watch).finished()
     }
 
-    /// The same as [`Simulator::run`] with an additional watch; a step ends at each of the times `ends`, see [`run`].
+    /// The same as [`Simulator::run`] with an additional watch; a step ends at each of the times
+    /// `ends`, see [`run`].
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
-        let first = motion.at(0.0);
-        let mut sums = Run::start(first, motion.energy_size().terms);
+        let first = motion.sample();
+        let mut sums = Run::start(first, motion.snapshot().energy_size().terms);
+        let start = motion.snapshot();
         let mut history = match recording {
             Recording::Summary => None,
-            Recording::Curve(rows) => Some(RunHistory::new(&*motion, t_end, Some(rows), first)),
-            Recording::History => Some(RunHistory::new(&*motion, t_end, None, first)),
+            Recording::Curve(rows) => Some(RunHistory::new(&start, t_end, Some(rows), first)),
+            Recording::History => Some(RunHistory::new(&start, t_end, None, first)),
         };
-        let started_in = motion.contact().map(|(phase, _)| phase);
+        let started_in = start.contact().map(|(phase, _)| phase);
         let failure = match &mut history {
             Some(history) => run(&mut *motion, t_end, ends, &mut [history, &mut sums, watch]),
             None => run(&mut *motion, t_end, ends, &mut [&mut sums, watch]),
         }
         .err();
-        let t = motion.t();
-        let last = motion.at(t);
+        let last = motion.sample();
+        let Work { solves, wall, .. } = motion.work();
+        let end = motion.snapshot();
         if let Some(history) = &mut history {
-            history.finish(&*motion, last);
+            history.finish(&end, last);
         }
-        let events = motion
-            .contact()
-            .map_or(vec![], |(_, events)| events.to_vec());
+        let events = end.contact().map_or(vec![], |(_, events)| events.to_vec());
         let contact = started_in.map(|started_in| Contact { started_in, events });
-        sums.end(last, motion.solves(), motion.is_heated());
+        sums.end(last, solves, end.is_heated());
         Run {
-            wall: motion.wall(),
+            wall,
             contact,
             failure,
             history,
@@ -196,7 +202,7 @@ mod tests {
         let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 2.0\n";
         let scene = Scene::parse(text, "s.toml").expect("a scene");
         let (times, mut read) = ([0.5, 1.0, 1.5, 2.0], vec![]);
-        let see = |motion: &mut dyn Motion| read.push(motion.at(motion.t()));
+        let see = |motion: &mut dyn Motion| read.push(motion.sample());
         let run = Simulator::new(&scene)
             .expect("a motion")
             .read_at(Recording::Summary, &times, see)

@@ -10,7 +10,8 @@ use thermobeam::energy::Balance;
 use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
-use super::{Motion, Report, RunError, Sample, Solves, Unsound, Watch};
+use super::snapshot::EnergySize;
+use super::{AnyMotion, Report, RunError, Sample, Solves, Unsound, Watch, Work};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -42,32 +43,25 @@ pub struct EnergySummary {
     pub largest_increase: f64,
     /// Largest defect of the exact discrete balance, over all steps.
     pub largest_balance_residual: f64,
-    /// Size of the energy at t = 0, see [`Motion::energy_size`].
+    /// Size of the energy at t = 0, see [`EnergySize`].
     #[serde(skip)]
     pub size: f64,
 }
 
-/// A loose tolerance does not explain an error of the energy above this share of its size: every step of every scheme keeps or
-/// lowers the energy, and balances its loss. Without a term in ρ the energy of a buckled beam falls without bound, and errors grow
-/// with it.
+/// A loose tolerance does not explain an error of the energy above this share of its size: every
+/// step of every scheme keeps or lowers the energy, and balances its loss. Without a term in ρ the
+/// energy of a buckled beam falls without bound, and errors grow with it.
 const UNEXPLAINED: f64 = 1e-3;
 
 /// Size of a motion, in units of the tolerance, below which fewer than three digits are sure.
 const RESOLVED: f64 = 1e3;
 
-/// What may explain an error of the energy at one level.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EnergySize {
-    /// Sum of the absolute values of the energy's terms, without the constant β²/(4ρ).
-    pub terms: f64,
-    /// Bound on the rounding errors of a balance at this level.
-    pub rounding: f64,
-}
-
 impl EnergySummary {
-    /// Checks that the energy is finite, does not rise, and keeps its balance, allowing for rounding and tolerance.
+    /// Checks that the energy is finite, does not rise, and keeps its balance, allowing for
+    /// rounding and tolerance.
     ///
-    /// * `now`: the size of the current level's energy; evaluated only if the size at t = 0 and the change since do not explain an error.
+    /// * `now`: the size of the current level's energy; evaluated only if the size at t = 0 and the
+    ///   change since do not explain an error.
     ///
     /// # Errors
     /// [`Unsound`], with the number.
@@ -178,7 +172,8 @@ impl Run {
         self.contact_steps += usize::from(report.in_contact);
         self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, high);
         self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
-        // Not the difference of two totals, which would lose the digits that separate a small fall from a small rise.
+        // Not the difference of two totals, which would lose the digits that separate a small fall
+        // from a small rise.
         let (change, residual, energy) = (balance.change, balance.residual.abs(), &mut self.energy);
         energy.largest_increase = if self.steps == 0 {
             change
@@ -204,7 +199,8 @@ impl Run {
 
     /// What to tell a user whose motion is hardly larger than the tolerance, in words.
     ///
-    /// Iterations stop at an increment below the tolerance in the norm of (3.14), whose square is at most twice the energy's size.
+    /// Iterations stop at an increment below the tolerance in the norm of (3.14), whose square is
+    /// at most twice the energy's size.
     ///
     /// * `stopping`: of the iterations; a fixed number of them has no tolerance.
     pub fn note(&self, stopping: Stopping) -> Option<String> {
@@ -279,13 +275,18 @@ impl Contact {
 impl Watch for Run {
     fn see(
         &mut self,
-        motion: &mut dyn Motion,
+        motion: &mut AnyMotion,
         report: &Report,
     ) -> Result<ControlFlow<()>, RunError> {
         let (balance, extremes) = (motion.balance(), motion.extremes());
-        let unsound = |unsound| RunError::unsound(motion.steps(), motion.t(), report.dt, unsound);
-        self.add(report, &balance, extremes, || motion.energy_size())
-            .map_err(unsound)?;
+        let unsound = |unsound| {
+            let Work { t, steps, .. } = motion.work();
+            RunError::unsound(steps, t, report.dt, unsound)
+        };
+        self.add(report, &balance, extremes, || {
+            motion.snapshot().energy_size()
+        })
+        .map_err(unsound)?;
         Ok(ControlFlow::Continue(()))
     }
 }

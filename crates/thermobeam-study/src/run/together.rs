@@ -1,5 +1,7 @@
-//! Scenes that run together in lanes, twice as fast as one after the other, each with the same bits as on its own.
+//! Scenes that run together in lanes, twice as fast as one after the other, each with the same bits
+//! as on its own.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use convergence_study::run::time_limit::{Patience, TimeUp};
@@ -11,7 +13,7 @@ use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::simulate::{Run, problem};
-use super::tally::EnergySize;
+use super::snapshot::EnergySize;
 use super::{Report, RunError, Sample};
 use crate::scene::Scene;
 
@@ -40,13 +42,15 @@ impl Together {
     }
 }
 
-/// Runs scenes that agree in [`Together::of`] to their ends, as [`Simulator::run`](super::simulate::Simulator::run) does with
-/// each, without a history. A scene that fails does not affect the others.
+/// Runs scenes that agree in [`Together::of`] to their ends, as
+/// [`Simulator::run`](super::simulate::Simulator::run) does with each, without a history. A scene
+/// that fails does not affect the others.
 ///
 /// The time of a run is its share of their total time.
 ///
 /// # Errors
-/// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree; [`RunError::TimeUp`].
+/// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree;
+/// [`RunError::TimeUp`].
 pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let Some(common) = scenes.first().and_then(Together::of) else {
         return Ok(vec![]);
@@ -61,17 +65,16 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
     let mut level = Level::new(common.elements + 1);
     let lane = |(k, scene)| LaneRun::new(k, scene, driver.ensemble(), &mut level);
     let mut lanes: Vec<LaneRun<'_>> = scenes.iter().enumerate().map(lane).collect();
-    for _ in 0..common.steps {
-        let Some((ensemble, balances)) = driver.stepped()? else {
-            break;
-        };
+    driver.run(common.steps, |ensemble, balances| {
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
         }
         if lanes.iter().all(|lane| lane.run.failure.is_some()) {
-            break;
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
-    }
+    })?;
     let share = driver.wall() / scenes.len() as u32;
     let ended = |mut lane: LaneRun<'_>| {
         if lane.run.failure.is_none() {
@@ -113,7 +116,9 @@ impl<'s> LaneRun<'s> {
             let report = Report {
                 dt,
                 iterations: done.iterations,
+                contraction: None,
                 in_contact,
+                unsound: None,
             };
             let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
             let now = || {
@@ -211,7 +216,29 @@ impl EnsembleDriver {
         Ok(())
     }
 
-    /// Does one step of every simulation that has not failed, and returns it with the energy balances; `None` if all have failed.
+    /// Does at most `steps` steps and shows each with the energy balances, until `see` ends them or
+    /// all simulations have failed.
+    ///
+    /// # Errors
+    /// As [`EnsembleDriver::advance`].
+    pub(crate) fn run(
+        &mut self,
+        steps: usize,
+        mut see: impl FnMut(&Ensemble, &[Balance]) -> ControlFlow<()>,
+    ) -> Result<(), TimeUp> {
+        for _ in 0..steps {
+            let Some((ensemble, balances)) = self.stepped()? else {
+                break;
+            };
+            if see(ensemble, balances).is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Does one step of every simulation that has not failed, and returns it with the energy
+    /// balances; `None` if all have failed.
     ///
     /// # Errors
     /// As [`EnsembleDriver::advance`].

@@ -1,19 +1,21 @@
-//! Limits on what a file may request: all in one place, each with its reason. `document` limits the size of the file
-//! itself.
+//! Limits on what a file may request: all in one place, each with its reason. `document` limits the
+//! size of the file itself.
 //!
-//! All limits are far beyond practical use and far below what overloads a machine. They are checked when a file is read:
-//! a typing error gives a message with its line, not a process that the operating system kills after an hour.
+//! All limits are far beyond practical use and far below what overloads a machine. They are checked
+//! when a file is read: a typing error gives a message with its line, not a process that the
+//! operating system kills after an hour.
 
 use convergence_study::input::{Field, InputError};
 
-/// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a typing error.
+/// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a
+/// typing error.
 pub(crate) const STEPS: usize = 10_000_000_000;
 
 /// Time steps of a run that records every step: some 64 bytes each, 640 MB.
 pub(crate) const RECORDED_STEPS: usize = 10_000_000;
 
-/// Bytes per element of a run: blocks of the matrix and of its factors, and the vectors of three fields. Measured: 486
-/// at a million elements, everything included.
+/// Bytes per element of a run: blocks of the matrix and of its factors, and the vectors of three
+/// fields. Measured: 486 at a million elements, everything included.
 const BYTES_PER_ELEMENT: usize = 500;
 
 /// Bytes that a run may need.
@@ -25,13 +27,16 @@ const CASES: usize = 1_000_000;
 /// Bytes of such a case, excluding its curves.
 const BYTES_PER_CASE: usize = 1000;
 
-/// Points along an axis of a map: more would exceed the pixels of a figure, and each point keeps eight numbers.
+/// Points along an axis of a map: more would exceed the pixels of a figure, and each point keeps
+/// eight numbers.
 pub(crate) const MAP_POINTS: usize = 400;
 
-/// Elements of a mesh whose modes are found by a dense method: six matrices of (2n)² numbers, 1.5 GiB.
+/// Elements of a mesh whose modes are found by a dense method: six matrices of (2n)² numbers, 1.5
+/// GiB.
 pub(crate) const DENSE_ELEMENTS: usize = 3000;
 
-/// Modes of vibration: the mesh has ten times as many nodes, and beyond some thousand, neighbouring modes hardly differ.
+/// Modes of vibration: the mesh has ten times as many nodes, and beyond some thousand, neighbouring
+/// modes hardly differ.
 pub(crate) const MODES: usize = 10_000;
 
 /// Largest number of cases of a sweep.
@@ -43,7 +48,8 @@ pub(crate) const SWEEP_VALUES: usize = 1_000_000;
 /// Randomly drawn samples of a sweep: all are drawn when the file is read, 16 bytes per key each.
 pub(crate) const SWEEP_SAMPLES: usize = 10_000_000;
 
-/// Bytes that a running sweep keeps for each case: its number, whether it is done, and the position of its line.
+/// Bytes that a running sweep keeps for each case: its number, whether it is done, and the position
+/// of its line.
 const BYTES_PER_SWEEP_CASE: usize = 40;
 
 /// A number of bytes, in words.
@@ -74,10 +80,11 @@ pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
     ))
 }
 
-/// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message names `field`.
+/// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message
+/// names `field`.
 ///
-/// A block of the unknowns takes 29 (q + 1) + 20 numbers, a matrix of the elimination 9 (q + 1)²: three for each node, and
-/// 14 + 3p for each length of elements, in at least two factorisations.
+/// A block of the unknowns takes 29 (q + 1) + 20 numbers, a matrix of the elimination 9 (q + 1)²:
+/// three for each node, and 14 + 3p for each length of elements, in at least two factorisations.
 ///
 /// * `lengths`: the number of different element lengths.
 pub(crate) fn any_order_memory(

@@ -19,7 +19,8 @@
 //! t_end = 10.0
 //! ```
 //!
-//! With `scheme = "dg"` elements have degree p, steps are dG(q), and they end where contact begins or ends:
+//! With `scheme = "dg"` elements have degree p, steps are dG(q), and they end where contact begins
+//! or ends:
 //!
 //! ```toml
 //! [mesh]
@@ -83,7 +84,8 @@ pub struct Scene {
     pub beam: Beam,
     /// The obstacles, if any.
     pub obstacles: Option<Obstacles>,
-    /// Initial data, which satisfy the boundary conditions up to round-off and are finite at every node.
+    /// Initial data, which satisfy the boundary conditions up to round-off and are finite at every
+    /// node.
     pub initial: Initial,
     /// The mesh.
     pub mesh: Mesh,
@@ -296,9 +298,11 @@ pub(crate) fn stem(file_name: &str) -> String {
         .into_owned()
 }
 
-/// `elements` elements graded like `mesh`: its nodes x_i as a function of i/n, linear in between, at j/m.
+/// `elements` elements graded like `mesh`: its nodes x_i as a function of i/n, linear in between,
+/// at j/m.
 ///
-/// If m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to the last bit.
+/// If m divides n, or n divides m, or both are such multiples of a third, the meshes are nested to
+/// the last bit.
 pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError> {
     if elements == 0 {
         // The error for every mesh without elements.

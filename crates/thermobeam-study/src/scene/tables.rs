@@ -1,4 +1,5 @@
-//! Common parts of scenes and study files: functions, the tables `[beam]` and `[obstacles]`, the mesh, the stepping keys.
+//! Common parts of scenes and study files: functions, the tables `[beam]` and `[obstacles]`, the
+//! mesh, the stepping keys.
 
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles};
@@ -46,7 +47,8 @@ impl Coefficients {
         }
     }
 
-    /// The same with a relative error in one of them; `None` if there is none of that name, or it is zero.
+    /// The same with a relative error in one of them; `None` if there is none of that name, or it
+    /// is zero.
     pub(crate) fn off(mut self, name: &str, relative: f64) -> Option<Self> {
         let coefficient = self
             .get_mut(name)
@@ -200,7 +202,8 @@ pub(crate) fn checked_mesh(
     })
 }
 
-/// A function of `variable`, finite on [0, end] with its derivatives up to `order`; a message points into the text.
+/// A function of `variable`, finite on [0, end] with its derivatives up to `order`; a message
+/// points into the text.
 pub(crate) fn function(
     field: &Field<'_>,
     variable: Variable,

@@ -1,4 +1,5 @@
-//! The numbers of a scene that a sweep may vary, a case with its number and their values, and the share derived from them.
+//! The numbers of a scene that a sweep may vary, a case with its number and their values, and the
+//! share derived from them.
 
 use std::fmt;
 use std::str::FromStr;
@@ -134,7 +135,8 @@ impl Share {
     /// The whole sweep.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
-    /// Whether it holds a case with this [`content_hash`](convergence_study::store::content_hash): exactly one share does.
+    /// Whether it holds a case with this [`content_hash`](convergence_study::store::content_hash):
+    /// exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.of == self.number - 1
     }

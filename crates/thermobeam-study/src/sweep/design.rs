@@ -61,7 +61,7 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) 
     let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
     match (place("dt"), place("t_end")) {
         (Some(place), _) => {
-            drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0)
+            drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0);
         }
         (None, Some(place)) => drawn[place] = dt * (drawn[place] / dt).round().max(1.0),
         (None, None) => {}
@@ -71,7 +71,8 @@ fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) 
 
 /// `samples` numbers in [0, 1), one in each of `samples` equal slices, in random order.
 ///
-/// The order depends only on the seed and the key: a new key does not change the numbers of the others.
+/// The order depends only on the seed and the key: a new key does not change the numbers of the
+/// others.
 pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
     let mut random =
         SplitMix::new(SplitMix::new(seed).next_u64() ^ content_hash(key.path().as_bytes()));

@@ -1,4 +1,5 @@
-//! The folder of a sweep: the identity of the sweep, the completed cases, and finally the results in order.
+//! The folder of a sweep: the identity of the sweep, the completed cases, and finally the results
+//! in order.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -6,8 +7,9 @@
 //! | `journal.jsonl` | a line for each completed case, in the order of completion; removed at the end |
 //! | `results.jsonl` | the same lines in the order of the cases, once all are completed |
 //!
-//! One call of the operating system writes the lines of a group of cases as soon as these are completed. A process that is
-//! killed loses its running cases and leaves at most one incomplete line, which the next process removes.
+//! One call of the operating system writes the lines of a group of cases as soon as these are
+//! completed. A process that is killed loses its running cases and leaves at most one incomplete
+//! line, which the next process removes.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -131,7 +133,8 @@ pub struct Journal {
 impl Journal {
     /// Opens the folder of a share, and creates it if necessary.
     ///
-    /// * `resume`: whether to continue the work in the folder; every line must belong to a case of this share.
+    /// * `resume`: whether to continue the work in the folder; every line must belong to a case of
+    ///   this share.
     ///
     /// # Errors
     /// [`SweepError`]; nothing has been written then, unless the disk fails.
@@ -208,7 +211,8 @@ impl Journal {
             self.done.len(),
             is_of_the_share,
         )?;
-        // A process killed after writing the results leaves a journal; the results contain all of it.
+        // A process killed after writing the results leaves a journal; the results contain all of
+        // it.
         self.file
             .set_len(if is_complete { 0 } else { end })
             .map_err(atomic::naming(&self.path))?;
@@ -272,7 +276,8 @@ pub struct Merged {
     pub results: PathBuf,
 }
 
-/// Joins the shares in `folders` into [`RESULTS`] in the folder `out`, the file that a single run would have written.
+/// Joins the shares in `folders` into [`RESULTS`] in the folder `out`, the file that a single run
+/// would have written.
 ///
 /// # Errors
 /// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing

@@ -144,8 +144,8 @@ impl Place {
     }
 }
 
-/// The places of all complete lines of these files, in the order of their cases, and the offset at which the lines of the last file
-/// end; an incomplete line may follow.
+/// The places of all complete lines of these files, in the order of their cases, and the offset at
+/// which the lines of the last file end; an incomplete line may follow.
 ///
 /// * `check`: an additional check of a line, which returns what is wrong with it.
 ///

@@ -210,9 +210,11 @@ fn check_placeholders(set: &[Common<'_>], varied: &[VariedKey<'_>]) -> Result<()
     Ok(())
 }
 
-/// Builds a scene for every number in the file, with the other keys at their first value; returns the scene with only first values.
+/// Builds a scene for every number in the file, with the other keys at their first value; returns
+/// the scene with only first values.
 ///
-/// If dt and t_end both vary, each case checks that dt divides t_end; drawn values are rounded so that it does.
+/// If dt and t_end both vary, each case checks that dt divides t_end; drawn values are rounded so
+/// that it does.
 fn probe(
     base: &Base,
     set: &[Common<'_>],

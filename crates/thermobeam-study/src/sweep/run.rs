@@ -175,12 +175,14 @@ fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
     caught(together).flatten().unwrap_or_else(one_by_one)
 }
 
-/// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes each line to `sink` on
-/// completion. A failure also gives a line; with a limit the line says where its case was stopped.
+/// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes
+/// each line to `sink` on completion. A failure also gives a line; with a limit the line says where
+/// its case was stopped.
 ///
-/// Cases start in the given order, so that lines arrive nearly in that order; `sink` is called from every thread. Scenes
-/// with equal numbers of elements and steps run together, four at a time; with a limit each runs on its own, so that the
-/// limit applies to a single case. Lines are the same either way.
+/// Cases start in the given order, so that lines arrive nearly in that order; `sink` is called from
+/// every thread. Scenes with equal numbers of elements and steps run together, four at a time; with
+/// a limit each runs on its own, so that the limit applies to a single case. Lines are the same
+/// either way.
 ///
 /// # Errors
 /// The error of `sink`, which ends the sweep, or the failure to start threads.
@@ -268,7 +270,8 @@ mod tests {
         let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
         let indices: Vec<usize> = (0..sweep.cases()).collect();
         let (groups, failed) = groups(&sweep, &indices);
-        // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others have different numbers of steps.
+        // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others have
+        // different numbers of steps.
         let four = |case: usize| vec![case, case + 4, case + 8, case + 12];
         let expected = [four(0), four(1), four(2), vec![16], vec![17], vec![18]];
         assert_eq!(

@@ -1,8 +1,10 @@
-//! The files of the project, damaged as a program, an editor or a person might damage them: each is read or refused.
+//! The files of the project, damaged as a program, an editor or a person might damage them: each is
+//! read or refused.
 //!
-//! Every reader of files gets every file. It must not panic or hang, and a refusal is one message that begins with the
-//! file's name and states the place. `THERMOBEAM_FUZZ` sets the number of inputs, `THERMOBEAM_FUZZ_SEED` the first seed;
-//! failing inputs are written next to the corpus, to be kept there.
+//! Every reader of files gets every file. It must not panic or hang, and a refusal is one message
+//! that begins with the file's name and states the place. `THERMOBEAM_FUZZ` sets the number of
+//! inputs, `THERMOBEAM_FUZZ_SEED` the first seed; failing inputs are written next to the corpus, to
+//! be kept there.
 
 mod corpus;
 mod damage;
@@ -20,7 +22,8 @@ use readers::{Bench, Reading, seeds};
 /// Inputs of a test run: about a second.
 const INPUTS: u64 = 1_500;
 
-/// An input that takes longer to read has hung its reader: the largest allowed mesh takes about a second.
+/// An input that takes longer to read has hung its reader: the largest allowed mesh takes about a
+/// second.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Reads an input, and ends this program if that hangs: a thread cannot be stopped otherwise.
@@ -122,7 +125,8 @@ fn damaged_files_are_read_or_refused_with_their_place() {
         failures.len(),
         failures.join("\n")
     );
-    // If all were refused, the readers would not be reached; if none were, the files would not be damaged.
+    // If all were refused, the readers would not be reached; if none were, the files would not be
+    // damaged.
     let read: u64 = tallies.iter().map(|tally| tally.read).sum();
     assert!(read > count / 50 && read < count, "{read} of {count} read");
 }

@@ -8,10 +8,11 @@ use convergence_study::judge::{claims::Claim, verdict::Judge};
 use convergence_study::store::Baseline;
 use tempfile::TempDir;
 use thermobeam::dg;
-use thermobeam_study::kinds;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
 use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
+
+use crate::read_study;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -211,7 +212,7 @@ impl Bench {
                 let scene = Scene::read(&path).map_err(|error| said(&error))?;
                 match scene.method {
                     Method::OneStep(_) => {
-                        drop(Simulator::new(&scene).map_err(|error| refused(&error))?)
+                        drop(Simulator::new(&scene).map_err(|error| refused(&error))?);
                     }
                     Method::Dg(stepping) => {
                         drop(
@@ -223,8 +224,9 @@ impl Bench {
             }
             Reading::Study => {
                 drop(
-                    kinds::read(&path)
+                    read_study(&path)
                         .map_err(|error| said(&error))?
+                        .study
                         .plan()
                         .cases(),
                 );
@@ -237,7 +239,7 @@ impl Bench {
                 let table = RateTable::read_with(&path, &Choice::default())
                     .map_err(|error| said(&error))?;
                 table.columns.iter().for_each(|column| {
-                    drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05)))
+                    drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05)));
                 });
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),

@@ -128,11 +128,6 @@ fn what_a_study_cannot_have_is_refused_with_what_it_would_take() {
             &["steps: found 100000000", "<= 10000000"],
         ),
         (
-            "rule-calibration.toml",
-            &[("tables", "tables = 1000000000000")],
-            &["tables: found 1000000000000"],
-        ),
-        (
             "random-scenes.toml",
             &[("batches", "batches = 1000000000")],
             &["batches: found 1000000000"],

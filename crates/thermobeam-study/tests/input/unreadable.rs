@@ -1,14 +1,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::study::{FromFile as _, StudyFile};
-use thermobeam_study::kinds::KINDS;
+use convergence_study::study::FromFile as _;
+use thermobeam_study::kinds;
 use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::scene::Scene;
 
 use proptest::prelude::*;
 
 use super::says;
+use crate::read_study;
 
 /// A file in this test's own folder.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {
@@ -39,7 +40,7 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
             .to_string(),
         &["no.toml: cannot be read"],
     );
-    let study = StudyFile::read(&KINDS, Path::new("no.toml"))
+    let study = kinds::read(Path::new("no.toml"))
         .err()
         .expect("no such file");
     says(&study.to_string(), &["no.toml: cannot be read"]);
@@ -58,7 +59,7 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
         let folder = tempfile::tempdir().expect("a folder");
         let alone = folder.path().join("alone.toml");
         fs::copy(&path, &alone).expect("a copy");
-        let Err(error) = StudyFile::read(&KINDS, &alone) else {
+        let Err(error) = read_study(&alone) else {
             continue;
         };
         missed += 1;

@@ -1,4 +1,5 @@
-//! Laws of studies of orders for the scheme of any order: they pass, and planted defects make them fail.
+//! Laws of studies of orders for the scheme of any order: they pass, and planted defects make them
+//! fail.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
@@ -37,7 +38,8 @@ fn time() -> AnyOrder {
 fn orders_in_time_pass_and_planted_errors_fail() {
     let study = time();
     let sound = passes_but_not_without_each_case(&study);
-    // A floor, a wrong order, a lucky run and numbers that are not finite, in each error separately.
+    // A floor, a wrong order, a lucky run and numbers that are not finite, in each error
+    // separately.
     for k in 0..3 {
         let floor = changed::<AnyOrder>(&sound, |_, found| found.named[k].1 += 1e-4);
         assert_eq!(

@@ -1,4 +1,5 @@
-//! Laws of the matrix of faults in the solver of any order: wrong coefficients, and mistakes in the loads.
+//! Laws of the matrix of faults in the solver of any order: wrong coefficients, and mistakes in the
+//! loads.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};

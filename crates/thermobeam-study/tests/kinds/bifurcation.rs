@@ -1,11 +1,11 @@
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::FromFile;
+use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::bifurcation::{AtRest, BifurcationStudy, Diagram, Found, ROW};
 
 use super::file;
 use super::planted::verdict_with;
 use super::refused::refusal;
-use super::typed::passes_but_not_without_each_case;
+use super::typed::{counted, passes_but_not_without_each_case};
 
 fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {
@@ -30,6 +30,8 @@ fn each_claim_can_fail() {
     let study =
         BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
+    let all = counted(&study.judge(&sound), "runs to rest").clone();
+    assert!(all.is_complete() && all.asked > 10, "{all}");
     let unstable =
         |rest: &mut AtRest| rest.nearest.as_mut().expect("a steady state").state.stable = false;
     for (number, (label, plant)) in [

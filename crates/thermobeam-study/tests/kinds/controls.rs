@@ -7,7 +7,7 @@ use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
 use thermobeam_study::kinds::controls::{Fault, ROW};
 
 use super::refused::refusal;
-use super::typed::{Runs, changed, report};
+use super::typed::{Runs, changed, counted, each_case_counts, leaves_one_out, report};
 use super::{file, text};
 use thermobeam_study::exact::norm::Norm;
 
@@ -40,6 +40,10 @@ fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_on
         "{}",
         report(&study.judge(&SOUND))
     );
+    // One of the two studies has no heating at the end; no fault can be planted in a term that is
+    // absent.
+    let pairs = counted(&study.judge(&SOUND), "pairs of a study and a fault").clone();
+    assert!(0 < pairs.judged && pairs.judged < pairs.asked, "{pairs}");
     // The wrong rho gets the errors of the run without a fault.
     let rho = Fault::Coefficient("rho");
     let blind = study.judge(&replaced(Fault::None, rho));
@@ -84,6 +88,7 @@ fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
         assert_eq!(study.judge(&broken).verdict, Verdict::Fail, "case {case}");
     }
     assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
+    each_case_counts(&study, &SOUND);
 }
 
 /// Two studies on coarse levels: the full study takes seconds.
@@ -124,7 +129,12 @@ fn each_coefficient_must_be_detected() {
         let mut failed = sound.clone();
         failed[case].found = Err(CaseFailure::new("planted"));
         assert_eq!(study.judge(&failed).verdict, Verdict::Fail);
+        if sound[case].ok().is_some_and(Option::is_some) {
+            let items = ["pairs of a study and a coefficient", "not in the range"];
+            leaves_one_out(&study, &sound, case, items, |found| *found = None);
+        }
     }
+    each_case_counts(&study, &sound);
 }
 
 #[test]

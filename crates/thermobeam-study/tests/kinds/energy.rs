@@ -6,7 +6,7 @@ use thermobeam_study::kinds::energy::{End, ROW};
 
 use super::file;
 use super::refused::refusal;
-use super::typed::{changed, passes_but_not_without_each_case};
+use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
 
 fn runs(name: &str) -> EnergyRuns {
     EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -23,17 +23,17 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
         ("a rise", |found| found.worst.rise = 2e-14),
         ("a residual", |found| found.worst.residual = 2e-14),
         ("a rise that is not finite", |found| {
-            found.worst.rise = f64::NAN
+            found.worst.rise = f64::NAN;
         }),
         ("a residual that is not finite", |found| {
-            found.worst.residual = f64::NAN
+            found.worst.residual = f64::NAN;
         }),
         ("a bound that is not finite", |found| {
-            found.worst.open = f64::NAN
+            found.worst.open = f64::NAN;
         }),
         ("a sum that is not finite", |found| found.drift = f64::NAN),
         ("an energy that is not finite", |found| {
-            found.initial_energy = f64::INFINITY
+            found.initial_energy = f64::INFINITY;
         }),
         ("a missing step", |found| found.steps -= 1),
         ("another end", |found| found.end = End::NotFinite),
@@ -78,13 +78,13 @@ fn each_claim_of_a_case_can_fail() {
         (
             "hat",
             ("a rise that is not finite", |found| {
-                found.worst.risen = f64::NAN
+                found.worst.risen = f64::NAN;
             }),
         ),
         (
             "hat",
             ("a residual that is not finite", |found| {
-                found.worst.residual = f64::NAN
+                found.worst.residual = f64::NAN;
             }),
         ),
         (
@@ -120,9 +120,18 @@ fn each_claim_of_a_case_can_fail() {
             "{what} in {label}"
         );
     }
+    let stepped = sound.iter().position(|ran| ran.case.label == "hat");
+    let items = ["runs for the balance", "without a step"];
+    leaves_one_out(&study, &sound, stepped.expect("a case"), items, |found| {
+        found.steps = 0;
+    });
+    // Without a step there is no largest residual.
+    let unmoved = changed::<EnergyRuns>(&sound, |_, found| found.steps = 0);
+    assert_eq!(study.judge(&unmoved).headline, "no step");
 }
 
-/// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam reaches nearly the same share of it.
+/// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam
+/// reaches nearly the same share of it.
 #[test]
 fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
     let study = runs("corollary-3.2.toml");
@@ -162,7 +171,7 @@ fn each_claim_of_the_random_scenes_can_fail() {
     let planted: [Defect<Batch>; 12] = [
         ("a definite operator refused", |batch| batch.refused = 1),
         ("a level that is not finite", |batch| {
-            batch.not_finite_levels = 1
+            batch.not_finite_levels = 1;
         }),
         ("an iteration limit", |batch| {
             batch.ends[End::Answer as usize] -= 1;
@@ -173,28 +182,28 @@ fn each_claim_of_the_random_scenes_can_fail() {
             batch.ends[End::NotFinite as usize] += 1;
         }),
         ("a scene without an end", |batch| {
-            batch.ends[End::Answer as usize] -= 1
+            batch.ends[End::Answer as usize] -= 1;
         }),
         ("exceptions", |batch| {
             batch
                 .scenes
                 .iter_mut()
                 .take(2)
-                .for_each(|[.., residual]| *residual = 1e-11)
+                .for_each(|[.., residual]| *residual = 1e-11);
         }),
         ("an open balance", |batch| batch.worst.open = 1.1),
         ("a rise", |batch| batch.worst.risen = 1.1),
         ("an open balance that is not finite", |batch| {
-            batch.worst.open = f64::NAN
+            batch.worst.open = f64::NAN;
         }),
         ("a risen energy that is not finite", |batch| {
-            batch.worst.risen = f64::NAN
+            batch.worst.risen = f64::NAN;
         }),
         ("a rise that is not finite", |batch| {
-            batch.worst.rise = f64::NAN
+            batch.worst.rise = f64::NAN;
         }),
         ("a residual that is not finite", |batch| {
-            batch.worst.residual = f64::NAN
+            batch.worst.residual = f64::NAN;
         }),
     ];
     for case in 0..sound.len() {
@@ -209,6 +218,16 @@ fn each_claim_of_the_random_scenes_can_fail() {
                 Verdict::Fail,
                 "{what} in batch {case}"
             );
+        }
+        for (reason, end) in [
+            ("refused, the operator is not definite", End::Indefinite),
+            ("ended by another failure", End::NotFinite),
+        ] {
+            let items = ["scenes to their last step", reason];
+            leaves_one_out(&study, &sound, case, items, |batch| {
+                batch.ends[End::Answer as usize] -= 1;
+                batch.ends[end as usize] += 1;
+            });
         }
     }
 }
@@ -273,7 +292,7 @@ fn files_with_errors_are_refused() {
 }
 
 #[test]
-fn figures_begin_with_the_initial_energy_and_show_what_is_allowed() {
+fn figures_begin_with_the_initial_energy_and_tables_show_what_is_allowed() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
     assert!(
@@ -290,7 +309,13 @@ fn figures_begin_with_the_initial_energy_and_show_what_is_allowed() {
             .expect(what);
         figure.svg.contains(">allowed<") || figure.svg.contains("allowed\n")
     };
-    assert!(allowed(&study.judge(&sound), "balance.svg"));
+    let residuals = &study.judge(&sound).tables[1];
+    assert_eq!(residuals.head, ["scene", "residual", "allowed"]);
+    assert_eq!(residuals.rows.len(), 7);
+    for row in &residuals.rows {
+        let [residual, allowed] = [1, 2].map(|cell: usize| row[cell].parse::<f64>().unwrap());
+        assert!(0.0 < residual && residual <= allowed, "{row:?}");
+    }
     let study = runs("extremes.toml");
     assert!(allowed(
         &study.judge(&passes_but_not_without_each_case(&study)),

@@ -1,9 +1,9 @@
 use super::planted::verdict_with;
-use super::typed::{Runs, passes_but_not_without_each_case};
+use super::typed::{Runs, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, run_cases_here};
-use thermobeam::equilibrium::Phase;
+use thermobeam_exact::equilibrium::Phase;
 use thermobeam_study::kinds::equilibrium::{AtRest, EndStates, Nearest};
 
 fn study() -> EndStates {
@@ -30,7 +30,20 @@ fn verdict(
 
 #[test]
 fn the_file_passes_but_not_without_each_case() {
-    passes_but_not_without_each_case(&study());
+    let study = study();
+    let sound = passes_but_not_without_each_case(&study);
+    // Of an end that is straight no order is known.
+    let bent = sound
+        .iter()
+        .position(|ran| ran.case.label == "paper-2-beta-5, n = 160");
+    let items = [
+        "ends for the order",
+        "straight, so that the mesh causes no error",
+    ];
+    leaves_one_out(&study, &sound, bent.expect("the case"), items, |end| {
+        let state = &mut near(end).state;
+        (state.u_tip, state.phi_tip) = (0.0, 0.0);
+    });
 }
 
 #[test]
@@ -53,10 +66,10 @@ fn every_claim_about_end_states_can_fail() {
         ("paper-2-beta-5, n = 40", |end| near(end).errors[0] = 1e-5),
         ("paper-1-beta-0, n = 160", |end| near(end).errors[0] = 2e-6),
         ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
-            near(end).errors[0] = 2e-13
+            near(end).errors[0] = 2e-13;
         }),
         ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
-            near(end).errors[1] = 2e-13
+            near(end).errors[1] = 2e-13;
         }),
     ];
     for (k, (label, defect)) in planted.into_iter().enumerate() {
@@ -84,7 +97,7 @@ fn no_number_may_be_nan() {
     for ran in &sound {
         for (k, number) in numbers.into_iter().enumerate() {
             let found = verdict(&study, &sound, &ran.case.label, |end| {
-                *number(end) = f64::NAN
+                *number(end) = f64::NAN;
             });
             assert_eq!(found, Verdict::Fail, "number {k} of {}", ran.case.label);
         }

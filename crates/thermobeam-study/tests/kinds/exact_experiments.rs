@@ -1,4 +1,5 @@
-//! Laws of the paper's experiments to ten digits: two discretisations must agree, and planted differences fail.
+//! Laws of the paper's experiments to ten digits: two discretisations must agree, and planted
+//! differences fail.
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind};
@@ -6,10 +7,11 @@ use thermobeam_study::kinds::exact_experiments::{ExactExperiments, ROW, ShownSta
 
 use super::planted::verdict_with;
 use super::refused::refusal;
-use super::typed::{changed, passes_but_not_without_each_case, report};
+use super::typed::{changed, counted, passes_but_not_without_each_case, report};
 use super::{file, text};
 
-/// The first scene alone, over its first second: two contact events and the first moments of a third phase.
+/// The first scene alone, over its first second: two contact events and the first moments of a
+/// third phase.
 fn study(change: impl Fn(String) -> String) -> ExactExperiments {
     let all = text("experiments-exact.toml");
     let (before, rest) = all.split_once("scenes = [").expect("scenes");
@@ -42,16 +44,16 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
         fails("E", &|found| found.states[1].energy += by);
         // The tolerance for times of events is ten times larger.
         fails("the time of an event", &|found| {
-            found.events[1].t += 10.0 * by
+            found.events[1].t += 10.0 * by;
         });
     }
     fails("a missing event", &|found| _ = found.events.pop());
     fails("an event the other way round", &|found| {
-        found.events[0].to = found.events[0].from
+        found.events[0].to = found.events[0].from;
     });
     fails("a missing state", &|found| _ = found.states.pop());
     fails("a balance that does not close", &|found| {
-        found.balance[0] = 1e-11
+        found.balance[0] = 1e-11;
     });
     fails("an energy that grows", &|found| found.balance[1] = 1e-15);
     fails("a curve with a hole", &|found| found.tip[7].1 = f64::NAN);
@@ -76,6 +78,11 @@ fn the_published_digits_are_those_of_the_prototype() {
             .find(|quantity| quantity.name == name);
         found.unwrap_or_else(|| panic!("no {name}")).value
     };
+    let is_asked = outcome
+        .coverage
+        .iter()
+        .any(|one| one.items == "own schemes");
+    assert!(!is_asked, "the study does not run the scenes' own schemes");
     assert!((value("paper-1-beta-0: u(1) at t = 1") - -0.011_764_243_810).abs() < 2e-11);
 }
 
@@ -94,6 +101,8 @@ fn the_scenes_own_scheme_is_compared_where_asked_for() {
             .iter()
             .any(|figure| figure.file == "error.svg")
     );
+    let own = "0 of 1 own schemes judged; 1 not: measured, without a claim";
+    assert_eq!(counted(&outcome, "own schemes").to_string(), own);
     sound[2].found = Err(CaseFailure::new("planted"));
     assert_eq!(study.judge(&sound).verdict, Verdict::Fail);
 }

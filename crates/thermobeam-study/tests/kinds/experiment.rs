@@ -1,12 +1,15 @@
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind, Origin};
-use thermobeam::equilibrium::{Equilibrium, Phase};
-use thermobeam_study::kinds::experiment::{AtRest, Experiments, Found, Measured, Nearest, ROW};
+use convergence_study::study::kind::run_cases_here;
+use convergence_study::study::{Case, FromFile, Kind, Origin};
+use thermobeam_exact::equilibrium::{Equilibrium, Phase};
+use thermobeam_study::kinds::experiment::{
+    AtRest, Experiments, Found, Measured, Nearest, PaperRun, ROW, Task,
+};
 
-use super::file;
 use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{changed, passes_but_not_without_each_case};
+use super::{file, text};
 
 fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -15,14 +18,14 @@ fn study(name: &str) -> Experiments {
 fn run(change: fn(&mut Measured)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {
         Found::Run(run) => change(run),
-        Found::Rest(_) => panic!("no experiment"),
+        _ => panic!("no experiment"),
     })
 }
 
 fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {
         Found::Rest(rest) => change(rest),
-        Found::Run(_) => panic!("no run to rest"),
+        _ => panic!("no run to rest"),
     })
 }
 
@@ -46,15 +49,15 @@ fn each_claim_of_section_5_can_fail() {
     for (number, (label, plant)) in [
         (straight, run(|run| run.energy = 1e-5)),
         (straight, run(|run| run.largest_field = 0.01)),
-        (straight, run(|run| run.largest_increase = 1e-10)),
-        (straight, run(|run| run.first_upper = Some(3.0))),
-        (straight, run(|run| run.first_lower = Some(3.0))),
-        (straight, run(|run| run.first_upper = None)),
-        (straight, run(|run| run.first_lower = None)),
-        (straight, run(|run| run.frequency = Some(0.9))),
-        (straight, run(|run| run.frequency = Some(0.1))),
-        (straight, run(|run| run.frequency = None)),
-        (straight, run(|run| run.phi_amplitude = 0.5)),
+        (straight, run(|run| run.trace.largest_increase = 1e-10)),
+        (straight, run(|run| run.trace.first_upper = Some(3.0))),
+        (straight, run(|run| run.trace.first_lower = Some(3.0))),
+        (straight, run(|run| run.trace.first_upper = None)),
+        (straight, run(|run| run.trace.first_lower = None)),
+        (straight, run(|run| run.trace.frequency = Some(0.9))),
+        (straight, run(|run| run.trace.frequency = Some(0.1))),
+        (straight, run(|run| run.trace.frequency = None)),
+        (straight, run(|run| run.trace.phi_amplitude = 0.5)),
         (resting, run(|run| run.contact_force = 0.0)),
         (
             resting,
@@ -80,6 +83,16 @@ fn each_claim_of_section_5_can_fail() {
             rest(|rest| state(&mut rest.nearest).stable = false),
         ),
         ("to rest, beta = -0.72", rest(|rest| rest.nearest = None)),
+        // An error that a figure would show.
+        (
+            "paper-1-beta-0, 2 x p = 7, q = 2",
+            run(|run| run.trace.points[1500].u_tip += 1e-3),
+        ),
+        // A time at which the other discretisation was not observed.
+        (
+            "paper-1-beta-0, 2 x p = 7, q = 2",
+            run(|run| run.trace.points[1500].t += 1e-3),
+        ),
         // No number may be NaN, whether or not a claim depends on it.
         (resting, run(|run| run.end.t = f64::NAN)),
         (resting, run(|run| run.energy = f64::NAN)),
@@ -88,11 +101,11 @@ fn each_claim_of_section_5_can_fail() {
         (resting, run(|run| run.contact_force = f64::NAN)),
         (resting, run(|run| run.largest_field = f64::NAN)),
         (resting, run(|run| far(&mut run.end.nearest, f64::NAN))),
-        (resting, run(|run| run.first_upper = Some(f64::NAN))),
-        (resting, run(|run| run.first_lower = Some(f64::NAN))),
-        (resting, run(|run| run.frequency = Some(f64::NAN))),
-        (resting, run(|run| run.phi_amplitude = f64::NAN)),
-        (resting, run(|run| run.largest_increase = f64::NAN)),
+        (resting, run(|run| run.trace.first_upper = Some(f64::NAN))),
+        (resting, run(|run| run.trace.first_lower = Some(f64::NAN))),
+        (resting, run(|run| run.trace.frequency = Some(f64::NAN))),
+        (resting, run(|run| run.trace.phi_amplitude = f64::NAN)),
+        (resting, run(|run| run.trace.largest_increase = f64::NAN)),
         ("to rest, beta = 0", rest(|rest| rest.tip[0] = f64::NAN)),
         ("to rest, beta = 0", rest(|rest| rest.t = f64::NAN)),
         (
@@ -115,19 +128,107 @@ fn each_claim_of_section_5_can_fail() {
     }
 }
 
+/// Every experiment by the paper's algorithm too, which is most of the work.
 #[test]
-fn the_full_study_has_the_cases_of_the_quick_one() {
+fn the_full_study_has_the_cases_of_the_quick_one_and_the_papers_algorithm() {
     let (full, quick) = (
         study("section-5-full.toml").cases(),
         study("section-5.toml").cases(),
     );
-    assert_eq!(full.len(), quick.len());
+    let (by_the_paper, others): (Vec<_>, Vec<_>) = full
+        .iter()
+        .partition(|case| matches!(case.data, Task::FixedPoint(_)));
     assert!(
-        full.iter()
-            .zip(&quick)
-            .all(|(full, quick)| full.label == quick.label)
+        others
+            .iter()
+            .map(|case| case.data)
+            .eq(quick.iter().map(|case| case.data))
     );
-    assert!(full[0].cost > 10.0 * quick[0].cost);
+    let places: Vec<_> = by_the_paper.iter().map(|case| case.data).collect();
+    assert_eq!(places, (0..7).map(Task::FixedPoint).collect::<Vec<_>>());
+    let cost = |cases: &[&Case<Task>]| cases.iter().map(|case| case.cost).sum::<f64>();
+    assert!(cost(&by_the_paper) > cost(&others));
+}
+
+/// The full study on ten elements and with 20,000 steps, from a folder of its own.
+fn coarse_full_study(tolerance: &str) -> Experiments {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("scenes")).expect("a folder");
+    let study = text("section-5-full.toml").replace("tolerance = 1e-7", tolerance);
+    let names = study.split('"').filter(|name| name.starts_with("scenes/"));
+    for name in names {
+        let scene = text(name)
+            .replace("elements = 100", "elements = 10")
+            .replace("dt = 1e-4", "dt = 5e-4");
+        std::fs::write(folder.path().join(name), scene).expect("a scene");
+    }
+    let path = folder.path().join("section-5-full.toml");
+    std::fs::write(&path, &study).expect("a study");
+    Experiments::read(path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn paper(change: fn(&mut PaperRun)) -> Box<dyn Fn(&mut Found)> {
+    Box::new(move |found| match found {
+        Found::FixedPoint(run) => change(run),
+        _ => panic!("no run by the paper's algorithm"),
+    })
+}
+
+#[test]
+fn the_papers_algorithm_is_judged_beside_newtons_method() {
+    let study = coarse_full_study("tolerance = 1e-7");
+    let sound = run_cases_here(&study);
+    assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
+    let label = "paper-1-beta-0, fixed point and Newton";
+    let case = sound.iter().position(|ran| ran.case.label == label);
+    let case = case.expect("a run by the paper's algorithm");
+    let mut missing = sound.clone();
+    missing.remove(case);
+    assert_eq!(study.judge(&missing).verdict, Verdict::Fail);
+    for (number, plant) in [
+        paper(|run| run.solvers.distance = 1e-2),
+        paper(|run| run.solvers.distance = f64::NAN),
+        paper(|run| run.solvers.mean_iterations = f64::NAN),
+        // Statements about the motion are those of the paper's algorithm.
+        paper(|run| run.trace.largest_increase = 1e-10),
+        paper(|run| run.trace.first_lower = None),
+        paper(|run| run.trace.frequency = Some(0.9)),
+        paper(|run| run.trace.phi_amplitude = 0.5),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let verdict = verdict_with(&study, &sound, case, plant);
+        assert_eq!(verdict, Verdict::Fail, "defect {number}");
+    }
+    let outcome = study.judge(&sound);
+    let guarded = |name: &str| {
+        let name = format!("paper-1-beta-0: {name}");
+        let quantity = outcome.quantities.iter().find(|of| of.name == name);
+        quantity.unwrap_or_else(|| panic!("no {name}")).value
+    };
+    // Two iterations are the least that can show convergence, and no step of these needs more than
+    // five.
+    let iterations = guarded("iterations_per_step");
+    assert!((2.0..5.0).contains(&iterations), "{iterations}");
+    assert!(guarded("distance_to_newton") > 0.0);
+}
+
+/// A tolerance of the size of the scheme's error makes both solvers differ by as much.
+#[test]
+fn a_loose_tolerance_fails() {
+    let study = coarse_full_study("tolerance = 1e-1");
+    let outcome = study.judge(&run_cases_here(&study));
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    let failed: Vec<_> = outcome
+        .checks
+        .iter()
+        .filter(|check| check.verdict == Verdict::Fail)
+        .collect();
+    assert!(
+        failed.iter().any(|check| check.claim.contains("η*")),
+        "{failed:?}"
+    );
 }
 
 #[test]
@@ -142,13 +243,20 @@ fn files_with_errors_are_refused() {
         ),
         ("window", "windows", "run.windows"),
         ("[-1.0, -0.9", "[-0.9, -1.0", "steady.beta"),
+        ("degree = 7", "degree = 12", "two with the same degree"),
+        (
+            "[steady]",
+            "[fixed_point]\ntolerance = 0\n[steady]",
+            "fixed_point.tolerance",
+        ),
     ] {
         let error = refusal(&ROW, "section-5.toml", from, to);
         assert!(error.contains(message), "{error}");
     }
 }
 
-/// Completion is no statement, the refuted one is named, and a list that may lack states gives a least number.
+/// Completion is no statement, the refuted one is named, and a list that may lack states gives a
+/// least number.
 #[test]
 fn the_headline_counts_statements_by_whose_they_are() {
     let study = study("section-5.toml");
@@ -157,7 +265,7 @@ fn the_headline_counts_statements_by_whose_they_are() {
     let refuted = "1 is refuted: several steady states for β < -1/2, where there are several only for β < -0.7116";
     assert_eq!(
         outcome.headline,
-        format!("the paper's 12 statements: 11 hold as printed, {refuted}; 1 of 1 of ours hold")
+        format!("the paper's 12 statements: 11 hold as printed, {refuted}; 2 of 2 of ours hold")
     );
     let origins = |origin: Origin| {
         outcome
@@ -174,7 +282,7 @@ fn the_headline_counts_statements_by_whose_they_are() {
             Origin::Own
         ]
         .map(origins),
-        [1, 11, 1, 1]
+        [1, 11, 1, 2]
     );
     let counts: Vec<&str> = outcome.tables[1]
         .rows

@@ -61,7 +61,7 @@ fn each_frequency_can_fail() {
     for mode in 0..8 {
         let verdict = |change: &dyn Fn(usize, f64) -> f64| {
             let planted = changed::<Frequencies>(&sound, |case, found| {
-                found[mode] = change(case, found[mode])
+                found[mode] = change(case, found[mode]);
             });
             study.judge(&planted).verdict
         };
@@ -84,7 +84,7 @@ fn each_frequency_can_fail() {
         );
     }
     let short = changed::<Frequencies>(&sound, |case, found| {
-        found.truncate(if case == 2 { 7 } else { 8 })
+        found.truncate(if case == 2 { 7 } else { 8 });
     });
     assert_eq!(
         study.judge(&short).verdict,

@@ -1,9 +1,9 @@
-//! Kinds of study, each tested with its own files and with planted defects: a check that cannot fail proves nothing.
+//! Kinds of study, each tested with its own files and with planted defects: a check that cannot
+//! fail proves nothing.
 
 mod any_order;
 mod any_order_controls;
 mod bifurcation;
-mod calibration;
 mod controls;
 mod convergence;
 mod energy;
@@ -18,7 +18,6 @@ mod rigid;
 mod scenes;
 mod self_convergence;
 mod solvers;
-mod surface;
 mod typed;
 mod untested;
 mod vibration;

@@ -1,11 +1,11 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::kind::run_cases_here;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors};
+use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors, Refusal};
 
 use super::refused::refusal;
 use super::text;
-use super::typed::{changed, passes_but_not_without_each_case};
+use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
 
 /// Two scenes of the file and a rough one; for one of them linear elements are compared too.
 fn study() -> RandomErrors {
@@ -13,6 +13,13 @@ fn study() -> RandomErrors {
         .replace("scenes = 10", "scenes = 2")
         .replace("rough = 3", "rough = 1");
     RandomErrors::parse(&small, "small.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn abandoned(is_of_features: bool) -> Refusal {
+    Refusal {
+        words: "given up".to_owned(),
+        is_of_features,
+    }
 }
 
 #[test]
@@ -52,20 +59,24 @@ fn a_part_of_the_file_passes_and_each_check_can_fail() {
         );
     }
     for may_be_refused in [false, true] {
-        let refuse = |reason: &str| {
-            let refused = vec![reason.to_owned()];
+        let refuse = |is_of_features: bool| {
+            let refused = vec![abandoned(is_of_features)];
             verdict(&|found| {
-                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused)
+                (found.refused, found.may_be_refused) = (refused.clone(), may_be_refused);
             })
         };
-        assert_eq!(refuse("given up"), Verdict::Fail);
+        assert_eq!(refuse(false), Verdict::Fail);
         let expected = if may_be_refused {
             Verdict::Pass
         } else {
             Verdict::Fail
         };
-        assert_eq!(refuse("meshes do not resolve u"), expected);
+        assert_eq!(refuse(true), expected);
     }
+    let items = ["searches", "refused with a reason"];
+    leaves_one_out(&study, &sound, 0, items, |found| {
+        found.refused = vec![abandoned(false)];
+    });
     assert_eq!(
         verdict(&|found| found.linear = None),
         Verdict::Fail,

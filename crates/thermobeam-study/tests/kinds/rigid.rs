@@ -2,7 +2,7 @@
 
 use super::file;
 use super::planted::verdict_with;
-use super::typed::passes_but_not_without_each_case;
+use super::typed::{leaves_one_out, passes_but_not_without_each_case};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
 use thermobeam_study::kinds::rigid::{RigidStudy, RunOf, ShownImpact};
@@ -35,7 +35,7 @@ fn every_claim_about_rigid_obstacles_can_fail() {
             (RunOf::Impact, stiffest),
         ] {
             let verdict = with(run, nth, &|found| {
-                *found.penetration.as_mut().expect("a penetration") *= wrong
+                *found.penetration.as_mut().expect("a penetration") *= wrong;
             });
             assert_ne!(verdict, Verdict::Pass, "{run:?} times {wrong}");
         }
@@ -97,6 +97,26 @@ fn every_claim_about_rigid_obstacles_can_fail() {
         );
         assert_eq!(verdict, Verdict::Fail, "{contraction:?}");
     }
+    let judged = judged.expect("a factor that is judged");
+    for (alpha, reason) in [
+        (0.005, "too few iterations to show a factor"),
+        (0.9, "α near 1 or above"),
+    ] {
+        let items = "compliances for the factor α";
+        leaves_one_out(&study, &sound, judged, [items, reason], |found| {
+            found.alpha = Some(alpha);
+        });
+    }
+    let items = ["compliances for the end of convergence", "α just below 1"];
+    leaves_one_out(&study, &sound, judged, items, |found| {
+        found.alpha = Some(0.9);
+    });
+    let stiff = position(RunOf::FixedPoint, stiffest);
+    let reason = "a time step resolves the impact";
+    let items = ["compliances on a fixed grid for an order", reason];
+    leaves_one_out(&study, &sound, stiff, items, |found| {
+        found.alpha = Some(0.5);
+    });
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in some case.
+//! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in
+//! some case.
 
 use convergence_study::input::Complaint;
 use convergence_study::judge::verdict::Verdict;
@@ -10,7 +11,7 @@ use thermobeam_study::scene::Scene;
 
 use super::planted::verdict_with;
 use super::refused::refusal;
-use super::typed::passes_but_not_without_each_case;
+use super::typed::{counted, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
 
 const STUDY: &str = "whole-scenes.toml";
@@ -55,9 +56,27 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
         assert_eq!(verdict, Verdict::Fail, "another end in case {index}");
     }
     assert_eq!((0..sound.len()).filter(|&index| answered(index)).count(), 8);
+    let in_lanes = (0..sound.len()).find(|&index| {
+        let found = sound[index].found.as_ref();
+        found.is_ok_and(|found| found.alike_in_lanes.is_some())
+    });
+    let reason = "without a scheme that runs in lanes";
+    let index = in_lanes.expect("a scene in lanes");
+    leaves_one_out(
+        &study,
+        &sound,
+        index,
+        ["scenes in lanes", reason],
+        |found| {
+            found.alike_in_lanes = None;
+        },
+    );
+    let outcome = convergence_study::study::Kind::judge(&study, &sound);
+    assert_eq!(counted(&outcome, "scenes against an answer").judged, 8);
 }
 
-/// The keys known to the readers of scenes, table by table: their messages about other keys list them.
+/// The keys known to the readers of scenes, table by table: their messages about other keys list
+/// them.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {
     let allowed = |text: &str| match Scene::parse(text, "s.toml").map_err(|error| *error.complaint)
     {

@@ -163,7 +163,8 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
         let outcome = study.judge(&planted);
         assert_ne!(outcome.verdict, Verdict::Pass, "{name}");
         for (quantity, rate) in &outcome.rates {
-            // In the theorem's norm the interpolation error, of first order in h, hides such a small defect.
+            // In the theorem's norm the interpolation error, of first order in h, hides such a
+            // small defect.
             let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
             let expected = hidden || quantity.ends_with("successive");
             assert_eq!(
@@ -216,7 +217,7 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
     let planted = changed::<SelfConvergence>(&sound, |case, found| {
-        found.tip_range[1] += 0.1 * case as f64
+        found.tip_range[1] += 0.1 * case as f64;
     });
     assert_eq!(study.judge(&planted).verdict, Verdict::Pass);
 }
@@ -226,11 +227,11 @@ fn the_legend_says_of_which_differences_nothing_is_claimed() {
     let outcome = run_one(&parse("reference-space.toml", |text| text));
     let svg = &outcome.figures[0].svg;
     assert!(
-        svg.contains("tip-max, reference (not claimed), order 2, "),
+        svg.contains("max u(1, t) (not claimed), order 2, "),
         "{}",
         outcome.figures[0].file
     );
-    assert!(svg.contains("tip, reference, order 2, "));
+    assert!(svg.contains("u(1, t), order 2, "));
     assert_eq!(
         outcome
             .rates

@@ -1,11 +1,11 @@
 //! The two solvers: the studies of each part pass, and fail on each of their claims.
 
 use super::planted::verdict_with;
-use super::typed::{Runs, passes_but_not_without_each_case};
+use super::typed::{Runs, changed, counted, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
-use convergence_study::study::{FromFile, Kind};
+use convergence_study::study::{FromFile, Kind, Outcome};
 use thermobeam_study::kinds::solvers::{
     Agreement, Boundary, Contraction, FixedPointStep, Found, Point, Solvers,
 };
@@ -60,7 +60,7 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     };
     let with_all = |change: &dyn Fn(&mut Point)| {
         verdict_with(&study, &sound, 0, |found| {
-            row(found).iter_mut().for_each(change)
+            row(found).iter_mut().for_each(change);
         })
     };
     let last_point = 11;
@@ -146,6 +146,46 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
         );
     }
     lines_fail(&study, &sound, 12);
+    let items = ["points for convergence", "points for the balance"];
+    leaves_one_out(
+        &study,
+        &sound,
+        0,
+        [items[0], "factors near 1, which predict nothing"],
+        |found| row(found)[0].step.alpha = 0.9,
+    );
+    let reason = "no step by Newton's method";
+    leaves_one_out(&study, &sound, 0, [items[1], reason], |found| {
+        row(found)[0].newton = None;
+    });
+    for items in items {
+        leaves_one_out(&study, &sound, 0, [items, "without a result"], |found| {
+            row(found).pop();
+        });
+    }
+    let boundaries = "boundaries for alpha = 1 alone";
+    for (reason, gamma) in [("gamma takes part", 0.02), ("gamma takes part", f64::NAN)] {
+        leaves_one_out(&study, &sound, 12, [boundaries, reason], |found| {
+            boundary(found).found.as_mut().expect("a boundary").gamma = gamma;
+        });
+    }
+    let reason = "no boundary on the map";
+    leaves_one_out(&study, &sound, 12, [boundaries, reason], |found| {
+        boundary(found).found = None;
+    });
+    // Where α decides nowhere, there is no distance to it.
+    let nowhere = changed::<Solvers>(&sound, |_, found| {
+        if let Found::Boundary(line) = found {
+            line.found.as_mut().expect("a boundary").gamma = 0.02;
+        }
+    });
+    let outcome = study.judge(&nowhere);
+    assert!(
+        outcome.headline.starts_with("no boundary"),
+        "{}",
+        outcome.headline
+    );
+    assert_eq!(counted(&outcome, boundaries).judged, 0);
 }
 
 /// Each boundary must be at α = 1; the results from `first` onwards are lines.
@@ -183,7 +223,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             compared += 1;
             for wrong in [1e-4, f64::NAN] {
                 let verdict = verdict_with(&study, &sound, index, |found| {
-                    agreement(found).distance = wrong
+                    agreement(found).solvers.distance = wrong;
                 });
                 assert_eq!(verdict, Verdict::Fail, "case {index}, distance {wrong}");
             }
@@ -230,6 +270,34 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
         assert_eq!(with(&|found| found.radius = f64::NAN), Verdict::Fail);
     }
     assert_eq!((settled, compared), (39, 4));
+    let factors = |outcome: &Outcome| {
+        let count = counted(outcome, "factors");
+        (count.judged, count.asked)
+    };
+    assert_eq!(factors(&study.judge(&sound)), (39, 45));
+    for index in 0..45 {
+        let Contraction { iterations, .. } =
+            *contraction(sound[index].found.as_mut().expect("a result"));
+        if iterations >= 5 {
+            let reason = "fewer than 5 iterations";
+            leaves_one_out(&study, &sound, index, ["factors", reason], |found| {
+                contraction(found).iterations = 4;
+            });
+        }
+    }
+    // No point with a known factor: no distance of the factor.
+    let unsettled = changed::<Solvers>(&sound, |_, found| {
+        if let Found::Contraction(point) = found {
+            point.iterations = 4;
+        }
+    });
+    let outcome = study.judge(&unsettled);
+    assert_eq!(factors(&outcome), (0, 45));
+    assert!(
+        outcome.headline.contains("no factor is known"),
+        "{}",
+        outcome.headline
+    );
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Requirements on every typed kind of study, and defects planted in its results.
 
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::kind::run_cases_here;
-use convergence_study::study::{CaseFailure, Kind, Outcome, Ran};
+use convergence_study::study::kind::{judge, run_cases_here};
+use convergence_study::study::outcome::settle;
+use convergence_study::study::{CaseFailure, Coverage, Kind, Outcome, Ran};
 
 /// The results of a study: every case, run on this thread.
 pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
@@ -52,7 +53,73 @@ where
         assert!(report(&outcome).contains("planted"), "{}", report(&outcome));
     }
     assert_ne!(study.judge(&[]).verdict, Verdict::Pass);
+    each_case_counts(study, &sound);
     sound
+}
+
+/// Without the result of a case, the summary says that one case less was judged.
+#[track_caller]
+pub(crate) fn each_case_counts<K: Kind>(study: &K, sound: &Runs<K>)
+where
+    K::Data: Clone,
+    K::Found: Clone,
+{
+    let all = sound.len();
+    assert!(!judge(study, sound).coverage.is_empty());
+    for index in 0..all {
+        let mut failed = sound.clone();
+        failed[index].found = Err(CaseFailure::new("planted"));
+        let outcome = settle("id", judge(study, &failed));
+        let words = format!("{} of {all} cases judged; 1 not: without a result", all - 1);
+        assert!(outcome.summary.contains(&words), "{}", outcome.summary);
+        let unsound = "the outcome of the study is sound";
+        assert!(!report(&outcome).contains(unsound), "{}", report(&outcome));
+    }
+}
+
+/// A changed result leaves out one item, for that reason, and the summary says so.
+///
+/// * `items`: what is counted.
+#[track_caller]
+pub(crate) fn leaves_one_out<K: Kind>(
+    study: &K,
+    sound: &Runs<K>,
+    index: usize,
+    [items, reason]: [&str; 2],
+    change: impl FnOnce(&mut K::Found),
+) where
+    K::Data: Clone,
+    K::Found: Clone,
+{
+    let mut planted = sound.clone();
+    change(planted[index].found.as_mut().expect("a result"));
+    let (before, after) = (study.judge(sound), settle("id", study.judge(&planted)));
+    let [before, less] = [&before, &after].map(|outcome| counted(outcome, items));
+    assert_eq!(
+        (less.asked, less.judged + 1),
+        (before.asked, before.judged),
+        "{less}"
+    );
+    let of_reason = |coverage: &Coverage| {
+        let left = coverage.left_out.iter().find(|left| left.reason == reason);
+        left.map_or(0, |left| left.count)
+    };
+    assert_eq!(of_reason(less), of_reason(before) + 1, "{less}");
+    assert!(
+        after.summary.contains(&less.to_string()),
+        "{}",
+        after.summary
+    );
+}
+
+/// The count of these items.
+#[track_caller]
+pub(crate) fn counted<'o>(outcome: &'o Outcome, items: &str) -> &'o Coverage {
+    let coverage = outcome
+        .coverage
+        .iter()
+        .find(|coverage| coverage.items == items);
+    coverage.unwrap_or_else(|| panic!("no count of {items}: {:?}", outcome.coverage))
 }
 
 /// Figures and tables are valid for the report, and numbers for the baseline.
@@ -60,6 +127,12 @@ where
 pub(crate) fn check_shape(outcome: &Outcome) {
     assert!(!outcome.tables.is_empty() || !outcome.levels.is_empty() || !outcome.rates.is_empty());
     assert!(!outcome.quantities.is_empty());
+    for check in &outcome.checks {
+        assert!(!check.subject.quantity.is_empty(), "{}", check.claim);
+    }
+    for quantity in &outcome.quantities {
+        assert!(!quantity.subject.quantity.is_empty(), "{}", quantity.name);
+    }
     for figure in &outcome.figures {
         assert!(
             figure.file.len() > ".svg".len() && figure.file.ends_with(".svg"),
@@ -97,9 +170,9 @@ pub(crate) fn report(outcome: &Outcome) -> String {
         .rates
         .iter()
         .map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
-    let checks = outcome
-        .checks
-        .iter()
-        .map(|check| format!("{}: {} {}", check.claim, check.verdict, check.evidence));
+    let checks = outcome.checks.iter().map(|check| {
+        let statement = check.statement();
+        format!("{statement}: {} {}", check.verdict, check.evidence)
+    });
     rates.chain(checks).collect::<Vec<_>>().join("\n")
 }

@@ -26,7 +26,8 @@ fn of(text: &str, expected: &[(&str, &str)]) {
     assert!(alike, "{found:?}");
 }
 
-/// A study of space on few levels, with the given values of `[beam]`, `[obstacles]` and the exact solution.
+/// A study of space on few levels, with the given values of `[beam]`, `[obstacles]` and the exact
+/// solution.
 fn own(beam: &str, obstacles: &str, u: &str, theta: &str) -> String {
     format!(
         "[study]\nid = \"own\"\nclaim = \"mine\"\ntier = \"quick\"\n[beam]\n{beam}\n{obstacles}\n[exact]\n\

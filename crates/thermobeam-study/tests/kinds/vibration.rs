@@ -82,7 +82,7 @@ fn each_norm_can_fail() {
     for norm in Norm::ALL {
         let verdict = |change: &dyn Fn(usize, f64) -> f64| {
             let planted = changed::<Vibration>(&sound, |case, found| {
-                found.errors[norm] = change(case, found.errors[norm])
+                found.errors[norm] = change(case, found.errors[norm]);
             });
             study.judge(&planted).verdict
         };

@@ -1,23 +1,21 @@
-//! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them fail.
+//! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them
+//! fail.
 
 use super::file;
 use super::typed::passes_but_not_without_each_case;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
+use convergence_study::study::kind::judge;
 use convergence_study::study::outcome::Outcome;
 use convergence_study::study::outcome::settle;
 use convergence_study::study::{CaseFailure, FromFile, Kind, Ran, run_cases_here};
-use thermobeam_study::kinds::work_precision::method::Measurement;
-use thermobeam_study::kinds::work_precision::{Runs, WorkPrecision};
-
-/// Steps of the study's runs.
-const STEPS: [usize; 4] = [16, 64, 256, 1024];
+use thermobeam_study::kinds::work_precision::WorkPrecision;
+use thermobeam_study::kinds::work_precision::compared::{Costed, cheapest, front};
+use thermobeam_study::kinds::work_precision::method::{METHODS, Measurement, Trial};
 
 fn read(text: &str) -> Result<WorkPrecision, String> {
     WorkPrecision::parse(text, &file("study.toml")).map_err(|error| error.to_string())
 }
-
-type Results = Vec<Ran<Runs, Vec<Measurement>>>;
 
 fn quick() -> WorkPrecision {
     WorkPrecision::read(file("work-precision-manufactured.toml")).unwrap()
@@ -32,282 +30,263 @@ fn failed(outcome: &Outcome) -> Vec<&str> {
         .collect()
 }
 
+/// The checks that fail if the runs whose label starts with `only` have a defect.
+fn planted(
+    study: &WorkPrecision,
+    honest: &[Ran<Trial, Measurement>],
+    only: &str,
+    defect: impl Fn(&mut Measurement),
+) -> Vec<String> {
+    let mut ran = honest.to_vec();
+    let mut touched = 0;
+    for ran in ran.iter_mut().filter(|r| r.case.label.starts_with(only)) {
+        defect(ran.found.as_mut().unwrap());
+        touched += 1;
+    }
+    assert!(touched > 0, "no run is called {only}");
+    let outcome = study.judge(&ran);
+    failed(&outcome).into_iter().map(str::to_owned).collect()
+}
+
 #[test]
-fn midpoint_is_a_hundred_times_cheaper_and_the_outcome_repeats() {
+fn the_study_passes_and_repeats_and_no_case_may_be_missing() {
     let study = quick();
-    let outcome = study.judge(&passes_but_not_without_each_case(&study));
-    assert!(
-        outcome
-            .checks
-            .iter()
-            .any(|check| check.claim.contains("100 times cheaper"))
-    );
-    let again = quick();
-    assert_eq!(settle("study", outcome), run_one(&again));
+    let outcome = judge(&study, &passes_but_not_without_each_case(&study));
+    let target = "theorem-3.4 1e-2: midpoint costs at least 5 times as much as dg";
+    let check = outcome.checks.iter().find(|check| check.claim == target);
+    assert!(check.is_some_and(|check| check.evidence.contains("(128 x 32) against")));
+    assert_eq!(settle("study", outcome), run_one(&quick()));
 }
 
 #[test]
 fn planted_defects_fail() {
     let study = quick();
     let honest = run_cases_here(&study);
-    // The defect depends on the number of steps.
-    let plant = |only: &str, defect: &dyn Fn(usize, &mut Measurement)| {
-        let mut planted = honest.clone();
-        for ran in planted
-            .iter_mut()
-            .filter(|ran| ran.case.label.starts_with(only))
-        {
-            let runs = ran.found.as_mut().unwrap();
-            assert_eq!(runs.len(), STEPS.len());
-            STEPS
-                .into_iter()
-                .zip(runs)
-                .for_each(|(steps, run)| defect(steps, run));
-        }
-        study.judge(&planted).verdict
-    };
-    let [superclose, tip] = [1, 2];
-    assert_eq!(plant("midpoint", &|_, _| ()), Verdict::Pass);
-    for wrong in [f64::NAN, f64::INFINITY] {
-        let one = |steps: usize, run: &mut Measurement| {
-            if steps == 64 {
-                run.errors[superclose] = wrong;
-            }
-        };
-        assert_eq!(plant("midpoint, n = 16", &one), Verdict::Fail);
-        assert_eq!(
-            plant("richardson, n = 16", &|_, run| run.spent.node_steps = wrong),
-            Verdict::Fail
-        );
-    }
-    assert_eq!(
-        plant("midpoint", &|_, run| run.errors[tip] =
-            run.errors[tip].max(1e-3)),
-        Verdict::Fail,
-        "a floor"
-    );
-    // Loss of second order: 256 and 1024 steps give the error of 64.
-    let first_order = |steps: usize, run: &mut Measurement| {
-        run.errors[superclose] *= match steps {
-            256 => 8.0,
-            1024 => 64.0,
-            _ => 1.0,
-        }
-    };
-    assert_eq!(plant("midpoint", &first_order), Verdict::Fail);
-    let mut missing = honest.clone();
-    missing[2].found = Err(CaseFailure::new("planted"));
-    let outcome = study.judge(&missing);
-    assert_eq!(outcome.verdict, Verdict::Fail);
-    assert!(
-        outcome.checks[0].evidence.contains("planted"),
-        "{}",
-        outcome.checks[0].evidence
-    );
-}
-
-/// dG compared with midpoint along a diagonal, with half of midpoint's runs: the finest take seconds here.
-fn along_a_diagonal() -> (WorkPrecision, Results) {
-    let text = super::text("any-order-cost.toml")
-        .replace(", 500, 1000]", "]")
-        .replace(", 4000, 8000]", "]");
-    let study = read(&text).unwrap();
-    let honest = passes_but_not_without_each_case(&study);
-    (study, honest)
-}
-
-#[test]
-fn a_thousandth_of_the_cost_by_dg_and_planted_defects_fail() {
-    let (study, honest) = along_a_diagonal();
     let plant = |only: &str, defect: &dyn Fn(&mut Measurement)| {
-        let mut planted = honest.clone();
-        for ran in planted
-            .iter_mut()
-            .filter(|ran| ran.case.label.starts_with(only))
-        {
-            ran.found.as_mut().unwrap().iter_mut().for_each(defect);
-        }
-        failed(&study.judge(&planted)).len()
+        planted(&study, &honest, only, |run| defect(run))
     };
-    let tip = 2;
-    assert_eq!(plant("dg", &|_| ()), 0);
-    assert_eq!(
-        plant("dg", &|run| run.errors[tip] *= 100.0),
-        1,
-        "inaccurate"
-    );
-    assert_eq!(plant("dg", &|run| run.spent.node_solves *= 10.0), 1, "dear");
-    assert!(
-        plant("dg", &|run| run.errors[tip] = f64::NAN) > 0,
-        "not finite"
-    );
-    // Twice the error in the coarser run gives a ratio of eight, in the finer one a ratio of two.
-    for worse in ["midpoint, n = 125", "midpoint, n = 250"] {
-        assert_eq!(
-            plant(worse, &|run| run.errors[tip] *= 2.0),
-            1,
-            "no second order"
-        );
+    assert_eq!(plant("midpoint", &|_| ()), Vec::<String>::new());
+    for wrong in [f64::NAN, f64::INFINITY] {
+        let of_error = plant("midpoint, 16 x 32", &|run| run.errors.norm = wrong);
+        assert!(of_error.iter().any(|claim| claim.contains("finite")));
+        let of_work = plant("dg", &|run| run.spent.node_solves = wrong);
+        assert!(of_work.iter().any(|claim| claim.contains("finite")));
     }
-    // Other quantities are not measured.
-    let outcome = study.judge(&honest);
-    assert_eq!(outcome.figures.len(), 1);
-    assert_eq!(outcome.quantities.len(), 1, "{:?}", outcome.quantities);
+    // A method that lost its order does not reach its targets any more.
+    let lost = plant("midpoint", &|run| {
+        run.errors.tip = run.errors.tip.max(2e-3);
+    });
+    for error in ["1e-3", "1e-4", "1e-5"] {
+        let of_target = lost
+            .iter()
+            .filter(|c| c.starts_with(&format!("tip {error}")));
+        assert!(of_target.count() > 0, "{error}: {lost:?}");
+    }
+    let dear = plant("dg", &|run| run.spent.node_solves *= 3.0);
+    assert!(
+        dear.iter().any(|claim| claim.ends_with("as much as dg")),
+        "{dear:?}"
+    );
+    let cheap = plant("fixed-point,", &|run| run.spent.node_solves /= 4.0);
+    assert!(!cheap.is_empty());
 }
 
+/// A method that reaches a target must be compared, or its ratio would not be claimed.
 #[test]
-fn dg_is_measured_as_the_others_are() {
-    let study = quick();
-    let honest = run_cases_here(&study);
-    let fronts = |ran: &Results| {
-        let outcome = study.judge(ran);
-        let svg = &outcome.figures[1].svg;
-        let line = svg
-            .lines()
-            .find(|line| line.contains("data-series=\"dg\""))
-            .expect("a line");
-        (
-            outcome.verdict,
-            line.split("data-points=")
-                .nth(1)
-                .expect("points")
-                .split_whitespace()
-                .count(),
-        )
+fn a_method_that_is_left_out_of_a_target_fails() {
+    let text = super::text("work-precision-manufactured.toml").replace(
+        "methods = [\"midpoint\", \"dg\"]\ntimes = [20]",
+        "methods = [\"richardson\", \"dg\"]\ntimes = [20]",
+    );
+    let outcome = run_one(&read(&text).unwrap());
+    assert_eq!(
+        failed(&outcome),
+        [
+            "tip 1e-5: every method that reaches it is compared",
+            "tip 1e-5: richardson costs at least 20 times as much as dg"
+        ]
+    );
+    let evidence = |k: &str| {
+        let check = outcome.checks.iter().find(|check| check.claim.contains(k));
+        check.unwrap().evidence.clone()
     };
-    let (verdict, points) = fronts(&honest);
-    assert_eq!(verdict, Verdict::Pass);
-    // A run as expensive as all others together appears in no figure, and removes dG's advantage.
-    let mut planted = honest.clone();
-    for ran in planted
-        .iter_mut()
-        .filter(|ran| ran.case.label.starts_with("dg, p = 10"))
-    {
-        ran.found.as_mut().unwrap()[0].spent.node_solves *= 1e3;
-    }
-    let (verdict, fewer) = fronts(&planted);
-    assert_eq!(
-        (verdict, fewer),
-        (Verdict::Pass, points - 1),
-        "the next run reaches the error, too"
-    );
-    for ran in planted
-        .iter_mut()
-        .filter(|ran| ran.case.label.starts_with("dg"))
-    {
-        ran.found.as_mut().unwrap()[0].errors[1] += 1e-5;
-    }
-    assert_eq!(
-        fronts(&planted).0,
-        Verdict::Fail,
-        "an error that all runs share"
-    );
+    assert_eq!(evidence("1e-5: every"), "left out: midpoint");
+    assert!(evidence("1e-5: richardson").contains("not reached"));
 }
 
 #[test]
 fn a_claim_that_is_too_bold_fails() {
     let text = super::text("work-precision-manufactured.toml");
-    let study = read(&text.replace("times = 100", "times = 100000")).unwrap();
+    let study = read(&text.replace("times = [20]", "times = [40]")).unwrap();
     let outcome = run_one(&study);
-    assert_eq!(outcome.verdict, Verdict::Fail);
-    assert_eq!(failed(&outcome).len(), 1);
-}
-
-#[test]
-fn references_that_do_not_agree_fail() {
-    let text = super::text("work-precision-paper.toml")
-        .replace("elements = [16, 32, 64, 128]", "elements = [4, 8]")
-        .replace("steps = [128, 256, 512, 1024, 2048]", "steps = [128, 256]");
-    let reasons = |text: &str| -> Vec<String> {
-        let ran = run_cases_here(&read(text).unwrap());
-        ran.into_iter()
-            .filter_map(|ran| ran.found.err())
-            .map(|failure| failure.reason)
-            .collect()
-    };
-    assert_eq!(reasons(&text), Vec::<String>::new());
-    // Two elements of degree 3 do not qualify as a reference.
-    let coarse = reasons(&text.replace("degree = 26", "degree = 3"));
-    assert_eq!(coarse.len(), 16, "eight of one-step methods, eight of dG");
-    assert!(
-        coarse
-            .iter()
-            .all(|reason| reason.contains("the two references are")),
-        "{coarse:?}"
+    assert_eq!(
+        failed(&outcome),
+        ["tip 1e-5: midpoint costs at least 40 times as much as dg"]
     );
 }
 
 #[test]
-fn seconds_are_there_for_benchmarks_only() {
+fn every_ratio_and_the_smallest_error_of_each_method_are_guarded() {
     let study = quick();
-    let timed = thermobeam_study::timing::timed(&study).unwrap();
-    assert!(timed.iter().all(|run| run.seconds > 0.0));
-    let mut slow = run_cases_here(&study);
-    let outcome = study.judge(&slow);
-    for run in slow.iter_mut().flat_map(|ran| ran.found.as_mut().unwrap()) {
-        run.spent.seconds *= 2.0;
+    let outcome = run_one(&study);
+    let claimed: usize = study
+        .targets()
+        .iter()
+        .map(|target| target.times.len())
+        .sum();
+    let names: Vec<&str> = outcome.quantities.iter().map(|q| q.name.as_str()).collect();
+    let ratios = names.iter().filter(|name| name.starts_with("times dearer"));
+    assert_eq!(ratios.count(), claimed);
+    assert_eq!(names.len(), claimed + 2 * METHODS.len());
+    assert!(names.contains(&"times dearer, tip 1e-5, midpoint over dg"));
+    assert!(names.contains(&"smallest error, theorem-3.4, fixed-point-once"));
+}
+
+#[test]
+fn the_cheapest_run_that_is_good_enough_counts() {
+    let run = |method: &str, cost: f64, error: f64| Costed {
+        method: method.to_owned(),
+        resolution: String::new(),
+        error,
+        cost,
+    };
+    let runs = [
+        run("dg", 1.0, 1e-7),
+        run("dg", 0.5, 2e-7),
+        run("midpoint", 0.1, 1e-9),
+        run("dg", 3.0, f64::NAN),
+    ];
+    let cost = |error: f64| cheapest(&runs, "dg", error).map(|run| run.cost);
+    assert_eq!(
+        [cost(1e-6), cost(1e-7), cost(1e-8)],
+        [Some(0.5), Some(1.0), None]
+    );
+    assert_eq!(
+        front([(3.0, 1.0), (1.0, 5.0), (2.0, 6.0), (2.0, 4.0)]),
+        [(1.0, 5.0), (2.0, 4.0), (3.0, 1.0)]
+    );
+}
+
+/// The paper's experiment with few runs.
+fn short() -> String {
+    let text = super::text("work-precision-paper.toml");
+    let head = text.split("[[runs]]").next().unwrap().to_owned();
+    head + "[[runs]]\nmethod = \"midpoint\"\nruns = [[8, 128]]\n[[runs]]\nmethod = \"dg\"\nnodes = [0.0, 1.0]\nruns = [[6, 1, \
+            0.1]]\n[[target]]\nnorm = \"tip\"\nerror = 1e-2\nmethods = [\"dg\", \"midpoint\"]\ntimes = [1]\n"
+}
+
+#[test]
+fn references_that_do_not_agree_fail() {
+    let reasons = |text: &str| -> Vec<String> {
+        let ran = run_cases_here(&read(text).unwrap());
+        let reason = |failure: CaseFailure| failure.reason;
+        ran.into_iter()
+            .filter_map(|ran| ran.found.err().map(reason))
+            .collect()
+    };
+    let fine = short()
+        .replace("[34, 5, 0.002]", "[16, 2, 0.02]")
+        .replace("[30, 5, 0.0023]", "[14, 2, 0.02]");
+    assert_eq!(reasons(&fine), Vec::<String>::new());
+    let coarse = reasons(&fine.replace("[14, 2, 0.02]", "[2, 1, 0.1]"));
+    assert_eq!(coarse.len(), 2);
+    let apart = "the two references are ";
+    assert!(
+        coarse.iter().all(|reason| reason.starts_with(apart)),
+        "{coarse:?}"
+    );
+    assert!(coarse[0].ends_with("in tip, allowed 1.0e-3"), "{coarse:?}");
+}
+
+#[test]
+fn seconds_are_those_of_the_clock_that_is_given() {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    static READINGS: AtomicUsize = AtomicUsize::new(0);
+    fn clock() -> f64 {
+        READINGS.fetch_add(1, Ordering::Relaxed) as f64
     }
-    assert_eq!(study.judge(&slow), outcome);
+    let study = quick();
+    for ran in run_cases_here(&study) {
+        let run = ran.found.unwrap();
+        assert_eq!(run.seconds, 0.0, "a study has no clock");
+        if ran.case.label.starts_with("midpoint, 8 x") {
+            let timed = study.measure(&ran.case.data, clock).unwrap();
+            assert_eq!(timed.seconds, study.observations() as f64);
+            assert_eq!((timed.errors, timed.spent), (run.errors, run.spent));
+            assert_eq!(study.seconds(&ran.case.data, clock).unwrap(), 1.0);
+        }
+    }
+    assert!(READINGS.load(Ordering::Relaxed) > 0);
 }
 
 #[test]
 fn mistakes_are_named() {
     let head = "[study]\nid = \"w\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"work-precision\"\n[work-precision]\n";
-    let grid = "elements = [4, 8]\nsteps = [8, 16]\n";
-    let diagonal = "elements = [4, 8]\nscene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\ndiagonal = \"midpoint\"";
+    let solution = "solution = \"midpoint-coupled.toml\"\nobservations = 16\n";
+    let scene = "scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1\nobservations = 16\n";
+    let runs = "[[runs]]\nmethod = \"midpoint\"\nruns = [[8, 16]]\n";
+    let dg = "[[runs]]\nmethod = \"dg\"\nnodes = [0, 1]\n";
+    let target = "[[target]]\nnorm = \"tip\"\nerror = 1\n";
     for (body, piece) in [
+        ("observations = 16".to_owned(), "exactly one of"),
         (
-            "elements = [4, 8]\nsteps = [8, 12]\nsolution = \"midpoint-coupled.toml\"",
-            "work-precision.steps",
+            solution.replace("observations = 16", ""),
+            "a number of times",
         ),
+        (format!("{solution}t_end = 1"), "t_end beside solution"),
+        (format!("{solution}zeta = 1"), "zeta without vibration"),
+        (solution.to_owned(), "at least one table [[runs]]"),
         (
-            "elements = [8, 4]\nsteps = [8, 16]\nsolution = \"midpoint-coupled.toml\"",
-            "work-precision.elements",
-        ),
-        (grid, "exactly one of"),
-        (
-            &format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\nagreement = 1e-6"),
-            "agreement without scene",
-        ),
-        (
-            &format!("{grid}vibration = [0]\nzeta = 0.1\nt_end = 1\n[[reference]]\nelements = 1"),
-            "reference without scene",
-        ),
-        (
-            &format!("{grid}scene = \"scenes/paper-1-beta-0.toml\"\nt_end = 1"),
-            "[[reference]]",
-        ),
-        (
-            &format!("{grid}solution = \"midpoint-coupled.toml\"\n[[advantage]]\nnorm = \"tipp\""),
+            format!("{solution}{}", runs.replace("midpoint", "midpont")),
             "did you mean",
         ),
         (
-            &format!("{diagonal}\nsteps = [250, 750]"),
-            "each twice the one before",
+            format!("{solution}{}", runs.replace("[8, 16]", "[8, 24]")),
+            "multiples of 16",
         ),
         (
-            &format!("{diagonal}\nsteps = [100, 200]"),
-            "multiples of 250",
+            format!("{solution}{}", runs.replace("[8, 16]", "[8, 160000]")),
+            "found 1280000 element-steps; expected at most 1000000",
         ),
         (
-            &format!("{diagonal}\nsteps = [250, 500]\nagreement = 1e-6"),
-            "beside diagonal",
+            format!("{solution}{runs}nodes = [0, 1]"),
+            "no nodes for midpoint",
         ),
         (
-            &format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 1]]"),
+            format!("{solution}{dg}runs = [[10, 1]]"),
             "degree p, degree q, largest step",
         ),
         (
-            &format!("{diagonal}\nsteps = [250, 500]\ndg = [[10, 6, 0.02]]"),
-            "work-precision.dg[0][1]",
+            format!("{solution}{dg}runs = [[10, 6, 0.02]]"),
+            "runs[0].runs[0][1]",
         ),
         (
-            &format!("{diagonal}\nsteps = [250, 500]"),
-            "at least one table [[advantage]]",
+            format!("{solution}{dg}runs = [[10, 1, 0.02]]\ngrading = 2"),
+            "no grading for dg",
         ),
         (
-            "elements = [4, 8]\nsteps = [250, 500]\nvibration = [0]\nzeta = 0.1\nt_end = 1\ndiagonal = \"midpoint\"",
-            "diagonal without scene",
+            format!(
+                "{solution}{}runs = [[2, 1, 0.1]]",
+                dg.replace("[0, 1]", "[0, 0.5]")
+            ),
+            "from 0 to 1",
+        ),
+        (format!("{solution}{runs}"), "at least one table [[target]]"),
+        (
+            format!("{solution}{runs}{target}methods = [\"dg\", \"dg\"]"),
+            "at least two different methods",
+        ),
+        (
+            format!("{solution}{runs}{target}methods = [\"dg\", \"midpoint\"]\ntimes = [1, 1]"),
+            "a number for each method but the last",
+        ),
+        (
+            format!("{solution}{runs}[[reference]]\nnodes = [0, 1]"),
+            "reference without scene",
+        ),
+        (
+            format!("{scene}{runs}"),
+            "two different tables [[reference]]",
         ),
     ] {
         let error = read(&format!("{head}{body}"))

@@ -4,6 +4,8 @@ mod figures;
 #[path = "../../../convergence-study/tests/plots/laws.rs"]
 mod laws;
 
+use std::path::Path;
+
 use convergence_study::plots::Series;
 use laws::{elements, parse};
 use thermobeam_study::figures::*;
@@ -16,6 +18,11 @@ fn every_figure_is_well_formed_and_free_of_nan() {
 #[test]
 fn every_text_is_large_enough_and_on_the_page() {
     laws::every_text_is_large_enough_and_on_the_page(&figures::gallery());
+}
+
+#[test]
+fn every_figure_has_a_title_that_says_more_than_its_axes() {
+    laws::every_figure_has_a_title_that_says_more_than_its_axes(&figures::gallery());
 }
 
 #[test]
@@ -79,13 +86,29 @@ fn a_long_animation_stays_small() {
     assert!(animation(&moving).len() < 300_000);
 }
 
+/// Without obstacles and simulations.
+fn with(branches: Vec<Branch>) -> Bifurcation {
+    Bifurcation {
+        branches,
+        ..Bifurcation::default()
+    }
+}
+
+/// Without estimates.
+fn measured(measured: Vec<Series>) -> ContractionFactors {
+    ContractionFactors {
+        measured,
+        ..ContractionFactors::default()
+    }
+}
+
 #[test]
 fn contraction_factors_of_one_and_more_are_labelled() {
     let svg = contraction(&figures::contraction_factors());
-    assert!(elements(&parse(&svg), "text").any(|n| {
-        n.text()
-            .is_some_and(|text| text.trim() == "divergence (radius ≥ 1)")
-    }));
+    assert!(
+        elements(&parse(&svg), "text")
+            .any(|n| { n.text().is_some_and(|text| text.trim() == "divergence") })
+    );
 }
 
 #[test]
@@ -94,7 +117,7 @@ fn open_markers_of_a_contraction_have_a_legend() {
         label: label.into(),
         points: points.to_vec(),
     };
-    let drawn = |series: Vec<Series>| contraction(&series);
+    let drawn = |series: Vec<Series>| contraction(&measured(series));
     let open_samples = |svg: &str| {
         let doc = parse(svg);
         let entries = elements(&doc, "g").filter(|n| n.has_attribute("data-entry"));
@@ -116,8 +139,8 @@ fn open_markers_of_a_contraction_have_a_legend() {
 #[test]
 fn nothing_to_draw_is_no_reason_to_panic() {
     let empty = [
-        contraction(&[]),
-        bifurcation(&[], vec![], &Series::default()),
+        contraction(&ContractionFactors::default()),
+        bifurcation(&Bifurcation::default()),
         animation(&Animation::default()),
     ];
     empty.iter().for_each(|svg| drop(parse(svg)));
@@ -144,13 +167,13 @@ fn extreme_data_are_no_reason_to_panic() {
                 label: "s".into(),
                 points: points.clone(),
             }];
-            parse(&contraction(&series));
+            parse(&contraction(&measured(series)));
             let branches = vec![Branch {
                 label: "b".into(),
                 points,
                 stable: true,
             }];
-            parse(&bifurcation(&branches, vec![], &Series::default()));
+            parse(&bifurcation(&with(branches)));
             let frames = Frames {
                 times: vec![x, y],
                 points: vec![y, x],
@@ -175,7 +198,7 @@ fn stable_branches_are_solid_and_unstable_ones_dashed() {
         stable,
     };
     let count = |stable| {
-        let svg = bifurcation(&[branch(stable)], vec![], &Series::default());
+        let svg = bifurcation(&with(vec![branch(stable)]));
         elements(&parse(&svg), "g")
             .filter(|n| n.attribute("stroke-dasharray").is_some())
             .count()
@@ -209,10 +232,10 @@ fn the_animation_starts_and_ends_with_its_data() {
 
 #[test]
 fn markers_are_filled_where_the_fixed_point_converges_and_the_identity_spans_the_plot() {
-    let svg = contraction(&[Series {
+    let svg = contraction(&measured(vec![Series {
         label: "s".into(),
         points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 2.0), (100.0, 100.0)],
-    }]);
+    }]));
     let doc = parse(&svg);
     let open = elements(&doc, "circle")
         .filter(|n| n.attribute("fill") == Some("#FFFFFF"))
@@ -291,4 +314,44 @@ fn branches_end_inside_the_frame() {
             .all(|x| *x > plot[0] + 50.0 && *x < plot[2] - 50.0),
         "{across:?}"
     );
+}
+
+/// Every picture of both tiers, with the name of its file; of a page with several panels, each.
+fn of_the_reports() -> Vec<(&'static str, String)> {
+    let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports");
+    let mut figures = vec![];
+    for folder in ["figures", "full/figures"] {
+        for entry in std::fs::read_dir(reports.join(folder)).expect(folder) {
+            let path = entry.expect(folder).path();
+            let name: &'static str = path.display().to_string().leak();
+            let svg = std::fs::read_to_string(&path).expect("a picture");
+            figures.extend(panels(&svg).into_iter().map(|panel| (name, panel)));
+        }
+    }
+    figures
+}
+
+/// The documents in a document, or the document.
+fn panels(svg: &str) -> Vec<String> {
+    let doc = parse(svg);
+    let inner = doc.root_element().children();
+    let panels = inner.filter(|node| node.has_tag_name("svg") && node.has_attribute("data-plot"));
+    let panels: Vec<String> = panels.map(|node| svg[node.range()].to_owned()).collect();
+    if panels.is_empty() {
+        vec![svg.to_owned()]
+    } else {
+        panels
+    }
+}
+
+#[test]
+fn the_pictures_of_the_reports_obey_the_laws() {
+    let figures = of_the_reports();
+    assert!(figures.len() > 100, "{}", figures.len());
+    laws::every_figure_is_well_formed_and_free_of_nan(&figures);
+    laws::every_text_is_large_enough_and_on_the_page(&figures);
+    laws::every_figure_has_a_title_that_says_more_than_its_axes(&figures);
+    laws::no_two_texts_overlap(&figures);
+    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&figures);
+    laws::no_two_entries_of_a_legend_look_alike(&figures);
 }

@@ -1,4 +1,5 @@
-//! Blocks of a step's linear system, three fields times q + 1 coefficients in time, and dense matrices between them.
+//! Blocks of a step's linear system, three fields times q + 1 coefficients in time, and dense
+//! matrices between them.
 
 /// Coefficients in time of (v, w, θ~) at one block of the space.
 pub(super) type Block<const S: usize> = [[f64; S]; 3];
@@ -82,8 +83,8 @@ fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {
 
 /// Replaces a matrix by its inverse, by Gauss-Jordan elimination without pivoting.
 ///
-/// While the elastic energy at fixed axial force is positive, the symmetric part of the matrices here has no negative
-/// eigenvalue, and no pivot is negative.
+/// While the elastic energy at fixed axial force is positive, the symmetric part of the matrices
+/// here has no negative eigenvalue, and no pivot is negative.
 ///
 /// # Errors
 /// The first pivot that is not positive.

@@ -1,8 +1,8 @@
 //! The contact phase of the free end, and where in a step it changes.
 //!
-//! Between events the contact force is zero or linear in u(1). In a step u(1, t) is a polynomial of degree q + 1, so its
-//! first crossing of an obstacle is found exactly, including extrema: between neighbouring zeros of its derivative it is
-//! monotone.
+//! Between events the contact force is zero or linear in u(1). In a step u(1, t) is a polynomial of
+//! degree q + 1, so its first crossing of an obstacle is found exactly, including extrema: between
+//! neighbouring zeros of its derivative it is monotone.
 
 use super::legendre;
 use super::time::MAX_STAGES;
@@ -105,8 +105,8 @@ pub(super) struct Fall {
     pub(super) below: f64,
 }
 
-/// For each bound of the phase, the distance of the free end from it as a polynomial in time, positive inside the
-/// phase; and the phase beyond that bound.
+/// For each bound of the phase, the distance of the free end from it as a polynomial in time,
+/// positive inside the phase; and the phase beyond that bound.
 pub(super) fn bounds(
     phase: Phase,
     tip: &Polynomial,

@@ -4,9 +4,10 @@
 //! N_0 = (1 - ξ)/2,   N_1 = (1 + ξ)/2,   N_m = (P_m - P_{m-2})/√(2(2m - 1)) for m >= 2,
 //! ```
 //!
-//! so that `N_m' = √((2m - 1)/2) P_{m-1}` are orthonormal. The stiffness of the N_m is the identity, their mass couples m
-//! with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The hats couple with N_2 and N_3 only. Source: Szabó and
-//! Babuška, *Finite Element Analysis*, section 6.2.
+//! so that `N_m' = √((2m - 1)/2) P_{m-1}` are orthonormal. The stiffness of the N_m is the
+//! identity, their mass couples m with m ± 2, and `C_ij = (N_j, N_i')` couples m with m ± 1. The
+//! hats couple with N_2 and N_3 only. Source: Szabó and Babuška, *Finite Element Analysis*, section
+//! 6.2.
 
 use super::legendre;
 
@@ -44,7 +45,7 @@ fn slope(m: usize) -> (usize, f64) {
 }
 
 /// `∫ N_i N_j dξ`.
-pub(crate) fn mass(i: usize, j: usize) -> f64 {
+pub fn mass(i: usize, j: usize) -> f64 {
     expansion(i)
         .iter()
         .flat_map(|(k, a)| expansion(j).map(|(l, b)| a * b * product(*k, l)))
@@ -52,7 +53,7 @@ pub(crate) fn mass(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_i' N_j' dξ`: 1 for i = j >= 2.
-pub(crate) fn stiffness(i: usize, j: usize) -> f64 {
+pub fn stiffness(i: usize, j: usize) -> f64 {
     if i >= 2 || j >= 2 {
         return if i == j { 1.0 } else { 0.0 };
     }
@@ -60,7 +61,7 @@ pub(crate) fn stiffness(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_j N_i' dξ`, the same on every element.
-pub(crate) fn coupling(i: usize, j: usize) -> f64 {
+pub fn coupling(i: usize, j: usize) -> f64 {
     let (k, a) = slope(i);
     expansion(j)
         .iter()

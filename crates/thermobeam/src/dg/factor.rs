@@ -1,7 +1,8 @@
-//! Elimination of a step's linear system: inner blocks of the elements, chain by chain, then nodes from left to right.
+//! Elimination of a step's linear system: inner blocks of the elements, chain by chain, then nodes
+//! from left to right.
 //!
-//! The free end comes last, so that contact changes only its pivot. Elements of equal length share their elimination. The
-//! cost is proportional to the number of elements times the degree.
+//! The free end comes last, so that contact changes only its pivot. Elements of equal length share
+//! their elimination. The cost is proportional to the number of elements times the degree.
 
 use super::block::{
     Block, Matrix, add, clear_column, clear_row, invert, isolate, matrix_product, multiply,
@@ -11,7 +12,8 @@ use super::operator::Operator;
 use super::space::{Coupling, Space, degrees};
 use crate::error::StepFailure;
 
-/// Lengths equal up to rounding errors share an elimination; the residual, which decides, uses each element's own.
+/// Lengths equal up to rounding errors share an elimination; the residual, which decides, uses each
+/// element's own.
 const SAME_LENGTH: f64 = 1e-13;
 
 /// One inner block and its couplings to the next one towards the hats.
@@ -25,7 +27,8 @@ struct Link<const S: usize> {
     back: Matrix<S>,
 }
 
-/// The inner blocks of one chain, highest degree first, without the first block, which couples with both hats.
+/// The inner blocks of one chain, highest degree first, without the first block, which couples with
+/// both hats.
 #[derive(Debug, Clone)]
 struct Chain<const S: usize> {
     links: Vec<Link<S>>,
@@ -49,7 +52,8 @@ struct Node<const S: usize> {
     inverse: Matrix<S>,
     /// The matrix in the row of this node and the column of the one on its left.
     left: Matrix<S>,
-    /// The inverse pivot times the matrix in the row of this node and the column of the one on its right.
+    /// The inverse pivot times the matrix in the row of this node and the column of the one on its
+    /// right.
     right: Matrix<S>,
 }
 
@@ -109,7 +113,8 @@ impl<const S: usize> Factor<S> {
     /// * `n_value`: the axial force of the matrix, for the error only.
     ///
     /// # Errors
-    /// [`StepFailure::Indefinite`] at the first pivot that is not positive: at the node, or in the element on its left.
+    /// [`StepFailure::Indefinite`] at the first pivot that is not positive: at the node, or in the
+    /// element on its left.
     pub(super) fn factorize(
         &mut self,
         space: &Space,
@@ -242,7 +247,8 @@ impl<const S: usize> Inside<S> {
             }
         }
         for (c, chain) in self.chains.iter_mut().enumerate() {
-            // Local number of the chain's first block; the links lead down to it from the highest degree.
+            // Local number of the chain's first block; the links lead down to it from the highest
+            // degree.
             let (first, count) = (2 + c, chain.links.len());
             let mut pivot = pivot_of(space, &between, first + 2 * count);
             for (i, link) in chain.links.iter_mut().enumerate() {

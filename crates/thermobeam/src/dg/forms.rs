@@ -1,4 +1,5 @@
-//! The bilinear forms of the weak form on a space, with coefficients given block by block by a closure.
+//! The bilinear forms of the weak form on a space, with coefficients given block by block by a
+//! closure.
 
 use super::block::Block;
 use super::space::{Coupling, Space, degrees};
@@ -125,15 +126,28 @@ fn shear_entry(c: &Coupling, length: f64, [u, phi]: [f64; 2], [u_z, phi_z]: [f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assembly::{self, Tridiagonal};
     use crate::mesh::Mesh;
+    use nalgebra::DMatrix;
+
+    /// The matrix over all nodes of which `local` is the part of an element of length h.
+    fn assembled(mesh: &Mesh, local: impl Fn(f64) -> [[f64; 2]; 2]) -> DMatrix<f64> {
+        let nodes = mesh.nodes().len();
+        let mut matrix = DMatrix::zeros(nodes, nodes);
+        for (e, h) in mesh.lengths().enumerate() {
+            for (i, row) in local(h).into_iter().enumerate() {
+                for (j, entry) in row.into_iter().enumerate() {
+                    matrix[(e + i, e + j)] += entry;
+                }
+            }
+        }
+        matrix
+    }
 
     /// Every entry of a form on hats is that of a matrix, up to round-off.
-    fn are_the_same(form: impl Fn(usize, usize) -> f64, matrix: &Tridiagonal) {
-        let last = matrix.diagonal.len() - 1;
-        for i in 0..=last {
-            for j in 0..=last {
-                let (found, expected) = (form(i, j), matrix.entry(i, j));
+    fn are_the_same(form: impl Fn(usize, usize) -> f64, matrix: &DMatrix<f64>) {
+        for i in 0..matrix.nrows() {
+            for j in 0..matrix.ncols() {
+                let (found, expected) = (form(i, j), matrix[(i, j)]);
                 assert!(
                     (found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(),
                     "{i} {j}: {found} {expected}"
@@ -147,6 +161,9 @@ mod tests {
         let mesh = Mesh::mapped(7, |s| 0.3 * s + 0.7 * s * s).unwrap();
         let space = Space::new(mesh.clone(), 1);
         assert_eq!(space.blocks(), 8);
+        let mass = assembled(&mesh, |h| [[h / 3.0, h / 6.0], [h / 6.0, h / 3.0]]);
+        let stiffness = assembled(&mesh, |h| [[1.0 / h, -1.0 / h], [-1.0 / h, 1.0 / h]]);
+        let coupling = assembled(&mesh, |_| [[-0.5, -0.5], [0.5, 0.5]]);
         let unit = |i: usize| move |block: usize| f64::from(block == i);
         let only = |field: usize, i: usize| {
             move |block: usize| {
@@ -163,28 +180,16 @@ mod tests {
             }
         };
         for field in 0..3 {
-            are_the_same(
-                |i, j| space.mass(only(field, i), only(field, j)),
-                &assembly::mass(&mesh),
-            );
+            are_the_same(|i, j| space.mass(only(field, i), only(field, j)), &mass);
         }
-        are_the_same(
-            |i, j| space.stiffness(unit(i), unit(j)),
-            &assembly::stiffness(&mesh),
-        );
-        are_the_same(
-            |i, j| space.bending(unit(i), unit(j)),
-            &assembly::stiffness(&mesh),
-        );
-        are_the_same(
-            |i, j| -space.shear(pair(0, i), pair(1, j)),
-            &assembly::coupling(&mesh),
-        );
+        are_the_same(|i, j| space.stiffness(unit(i), unit(j)), &stiffness);
+        are_the_same(|i, j| space.bending(unit(i), unit(j)), &stiffness);
+        are_the_same(|i, j| -space.shear(pair(0, i), pair(1, j)), &coupling);
         are_the_same(
             |i, j| -space.shear(pair(1, i), pair(0, j)),
-            &assembly::coupling(&mesh).transpose(),
+            &coupling.transpose(),
         );
-        let diagonal = assembly::mass(&mesh).diagonal;
+        let diagonal = mass.diagonal();
         for (found, expected) in space.diagonal_mass().iter().zip(&diagonal) {
             assert!(
                 found
@@ -193,7 +198,7 @@ mod tests {
                 "{found:?}"
             );
         }
-        let sums: Vec<f64> = assembly::mass(&mesh).multiply(&[1.0; 8]);
+        let sums: Vec<f64> = mass.row_iter().map(|row| row.sum()).collect();
         for (found, expected) in space.rotation_integrals.iter().zip(sums) {
             assert!(
                 (found - expected).abs() <= f64::EPSILON,

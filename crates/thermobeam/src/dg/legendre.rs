@@ -34,7 +34,8 @@ pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
         (values[count], derivatives[count])
     };
     let half = (1..=count / 2).map(|i| {
-        // Newton's method from Tricomi's estimate reaches round-off within four steps for every count.
+        // Newton's method from Tricomi's estimate reaches round-off within four steps for every
+        // count.
         let mut x = (std::f64::consts::PI * (i as f64 - 0.25) / (count as f64 + 0.5)).cos();
         for _ in 0..6 {
             let (value, slope) = last(x);

@@ -2,8 +2,9 @@
 
 /// `min(restart_dt growth^k, dt)` for k = 0, 1, ..., and below it `restart_dt/2^k`.
 ///
-/// An event leaves an acceleration like t^(1/2), so the steps must be small at first. There are few different lengths,
-/// always the same, so that factorisations can be reused. The lower part is for a free end that grazes an obstacle.
+/// An event leaves an acceleration like t^(1/2), so the steps must be small at first. There are few
+/// different lengths, always the same, so that factorisations can be reused. The lower part is for
+/// a free end that grazes an obstacle.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lengths {
     rungs: Vec<f64>,
@@ -31,7 +32,8 @@ impl Lengths {
             .last()
             .filter(|last| **last < dt && rungs.len() <= first + MAX_RUNGS)
         {
-            // The last rung is dt itself; another one just below it would only cost a factorisation.
+            // The last rung is dt itself; another one just below it would only cost a
+            // factorisation.
             let next = last * growth;
             rungs.push(if next * growth.sqrt() < dt && growth > 1.0 {
                 next
@@ -56,7 +58,8 @@ impl Lengths {
         self.rungs.len() - self.first
     }
 
-    /// Descends to a quarter of the length or of `restart_dt`, whichever is smaller, if the ladder reaches that far.
+    /// Descends to a quarter of the length or of `restart_dt`, whichever is smaller, if the ladder
+    /// reaches that far.
     pub(super) fn descend(&mut self) -> bool {
         let possible = self.next >= 2;
         self.next = self.next.min(self.first).saturating_sub(2);

@@ -2,9 +2,10 @@
 //!
 //! # The scheme
 //!
-//! On a step of length τ the velocities v, w and the lifted temperature θ~ are polynomials of degree q in time,
-//! discontinuous between steps; the displacements are their integrals, `u = u_0 + ∫ v`, `φ = φ_0 + ∫ w`. For all polynomials of
-//! degree q in time with values in the finite element spaces
+//! On a step of length τ the velocities v, w and the lifted temperature θ~ are polynomials of
+//! degree q in time, discontinuous between steps; the displacements are their integrals,
+//! `u = u_0 + ∫ v`, `φ = φ_0 + ∫ w`. For all polynomials of degree q in time with values in the
+//! finite element spaces
 //!
 //! ```text
 //! ∫ [(v_t, χ) + (u_x - φ + ζ (v_x - w), χ_x) + N(u)(u_x, χ_x) + g(u(1)) χ(1)] + (v(0+) - v_0, χ(0)) = 0
@@ -12,16 +13,18 @@
 //! ∫ [(θ~_t, η) + (θ~_x, η_x) + a (w_x, η)] + (θ~(0+) - θ~_0, η(0)) = 0
 //! ```
 //!
-//! The new level is the value at the end. For q = 0 and p = 1 these are (3.7)-(3.8) with three differences: contact and N
-//! are integrated over the step, and backward Euler is used for θ~. The order is 2q + 1 at the ends of steps and p + 1 in
-//! space (p in the energy norm), the energy balance is exact for every q, and steps end where contact begins or ends. See
-//! "Any order" in [`crate::theory`].
+//! The new level is the value at the end. For q = 0 and p = 1 these are (3.7)-(3.8) with three
+//! differences: contact and N are integrated over the step, and backward Euler is used for θ~. The
+//! order is 2q + 1 at the ends of steps and p + 1 in space (p in the energy norm), the energy
+//! balance is exact for every q, and steps end where contact begins or ends. See "Any order" in
+//! [`crate::theory`].
 //!
 //! # The modules
 //!
-//! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations above. `operator`, `block`,
-//! `factor`: their matrix and its elimination. `stages`: a step of given length. `contact_event`, `lengths`: where steps end.
-//! `problem`, `simulation`, `observe`: the interface for users, with the balance of the energy.
+//! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations
+//! above. `operator`, `block`, `factor`: their matrix and its elimination. `stages`: a step of
+//! given length. `phase`, `contact_event`, `lengths`: where steps end. `problem`, `simulation`,
+//! `observe`: the interface for users, with the balance of the energy.
 //!
 //! ```
 //! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -47,13 +50,14 @@
 
 mod block;
 mod contact_event;
-pub(crate) mod element;
+pub mod element;
 mod factor;
 mod forms;
 mod legendre;
 mod lengths;
 mod observe;
 mod operator;
+mod phase;
 mod problem;
 mod residual;
 mod simulation;
@@ -72,7 +76,8 @@ pub use time::Load;
 /// The highest degree in time.
 pub const MAX_TIME_DEGREE: usize = time::MAX_STAGES - 1;
 
-/// The discrete solution at one time: coefficients, block by block, in the numbering of [`Space::place`].
+/// The discrete solution at one time: coefficients, block by block, in the numbering of
+/// [`Space::place`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
     /// The time t.

@@ -1,21 +1,23 @@
 //! Output of a simulation: fields anywhere in the last step, the energy, and its exact balance.
 //!
-//! Testing a step's equations with v, w and θ~ themselves gives, for every q and every step in which contact neither
-//! begins nor ends,
+//! Testing a step's equations with v, w and θ~ themselves gives, for every q and every step in
+//! which contact neither begins nor ends,
 //!
 //! ```text
 //! E1 - E0 + ∫ [ζ (‖v_x - w‖² + ‖w_x‖²) + ‖θ~_x‖²] + ½ (‖v(0+) - v0‖² + ‖w(0+) - w0‖² + ‖θ~(0+) - θ~0‖²) = 0,
 //! ```
 //!
-//! with the energy of [`crate::energy`]. The balance also holds for a step that ends on an obstacle, to round-off.
+//! with the energy of [`crate::energy`]. The balance also holds for a step that ends on an
+//! obstacle, to round-off.
 
-use super::simulation::{Simulation, TIP_SLACK};
+use super::phase::TIP_SLACK;
+use super::simulation::Simulation;
 use super::{Field, Level};
 use crate::energy::{Balance, Energy};
 use crate::norms::max_or_nan;
 
-/// Rounding errors of a balance, in units of ε and of the energy's size: some ten terms, each a sum over at most 40 degrees and a
-/// few elements.
+/// Rounding errors of a balance, in units of ε and of the energy's size: some ten terms, each a sum
+/// over at most 40 degrees and a few elements.
 const BALANCE_TERMS: f64 = 4096.0;
 
 impl Simulation {
@@ -31,7 +33,8 @@ impl Simulation {
         })
     }
 
-    /// A field at x and at a time in the last step, both ends included; `None` for other times. θ is the lifted one.
+    /// A field at x and at a time in the last step, both ends included; `None` for other times. θ
+    /// is the lifted one.
     pub fn value(&self, field: Field, x: f64, t: f64) -> Option<f64> {
         let s = self.within(t)?;
         if t == self.level.t {
@@ -41,7 +44,8 @@ impl Simulation {
         Some(self.space.evaluate(field, &self.space.locate(x), at).0)
     }
 
-    /// Smallest and largest u(1, t) over the last step, including extrema inside it; at first, the initial value.
+    /// Smallest and largest u(1, t) over the last step, including extrema inside it; at first, the
+    /// initial value.
     pub fn tip_range(&self) -> [f64; 2] {
         let u = self.level.places[self.space.tip()][0];
         if self.last_dt == 0.0 {
@@ -58,7 +62,8 @@ impl Simulation {
         })
     }
 
-    /// The physical temperature, including the lifting, at x and at a time in the last step; `None` for other times.
+    /// The physical temperature, including the lifting, at x and at a time in the last step; `None`
+    /// for other times.
     pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
         self.value(Field::Theta, x, t)
             .map(|lifted| lifted + self.beam.theta_a * (1.0 - x))
@@ -101,7 +106,8 @@ impl Simulation {
         }
     }
 
-    /// The size of the current level's energy: the sum of the absolute values of its terms, Kirchhoff's without its constant.
+    /// The size of the current level's energy: the sum of the absolute values of its terms,
+    /// Kirchhoff's without its constant.
     pub fn energy_scale(&self) -> f64 {
         let Energy {
             kinetic,
@@ -119,7 +125,8 @@ impl Simulation {
         kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
     }
 
-    /// Bound on the rounding errors of a balance at the current level: of its terms, and of the contact energy at a rounded position.
+    /// Bound on the rounding errors of a balance at the current level: of its terms, and of the
+    /// contact energy at a rounded position.
     pub fn rounding(&self) -> f64 {
         let contact = self.obstacles.map_or(0.0, |obstacles| {
             let u = self.level.places[self.space.tip()][0];

@@ -1,4 +1,5 @@
-//! The matrix of a step, block by block: mass, stiffness and C of the space times the integrals in time.
+//! The matrix of a step, block by block: mass, stiffness and C of the space times the integrals in
+//! time.
 
 use super::block::{Matrix, zero};
 use super::space::Coupling;
@@ -13,8 +14,8 @@ use crate::parameters::Beam;
 /// -a τ T ⊗ C  from θ~ to φ,   a τ T ⊗ Cᵀ  from w to θ~
 /// ```
 ///
-/// Its symmetric part is positive definite as long as the elastic energy is, and ζ > 0 or q <= 2, by the argument of the energy
-/// balance (THEORY.md, "Existence and elimination").
+/// Its symmetric part is positive definite as long as the elastic energy is, and ζ > 0 or q <= 2,
+/// by the argument of the energy balance (THEORY.md, "Existence and elimination").
 #[derive(Debug, Clone)]
 pub(super) struct Operator<const S: usize> {
     inertia: [[f64; S]; S],

@@ -8,7 +8,8 @@ use crate::error::SetupError;
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles, check, check_positive};
 
-/// Allowed rounding errors of an initial value in a boundary condition, in units of the field's largest coefficient.
+/// Allowed rounding errors of an initial value in a boundary condition, in units of the field's
+/// largest coefficient.
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// The initial data (1.2) as functions of x.
@@ -62,10 +63,11 @@ pub struct Stepping {
     pub dt: f64,
     /// The first step, at the start and after a contact event; at most `dt`.
     pub restart_dt: f64,
-    /// Ratio of a step to its predecessor while they grow from `restart_dt` to `dt`, >= 1; with 1 the second step has
-    /// length `dt`.
+    /// Ratio of a step to its predecessor while they grow from `restart_dt` to `dt`, >= 1; with 1
+    /// the second step has length `dt`.
     pub growth: f64,
-    /// Bound on the last increment of the iteration for N(u), in the norm of the velocities and the temperature.
+    /// Bound on the last increment of the iteration for N(u), in the norm of the velocities and the
+    /// temperature.
     pub tolerance: f64,
     /// Number of iterations after which a step fails.
     pub max_iterations: usize,

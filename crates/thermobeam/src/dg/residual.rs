@@ -100,7 +100,8 @@ impl Equations<'_> {
         force
     }
 
-    /// The residuals of the three equations of a step, for the velocities and the temperature in `x`:
+    /// The residuals of the three equations of a step, for the velocities and the temperature in
+    /// `x`:
     ///
     /// ```text
     /// ∫ [(v_t, χ) + (u_x - φ + ζ(v_x - w), χ_x) + N(u)(u_x, χ_x) + g(u(1)) χ(1) - F_u] + (v(0+) - v_0, χ(0))
@@ -110,8 +111,9 @@ impl Equations<'_> {
     ///
     /// * `forcing`: the loads, integrated over the step.
     ///
-    /// Returns the contact force as the first equation at the free end requires it: the coefficients of L_0..L_q of its projection on
-    /// polynomials in time, of which the first is its mean. Unlike g(u(1)) it contains no rounding errors of u(1) divided by ε.
+    /// Returns the contact force as the first equation at the free end requires it: the
+    /// coefficients of L_0..L_q of its projection on polynomials in time, of which the first is its
+    /// mean. Unlike g(u(1)) it contains no rounding errors of u(1) divided by ε.
     pub(super) fn residual<const S: usize>(
         &self,
         forms: &TimeForms<S>,

@@ -2,11 +2,12 @@
 //!
 //! # Blocks
 //!
-//! A *block* holds one coefficient of u, one of φ and one of θ. Blocks 0..=n belong to the nodes' hats. The rest of the basis
-//! splits into two chains per element: M couples degree m of a field with m ± 2 of the same field, C couples m of u or θ with m ±
-//! 1 of φ. So the even degrees of u and θ couple only with the odd degrees of φ, and vice versa. Block k of chain c holds
-//! `u_{2k+c}, φ_{2k+1-c}, θ_{2k+c}`, k = 1..⌊p/2⌋; it is coupled with blocks k ± 1 of its chain, and for k = 1 with the two hats.
-//! This halves the bandwidth of an ordering by degree.
+//! A *block* holds one coefficient of u, one of φ and one of θ. Blocks 0..=n belong to the nodes'
+//! hats. The rest of the basis splits into two chains per element: M couples degree m of a field
+//! with m ± 2 of the same field, C couples m of u or θ with m ± 1 of φ. So the even degrees of u
+//! and θ couple only with the odd degrees of φ, and vice versa. Block k of chain c holds
+//! `u_{2k+c}, φ_{2k+1-c}, θ_{2k+c}`, k = 1..⌊p/2⌋; it is coupled with blocks k ± 1 of its chain,
+//! and for k = 1 with the two hats. This halves the bandwidth of an ordering by degree.
 
 use super::element::{self, Basis};
 use super::legendre;
@@ -66,7 +67,8 @@ pub(super) fn degrees(block: usize, degree: usize) -> [Option<usize>; 2] {
     [2 * k + chain, 2 * k + 1 - chain].map(|m| (m <= degree).then_some(m))
 }
 
-/// A point of the beam: its element, and the basis there. Located once, it serves all levels of a space.
+/// A point of the beam: its element, and the basis there. Located once, it serves all levels of a
+/// space.
 pub struct Point {
     element: usize,
     basis: Basis,
@@ -141,7 +143,8 @@ impl Space {
         }
     }
 
-    /// Block and index in it for the coefficient of a field in degree m of an element (0 and 1: the hats).
+    /// Block and index in it for the coefficient of a field in degree m of an element (0 and 1: the
+    /// hats).
     pub fn place(&self, field: Field, element: usize, m: usize) -> (usize, usize) {
         let phi = matches!(field, Field::Phi | Field::W);
         let place = match field {
@@ -160,10 +163,12 @@ impl Space {
         !(element == 0 && m == 0 || field == Field::Theta && element == last && m == 1)
     }
 
-    /// Adds (f, χ) for every basis function χ of a field to a load, by Gauss quadrature with `points` per element.
+    /// Adds (f, χ) for every basis function χ of a field to a load, by Gauss quadrature with
+    /// `points` per element.
     ///
     /// * `field`: the equation whose test functions are used; V and W stand for those of u and φ.
-    /// * `load`: [`Self::blocks`] blocks of `(F_u, F_φ, F_θ)`. A point load at x = 1 belongs in block n, the number of elements.
+    /// * `load`: [`Self::blocks`] blocks of `(F_u, F_φ, F_θ)`. A point load at x = 1 belongs in
+    ///   block n, the number of elements.
     pub fn add_load(
         &self,
         field: Field,
@@ -191,9 +196,9 @@ impl Space {
 
     /// (3.6): the projection of f in the H¹ product, passed to `put` with element, block and index.
     ///
-    /// It equals f at the nodes. Inside an element its coefficients are `(f - I f, N_m')` in the product of derivatives,
-    /// where I interpolates at the nodes. Integration by parts removes the derivative of f: `c_m = -√((2m - 1)/2) ∫ (f - I f)
-    /// P_{m-1}' dξ`.
+    /// It equals f at the nodes. Inside an element its coefficients are `(f - I f, N_m')` in the
+    /// product of derivatives, where I interpolates at the nodes. Integration by parts removes the
+    /// derivative of f: `c_m = -√((2m - 1)/2) ∫ (f - I f) P_{m-1}' dξ`.
     pub(super) fn project(
         &self,
         field: Field,
@@ -235,7 +240,8 @@ impl Space {
         }
     }
 
-    /// The element that holds x, and its basis there. Points beyond the ends belong to the outermost elements.
+    /// The element that holds x, and its basis there. Points beyond the ends belong to the
+    /// outermost elements.
     pub fn locate(&self, x: f64) -> Point {
         let nodes = self.mesh.nodes();
         let element = nodes
@@ -249,7 +255,8 @@ impl Space {
         }
     }
 
-    /// Value and slope of the field with the coefficients `coefficient(block, place)` at a point found by [`Self::locate`].
+    /// Value and slope of the field with the coefficients `coefficient(block, place)` at a point
+    /// found by [`Self::locate`].
     pub(super) fn evaluate(
         &self,
         field: Field,
@@ -266,7 +273,8 @@ impl Space {
         (value, slope * 2.0 / self.lengths[*element])
     }
 
-    /// The same for all fields, in the order of [`Field::ALL`]: u, v and θ share their blocks, and so do φ and w.
+    /// The same for all fields, in the order of [`Field::ALL`]: u, v and θ share their blocks, and
+    /// so do φ and w.
     ///
     /// * `coefficients`: in that order, from a block of u and one of φ.
     pub(super) fn evaluate_all(
@@ -372,7 +380,7 @@ mod tests {
         for field in [Field::U, Field::W] {
             let mut coefficients = vec![[0.0; 3]; space.blocks()];
             space.project(field, polynomial, |_, block, place, value| {
-                coefficients[block][place] = value
+                coefficients[block][place] = value;
             });
             for i in 0..=50 {
                 let x = f64::from(i) / 50.0;

@@ -13,10 +13,12 @@ use crate::energy::Balance;
 use crate::error::StepFailure;
 use crate::parameters::Beam;
 
-/// Relative difference up to which lengths share a factorisation; the iteration then contracts by about this factor.
+/// Relative difference up to which lengths share a factorisation; the iteration then contracts by
+/// about this factor.
 const SAME_LENGTH: f64 = 5e-3;
 
-/// A factorisation is replaced if the iteration contracts more slowly than this and a better one is possible.
+/// A factorisation is replaced if the iteration contracts more slowly than this and a better one is
+/// possible.
 const SLOW: f64 = 0.2;
 
 /// Increments below this many rounding errors of the solution cannot shrink further.
@@ -32,7 +34,8 @@ const SPARE: usize = 3;
 pub(super) trait Stages: Send {
     /// Starts the iteration from velocities and a temperature that are constant in time.
     fn guess_constant(&mut self, level: &Level);
-    /// Starts it from the last step's polynomials, continued over a step that is `ratio` times as long.
+    /// Starts it from the last step's polynomials, continued over a step that is `ratio` times as
+    /// long.
     fn guess_continued(&mut self, ratio: f64);
     /// Restricts the last solution to the first part, from 0 to `ratio`, of its step.
     fn restrict(&mut self, ratio: f64);
@@ -45,7 +48,8 @@ pub(super) trait Stages: Send {
     ) -> Result<usize, StepFailure>;
     /// u(1, t).
     fn tip(&self, space: &Space) -> Polynomial;
-    /// The contact force over the step from the balance of momentum, positive at the upper obstacle.
+    /// The contact force over the step from the balance of momentum, positive at the upper
+    /// obstacle.
     fn contact_force(&self) -> Polynomial;
     /// The mean axial force over the step.
     fn axial_force(&self) -> f64;
@@ -97,7 +101,8 @@ pub(super) struct DgStepper<const S: usize> {
 }
 
 impl<const S: usize> DgStepper<S> {
-    /// With room for one factorisation per length, and [`SPARE`] more; `loaded` if there will be loads.
+    /// With room for one factorisation per length, and [`SPARE`] more; `loaded` if there will be
+    /// loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
         let motion = || Polynomials {
@@ -130,7 +135,8 @@ impl<const S: usize> DgStepper<S> {
         }
     }
 
-    /// The factorisation for a length: an existing one if suitable, or a new one instead of the least recently used.
+    /// The factorisation for a length: an existing one if suitable, or a new one instead of the
+    /// least recently used.
     fn slot(&mut self, task: &Equations<'_>, n_value: f64) -> Result<usize, StepFailure> {
         self.clock += 1;
         let near = |slot: &Slot<S>| (slot.h / task.h - 1.0).abs();
@@ -185,7 +191,8 @@ impl<const S: usize> DgStepper<S> {
         Ok(())
     }
 
-    /// Subtracts the correction in `residual` from the polynomials; returns their norms, as for velocities.
+    /// Subtracts the correction in `residual` from the polynomials; returns their norms, as for
+    /// velocities.
     fn correct(&mut self) -> (f64, f64) {
         let (mut change, mut size) = (0.0, 0.0);
         for ((x, correction), weights) in self
@@ -209,7 +216,8 @@ impl<const S: usize> DgStepper<S> {
         (change.sqrt(), size.sqrt())
     }
 
-    /// Re-expands polynomials over the interval from `start` to `start + ratio` of their step: the columns of the matrix.
+    /// Re-expands polynomials over the interval from `start` to `start + ratio` of their step: the
+    /// columns of the matrix.
     fn re_expand(&self, start: f64, ratio: f64) -> [[f64; S]; S] {
         // The matrix of the change of basis, by Gauss points that are exact to degree 4q + 3.
         let mut columns = [[0.0; S]; S];
@@ -231,6 +239,36 @@ fn transform<const S: usize>(columns: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] 
     let mut sum = [0.0; S];
     add_columns(&mut sum, columns, y);
     sum
+}
+
+/// An iteration that has just been done.
+struct Iteration {
+    number: usize,
+    increment: f64,
+    /// The ratio of this increment to the one before; NaN at the first.
+    contraction: f64,
+}
+
+impl Iteration {
+    /// * `size`: of the solution, in the norm of the increments.
+    fn has_converged(&self, tolerance: f64, size: f64) -> bool {
+        let Self {
+            number,
+            increment,
+            contraction,
+        } = *self;
+        // Once their ratio is known, the sum of the remaining increments is at most this.
+        let rest = if contraction < 0.5 {
+            increment * contraction / (1.0 - contraction)
+        } else {
+            increment
+        };
+        let is_known = number > 1 && rest <= tolerance;
+        // Round-off: further iterations change only the last digits.
+        let is_stagnant =
+            increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
+        increment <= tolerance || is_known || is_stagnant
+    }
 }
 
 impl<const S: usize> Stages for DgStepper<S> {
@@ -293,7 +331,8 @@ impl<const S: usize> Stages for DgStepper<S> {
                 .solve_in_place(task.space, in_contact, &mut self.residual);
             let (increment, mut size) = self.correct();
             if in_contact {
-                // The contact force amplifies rounding errors of the position; over the step they equal this velocity.
+                // The contact force amplifies rounding errors of the position; over the step they
+                // equal this velocity.
                 size += task.level.places[task.space.tip()][0].abs() / task.h;
             }
             if !increment.is_finite() {
@@ -303,17 +342,12 @@ impl<const S: usize> Stages for DgStepper<S> {
                 });
             }
             contraction = increment / previous;
-            // Once their ratio is known, the sum of the remaining increments is at most this.
-            let rest = if contraction < 0.5 {
-                increment * contraction / (1.0 - contraction)
-            } else {
-                increment
+            let last = Iteration {
+                number: iteration,
+                increment,
+                contraction,
             };
-            let known = iteration > 1 && rest <= by.tolerance;
-            // Round-off: further iterations change only the last digits.
-            let stagnant = increment <= FLOOR * size
-                || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
-            if increment <= by.tolerance || known || stagnant {
+            if last.has_converged(by.tolerance, size) {
                 task.displace(&self.trial.x, &mut self.trial.terms);
                 return Ok(iteration);
             }

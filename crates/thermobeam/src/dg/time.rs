@@ -1,4 +1,5 @@
-//! Polynomials in time on a step: the Legendre basis of [0, 1], ξ = (t - t_0)/τ, and the integrals of scheme and loads.
+//! Polynomials in time on a step: the Legendre basis of [0, 1], ξ = (t - t_0)/τ, and the integrals
+//! of scheme and loads.
 
 use super::legendre;
 
@@ -94,10 +95,11 @@ impl<const S: usize> TimeForms<S> {
     }
 }
 
-/// Loads F_u, F_φ, F_θ on the right-hand sides of the three equations, tested with the basis functions.
+/// Loads F_u, F_φ, F_θ on the right-hand sides of the three equations, tested with the basis
+/// functions.
 ///
-/// Adds the load at a time, `(F_u, χ), (F_φ, ψ), (F_θ, η)`, to a vector with an entry for each block, as
-/// [`Space::add_load`](super::Space::add_load) does for functions of x.
+/// Adds the load at a time, `(F_u, χ), (F_φ, ψ), (F_θ, η)`, to a vector with an entry for each
+/// block, as [`Space::add_load`](super::Space::add_load) does for functions of x.
 pub type Load = dyn FnMut(f64, &mut [[f64; 3]]) + Send;
 
 /// The loads of a step, integrated: `moments[i]` is the integral with L_i.

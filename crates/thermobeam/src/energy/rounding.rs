@@ -1,28 +1,32 @@
-//! Bounds on the rounding errors in the energy balance: its scale, and the residual that round-off can cause.
+//! Bounds on the rounding errors in the energy balance: its scale, and the residual that round-off
+//! can cause.
 //!
 //! # The residual
 //!
-//! The solver is backward stable: its solution satisfies the equations of the step up to a few rounding errors of the
-//! *terms* of each equation, not of their sum. At a node between elements of length h the largest terms are
-//! `((1 + N) u + φ)/h` and `ζ V/h`: differences of neighbouring values, which cancel more on finer meshes. The balance
-//! tests the equations with Δu = dt V, Δφ = dt W and dt θ, so its residual is at most
+//! The solver is backward stable: its solution satisfies the equations of the step up to a few
+//! rounding errors of the *terms* of each equation, not of their sum. At a node between elements of
+//! length h the largest terms are `((1 + N) u + φ)/h` and `ζ V/h`: differences of neighbouring
+//! values, which cancel more on finer meshes. The balance tests the equations with Δu = dt V, Δφ =
+//! dt W and dt θ, so its residual is at most
 //!
 //! ```text
 //! c u_r Σ_e 1/h [((1 + |N|)(|u| + |φ|) + ζ (|V| + |W|)) (|Δu| + |Δφ|) + dt |θ|²] + |a| |θ| |Δφ| + h [(|V| + |W|)² + |θ|²]
 //! ```
 //!
-//! with the largest values over the ends of an element and both levels, u_r the unit round-off and c the number of such
-//! terms and operations. Relative to the energy ½ ‖u_x‖² this is about `c u_r u/(h u_x)`: negligible on a mesh of a
-//! hundred elements, 1e-11 where lengths of neighbours differ by a factor of 1000; it grows with dt, because Δu does.
+//! with the largest values over the ends of an element and both levels, u_r the unit round-off and
+//! c the number of such terms and operations. Relative to the energy ½ ‖u_x‖² this is about
+//! `c u_r u/(h u_x)`: negligible on a mesh of a hundred elements, 1e-11 where lengths of neighbours
+//! differ by a factor of 1000; it grows with dt, because Δu does.
 //!
 //! # Contact
 //!
-//! The position of the tip carries a rounding error δ of about `u_r (|u(1)| + dt |v(1)|)`; the second part is the path
-//! of the tip without the obstacle, whose rounding error it keeps. The contact law amplifies it to a force δ/ε, 1e-17/ε
-//! for an obstacle at 0.1. The *force* of the step is hardly affected, because it is computed in closed form and enters
-//! the balance as computed; the contact *energy* is evaluated at the rounded position, with an error of
-//! `|F| δ + δ²/(2ε)`. In the residual this error cancels against the same error in the gap. In the change of the energy
-//! it does not: a conserved energy may appear to rise by as much.
+//! The position of the tip carries a rounding error δ of about `u_r (|u(1)| + dt |v(1)|)`; the
+//! second part is the path of the tip without the obstacle, whose rounding error it keeps. The
+//! contact law amplifies it to a force δ/ε, 1e-17/ε for an obstacle at 0.1. The *force* of the step
+//! is hardly affected, because it is computed in closed form and enters the balance as computed;
+//! the contact *energy* is evaluated at the rounded position, with an error of `|F| δ + δ²/(2ε)`.
+//! In the residual this error cancels against the same error in the gap. In the change of the
+//! energy it does not: a conserved energy may appear to rise by as much.
 
 use crate::energy::Energy;
 use crate::norms::slope_squared;
@@ -30,10 +34,12 @@ use crate::parameters::Obstacles;
 use crate::scheme::Case;
 use crate::solve::Level;
 
-/// The constant c of the module documentation: some ten terms per equation, each of a few operations, and the same
-/// number in the balance; the elimination multiplies by inverted blocks, which doubles the count.
+/// The constant c of the module documentation: some ten terms per equation, each of a few
+/// operations, and the same number in the balance; the elimination multiplies by inverted blocks,
+/// which doubles the count.
 const TERMS: f64 = 64.0;
-/// Rounding errors in the tip's position: of the elimination's last row, of the closed form, and of `u0 + dt V`.
+/// Rounding errors in the tip's position: of the elimination's last row, of the closed form, and of
+/// `u0 + dt V`.
 const TIP_TERMS: f64 = 16.0;
 
 /// Bounds on the rounding errors in the balance of one step.
@@ -53,8 +59,8 @@ impl Rounding {
 }
 
 impl Case {
-    /// Bounds on the rounding errors in the balance of the step from `old` to `new`, without loads and solved to a tolerance at
-    /// round-off.
+    /// Bounds on the rounding errors in the balance of the step from `old` to `new`, without loads
+    /// and solved to a tolerance at round-off.
     pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
         let Self {
             beam,
@@ -88,8 +94,8 @@ impl Case {
         }
     }
 
-    /// The scale of a level's energy, to which a residual of the balance is compared: the sum of the absolute values of its terms,
-    /// the Kirchhoff term without its constant.
+    /// The scale of a level's energy, to which a residual of the balance is compared: the sum of
+    /// the absolute values of its terms, the Kirchhoff term without its constant.
     ///
     /// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
     pub fn energy_scale(&self, level: &Level) -> f64 {
@@ -109,7 +115,8 @@ impl Case {
     }
 }
 
-/// `2 (|F| δ + δ²/ε)`, F the larger force of the two levels, because the energies of both are rounded.
+/// `2 (|F| δ + δ²/ε)`, F the larger force of the two levels, because the energies of both are
+/// rounded.
 fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) -> f64 {
     let tip = new.u.len() - 1;
     let (u, u0) = (new.u[tip], old.u[tip]);
@@ -196,7 +203,7 @@ mod tests {
             of(there)
         };
         let near = |found: f64, expected: f64| {
-            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}")
+            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
         };
         let end = |value: f64| vec![0.0, value];
         // 1 + |β| + ρ ‖u_x‖² = 20.
@@ -272,7 +279,8 @@ mod tests {
             assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
             assert_eq!(rounding.total(), rounding.residual + rounding.contact);
         }
-        // A tip exactly at the obstacle has no force, but its rounding error has an energy that the obstacle stores.
+        // A tip exactly at the obstacle has no force, but its rounding error has an energy that the
+        // obstacle stores.
         let level = Level {
             u: end(0.5),
             ..still.clone()

@@ -1,8 +1,9 @@
 //! The sums over the elements in the balance of a step.
 //!
-//! The sum is split into four partial sums, each over every fourth element: in a single sum each addition would wait
-//! for the previous one. For one case the four partial sums fill a vector register; for several cases in lanes each
-//! partial sum is a register with one number per case. Both give the same bits for a case.
+//! The sum is split into four partial sums, each over every fourth element: in a single sum each
+//! addition would wait for the previous one. For one case the four partial sums fill a vector
+//! register; for several cases in lanes each partial sum is a register with one number per case.
+//! Both give the same bits for a case.
 
 use crate::lanes::{Lane, Lanes};
 use crate::norms::element_product;
@@ -132,7 +133,8 @@ impl<T: Lane> Sums<T> {
         let product = |p: [T; 2], q: [T; 2]| element_product(sixth, p, q);
         let slope = |y: [T; 2]| (y[1] - y[0]) * inverse;
         let shear = |u: [T; 2], phi: [T; 2]| [slope(u) - phi[0], slope(u) - phi[1]];
-        // Mean and difference of a field's two levels: `½ (‖y‖² - ‖y0‖²)` is their product, without cancellation.
+        // Mean and difference of a field's two levels: `½ (‖y‖² - ‖y0‖²)` is their product, without
+        // cancellation.
         let mean_and_jump = |of: fn(&Fields<T>) -> T| {
             let (y, y0) = ([of(&new[0]), of(&new[1])], [of(&old[0]), of(&old[1])]);
             (

@@ -1,7 +1,8 @@
 //! The time schemes, each a row of a table.
 //!
-//! Both schemes solve one system per step for the velocities `V`, `W` that determine the displacements, `u = u0 + dt
-//! V`, `phi = phi0 + dt W`, and for the mean temperature `Θ = (theta + theta0)/2`. They differ in three entries:
+//! Both schemes solve one system per step for the velocities `V`, `W` that determine the
+//! displacements, `u = u0 + dt V`, `phi = phi0 + dt W`, and for the mean temperature
+//! `Θ = (theta + theta0)/2`. They differ in three entries:
 //!
 //! | scheme | V is | inertia `M (v - v0)/dt` | contact |
 //! | --- | --- | --- | --- |
@@ -28,8 +29,8 @@ pub struct Scheme {
     pub name: &'static str,
     /// Theoretical order in dt for smooth solutions.
     pub order: f64,
-    /// The factor of `M (V - v0)/dt`: 1 if V is the new velocity, 2 if V is the mean velocity, between 1 and 2
-    /// otherwise.
+    /// The factor of `M (V - v0)/dt`: 1 if V is the new velocity, 2 if V is the mean velocity,
+    /// between 1 and 2 otherwise.
     pub inertia: f64,
     /// How the contact force enters.
     pub contact: ContactRule,
@@ -52,7 +53,8 @@ pub struct Case {
     pub lengths: Vec<f64>,
 }
 
-/// The paper's scheme (3.7)-(3.8): backward Euler for inertia, viscosity and contact, Crank-Nicolson for the rest.
+/// The paper's scheme (3.7)-(3.8): backward Euler for inertia, viscosity and contact,
+/// Crank-Nicolson for the rest.
 pub const EULER_CRANK_NICOLSON: Scheme = Scheme {
     name: "euler-crank-nicolson",
     order: 1.0,
@@ -61,8 +63,8 @@ pub const EULER_CRANK_NICOLSON: Scheme = Scheme {
     source: "Bernardi and Copetti, (3.7)-(3.8)",
 };
 
-/// The implicit midpoint rule with a discrete gradient for the contact. It conserves the energy up to the physical
-/// dissipation.
+/// The implicit midpoint rule with a discrete gradient for the contact. It conserves the energy up
+/// to the physical dissipation.
 pub const MIDPOINT: Scheme = Scheme {
     name: "midpoint",
     order: 2.0,

@@ -1,4 +1,5 @@
-//! Quantities of the last step of each case of a batch, computed from the stepper's own arrays without copying a level.
+//! Quantities of the last step of each case of a batch, computed from the stepper's own arrays
+//! without copying a level.
 
 use crate::energy::Balance;
 use crate::energy::sums::{Element, Fields, Sums};

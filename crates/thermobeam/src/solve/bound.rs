@@ -1,17 +1,19 @@
 //! A-posteriori bound on the distance of an iterate to the solution of its step.
 //!
-//! After a pass the residual of (3.7) is `((m⁺ - m) K u½ + (m - m̄) dt/2 K δV, 0, 0)`. Its dual norm with respect to
-//! ‖V_x‖ is at most `c = |m⁺ - m| ‖u½_x‖ + |m - m̄| dt/2 ‖δV_x‖`. Test the equation of the next increment with the
-//! increment itself: the couplings through a and C cancel or complete squares, contact is monotone, and
+//! After a pass the residual of (3.7) is `((m⁺ - m) K u½ + (m - m̄) dt/2 K δV, 0, 0)`. Its dual
+//! norm with respect to ‖V_x‖ is at most `c = |m⁺ - m| ‖u½_x‖ + |m - m̄| dt/2 ‖δV_x‖`. Test the
+//! equation of the next increment with the increment itself: the couplings through a and C cancel
+//! or complete squares, contact is monotone, and
 //!
 //! ```text
 //! κ(‖V‖² + ‖W‖²) + s(‖V_x - W‖² + ‖W_x‖²) + m dt/2 ‖V_x‖² + 2/dt ‖Θ‖² + ‖Θ_x‖² <= c ‖V_x‖,   s = ζ + dt/2.
 //! ```
 //!
-//! With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, B the buckling force, this gives `λ ‖V_x‖² <= c ‖V_x‖`, `λ = B s + m dt/2`.
-//! Each square of the norm of (3.14) is at most 2 dt times a term above, so the next increment is at most
-//! `√(2 dt/λ) c`, times `√(1 + |m| dt/(2λ))` for m < 0. In the same way a pass multiplies an error by at most
-//! `q = dt/λ (|m - m̄|/2 + ρ ‖u½_x‖ ‖u_x‖)`, so the distance to the solution is at most that bound divided by 1 - q.
+//! With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, B the buckling force, this gives `λ ‖V_x‖² <= c ‖V_x‖`,
+//! `λ = B s + m dt/2`. Each square of the norm of (3.14) is at most 2 dt times a term above, so the
+//! next increment is at most `√(2 dt/λ) c`, times `√(1 + |m| dt/(2λ))` for m < 0. In the same way a
+//! pass multiplies an error by at most `q = dt/λ (|m - m̄|/2 + ρ ‖u½_x‖ ‖u_x‖)`, so the distance to
+//! the solution is at most that bound divided by 1 - q.
 
 use crate::kirchhoff::BUCKLING;
 use crate::lanes::Lane;
@@ -122,7 +124,8 @@ mod tests {
         Newton::new(vec![case], Settings::default(), &[&Level::new(2)])
     }
 
-    /// Sets the state after a pass with m and a factorisation for m̄: ‖u_x‖ is 1/2, and 1 at the old level.
+    /// Sets the state after a pass with m and a factorisation for m̄: ‖u_x‖ is 1/2, and 1 at the
+    /// old level.
     fn passed(newton: &mut Newton<f64, 2>, m: f64, factorized: f64) {
         let control = &mut newton.controls[0];
         (
@@ -133,7 +136,8 @@ mod tests {
         (control.m, control.factorized) = (m, factorized);
     }
 
-    /// The formulas of the module documentation for compression and tension, with q below and above one half.
+    /// The formulas of the module documentation for compression and tension, with q below and above
+    /// one half.
     #[test]
     fn the_bound_equals_the_documented_formula() {
         for (beta, rho, finite) in [

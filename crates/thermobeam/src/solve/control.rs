@@ -1,5 +1,5 @@
-//! The coefficients of a step, and the state of one case in the Newton iteration: scalars of the current step, and those
-//! kept from step to step.
+//! The coefficients of a step, and the state of one case in the Newton iteration: scalars of the
+//! current step, and those kept from step to step.
 
 use crate::contact::Tip;
 use crate::norms::slope_squared;
@@ -18,7 +18,8 @@ pub(super) struct Scalars<T> {
     pub(super) inertia: T,
     pub(super) two_over_dt: T,
     pub(super) half_a: T,
-    /// `a θ_A`. The lifting contributes `a θ_A (1 - x, N_i') = a θ_A (1, N_i)`: a constant under the mass matrix.
+    /// `a θ_A`. The lifting contributes `a θ_A (1 - x, N_i') = a θ_A (1, N_i)`: a constant under
+    /// the mass matrix.
     pub(super) lift: T,
 }
 

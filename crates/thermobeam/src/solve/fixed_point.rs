@@ -1,7 +1,9 @@
-//! The paper's fixed-point iteration (4.1)-(4.5): the problem (4.2) is solved for θ, φ and u, in this order.
+//! The paper's fixed-point iteration (4.1)-(4.5): the problem (4.2) is solved for θ, φ and u, in
+//! this order.
 //!
-//! One iteration ℓ solves three scalar tridiagonal systems, the three equations of (4.2). In the notation of
-//! `sweeps.rs`, with the previous iterate marked by ⁻ and n-½ and the update of u and φ as in (4.3):
+//! One iteration ℓ solves three scalar tridiagonal systems, the three equations of (4.2). In the
+//! notation of `sweeps.rs`, with the previous iterate marked by ⁻ and n-½ and the update of u and φ
+//! as in (4.3):
 //!
 //! ```text
 //! (2/dt M + K) Θ         = 2/dt M θ~0 - a Cᵀ W⁻ + F_θ
@@ -9,7 +11,8 @@
 //! (κ M + (ζ + (1 + m⁻) dt/2) K) V = κ M v0 - (1 + m⁻) K u0 + C (φ0 + s W) - F(u⁻(1)) e + F_u
 //! ```
 //!
-//! The increment is measured in the norm of (3.14). The convergence is analysed in [`contraction`](crate::contraction).
+//! The increment is measured in the norm of (3.14); [`theory`](crate::theory), "The norm of the
+//! stopping test", says why. The convergence is analysed in [`contraction`](crate::contraction).
 
 use crate::error::{Loop, StepFailure};
 use crate::norms::{TheoremSquares, slope_squared};
@@ -19,8 +22,8 @@ use crate::solve::stepper::Stepper;
 use crate::solve::{Level, Settings, StepReport, Stopping, Work};
 use crate::tridiagonal::TridiagonalFactor;
 
-/// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for example between both
-/// sides of an obstacle, the ratio is one up to round-off.
+/// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for
+/// example between both sides of an obstacle, the ratio is one up to round-off.
 const STALLED: f64 = 1.0 - 1e-6;
 
 /// The fixed-point iteration for one case.
@@ -55,8 +58,8 @@ impl FixedPoint {
     /// The iteration at the given level, with the matrices of θ and φ factorised.
     ///
     /// # Errors
-    /// [`StepFailure::Indefinite`] if a matrix is not positive definite in floating-point arithmetic: dt is too small or too
-    /// large.
+    /// [`StepFailure::Indefinite`] if a matrix is not positive definite in floating-point
+    /// arithmetic: dt is too small or too large.
     pub(crate) fn new(case: Case, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
         let n = case.lengths.len();
         let (kappa, s) = (
@@ -137,7 +140,8 @@ impl FixedPoint {
         }
     }
 
-    /// The loop with the largest factor at the initial level of the step, in contact if the last iterate is.
+    /// The loop with the largest factor at the initial level of the step, in contact if the last
+    /// iterate is.
     fn largest_loop(&self) -> Loop {
         let tip = self.u_before[self.case.lengths.len()];
         let touches = |obstacles: &Obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0;
@@ -255,7 +259,8 @@ impl FixedPoint {
         Ok(())
     }
 
-    /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14); u and φ by (4.3).
+    /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14); u and φ by
+    /// (4.3).
     fn increment(&mut self) -> f64 {
         let (dt, inertia) = (self.case.dt, self.case.scheme.inertia);
         let [v, u, w, phi, theta] = &mut self.difference;

@@ -57,13 +57,15 @@ impl Default for Settings {
 pub enum Stopping {
     /// As soon as the increment is small; a step that needs too many iterations fails.
     Converged {
-        /// η* > 0, the bound on the last increment in the norm of (3.14); see [`StepReport::increment`].
+        /// η* > 0, the bound on the last increment in the norm of (3.14); see
+        /// [`StepReport::increment`].
         tolerance: f64,
         /// Largest number of iterations of a step, at least 1.
         max_iterations: usize,
     },
-    /// After exactly this number of iterations, at least 1, without a test: the paper's "L times" (Section 4, before (4.5)).
-    /// Only the fixed point can stop in this way. Its steps are then not solved, so the energy balance has a defect.
+    /// After exactly this number of iterations, at least 1, without a test: the paper's "L times"
+    /// (Section 4, before (4.5)). Only the fixed point can stop in this way. Its steps are then not
+    /// solved, so the energy balance has a defect.
     Iterations(usize),
 }
 
@@ -82,7 +84,8 @@ impl Stopping {
         }
     }
 
-    /// The same criterion with another largest number of iterations; without a test the number stays.
+    /// The same criterion with another largest number of iterations; without a test the number
+    /// stays.
     #[must_use]
     pub fn with_limit(self, max_iterations: usize) -> Self {
         match self {
@@ -111,11 +114,12 @@ impl Stopping {
     }
 }
 
-/// Initial iterate of Newton's method. It changes the number of passes; the result changes within the tolerance.
+/// Initial iterate of Newton's method. It changes the number of passes; the result changes within
+/// the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Start {
-    /// Velocities and axial force, extrapolated from the last three levels. At the start the missing levels are copies
-    /// of the first.
+    /// Velocities and axial force, extrapolated from the last three levels. At the start the
+    /// missing levels are copies of the first.
     #[default]
     Extrapolated,
     /// The previous level, as in (4.1).
@@ -127,16 +131,19 @@ pub enum Start {
 pub struct StepReport {
     /// Number of iterations, each at least one solve of the linear system.
     pub iterations: usize,
-    /// Fixed point: the last increment. Newton: an upper bound on the increment of one more iteration.
+    /// Fixed point: the last increment. Newton: an upper bound on the increment of one more
+    /// iteration.
     pub increment: f64,
-    /// Fixed point: ratio of the last two increments, `None` after a single iteration. Newton: `None`.
+    /// Fixed point: ratio of the last two increments, `None` after a single iteration. Newton:
+    /// `None`.
     pub contraction: Option<f64>,
 }
 
 /// Counts of the work done. Unlike run times they are exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Work {
-    /// Solves of the linear system of the whole step: passes of Newton's method, or iterations of the fixed point.
+    /// Solves of the linear system of the whole step: passes of Newton's method, or iterations of
+    /// the fixed point.
     pub passes: usize,
     /// Factorisations of that system; for the fixed point, of the equation of u.
     pub factorizations: usize,
@@ -159,7 +166,8 @@ pub struct Level {
     pub w: Vec<f64>,
     /// Lifted temperature θ~ = θ - θ_A (1 - x).
     pub theta: Vec<f64>,
-    /// Contact force of the step that led to this level: g(u(1)), or its discrete gradient in the `midpoint` scheme.
+    /// Contact force of the step that led to this level: g(u(1)), or its discrete gradient in the
+    /// `midpoint` scheme.
     pub contact_force: f64,
 }
 
@@ -180,6 +188,24 @@ impl Level {
     /// Whether all nodal values of û and φ̂ are at most `speed` in size; false if one is NaN.
     pub fn is_slow(&self, speed: f64) -> bool {
         self.v.iter().chain(&self.w).all(|rate| rate.abs() <= speed)
+    }
+
+    /// Makes this level the difference of two others with the same number of nodes, without
+    /// allocating.
+    pub fn set_difference(&mut self, one: &Level, other: &Level) {
+        let fields = [
+            (&mut self.u, &one.u, &other.u),
+            (&mut self.v, &one.v, &other.v),
+            (&mut self.phi, &one.phi, &other.phi),
+            (&mut self.w, &one.w, &other.w),
+            (&mut self.theta, &one.theta, &other.theta),
+        ];
+        for (difference, one, other) in fields {
+            for (difference, (one, other)) in difference.iter_mut().zip(one.iter().zip(other)) {
+                *difference = one - other;
+            }
+        }
+        self.contact_force = one.contact_force - other.contact_force;
     }
 
     /// Copies the values of a level with the same number of nodes, without allocating.

@@ -2,20 +2,20 @@
 //!
 //! # A step is one scalar equation
 //!
-//! For a given mean axial force m the step (3.7)-(3.8) is linear except at the tip, where it is solved in closed form.
-//! So a step is a root of `F(m) = m - ½(N(u(m)) + N(u0))`. F <= 0 at `m = ½(β + N(u0))`, and F → ∞ with m: a bracket
-//! exists.
+//! For a given mean axial force m the step (3.7)-(3.8) is linear except at the tip, where it is
+//! solved in closed form. So a step is a root of `F(m) = m - ½(N(u(m)) + N(u0))`. F <= 0 at
+//! `m = ½(β + N(u0))`, and F → ∞ with m: a bracket exists.
 //!
 //! # Two iterations
 //!
-//! *Kept factorisation.* Start from velocities and N extrapolated in time (third order), do one pass with the
-//! factorisation of an earlier step, and accept if the a-posteriori error bound of `bound.rs` is below the tolerance.
-//! Most steps take one pass. The rank-one term of the Kirchhoff force in the Jacobian is omitted; the bound accounts
-//! for its effect.
+//! *Kept factorisation.* Start from velocities and N extrapolated in time (third order), do one
+//! pass with the factorisation of an earlier step, and accept if the a-posteriori error bound of
+//! `bound.rs` is below the tolerance. Most steps take one pass. The rank-one term of the Kirchhoff
+//! force in the Jacobian is omitted; the bound accounts for its effect.
 //!
-//! *Safeguarded Newton* (`root.rs`), if that iteration would not contract: Newton's method for F, with F'(m) from one
-//! more solve (Kirchhoff term as a rank-one change, contact as a change of the tip's pivot), and bisection if an
-//! iterate leaves the bracket.
+//! *Safeguarded Newton* (`root.rs`), if that iteration would not contract: Newton's method for F,
+//! with F'(m) from one more solve (Kirchhoff term as a rank-one change, contact as a change of the
+//! tip's pivot), and bisection if an iterate leaves the bracket.
 
 use crate::block_tridiagonal::{Node, factorize, uninitialised};
 use crate::error::StepFailure;
@@ -27,14 +27,16 @@ use crate::solve::{Level, Settings, Start, StepReport, Work};
 
 /// Passes with the kept factorisation before the safeguarded iteration takes over.
 const KEPT_PASSES: usize = 6;
-/// Largest contribution of a kept factorisation to the contraction bound q: renewing it costs about ten passes.
+/// Largest contribution of a kept factorisation to the contraction bound q: renewing it costs about
+/// ten passes.
 const RENEWAL: f64 = 0.1;
 /// Largest contraction bound q for which passes with the kept factorisation continue.
 const CONTRACTION: f64 = 0.25;
 
 /// Newton's method for one case per lane, with or without the temperature.
 ///
-/// * `cases`, `levels`: one per lane, with the same scheme; all levels have the same number of nodes.
+/// * `cases`, `levels`: one per lane, with the same scheme; all levels have the same number of
+///   nodes.
 /// * `heated`: whether the temperature is an unknown. Without it the temperature must be zero.
 pub(crate) fn newton<T: Lane + 'static>(
     cases: Vec<Case>,
@@ -49,7 +51,8 @@ pub(crate) fn newton<T: Lane + 'static>(
     }
 }
 
-/// Newton's method for one case (`T = f64`) or several in lanes; B = 2 without, B = 3 with the temperature.
+/// Newton's method for one case (`T = f64`) or several in lanes; B = 2 without, B = 3 with the
+/// temperature.
 pub(crate) struct Newton<T, const B: usize> {
     pub(super) cases: Vec<Case>,
     /// Bound on the increment of one more iteration.
@@ -68,7 +71,8 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) velocity: [Vec<[T; B]>; 2],
     /// The scheme's inertia: `v = v0 + weight (V - v0)`.
     weight: T,
-    /// X of the current step and of the previous three; at the start, the initial velocities and temperature.
+    /// X of the current step and of the previous three; at the start, the initial velocities and
+    /// temperature.
     pub(super) iterates: [Vec<[T; B]>; 4],
     /// The right-hand side after the forward sweep.
     pub(super) middle: Vec<[T; B]>,
@@ -152,7 +156,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
     }
 
-    /// Sets m from the extrapolated axial force, and renews the factorisation if that is too far from m.
+    /// Sets m from the extrapolated axial force, and renews the factorisation if that is too far
+    /// from m.
     fn start(&mut self, k: usize) {
         let beam = self.cases[k].beam;
         let weights = self.weights();
@@ -205,7 +210,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         Ok(())
     }
 
-    /// Does one pass, a solve of `A(m̄) δ = -R`, for the cases in `state`; the iterates of the others stay.
+    /// Does one pass, a solve of `A(m̄) δ = -R`, for the cases in `state`; the iterates of the
+    /// others stay.
     pub(super) fn pass(&mut self, state: Progress, first: bool) {
         let active = T::from_fn(|k| f64::from(self.controls[k].state == state));
         let m = T::from_fn(|k| self.controls[k].m);
@@ -231,7 +237,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
     }
 
-    /// δ at the tip: the solution without contact, minus `F S⁻¹ e` with the contact force F in closed form.
+    /// δ at the tip: the solution without contact, minus `F S⁻¹ e` with the contact force F in
+    /// closed form.
     fn solve_tip(&mut self, active: T) -> [T; B] {
         let last = self.elements.len() - 1;
         let inverse = &self.nodes[last].inverse;

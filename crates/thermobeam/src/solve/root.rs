@@ -1,5 +1,5 @@
-//! The safeguarded Newton iteration for the mean axial force m, used where passes with a kept factorisation do not
-//! contract.
+//! The safeguarded Newton iteration for the mean axial force m, used where passes with a kept
+//! factorisation do not contract.
 
 use crate::block_tridiagonal::{minus_times, minus_transpose_times, times};
 use crate::error::StepFailure;
@@ -7,12 +7,14 @@ use crate::lanes::Lane;
 use crate::solve::control::Progress;
 use crate::solve::newton::Newton;
 
-/// Bound on the rounding error of m, which is a sum over the elements: a bracket of this width cannot be improved.
+/// Bound on the rounding error of m, which is a sum over the elements: a bracket of this width
+/// cannot be improved.
 fn rounding(forces: [f64; 3]) -> f64 {
     8.0 * f64::EPSILON * forces.iter().map(|force| force.abs()).sum::<f64>()
 }
 
-/// The Newton iterate if it lies inside the bracket; otherwise the midpoint, or a larger m while there is no upper end.
+/// The Newton iterate if it lies inside the bracket; otherwise the midpoint, or a larger m while
+/// there is no upper end.
 fn safeguarded(low: f64, high: f64, newton: f64) -> f64 {
     if low < newton && newton < high {
         newton
@@ -29,7 +31,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// F <= 0 at the lower end of the initial bracket; an upper end is found during the iteration.
     ///
     /// # Errors
-    /// [`StepFailure`] for an indefinite matrix, a value that is not finite, and for too many iterations.
+    /// [`StepFailure`] for an indefinite matrix, a value that is not finite, and for too many
+    /// iterations.
     pub(super) fn find_root(&mut self, k: usize) -> Result<(), StepFailure> {
         self.restart(k);
         let n0 = self.controls[k].forces[0];
@@ -61,8 +64,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             } else {
                 high = m;
             }
-            // A stiff obstacle or a large ρ amplifies the rounding errors of m in F: the sign of F then changes between
-            // neighbouring numbers while |F| stays large.
+            // A stiff obstacle or a large ρ amplifies the rounding errors of m in F: the sign of F
+            // then changes between neighbouring numbers while |F| stays large.
             if high - low <= rounding {
                 return Ok(());
             }
@@ -87,7 +90,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
     }
 
-    /// `F'(m) = 1 + ρ dt (u_x, z_x)` with `(A + dt F'(u(1)) e eᵀ) z = K u½`, from the rank-one Kirchhoff term.
+    /// `F'(m) = 1 + ρ dt (u_x, z_x)` with `(A + dt F'(u(1)) e eᵀ) z = K u½`, from the rank-one
+    /// Kirchhoff term.
     fn derivative(&mut self, k: usize) -> f64 {
         let last = self.elements.len() - 1;
         let (dt, rho) = (self.cases[k].dt, self.cases[k].beam.rho);

@@ -9,15 +9,18 @@ use crate::solve::{Level, StepReport, Work};
 pub(crate) trait Stepper<T: Lane>: Send + Sync {
     /// Does one step of every case that has not failed, without allocating memory.
     ///
-    /// A case that fails keeps its last level and does not affect the others. A single case may repeat the step.
+    /// A case that fails keeps its last level and does not affect the others. A single case may
+    /// repeat the step.
     ///
     /// * `outcomes`: overwritten, one for each lane.
     fn advance(&mut self, outcomes: &mut [Result<StepReport, StepFailure>]);
 
-    /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes; allocated by the first call.
+    /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes; allocated by the first
+    /// call.
     fn load_mut(&mut self) -> &mut [[T; 3]];
 
-    /// Copies the current level of case k into `level`; if the case has failed, the last level before the failure.
+    /// Copies the current level of case k into `level`; if the case has failed, the last level
+    /// before the failure.
     fn read(&self, k: usize, level: &mut Level);
 
     /// Counts of the work done so far; a pass over all lanes counts once.
@@ -26,10 +29,12 @@ pub(crate) trait Stepper<T: Lane>: Send + Sync {
 
 /// A solver of several cases in lanes.
 pub(crate) trait Batch<T: Lane>: Stepper<T> {
-    /// The [`Balance`] of the last step of every case that has done it; the others are left unchanged.
+    /// The [`Balance`] of the last step of every case that has done it; the others are left
+    /// unchanged.
     fn balances(&self, balances: &mut [Balance]);
 
-    /// u(1) at the current level of case k; if the case has failed, at the last level before the failure.
+    /// u(1) at the current level of case k; if the case has failed, at the last level before the
+    /// failure.
     fn tip(&self, k: usize) -> f64;
 
     /// The contact force of the last step of case k.

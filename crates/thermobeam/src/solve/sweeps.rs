@@ -1,9 +1,10 @@
-//! The two sweeps of a pass of Newton's method: residual of (3.7) and elimination forward, substitution and (3.8)
-//! backward.
+//! The two sweeps of a pass of Newton's method: residual of (3.7) and elimination forward,
+//! substitution and (3.8) backward.
 //!
-//! The unknown at a node is `X = (V, W, Θ)`: the velocities of the step, `u = u0 + dt V`, `phi = phi0 + dt W`, (3.8),
-//! and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2` and so on, (3.1), `κ = inertia/dt` and the mean
-//! axial force m = ½(N(u) + N(u0)), the residual of (3.7) is
+//! The unknown at a node is `X = (V, W, Θ)`: the velocities of the step, `u = u0 + dt V`,
+//! `phi = phi0 + dt W`, (3.8), and the mean temperature `Θ = (θ~ + θ~0)/2`. With `u½ = u0 + dt V/2`
+//! and so on, (3.1), `κ = inertia/dt` and the mean axial force m = ½(N(u) + N(u0)), the residual of
+//! (3.7) is
 //!
 //! ```text
 //! R_u = κ M (V - v0) + K ((1 + m) u½ + ζ V) - C (φ½ + ζ W)                          + F(u(1)) e - F_u
@@ -11,10 +12,10 @@
 //! R_θ = 2/dt M (Θ - θ~0) + K Θ              + a Cᵀ W                                            - F_θ
 //! ```
 //!
-//! and a pass solves `A(m̄) δ = -R` with `R_θ` negated, which makes A symmetric. m̄ is the axial force for which A was
-//! factorised. It may differ from m: then δ is not exact, but the residual R of the next pass is. The contact force is
-//! part of the solve: it acts on one node, the last in the elimination, where it is a scalar equation with a closed
-//! solution (`contact.rs`).
+//! and a pass solves `A(m̄) δ = -R` with `R_θ` negated, which makes A symmetric. m̄ is the axial
+//! force for which A was factorised. It may differ from m: then δ is not exact, but the residual R
+//! of the next pass is. The contact force is part of the solve: it acts on one node, the last in
+//! the elimination, where it is a scalar equation with a closed solution (`contact.rs`).
 //!
 //! A pass runs over the nodes twice and allocates nothing.
 
@@ -24,8 +25,8 @@ use crate::solve::control::{Element, Scalars};
 use crate::solve::newton::Newton;
 
 impl Scalars<f64> {
-    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements to the left and to the right of it (`None` at the
-    /// tip).
+    /// Blocks `(O_i, D_i)` of A(m) at node i of n, from the elements to the left and to the right
+    /// of it (`None` at the tip).
     pub(super) fn blocks<const B: usize>(
         &self,
         m: f64,
@@ -52,7 +53,8 @@ impl Scalars<f64> {
             diagonal[1][0] = -0.5 * self.stiff;
         }
         if B == 3 {
-            // The temperature is prescribed at the tip: the equation -1 δΘ = 0 keeps the block structure.
+            // The temperature is prescribed at the tip: the equation -1 δΘ = 0 keeps the block
+            // structure.
             diagonal[2][2] = if tip {
                 -1.0
             } else {
@@ -84,7 +86,8 @@ struct Nodal<T, const B: usize> {
 }
 
 impl<T: Lane, const B: usize> Newton<T, B> {
-    /// The forward sweep for the mean axial forces m: sets `middle` to S⁻¹ y, the right-hand side after the elimination.
+    /// The forward sweep for the mean axial forces m: sets `middle` to S⁻¹ y, the right-hand side
+    /// after the elimination.
     ///
     /// * `FIRST`: whether the iterate is extrapolated from the history.
     /// * `LOADED`: whether there are loads.

@@ -1,4 +1,5 @@
-//! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and grazing.
+//! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and
+//! grazing.
 
 use super::scenes::{advanced, close, experiment, larger, simulate, tip};
 use std::f64::consts::FRAC_PI_2;
@@ -54,7 +55,8 @@ fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
     simulation.level().u[200]
 }
 
-/// Runs to the end; the worst residual of the balance, relative to the initial energy, must be round-off.
+/// Runs to the end; the worst residual of the balance, relative to the initial energy, must be
+/// round-off.
 #[track_caller]
 fn balanced(mut simulation: Simulation, t: f64) -> Simulation {
     let scale = simulation.energy(simulation.level()).total();
@@ -140,7 +142,8 @@ fn two_obstacles_at_one_place_are_touched_in_turn() {
         by_linear_elements(1.0, obstacles, 0.2),
         2e-4,
     );
-    // With g_1 = g_2 = 0 the obstacle is a two-sided spring: started from the other side, the motion is mirrored.
+    // With g_1 = g_2 = 0 the obstacle is a two-sided spring: started from the other side, the
+    // motion is mirrored.
     let mirrored = advanced(thrown(-1.0, obstacles, 10), stepping(), 3.0);
     close(tip(&mirrored, Field::U), -tip(&simulation, Field::U), 1e-10);
 }
@@ -387,7 +390,8 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
     }
 }
 
-/// The time scale of an impact's peak falls like ε^(2/3), from 4.6e-3 to 2.2e-4 here; the contact ends when the beam swings back.
+/// The time scale of an impact's peak falls like ε^(2/3), from 4.6e-3 to 2.2e-4 here; the contact
+/// ends when the beam swings back.
 #[test]
 fn the_first_contact_lasts_as_long_whatever_the_compliance() {
     for epsilon in [1e-3, 1e-4, 1e-5] {

@@ -281,11 +281,13 @@ fn a_limit_in_the_past_or_no_number_is_no_step() {
     assert_eq!((simulation.t(), simulation.step(0.05)), (0.1, Ok(None)));
 }
 
-/// If ε is below some 1e-15, rounding errors of u(1) exceed any contact force. Such a run once kept its free end on the obstacle
-/// forever, and passed; later it failed once the obstacle pulled by 1e-2, after the true end of contact.
+/// If ε is below some 1e-15, rounding errors of u(1) exceed any contact force. Such a run once kept
+/// its free end on the obstacle forever, and passed; later it failed once the obstacle pulled by
+/// 1e-2, after the true end of contact.
 ///
-/// The answers are those of a free end that the obstacle holds without any compliance: 12 polynomials on one element, a Radau method
-/// of tolerance 1e-11, the momentum of the impact projected, and contact until the force changes sign.
+/// The answers are those of a free end that the obstacle holds without any compliance: 12
+/// polynomials on one element, a Radau method of tolerance 1e-11, the momentum of the impact
+/// projected, and contact until the force changes sign.
 #[test]
 fn contact_that_the_position_cannot_tell_ends_where_its_force_changes_sign() {
     for epsilon in [1e-18, 1e-20, 1e-100] {

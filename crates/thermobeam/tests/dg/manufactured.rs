@@ -1,4 +1,5 @@
-//! A manufactured solution: loads from the strong form (1.1) and the two boundary conditions at x = 1.
+//! A manufactured solution: loads from the strong form (1.1) and the two boundary conditions at
+//! x = 1.
 
 use std::f64::consts::PI;
 use thermobeam::dg::{Field, Initial, Load, Problem, Simulation, Space, Stepping};
@@ -166,7 +167,8 @@ fn the_order_in_space_is_p_for_slopes_and_p_plus_one_for_values() {
                 (coarse[i] / fine[i]).log2(),
                 if i < 3 { p + 1 } else { p } as f64,
             );
-            // φ is smoother than u and θ, whose errors cause slowly vanishing terms of higher order in φ.
+            // φ is smoother than u and θ, whose errors cause slowly vanishing terms of higher order
+            // in φ.
             let above = if i % 3 == 1 { 0.8 } else { 0.05 };
             let within = rate >= order - 0.05 && rate <= order + above;
             assert!(

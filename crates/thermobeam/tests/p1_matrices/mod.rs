@@ -1,8 +1,24 @@
 //! Dense P1 matrices of the beam, written from the weak form (2.2) and independently of the solver.
 
 use nalgebra::DMatrix;
+use thermobeam::mesh::Mesh;
 
-/// The matrices on a uniform mesh for the unknowns (u_1..u_n, φ_1..φ_n); node 0 is clamped.
+/// M, K and C over all nodes.
+pub(crate) fn over_all_nodes(mesh: &Mesh) -> [DMatrix<f64>; 3] {
+    let nodes = mesh.nodes().len();
+    let mut full = [(); 3].map(|()| DMatrix::zeros(nodes, nodes));
+    for (e, h) in mesh.lengths().enumerate() {
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let slope = |k: usize| if k == 0 { -1.0 / h } else { 1.0 / h };
+            full[0][(e + i, e + j)] += if i == j { h / 3.0 } else { h / 6.0 };
+            full[1][(e + i, e + j)] += slope(i) * slope(j) * h;
+            full[2][(e + i, e + j)] += slope(i) * h / 2.0;
+        }
+    }
+    full
+}
+
+/// The matrices for the unknowns (u_1..u_n, φ_1..φ_n); node 0 is clamped.
 pub(crate) struct P1Matrices {
     pub(crate) elements: usize,
     pub(crate) mass: DMatrix<f64>,
@@ -12,24 +28,12 @@ pub(crate) struct P1Matrices {
 }
 
 impl P1Matrices {
-    pub(crate) fn new(elements: usize) -> Self {
-        let (n, h) = (elements, 1.0 / elements as f64);
-        let mut full = [
-            DMatrix::zeros(n + 1, n + 1),
-            DMatrix::zeros(n + 1, n + 1),
-            DMatrix::zeros(n + 1, n + 1),
-        ];
-        for e in 0..n {
-            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let slope = |k: usize| if k == 0 { -1.0 / h } else { 1.0 / h };
-                full[0][(e + i, e + j)] += if i == j { h / 3.0 } else { h / 6.0 };
-                full[1][(e + i, e + j)] += slope(i) * slope(j) * h;
-                full[2][(e + i, e + j)] += slope(i) * h / 2.0;
-            }
-        }
-        let [mass, stiffness, coupling] = full.map(|m| m.view((1, 1), (n, n)).into_owned());
+    pub(crate) fn new(mesh: &Mesh) -> Self {
+        let n = mesh.elements();
+        let [mass, stiffness, coupling] =
+            over_all_nodes(mesh).map(|m| m.view((1, 1), (n, n)).into_owned());
         Self {
-            elements,
+            elements: n,
             mass,
             stiffness,
             coupling,

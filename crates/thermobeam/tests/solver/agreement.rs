@@ -1,4 +1,5 @@
-//! Newton's method and the fixed point, and different initial iterates, give the same solution of a step.
+//! Newton's method and the fixed point, and different initial iterates, give the same solution of a
+//! step.
 
 use super::scenes::{
     EXPERIMENTS, advance, distance, from_level, paper, relative_difference, schemes_and_meshes,
@@ -62,7 +63,8 @@ fn newton_and_the_fixed_point_agree() {
     );
 }
 
-/// By (4.1) a step depends only on the previous level: a run restarted from a level continues bitwise.
+/// By (4.1) a step depends only on the previous level: a run restarted from a level continues
+/// bitwise.
 #[test]
 fn a_fixed_point_step_depends_on_the_previous_level_only() {
     let settings = Settings {
@@ -182,7 +184,8 @@ fn the_start_of_the_iteration_does_not_change_the_answer() {
     );
 }
 
-/// "L times": every step ends after L solves of (4.2), whatever its increment; the distance to the solved step falls with L.
+/// "L times": every step ends after L solves of (4.2), whatever its increment; the distance to the
+/// solved step falls with L.
 #[test]
 fn a_fixed_number_of_iterations_is_done_in_every_step() {
     let problem = paper(uniform(20), EXPERIMENTS[3]);

@@ -6,7 +6,8 @@ use thermobeam::scheme::{Case, MIDPOINT};
 use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Start, Stopping};
 
-/// The largest residual relative to the initial energy, over 1000 steps of every experiment, both schemes, both meshes.
+/// The largest residual relative to the initial energy, over 1000 steps of every experiment, both
+/// schemes, both meshes.
 fn largest_residual(tolerance: f64, dt: f64) -> f64 {
     let mut worst = 0.0;
     for experiment in EXPERIMENTS {

@@ -1,9 +1,10 @@
 //! The scheme (3.7)-(3.8) and its semi-discrete limit as dense systems, written from the equations.
 //!
-//! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in this order.
+//! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in
+//! this order.
 
+use crate::p1_matrices::over_all_nodes;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::Problem;
@@ -81,21 +82,11 @@ impl State {
     }
 }
 
-fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
-    let size = matrix.diagonal.len();
-    DMatrix::from_fn(size, size, |i, j| match (i + 1).wrapping_sub(j) {
-        2 => matrix.lower[i],
-        1 => matrix.diagonal[i],
-        0 => matrix.upper[i],
-        _ => 0.0,
-    })
-}
-
 impl Dense {
     pub(crate) fn new(problem: &Problem) -> Self {
         let (mesh, beam) = (&problem.mesh, problem.beam);
         let n = mesh.elements();
-        let [m, k, c] = [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| dense(&matrix));
+        let [m, k, c] = over_all_nodes(mesh);
         let steady =
             DVector::from_iterator(n + 1, mesh.nodes().iter().map(|x| beam.theta_a * (1.0 - x)));
         let lift = (&c * steady * beam.a).rows(1, n).into_owned();
@@ -170,8 +161,8 @@ impl Dense {
         }
     }
 
-    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the consistent one is
-    /// returned.
+    /// One step by Newton's method on the whole system. Each side of the obstacles is tried; the
+    /// consistent one is returned.
     pub(crate) fn step(
         &self,
         scheme: &Scheme,
@@ -238,8 +229,8 @@ impl Step<'_> {
             .find_map(|tip| self.solve_from(tip, side))
     }
 
-    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method needs a start near the
-    /// root, or on the side from which it does not overshoot.
+    /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method
+    /// needs a start near the root, or on the side from which it does not overshoot.
     fn starts(&self, side: Side) -> Vec<f64> {
         let old = self.old.u[self.dense.n - 1];
         let Some(o) = self.dense.obstacles else {
@@ -288,7 +279,8 @@ impl Step<'_> {
         0.5 * (self.dense.axial_force(u) + self.dense.axial_force(&self.old.u))
     }
 
-    /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and the third equation.
+    /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and
+    /// the third equation.
     fn residual(&self, y: &DVector<f64>, side: Side) -> DVector<f64> {
         let Dense {
             beam,

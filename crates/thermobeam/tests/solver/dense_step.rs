@@ -127,7 +127,8 @@ prop_compose! {
     }
 }
 
-/// Compares each step with the dense one from the same level; whether the tip pressed the upper and the lower obstacle.
+/// Compares each step with the dense one from the same level; whether the tip pressed the upper and
+/// the lower obstacle.
 fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
     let Random {
         problem,

@@ -1,4 +1,5 @@
-//! A failed step returns an error with step and time and leaves the simulation at its level; invalid input is rejected.
+//! A failed step returns an error with step and time and leaves the simulation at its level;
+//! invalid input is rejected.
 
 use super::scenes::{paper, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure};
@@ -31,7 +32,8 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for component in 0..3 {
                 for node in [1, 5, 10] {
-                    // The temperature is prescribed at the tip: no equation there contains the load.
+                    // The temperature is prescribed at the tip: no equation there contains the
+                    // load.
                     if (component, node) == (2, 10) {
                         continue;
                     }

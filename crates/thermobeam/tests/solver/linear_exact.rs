@@ -1,4 +1,5 @@
-//! The linear beam against the matrix exponential of its semi-discrete system, which is exact in time.
+//! The linear beam against the matrix exponential of its semi-discrete system, which is exact in
+//! time.
 
 use super::dense::{Dense, State};
 use super::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};

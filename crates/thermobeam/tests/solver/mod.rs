@@ -1,4 +1,5 @@
-//! Tests of the solver against exact solutions, dense matrices, an independent implementation, and conservation laws.
+//! Tests of the solver against exact solutions, dense matrices, an independent implementation, and
+//! conservation laws.
 
 mod scenes;
 
@@ -13,7 +14,6 @@ mod linear_exact;
 mod nonlinear_exact;
 mod reference;
 mod robustness;
-mod steady;
 mod temperature;
 mod tolerance;
 mod work;

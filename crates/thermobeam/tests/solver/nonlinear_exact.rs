@@ -1,4 +1,5 @@
-//! The nonlinear semi-discrete system, contact included, against an explicit Runge-Kutta method of order 8.
+//! The nonlinear semi-discrete system, contact included, against an explicit Runge-Kutta method of
+//! order 8.
 
 use super::dense::{Dense, State};
 use super::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};
@@ -96,8 +97,8 @@ fn without_contact_both_schemes_converge_at_their_order() {
 
 #[test]
 fn in_contact_both_schemes_converge_at_their_order_once_the_contact_is_resolved() {
-    // The force has a kink, not a jump, when the tip crosses an obstacle: each crossing causes an error of order dt².
-    // The order is unchanged, but only visible for small steps.
+    // The force has a kink, not a jump, when the tip crosses an obstacle: each crossing causes an
+    // error of order dt². The order is unchanged, but only visible for small steps.
     for experiment in [(0.0, 0.0), (-0.5, 20.0), (-0.8, 0.0)] {
         for (scheme, mesh) in schemes_and_meshes(5) {
             let problem = paper(mesh, experiment);

@@ -1,4 +1,5 @@
-//! Newton's method converges on the paper's data for all compliances, time steps and Kirchhoff coefficients.
+//! Newton's method converges on the paper's data for all compliances, time steps and Kirchhoff
+//! coefficients.
 
 use super::scenes::{graded, paper, simulate, stepping, uniform};
 use thermobeam::error::StepFailure;
@@ -28,8 +29,8 @@ fn scene(mesh: Mesh, experiment: (f64, f64), rho: f64, epsilon: f64) -> Problem 
     }
 }
 
-/// Does 50 steps; returns the largest number of iterations, and the largest residual of the balance relative to the
-/// energy.
+/// Does 50 steps; returns the largest number of iterations, and the largest residual of the balance
+/// relative to the energy.
 fn run(problem: &Problem, stepping: Stepping) -> (usize, f64) {
     let mut simulation = simulate(problem, stepping);
     let mut old = simulation.level();

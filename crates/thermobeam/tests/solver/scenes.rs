@@ -8,8 +8,8 @@ use thermobeam::scheme::{EULER_CRANK_NICOLSON, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
 
-/// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with θ_A = 0, (5.5) with θ_A
-/// = 20, and the buckled beam.
+/// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with
+/// θ_A = 0, (5.5) with θ_A = 20, and the buckled beam.
 pub(crate) const EXPERIMENTS: [(f64, f64); 7] = [
     (-0.5, 0.0),
     (0.0, 0.0),
@@ -20,7 +20,8 @@ pub(crate) const EXPERIMENTS: [(f64, f64); 7] = [
     (-0.8, 0.0),
 ];
 
-/// An experiment of the paper on a mesh: its initial temperature is sin(πx), or 20 cos(5πx/2) for θ_A = 20.
+/// An experiment of the paper on a mesh: its initial temperature is sin(πx), or 20 cos(5πx/2) for
+/// θ_A = 20.
 pub(crate) fn paper(mesh: Mesh, (beta, theta_a): (f64, f64)) -> Problem {
     let on_nodes = |f: &dyn Fn(f64) -> f64| mesh.nodes().iter().map(|&x| f(x)).collect::<Vec<_>>();
     let initial = Initial {
@@ -130,7 +131,8 @@ pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
     ]
 }
 
-/// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if any value is NaN.
+/// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if
+/// any value is NaN.
 pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
     let mut worst = 0.0;
     for ((_, a), (_, b)) in fields(a).into_iter().zip(fields(b)) {

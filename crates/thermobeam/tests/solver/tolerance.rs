@@ -7,7 +7,8 @@ use thermobeam::norms::max_or_nan;
 use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver, Start, Stopping};
 
-/// The largest distance of a step to the same step solved to round-off, over the first steps of every experiment.
+/// The largest distance of a step to the same step solved to round-off, over the first steps of
+/// every experiment.
 fn largest_distance(settings: Settings, dt: f64, steps: usize) -> f64 {
     let exactly = Settings {
         stopping: Stopping::below(1e-14),

@@ -42,8 +42,8 @@ fn loads_and_observations_are_counted_exactly() {
                     "{solver:?}, loaded: {loaded}, every {every}"
                 );
                 assert!(work.passes >= STEPS, "{work:?}");
-                // Newton's method keeps a factorisation over many steps; in the fixed point m changes with every
-                // iterate.
+                // Newton's method keeps a factorisation over many steps; in the fixed point m
+                // changes with every iterate.
                 let expected = if solver == Solver::Newton {
                     1..STEPS
                 } else {

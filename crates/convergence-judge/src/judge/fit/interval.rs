@@ -1,10 +1,13 @@
-//! The rate at h → 0 with an interval: a straight line, or a line with one pollution term where that is clearly better.
+//! The rate at h → 0 with an interval: a straight line, or a line with one pollution term where
+//! that is clearly better.
 //!
-//! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant buys.
+//! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant
+//! buys.
 
 use super::{Level, logarithms, student_t};
 
-/// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they guard against overconfidence.
+/// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they guard
+/// against overconfidence.
 pub const POLLUTION_EXPONENTS: [f64; 5] = [1.0 / 3.0, 2.0 / 3.0, 1.0, 2.0, 3.0];
 
 /// A polluted line replaces the straight one if this many times its sum of squares is less.
@@ -16,10 +19,12 @@ pub const FACTOR: f64 = 1.1;
 /// Half-width for three levels, in corrections by pollution h^[`SLOWEST_POLLUTION`].
 pub const FACTOR_OF_THREE: f64 = 1.5;
 
-/// Exponent of the pollution that three levels may hide: so slow that three levels can never rule it out.
+/// Exponent of the pollution that three levels may hide: so slow that three levels can never rule
+/// it out.
 pub const SLOWEST_POLLUTION: f64 = 1.0 / 3.0;
 
-/// Relative round-off of the logarithm of an error: no residual is known more accurately, so no interval is narrower.
+/// Relative round-off of the logarithm of an error: no residual is known more accurately, so no
+/// interval is narrower.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// The rate at h → 0 and its interval.
@@ -35,9 +40,11 @@ pub struct RateInterval {
     pub scatter: f64,
 }
 
-/// The rate of the levels given, which should be those of [`asymptotic_range`](super::asymptotic_range).
+/// The rate of the levels given, which should be those of
+/// [`asymptotic_range`](super::asymptotic_range).
 ///
-/// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not differ.
+/// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not
+///   differ.
 pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
     let (x, y) = logarithms(levels)?;
     let m = x.len();
@@ -101,7 +108,8 @@ struct Line {
     dof: usize,
     /// Sum of squared residuals over `dof`, and the round-off.
     variance: f64,
-    /// Square of what is left of x without the other columns: the variance of q is `variance / square`.
+    /// Square of what is left of x without the other columns: the variance of q is
+    /// `variance / square`.
     square: f64,
 }
 

@@ -4,25 +4,30 @@ use std::ops::Range;
 
 use super::{Level, pairwise_rates};
 
-/// Factor from round-off to a floor: errors this many times larger carry 1e-3 of round-off in log e.
+/// Factor from round-off to a floor: errors this many times larger carry 1e-3 of round-off in log
+/// e.
 pub const FLOOR_MARGIN: f64 = 1e3;
 
-/// The number of finest levels that are used. Coarser ones say less about h → 0 than they can spoil.
+/// The number of finest levels that are used. Coarser ones say less about h → 0 than they can
+/// spoil.
 pub const MOST_USED: usize = 5;
 
-/// Of these, coarse levels are dropped while a rate between the remaining ones differs from the finest rate by more than this.
+/// Of these, coarse levels are dropped while a rate between the remaining ones differs from the
+/// finest rate by more than this.
 pub const SPREAD: f64 = 0.55;
 
 /// The indices of the levels from which a rate may be read, by three rules applied in this order:
 ///
-/// 1. Fine levels are dropped as long as the finest error is at most `floor`. The floor is an absolute number that the
-///    caller knows ([`FLOOR_MARGIN`] times round-off or solver tolerance) and is *never* guessed from the data: errors
-///    that stop falling above it are the signature of an inconsistent scheme, and dropping those levels would hide it.
+/// 1. Fine levels are dropped as long as the finest error is at most `floor`. The floor is an
+///    absolute number that the caller knows ([`FLOOR_MARGIN`] times round-off or solver tolerance)
+///    and is *never* guessed from the data: errors that stop falling above it are the signature of
+///    an inconsistent scheme, and dropping those levels would hide it.
 /// 2. The [`MOST_USED`] finest levels are kept.
-/// 3. Coarse levels are dropped while the pairwise rate that starts there differs from the finest rate by more than [`SPREAD`].
+/// 3. Coarse levels are dropped while the pairwise rate that starts there differs from the finest
+///    rate by more than [`SPREAD`].
 ///
-/// The range may end up shorter than any fit needs; the judge deals with that. Errors must be positive and finite: a
-/// NaN rate drops every level before it.
+/// The range may end up shorter than any fit needs; the judge deals with that. Errors must be
+/// positive and finite: a NaN rate drops every level before it.
 pub fn asymptotic_range(levels: &[Level], floor: f64) -> Range<usize> {
     let end = levels
         .iter()
@@ -43,9 +48,11 @@ pub(crate) fn changes(rates: &[f64]) -> Vec<f64> {
     rates.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
-/// How far the rates scatter: the largest cancelling part of two consecutive changes of opposite sign.
+/// How far the rates scatter: the largest cancelling part of two consecutive changes of opposite
+/// sign.
 ///
-/// Pollution, plateaus and terms of another order change the rates one way and have a scatter of zero; noise changes them to and fro.
+/// Pollution, plateaus and terms of another order change the rates one way and have a scatter of
+/// zero; noise changes them to and fro.
 pub fn scatter(rates: &[f64]) -> f64 {
     let cancelled = |pair: &[f64]| {
         if pair[0] * pair[1] < 0.0 {

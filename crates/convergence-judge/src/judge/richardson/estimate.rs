@@ -8,10 +8,12 @@ use super::{Gci, growth, observed_order};
 use crate::judge::fit::{FLOOR_MARGIN, Level};
 use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason};
 
-/// The least uncertainty of the only rate of three values: half the distance between two integer orders.
+/// The least uncertainty of the only rate of three values: half the distance between two integer
+/// orders.
 pub const DOUBT_OF_A_SINGLE_RATE: f64 = 0.5;
 
-/// Round-off of a value of size 1 that was summed over a mesh, like [`ROUND_OFF_FLOOR`](crate::judge::verdict::ROUND_OFF_FLOOR).
+/// Round-off of a value of size 1 that was summed over a mesh, like
+/// [`ROUND_OFF_FLOOR`](crate::judge::verdict::ROUND_OFF_FLOOR).
 const ROUND_OFF: f64 = 1e-13;
 
 /// Ratios that differ by less are equal.
@@ -73,7 +75,8 @@ pub enum Refusal {
 pub struct Bar {
     /// Observed rate at h → 0.
     pub rate: f64,
-    /// Its interval: that of the rule; for three values [`DOUBT_OF_A_SINGLE_RATE`] below and above both the rate and the order claimed.
+    /// Its interval: that of the rule; for three values [`DOUBT_OF_A_SINGLE_RATE`] below and above
+    /// both the rate and the order claimed.
     pub rate_interval: [f64; 2],
     /// Estimated error of the finest value, finest value - limit: it has a sign.
     pub error: f64,
@@ -88,7 +91,8 @@ pub struct Bar {
 /// What values say about their limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// The rule's judgement of the reduced differences. Its level k, from 0, is the difference of the values k and k + 1.
+    /// The rule's judgement of the reduced differences. Its level k, from 0, is the difference of
+    /// the values k and k + 1.
     pub judged: RateVerdict,
     /// The bar of the finest value.
     pub bar: Result<Bar, Refusal>,
@@ -115,7 +119,8 @@ impl Estimator {
         })
     }
 
-    /// Differences up to this floor are not used. The default is [`FLOOR_MARGIN`] times 1e-13 of the largest value.
+    /// Differences up to this floor are not used. The default is [`FLOOR_MARGIN`] times 1e-13 of
+    /// the largest value.
     ///
     /// For values printed with six digits, set a thousand units of the sixth.
     ///
@@ -159,7 +164,8 @@ impl Estimator {
         Estimate { judged, bar, gci }
     }
 
-    /// The same without a claimed order: limit and index use the observed one, and nothing is confirmed.
+    /// The same without a claimed order: limit and index use the observed one, and nothing is
+    /// confirmed.
     pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
         let judged = self.estimate(values, f64::NAN).judged;
         let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
@@ -194,7 +200,8 @@ fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
     }
 }
 
-/// The differences as if all ratios equalled the last one, each at the finer of its steps; see the [module](super).
+/// The differences as if all ratios equalled the last one, each at the finer of its steps; see the
+/// [module](super).
 pub(super) fn reduced(values: &[Value], rate: f64) -> Vec<Level> {
     let ratio = |pair: &[Value]| pair[0].step / pair[1].step;
     let Some(last) = values.windows(2).last().map(ratio) else {
@@ -233,7 +240,8 @@ fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
     reduced(values, crossing(excess, RATES).unwrap_or(start))
 }
 
-/// The zero of a function that falls from above zero to below it, by false position (Illinois); `None` if it has no value.
+/// The zero of a function that falls from above zero to below it, by false position (Illinois);
+/// `None` if it has no value.
 pub(crate) fn crossing(
     f: impl Fn(f64) -> Option<f64>,
     [mut low, mut high]: [f64; 2],
@@ -256,7 +264,8 @@ pub(crate) fn crossing(
     Some(middle)
 }
 
-/// Whether the interval of the rule means something: its reason may concern the claim, but not the levels.
+/// Whether the interval of the rule means something: its reason may concern the claim, but not the
+/// levels.
 fn asymptotic(reason: Reason) -> Result<(), Refusal> {
     match reason {
         Reason::Agrees
@@ -270,7 +279,8 @@ fn asymptotic(reason: Reason) -> Result<(), Refusal> {
     }
 }
 
-/// Observed rate and its interval, for differences that fall as the rule requires, without a change of sign.
+/// Observed rate and its interval, for differences that fall as the rule requires, without a change
+/// of sign.
 fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refusal> {
     let differences: Vec<f64> = values
         .windows(2)
@@ -318,7 +328,8 @@ fn bar(
     let [before, finest] = [values[values.len() - 2], values[values.len() - 1]];
     let (difference, ratio) = (before.value - finest.value, before.step / finest.step);
     let size = |rate: f64| difference.abs() / growth(ratio, rate);
-    // If the difference of two values scatters by S, the distance of Richardson's estimate from the error scatters by this.
+    // If the difference of two values scatters by S, the distance of Richardson's estimate from the
+    // error scatters by this.
     let power = ratio.powf(rate);
     let scatter = scatter * SQRT_2 * power / power.hypot(1.0);
     let rounding = round_off * (1.0 + 2.0 / growth(ratio, rate_interval[0]));

@@ -1,4 +1,5 @@
-//! What may be the cause where a claim does not pass: laws that no model of the rule has. Advice, no part of the verdict.
+//! What may be the cause where a claim does not pass: laws that no model of the rule has. Advice,
+//! no part of the verdict.
 
 use crate::judge::fit::{Level, POLLUTION_EXPONENTS};
 
@@ -8,7 +9,8 @@ const EXPLAINED: f64 = 1e-3;
 /// Least share by which a logarithm changes the errors between the first level and the last.
 const LEAST_CHANGE: f64 = 0.05;
 
-/// Numbers of levels that are explained: with fewer two constants explain too much, and no table of errors has more.
+/// Numbers of levels that are explained: with fewer two constants explain too much, and no table of
+/// errors has more.
 const EXPLAINED_LEVELS: std::ops::RangeInclusive<usize> = 4..=30;
 
 /// A law that explains the errors and the order claimed.
@@ -40,7 +42,8 @@ impl Cause {
         }
     }
 
-    /// The cause of errors that are not of this order as they stand; `None` if no such law explains them.
+    /// The cause of errors that are not of this order as they stand; `None` if no such law explains
+    /// them.
     ///
     /// * `doubt`: the share of the error at a level that its digits leave open.
     pub fn of(levels: &[Level], order: f64, doubt: impl Fn(usize) -> f64) -> Option<Self> {

@@ -36,6 +36,11 @@ impl PowerLaw {
     }
 }
 
+/// A rate, or several, with the claim about it: the words of every report.
+pub fn against_claim(rate: &str, claim: &str) -> String {
+    format!("{rate}, claimed {claim}")
+}
+
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RateVerdict {
@@ -45,23 +50,31 @@ pub struct RateVerdict {
     /// Half-width of the band about the order.
     #[serde(deserialize_with = "nan")]
     pub tolerance: f64,
-    /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next to a level without a result.
+    /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next
+    /// to a level without a result.
     #[serde(deserialize_with = "nans")]
     pub pairwise: Vec<f64>,
-    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): present whenever three levels above the floor have positive errors,
-    /// whatever the verdict. If the asymptotic range is shorter, it is the rate of the three finest of them.
+    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): present whenever
+    /// three levels above the floor have positive errors, whatever the verdict. If the asymptotic
+    /// range is shorter, it is the rate of the three finest of them.
     pub fitted: Option<f64>,
-    /// The constant C of error = C step^rate for that rate: the curve passes through the error of the finest level `used`.
+    /// The constant C of error = C step^rate for that rate: the curve passes through the error of
+    /// the finest level `used`.
     pub constant: Option<f64>,
-    /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is another one.
+    /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is
+    /// another one.
     #[serde(deserialize_with = "nan_pair")]
     pub interval: Option<[f64; 2]>,
-    /// Limit of the finest pairwise rates, [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the interval; it is not judged.
+    /// Limit of the finest pairwise rates,
+    /// [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the
+    /// interval; it is not judged.
     pub extrapolated: Option<f64>,
-    /// Indices of the levels that the fit used; empty if there was no fit. Levels without a result in this range were not used.
+    /// Indices of the levels that the fit used; empty if there was no fit. Levels without a result
+    /// in this range were not used.
     #[serde(default)]
     pub used: Range<usize>,
-    /// Levels that the fit did not use, coarsest first, each with the reason: a table of errors should mark them.
+    /// Levels that the fit did not use, coarsest first, each with the reason: a table of errors
+    /// should mark them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
     /// The outcome.
@@ -88,8 +101,8 @@ impl RateVerdict {
         })
     }
 
-    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is narrow; `None` without
-    /// one. The levels follow unless all were used.
+    /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is
+    /// narrow; `None` without one. The levels follow unless all were used.
     ///
     /// * `most`: the largest number of decimals.
     pub fn found(&self, most: usize) -> Option<String> {
@@ -131,14 +144,16 @@ impl RateVerdict {
         format!("{}, not {}", order_text(self.order), others.join(" or "))
     }
 
+    /// The rate with a claim: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01`.
+    ///
+    /// * `most`: the largest number of decimals.
+    pub fn against(&self, most: usize) -> String {
+        against_claim(&self.rate_in_words(most), &self.claim())
+    }
+
     /// Rate, claim and reason on one line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        format!(
-            "{}, claimed {}: {}",
-            self.rate_in_words(RATE_PLACES),
-            self.claim(),
-            self.because
-        )
+        format!("{}: {}", self.against(RATE_PLACES), self.because)
     }
 
     /// What the reason means, its cause if one is known, and what to do; `None` for a pass.
@@ -181,7 +196,8 @@ impl RateVerdict {
         format!("from levels {first} to {last} of {levels}")
     }
 
-    /// Extends the verdict on the levels with a result to all levels: levels without one make it fail, and the rate is that of the others.
+    /// Extends the verdict on the levels with a result to all levels: levels without one make it
+    /// fail, and the rate is that of the others.
     ///
     /// * `self`: the verdict on the levels with a result.
     /// * `names`: of all levels.
@@ -229,11 +245,7 @@ impl RateVerdict {
 
     /// The same rate with a reason from another rule than that of its levels.
     pub fn with_reason(self, kind: Reason, because: &str) -> Self {
-        let rest = self
-            .reason
-            .strip_prefix(self.kind.text())
-            .unwrap_or_default();
-        let reason = format!("{because}{rest}");
+        let reason = format!("{because}{}", self.numbers());
         let cause = self.cause.filter(|_| !kind.verdict().is_pass());
         Self {
             verdict: kind.verdict(),
@@ -242,6 +254,20 @@ impl RateVerdict {
             reason,
             cause,
             ..self
+        }
+    }
+
+    /// What follows the reason: the interval and the claim; empty without an interval.
+    fn numbers(&self) -> String {
+        let Some(interval) = self.interval else {
+            return String::new();
+        };
+        let interval = interval_text(interval, RATE_PLACES);
+        let rate = format!("{interval} {}", self.levels_in_words());
+        if self.kind == Reason::ClaimUnusable {
+            format!(": {rate}")
+        } else {
+            format!(": {}", against_claim(&rate, &self.claim()))
         }
     }
 
@@ -268,12 +294,9 @@ impl RateVerdict {
         );
         let reason = match self.interval {
             Some(interval) => {
-                let rate = interval_text(interval, RATE_PLACES);
-                format!(
-                    "{lacking}; {rate} {}, claimed {}",
-                    self.levels_in_words(),
-                    self.claim()
-                )
+                let interval = interval_text(interval, RATE_PLACES);
+                let rate = format!("{interval} {}", self.levels_in_words());
+                format!("{lacking}; {}", against_claim(&rate, &self.claim()))
             }
             None => lacking.clone(),
         };
@@ -304,16 +327,7 @@ impl RateVerdict {
             reason: kind.text().to_owned(),
             cause: reading.cause(order).filter(|_| !kind.verdict().is_pass()),
         };
-        if let Some(interval) = found.interval {
-            found.reason += &format!(
-                ": {} {}",
-                interval_text(interval, RATE_PLACES),
-                found.levels_in_words()
-            );
-            if kind != Reason::ClaimUnusable {
-                found.reason += &format!(", claimed {}", found.claim());
-            }
-        }
+        found.reason += &found.numbers();
         found
     }
 }

@@ -10,9 +10,10 @@ use crate::judge::fit::{
     Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
 
-/// A sequence of errors, read once and compared with any claim.
+/// A sequence of errors, read once and held against any number of claims: see
+/// [`Judge::read`](super::Judge::read).
 #[derive(Debug, Clone)]
-pub(crate) struct Reading<'a> {
+pub struct Reading<'a> {
     sequence: &'a [Level],
     /// Number of levels.
     pub(super) levels: usize,
@@ -20,9 +21,11 @@ pub(crate) struct Reading<'a> {
     pub(super) pairwise: Vec<f64>,
     /// The asymptotic range.
     range: Range<usize>,
-    /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels above the floor.
+    /// Levels of the fit: the asymptotic range or, if that is shorter, the three finest levels
+    /// above the floor.
     pub(super) used: Range<usize>,
-    pub(crate) fit: Option<RateInterval>,
+    /// The rate at h → 0 with its interval; `None` if the levels have none.
+    pub fit: Option<RateInterval>,
     /// What makes rates impossible to form.
     unusable: Option<Reason>,
 }
@@ -70,10 +73,11 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The constant C of error = C step^rate for the fitted rate, through the finest level that the fit uses.
+    /// The constant C of error = C step^rate for the fitted rate, through the finest level that the
+    /// fit uses.
     ///
-    /// The rate is that at h → 0, to which the finest level is the closest; the curve of a constant fitted to all
-    /// levels would miss them all.
+    /// The rate is that at h → 0, to which the finest level is the closest; the curve of a constant
+    /// fitted to all levels would miss them all.
     pub(super) fn constant(&self) -> Option<f64> {
         let finest = self.sequence[self.used.clone()].last()?;
         // In logarithms: a power of a small step may underflow.
@@ -100,7 +104,8 @@ impl<'a> Reading<'a> {
         };
         let finest = self.rates().last().copied().unwrap_or(f64::NAN);
         let is_far = |level: &usize| (self.pairwise[*level] - finest).abs() > SPREAD;
-        // The level next to the range was dropped for its rate, or because the range is as long as it may be.
+        // The level next to the range was dropped for its rate, or because the range is as long as
+        // it may be.
         let because = match coarse.checked_sub(1) {
             Some(next) if !is_far(&next) => Aside::BeyondFive,
             _ => Aside::PreAsymptotic,
@@ -138,7 +143,8 @@ impl<'a> Reading<'a> {
         match compare(interval, order, tolerance) {
             Reason::TooLow if grows => Reason::ErrorGrows,
             Reason::TooLow => Reason::TooLow,
-            // The finest error is not smaller, which scatter may explain: there is no order that could agree.
+            // The finest error is not smaller, which scatter may explain: there is no order that
+            // could agree.
             _ if grows => Reason::IntervalTooWide,
             Reason::Agrees if trend::emerges(rates, order, tolerance) => Reason::NotAsymptotic,
             reason => reason,

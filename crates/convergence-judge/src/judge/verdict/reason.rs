@@ -2,7 +2,8 @@
 
 use super::words::Verdict;
 
-/// The reason for a verdict; each reason has one verdict, and they are in the order pass, fail, inconclusive.
+/// The reason for a verdict; each reason has one verdict, and they are in the order pass, fail,
+/// inconclusive.
 #[derive(
     Debug,
     Clone,
@@ -65,7 +66,8 @@ pub enum Reason {
     LeftOver,
     /// All steps are nearly the same.
     LevelsTooClose,
-    /// The interval is wider than the band and overlaps it, or the rates scatter so much that a growing error proves nothing.
+    /// The interval is wider than the band and overlaps it, or the rates scatter so much that a
+    /// growing error proves nothing.
     IntervalTooWide,
     /// The interval is narrow enough, but holds an end of the band.
     AtTheEdge,
@@ -125,7 +127,8 @@ impl Reason {
         Self::AtTheEdge,
     ];
 
-    /// The verdict that goes with this reason: first the one that passes, then those that fail, then the others.
+    /// The verdict that goes with this reason: first the one that passes, then those that fail,
+    /// then the others.
     pub fn verdict(self) -> Verdict {
         match self {
             Self::Agrees => Verdict::Pass,
@@ -216,7 +219,8 @@ impl Reason {
         }
     }
 
-    /// The reason in brief, as after a rate and its claim: `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
+    /// The reason in brief, as after a rate and its claim:
+    /// `1.50 (1.48 to 1.52), claimed 2 ± 0.05: too low`.
     pub fn brief(self) -> &'static str {
         match self {
             Self::TooLow => "too low",

@@ -5,19 +5,23 @@ use crate::judge::fit::{changes, scatter};
 /// A fall is still going on if the finest rate is lower than the one before by more than this.
 const STILL_FALLING: f64 = 0.1;
 
-/// Least growth of a change of the rate over the one before, of the same sign, that reveals a term of lower order.
+/// Least growth of a change of the rate over the one before, of the same sign, that reveals a term
+/// of lower order.
 ///
-/// For `e = h^p (1 + f h^-δ)` on halved steps the changes grow by `2^δ (1 + s) / (1 + 4^δ s)`, s = f h^-δ in the middle of the coarsest of the
-/// three pairs of levels. For δ = 1/2 that is more than 1.1 up to s = 0.4; pollution 1 + 3 h^(1/3), still far from fading, makes them grow by less.
+/// For `e = h^p (1 + f h^-δ)` on halved steps the changes grow by `2^δ (1 + s) / (1 + 4^δ s)`, s =
+/// f h^-δ in the middle of the coarsest of the three pairs of levels. For δ = 1/2 that is more than
+/// 1.1 up to s = 0.4; pollution 1 + 3 h^(1/3), still far from fading, makes them grow by less.
 const GROWTH: f64 = 1.1;
 
 /// Least growth over a change of the other sign: noise makes changes of similar size to and fro.
 const TURN: f64 = 4.0;
 
-/// Shares of the tolerance above which changes count: three in a row, two in a row, one against fading pollution.
+/// Shares of the tolerance above which changes count: three in a row, two in a row, one against
+/// fading pollution.
 const DEPARTED: [f64; 3] = [1.0 / 40.0, 1.0 / 6.0, 1.0 / 10.0];
 
-/// Share of the tolerance by which the second of two rates may be farther from the order than the first.
+/// Share of the tolerance by which the second of two rates may be farther from the order than the
+/// first.
 const LEFT: f64 = 1.0 / 80.0;
 
 /// Whether the second change has the sign of the first and is larger by more than the factor.
@@ -25,11 +29,12 @@ fn larger(from: f64, to: f64, factor: f64) -> bool {
     from * to > 0.0 && to.abs() > factor * from.abs()
 }
 
-/// Whether the rates fell on each of the last two refinements, are still falling, and ended more than half an order below the claim, by more than
-/// scatter explains.
+/// Whether the rates fell on each of the last two refinements, are still falling, and ended more
+/// than half an order below the claim, by more than scatter explains.
 ///
-/// Pollution fades, so it does the opposite. Errors that level off above the round-off floor do this, for example if a coefficient differs
-/// between the scheme and the sources; dropping the levels where it shows would hide it. Rates that have come to rest are those of a lost order:
+/// Pollution fades, so it does the opposite. Errors that level off above the round-off floor do
+/// this, for example if a coefficient differs between the scheme and the sources; dropping the
+/// levels where it shows would hide it. Rates that have come to rest are those of a lost order:
 /// [`Reason::TooLow`](super::Reason::TooLow) says so, with the rate.
 pub fn falls_away(rates: &[f64], order: f64) -> bool {
     let [.., before, middle, finest] = rates else {
@@ -40,10 +45,12 @@ pub fn falls_away(rates: &[f64], order: f64) -> bool {
         && finest + 2.0 * scatter(rates) < order - 0.5
 }
 
-/// Whether the last changes of the rate grow; those of fading pollution shrink. A plateau, a wrong limit or a lower order is about to show.
+/// Whether the last changes of the rate grow; those of fading pollution shrink. A plateau, a wrong
+/// limit or a lower order is about to show.
 ///
-/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, but are leaving it at a growing pace. The behaviour of coarse levels is
-/// no excuse: only the last three changes count, and another level at the coarse end can add reasons but never remove one.
+/// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, but are leaving it at a growing
+/// pace. The behaviour of coarse levels is no excuse: only the last three changes count, and
+/// another level at the coarse end can add reasons but never remove one.
 pub fn departs(rates: &[f64], tolerance: f64) -> bool {
     let [three, two, one] = DEPARTED.map(|share| share * tolerance);
     let changes = changes(rates);
@@ -63,10 +70,12 @@ pub fn departs(rates: &[f64], tolerance: f64) -> bool {
             .is_some_and(|first| of_three(changes[first]))
 }
 
-/// Whether the rates of three or four levels, too few for [`departs`] to see, may be leaving the order.
+/// Whether the rates of three or four levels, too few for [`departs`] to see, may be leaving the
+/// order.
 ///
-/// Four levels: their two changes grow steadily. Three such changes are a departure; two may be chance, and a fifth level tells. Three levels: the
-/// second rate is farther from the order than the first.
+/// Four levels: their two changes grow steadily. Three such changes are a departure; two may be
+/// chance, and a fifth level tells. Three levels: the second rate is farther from the order than
+/// the first.
 pub(super) fn emerges(rates: &[f64], order: f64, tolerance: f64) -> bool {
     match (rates, &changes(rates)[..]) {
         (_, &[before, last]) => {
@@ -112,7 +121,8 @@ mod tests {
     #[test]
     fn a_departure_is_a_change_that_grows() {
         for (changes, tolerance, expected) in [
-            // Three in a row, each larger than the one before by more than 1.1, over more than a fortieth of the tolerance.
+            // Three in a row, each larger than the one before by more than 1.1, over more than a
+            // fortieth of the tolerance.
             (&[-1.0, -1.25, -1.5][..], 64.0, true),
             (&[1.0, 1.25, 1.5], 64.0, true),
             (&[-1.0, -1.25, -1.5], 149.0, true),

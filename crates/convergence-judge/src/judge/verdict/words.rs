@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// Outcome of a check. Ordered from good to bad: the maximum of several outcomes is the outcome of all.
+/// Outcome of a check. Ordered from good to bad: the maximum of several outcomes is the outcome of
+/// all.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
 )]

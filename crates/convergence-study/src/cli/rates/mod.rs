@@ -17,22 +17,25 @@ use crate::text::names::{did_you_mean, nearest, quoted};
 
 /// Judge a table of step sizes and errors made elsewhere
 ///
-/// The input may be tables, logs, lists or JSON. The step is the column that falls, or counts up, by regular ratios;
-/// errors are positive and fall; rates are recognised by their numbers. A line says how the table was read. Exit status
-/// 0 if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell or nothing is claimed, 2
-/// if the table cannot be read: then the message has the command that reads it.
+/// The input may be tables, logs, lists or JSON. The step is the column that falls, or counts up,
+/// by regular ratios; errors are positive and fall; rates are recognised by their numbers. A line
+/// says how the table was read. Exit status 0 if every rate with a claim agrees with its order, 1
+/// if one does not, the data cannot tell or nothing is claimed, 2 if the table cannot be read: then
+/// the message has the command that reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The table, - for standard input
     file: PathBuf,
-    /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may be repeated. Without one nothing passes
+    /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may
+    /// be repeated. Without one nothing passes
     #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
     order: Vec<Claimed>,
-    /// How far the rate may be from the order, above or below: 0 < T < 0.5, because bands of half an order around consecutive whole orders would overlap
+    /// How far the rate may be from the order, above or below: 0 < T < 0.5, because bands of half
+    /// an order around consecutive whole orders would overlap
     #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
-    /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors are not above E; 0
-    /// drops none
+    /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors
+    /// are not above E; 0 drops none
     ///
     /// A level above the floor is kept, and so are all levels coarser than it.
     #[arg(
@@ -45,7 +48,8 @@ pub struct Arguments {
     /// The column of the step, of a count or of levels: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
     step: Option<String>,
-    /// The columns of errors, by name or number, separated by commas; without it those whose numbers fall
+    /// The columns of errors, by name or number, separated by commas; without it those whose
+    /// numbers fall
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     /// Columns of values, which tend to an unknown limit: their differences are judged
@@ -57,7 +61,8 @@ pub struct Arguments {
     /// The column of the step counts cells, unknowns or steps in D dimensions: h = count^(-1/D)
     #[arg(long, value_name = "D", value_parser = dimension, allow_negative_numbers = true)]
     dim: Option<f64>,
-    /// The column of the step numbers the levels of refinement, each with a step R times as small: h = R^(-level)
+    /// The column of the step numbers the levels of refinement, each with a step R times as small:
+    /// h = R^(-level)
     #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
     ratio: Option<f64>,
     /// Columns without a claim count, too: then nothing passes
@@ -146,26 +151,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let estimator = Estimator::new(arguments.tolerance)?;
     let source = arguments.file.display().to_string();
-    let claims: String = arguments
-        .order
-        .iter()
-        .map(|claimed| format!(" --order {}", quoted(&claimed.text)))
-        .collect();
-    let choice = Choice {
-        step: arguments.step.clone(),
-        columns: arguments.columns.clone(),
-        values: arguments.values.clone(),
-        names: arguments.names.clone(),
-        claimed: arguments
-            .order
-            .iter()
-            .filter_map(|claimed| claimed.name.clone())
-            .collect(),
-        dim: arguments.dim,
-        ratio: arguments.ratio,
-        command: format!("{} rates {source}{claims}", project.command),
-    };
-    let table = RateTable::read_with(&arguments.file, &choice)?;
+    let table = RateTable::read_with(&arguments.file, &choice(project, arguments, &source))?;
     let judged = |(k, (column, claim)): (usize, (_, Claim))| {
         let column: &Column = column;
         let estimate = (k >= table.columns.len()).then(|| column.estimate(&estimator, claim.order));
@@ -207,6 +193,27 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         &shown::object(&findings),
         &shown::text(&findings, flags.quiet),
     )?)
+}
+
+/// What the arguments say about the table.
+///
+/// * `source`: the file, as the command that repeats the run names it.
+fn choice(project: &Project, arguments: &Arguments, source: &str) -> Choice {
+    let claims = arguments.order.iter();
+    let names = claims.clone().filter_map(|claimed| claimed.name.clone());
+    let options: String = claims
+        .map(|claimed| format!(" --order {}", quoted(&claimed.text)))
+        .collect();
+    Choice {
+        step: arguments.step.clone(),
+        columns: arguments.columns.clone(),
+        values: arguments.values.clone(),
+        names: arguments.names.clone(),
+        claimed: names.collect(),
+        dim: arguments.dim,
+        ratio: arguments.ratio,
+        command: format!("{} rates {source}{options}", project.command),
+    }
 }
 
 /// The columns to judge: errors, then values.

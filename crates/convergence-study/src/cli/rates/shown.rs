@@ -12,7 +12,7 @@ use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict};
+use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict, against_claim};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit_of};
@@ -46,11 +46,8 @@ impl JudgedColumn<'_> {
                 } else {
                     &self.rate.because
                 };
-                format!(
-                    "{}, claimed {}: {why}",
-                    self.rate.rate_in_words(MOST_PLACES),
-                    self.claim
-                )
+                let rate = self.rate.rate_in_words(MOST_PLACES);
+                format!("{}: {why}", against_claim(&rate, &self.claim.to_string()))
             }
             _ => self.shown().found(),
         };
@@ -141,7 +138,8 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
     text + "\n" + &last
 }
 
-/// What the reason means for a column, and what to do, using its numbers if they show more than the reason.
+/// What the reason means for a column, and what to do, using its numbers if they show more than the
+/// reason.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
     let general = rate.advice().unwrap_or_default();
@@ -278,8 +276,8 @@ fn sentence(findings: &Judgement<'_>) -> String {
     }
 }
 
-/// What `rates --format json` prints in addition to the verdict: rates as in `study --format json`, with the column's
-/// name as the norm's.
+/// What `rates --format json` prints in addition to the verdict: rates as in `study --format json`,
+/// with the column's name as the norm's.
 pub(super) fn object(findings: &Judgement<'_>) -> Value {
     let rate = |judged: &JudgedColumn<'_>| {
         let mut object = json!(judged.rate);
@@ -314,7 +312,8 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
     })
 }
 
-/// Writes figure, Markdown and JUnit XML, each atomically, and appends to the job summary of GitHub.
+/// Writes figure, Markdown and JUnit XML, each atomically, and appends to the job summary of
+/// GitHub.
 ///
 /// # Errors
 /// The error of the operating system, with the name of the file.
@@ -396,6 +395,10 @@ fn figure(findings: &Judgement<'_>) -> String {
     let guides = floor.into_iter().collect();
     convergence(
         Xy {
+            title: Some(format!(
+                "Errors over {}, and the lines of their rates",
+                findings.table.step
+            )),
             guides,
             ..Xy::of_errors(&findings.table.step)
         },

@@ -8,7 +8,8 @@ use super::names::Word;
 const SAME: f64 = 1e-5;
 /// Largest ratio between numbers that tend to a limit.
 const NEAR: f64 = 1.5;
-/// Errors fall at least by this factor from level to level if their column has a name like one of rates.
+/// Errors fall at least by this factor from level to level if their column has a name like one of
+/// rates.
 const STEEP: f64 = 0.72;
 
 /// A column, row by row.
@@ -60,8 +61,8 @@ impl Cells<'_> {
         self.halves.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The least ratio by which the column falls or grows, if all ratios are equal or its numbers are whole multiples
-    /// or fractions of one of them.
+    /// The least ratio by which the column falls or grows, if all ratios are equal or its numbers
+    /// are whole multiples or fractions of one of them.
     pub(super) fn regular(&self) -> Option<f64> {
         let mut values = self.values.clone();
         values.sort_by(f64::total_cmp);
@@ -99,7 +100,8 @@ impl Cells<'_> {
             && products().all(|product| product / least - 1.0 < SAME)
     }
 
-    /// The number of steps in which both fall or both grow, minus those in which one falls and the other grows.
+    /// The number of steps in which both fall or both grow, minus those in which one falls and the
+    /// other grows.
     pub(super) fn together(&self, other: &Self) -> f64 {
         let signs = self.values.windows(2).zip(other.values.windows(2));
         signs
@@ -107,8 +109,8 @@ impl Cells<'_> {
             .sum()
     }
 
-    /// Whether these are the rates or the reduction factors of an error, to its digits, on the finer or on the coarser
-    /// level of each pair.
+    /// Whether these are the rates or the reduction factors of an error, to its digits, on the
+    /// finer or on the coarser level of each pair.
     ///
     /// * `steps`: of the rows, the coarsest first.
     pub(super) fn derived_from(&self, error: &Self, steps: &[f64]) -> Option<Derived> {

@@ -25,8 +25,9 @@ pub struct Column {
 }
 
 impl Column {
-    /// Judges the errors. The interval, whatever is claimed, is wider by as much as rounding moves the finest rate. If
-    /// without rounding there would be a verdict, or if other digits could turn another verdict into a pass, the reason is missing digits.
+    /// Judges the errors. The interval, whatever is claimed, is wider by as much as rounding moves
+    /// the finest rate. If without rounding there would be a verdict, or if other digits could turn
+    /// another verdict into a pass, the reason is missing digits.
     pub fn judge(&self, judge: &Judge, claim: &Claim) -> RateVerdict {
         let used = asymptotic_range(&self.levels, judge.floor()).end;
         let finest_rate = pairwise_rates(&self.levels[..used])
@@ -113,7 +114,8 @@ impl Column {
         self.halves[k] + error.abs() * rate.max(0.0) * self.step_halves[k] / step
     }
 
-    /// The numbers that may have been rounded to the finest ones: each unchanged, or half a unit more or less.
+    /// The numbers that may have been rounded to the finest ones: each unchanged, or half a unit
+    /// more or less.
     fn corners(&self, rate: f64) -> Vec<Vec<Level>> {
         let mut corners = vec![self.levels.clone()];
         for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {

@@ -9,11 +9,12 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `TABLES.md` shows which. The
-//! numbers decide what a column is, and its name if they do not: the step falls, or grows if it is a count, by regular
-//! ratios; errors are positive and fall; rates are those of another column; values tend to a limit.
-//! [`RateTable::reading`] says in a line how the table was read. Ambiguous tables are refused, with the command that
-//! works. `NaN` and `inf` are errors; a column with one of them fails.
+//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `TABLES.md`
+//! shows which. The numbers decide what a column is, and its name if they do not: the step falls,
+//! or grows if it is a count, by regular ratios; errors are positive and fall; rates are those of
+//! another column; values tend to a limit. [`RateTable::reading`] says in a line how the table was
+//! read. Ambiguous tables are refused, with the command that works. `NaN` and `inf` are errors; a
+//! column with one of them fails.
 
 mod columns;
 mod digits;
@@ -36,7 +37,8 @@ pub use digits::Column;
 /// A table of errors, read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateTable {
-    /// The step: the name of its column, `cells^(-1/2)` if the column counts, `2^(-level)` if it numbers the levels.
+    /// The step: the name of its column, `cells^(-1/2)` if the column counts, `2^(-level)` if it
+    /// numbers the levels.
     pub step: String,
     /// The errors.
     pub columns: Vec<Column>,
@@ -69,7 +71,8 @@ pub struct Choice {
     pub dim: Option<f64>,
     /// Ratio R > 1 of the steps of consecutive levels: h = R^(-level).
     pub ratio: Option<f64>,
-    /// The command that reads the table, for advice; empty if unknown. Advice is given only if it reads the table.
+    /// The command that reads the table, for advice; empty if unknown. Advice is given only if it
+    /// reads the table.
     pub command: String,
 }
 
@@ -77,7 +80,8 @@ impl RateTable {
     /// Reads a file, with the columns that `choice` selects; `-` is standard input.
     ///
     /// # Errors
-    /// [`InputError`] with line, column and the name of the table's column; also for a choice of missing columns.
+    /// [`InputError`] with line, column and the name of the table's column; also for a choice of
+    /// missing columns.
     pub fn read_with(path: impl AsRef<Path>, choice: &Choice) -> Result<Self, InputError> {
         const STANDARD_INPUT: &str = "standard input";
         let path = path.as_ref();

@@ -17,7 +17,8 @@ pub(super) enum Word {
     Unknown,
 }
 
-/// Known words of one kind, each with its place in the list; a table may have a hundred thousand names to look up.
+/// Known words of one kind, each with its place in the list; a table may have a hundred thousand
+/// names to look up.
 type Words = LazyLock<HashMap<&'static str, usize>>;
 
 fn ranked(list: &'static str) -> HashMap<&'static str, usize> {
@@ -35,7 +36,8 @@ static ERRORS: Words = LazyLock::new(|| ranked(ERROR_WORDS));
 
 const STEP_WORDS: &str = "h dt dx dy dz hmax hmin hk diam diameter cellsize tau τ step stepsize meshsize meshwidth gridsize \
     gridspacing spacing timestep timestepsize deltat deltax deltay δt δx δy ∆t ∆x";
-/// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns, last here, this holds only in the limit.
+/// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns, last here, this holds
+/// only in the limit.
 const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
     pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof unknowns kdofs \
     mdofs finiteelementunknowns";
@@ -174,7 +176,8 @@ fn without_unit(name: &str) -> &str {
     before.filter(|before| !before.is_empty()).unwrap_or(name)
 }
 
-/// Position of the name wanted: as written, or the only such name without its unit, or a nameless column by its number.
+/// Position of the name wanted: as written, or the only such name without its unit, or a nameless
+/// column by its number.
 pub(crate) fn position<'n>(
     names: impl Iterator<Item = &'n str> + Clone,
     wanted: &str,

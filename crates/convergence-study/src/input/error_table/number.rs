@@ -17,10 +17,11 @@ pub(super) struct Number {
     place: Option<(i32, Option<i32>)>,
 }
 
-/// Half a unit of the last printed place of each number of a column; 0 for whole and for exact numbers.
+/// Half a unit of the last printed place of each number of a column; 0 for whole and for exact
+/// numbers.
 ///
-/// The row with the most decimals shows the place to which all are printed: a program that prints 0.25 and 0.0625 omits
-/// zeros.
+/// The row with the most decimals shows the place to which all are printed: a program that prints
+/// 0.25 and 0.0625 omits zeros.
 pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
     let places = |scaled: bool| {
         let places = column.iter().flatten().filter_map(|number| number.place);
@@ -48,8 +49,8 @@ pub(super) fn is_dash(cell: &str) -> bool {
 
 /// The value of a cell; `None` if it is not a number.
 ///
-/// * `decimal_comma`: whether `0,1` may be a number, because commas do not separate cells. `1,024` is refused: it may
-///   be 1024.
+/// * `decimal_comma`: whether `0,1` may be a number, because commas do not separate cells. `1,024`
+///   is refused: it may be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     // Most cells that are no number are words, perhaps a hundred thousand; two numbers are not one.
     let is_other = || {
@@ -99,7 +100,8 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     }
 }
 
-/// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number 0.1 twice.
+/// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number
+/// 0.1 twice.
 fn value(text: &str) -> Option<Number> {
     let integer = |text: &str| text.trim_matches(['(', ')']).parse::<i32>().ok();
     if let Some((above, below)) = text
@@ -131,7 +133,8 @@ fn value(text: &str) -> Option<Number> {
     }
 }
 
-/// A number of C or Fortran; Fortran's exponents begin with D or, with three digits, with their sign.
+/// A number of C or Fortran; Fortran's exponents begin with D or, with three digits, with their
+/// sign.
 fn real(text: &str) -> Option<Number> {
     let decimals = |text: &str| {
         text.split_once('.')

@@ -115,7 +115,8 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
 /// The name that a text ends with, before marks.
 fn name_before(text: &str) -> &str {
     let words = text.trim_end_matches(is_mark);
-    // The search for a name is bounded, because a text may have a hundred thousand words before its next number.
+    // The search for a name is bounded, because a text may have a hundred thousand words before its
+    // next number.
     let start =
         (words.len().saturating_sub(LONGEST_LABEL)..).find(|at| words.is_char_boundary(*at));
     let words = words[start.unwrap_or(0)..]
@@ -167,7 +168,8 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
     grid
 }
 
-/// A row for each repetition of the names. Names that a solver prints more often than the step are left out.
+/// A row for each repetition of the names. Names that a solver prints more often than the step are
+/// left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
     let mut places: HashMap<&str, usize> = HashMap::new();
     let mut counts: Vec<(&'t str, usize)> = vec![];

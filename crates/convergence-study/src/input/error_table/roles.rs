@@ -1,4 +1,5 @@
-//! Which columns are errors, values and rates: decided by their numbers, and by their names if the numbers do not decide.
+//! Which columns are errors, values and rates: decided by their numbers, and by their names if the
+//! numbers do not decide.
 
 use std::collections::HashSet;
 use std::hash::Hash;
@@ -22,7 +23,8 @@ enum Holds {
     Doubtful(String),
 }
 
-/// The first key whose name an earlier key has. Tables may have many thousand columns: no name is compared with all others.
+/// The first key whose name an earlier key has. Tables may have many thousand columns: no name is
+/// compared with all others.
 fn repeated<K: Copy, N: Eq + Hash>(
     mut keys: impl Iterator<Item = K>,
     name: impl Fn(K) -> N,
@@ -31,7 +33,8 @@ fn repeated<K: Copy, N: Eq + Hash>(
     keys.find(|key| !seen.insert(name(*key)))
 }
 
-/// Reads the step and the chosen errors. A refusal has the commands that read the table and find its claimed columns.
+/// Reads the step and the chosen errors. A refusal has the commands that read the table and find
+/// its claimed columns.
 pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
     let table = text::read(text);
     let reads = |choice: &Choice| {
@@ -71,6 +74,31 @@ pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable,
     })
 }
 
+/// The k-th column over the steps.
+///
+/// * `step_halves`: half the last digit of each step as printed; 0 where it is known exactly.
+fn column(
+    reader: &TableReader<'_>,
+    k: usize,
+    steps: &[f64],
+    step_halves: &[f64],
+) -> Result<Column, InputError> {
+    let Cells { name, halves, .. } = &reader.columns[k];
+    let level = |(row, step): (usize, &f64)| {
+        Ok(Level {
+            step: *step,
+            error: reader.must(row, k)?,
+        })
+    };
+    let levels = steps.iter().enumerate().map(level);
+    Ok(Column {
+        name: name.clone(),
+        levels: levels.collect::<Result<_, InputError>>()?,
+        halves: halves.clone(),
+        step_halves: step_halves.to_vec(),
+    })
+}
+
 /// Reads a table with one choice.
 fn attempt(
     text: &str,
@@ -98,26 +126,7 @@ fn attempt(
     } else {
         reader.columns[step.column].halves.clone()
     };
-    let column = |&k: &usize| {
-        let Cells { name, halves, .. } = &reader.columns[k];
-        let level = |(row, step): (usize, &f64)| {
-            Ok(Level {
-                step: *step,
-                error: reader.must(row, k)?,
-            })
-        };
-        let levels = steps
-            .iter()
-            .enumerate()
-            .map(level)
-            .collect::<Result<_, InputError>>()?;
-        Ok(Column {
-            name: name.clone(),
-            levels,
-            halves: halves.clone(),
-            step_halves: step_halves.clone(),
-        })
-    };
+    let column = |&k: &usize| column(&reader, k, &steps, &step_halves);
     let parts = [
         ("errors", reader.quoted(&errors)),
         ("values", reader.quoted(&values)),
@@ -215,8 +224,9 @@ impl TableReader<'_> {
         Ok([errors, values])
     }
 
-    /// The columns of errors; the others are left out, each with the reason. Refuses to judge without errors, or if a
-    /// column may be an error but does not fall and no name says which columns are errors.
+    /// The columns of errors; the others are left out, each with the reason. Refuses to judge
+    /// without errors, or if a column may be an error but does not fall and no name says which
+    /// columns are errors.
     fn found(
         &mut self,
         step: &Step,

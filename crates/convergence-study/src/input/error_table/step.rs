@@ -94,7 +94,8 @@ impl TableReader<'_> {
             .collect()
     }
 
-    /// The step by its name, else the count closest to it, else the column that falls by regular ratios.
+    /// The step by its name, else the count closest to it, else the column that falls by regular
+    /// ratios.
     fn natural_step(&self) -> Result<(usize, String), Refusal> {
         let steps = self.free(|k, word| word == Word::Step || self.is_misnamed(k));
         if let [first, others @ ..] = &steps[..] {
@@ -145,8 +146,8 @@ impl TableReader<'_> {
         }
     }
 
-    /// The only column of unknown name that falls by regular ratios; of several the first, unless another has a smaller
-    /// ratio.
+    /// The only column of unknown name that falls by regular ratios; of several the first, unless
+    /// another has a smaller ratio.
     fn regular_step(&self) -> Result<(usize, String), Refusal> {
         let first = self.columns.iter().position(|column| !column.is_index);
         let unknown = self.free(|k, word| word == Word::Unknown && !self.columns[k].is_index);
@@ -230,7 +231,8 @@ impl TableReader<'_> {
             .offering([self.offer(|choice| choice.dim = None)]))
     }
 
-    /// The refusal of a count without its dimension: regular columns, which may be the step, are offered first.
+    /// The refusal of a count without its dimension: regular columns, which may be the step, are
+    /// offered first.
     fn without_dimension(&self, count: usize) -> Refusal {
         let Cells { name, word, .. } = &self.columns[count];
         let is_step =
@@ -256,10 +258,12 @@ impl TableReader<'_> {
         Refusal::from(refusal).offering(steps.map(|k| self.with_step(k)).chain(dims))
     }
 
-    /// Whether a column counts: by its name, or because it has whole numbers that grow while errors fall.
+    /// Whether a column counts: by its name, or because it has whole numbers that grow while errors
+    /// fall.
     fn is_count(&self, column: usize) -> bool {
         let cells = &self.columns[column];
-        // The number of columns that fall with it, minus those that grow or, like it, are undecided.
+        // The number of columns that fall with it, minus those that grow or, like it, are
+        // undecided.
         let alike = |other: &Cells<'_>| match other.is_whole()
             || other.values.iter().any(|value| !(*value > 0.0))
         {
@@ -279,8 +283,8 @@ impl TableReader<'_> {
         }
     }
 
-    /// Whether a column has the name of a count and numbers of a step: they fall with the errors, or are below 1, and
-    /// are not whole. (Thousands of unknowns may be below 1, but grow.)
+    /// Whether a column has the name of a count and numbers of a step: they fall with the errors,
+    /// or are below 1, and are not whole. (Thousands of unknowns may be below 1, but grow.)
     fn is_misnamed(&self, column: usize) -> bool {
         let cells = &self.columns[column];
         if !matches!(cells.word, Word::Count(_)) || cells.is_whole() {
@@ -290,14 +294,15 @@ impl TableReader<'_> {
         with_errors > 0.0 || with_errors == 0.0 && cells.values.iter().any(|value| *value < 1.0)
     }
 
-    /// Whether a column has the name of a count and whole numbers that fall with the errors. If they are a count after
-    /// all, the errors grow: only the user can tell.
+    /// Whether a column has the name of a count and whole numbers that fall with the errors. If
+    /// they are a count after all, the errors grow: only the user can tell.
     fn falls_like_a_step(&self, column: usize) -> bool {
         let cells = &self.columns[column];
         matches!(cells.word, Word::Count(_)) && cells.is_whole() && self.with_errors(column) > 0.0
     }
 
-    /// The number of columns of errors, by name or else of unknown name, that fall with a column, minus those that do not.
+    /// The number of columns of errors, by name or else of unknown name, that fall with a column,
+    /// minus those that do not.
     fn with_errors(&self, column: usize) -> f64 {
         let cells = &self.columns[column];
         let is_error =

@@ -4,7 +4,8 @@ use super::names::Word;
 use super::number::{is_dash, number};
 use super::pairs::{self, RawTable};
 
-/// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh ended lines with \r.
+/// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
+/// ended lines with \r.
 const MARKS: [(&str, &str); 9] = [
     ("\u{feff}", ""),
     ("\r\n", "\n"),
@@ -60,7 +61,8 @@ pub(super) fn plain(text: &str) -> String {
     }
 }
 
-/// Finds the table in a text that has been made [`plain`]: names with numbers after them, or rows below names.
+/// Finds the table in a text that has been made [`plain`]: names with numbers after them, or rows
+/// below names.
 pub(super) fn read(text: &str) -> RawTable<'_> {
     if let Some(table) = pairs::read(text, true) {
         return table;
@@ -98,22 +100,10 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
         .or_else(|| numbered(&heads, width))
         .or_else(|| names(&heads, &rows, separator, width))
     {
-        None if is_turned(&rows) => {
-            let named = usize::from(number(rows[0][0], true).is_none());
-            let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
-            let names = if named == 1 {
-                column(0)
-            } else {
-                vec![&text[..0]; rows.len()]
-            };
-            RawTable {
-                names,
-                rows: (named..width).map(column).collect(),
-                ..table
-            }
-        }
+        None if is_turned(&rows) => turned(&rows, width, table),
         names => {
-            // If the number of words is not that of the columns, it says how many columns there should be.
+            // If the number of words is not that of the columns, it says how many columns there
+            // should be.
             let words = heads
                 .iter()
                 .map(|head| split(head, separator).len())
@@ -125,6 +115,22 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
                 ..table
             }
         }
+    }
+}
+
+/// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
+fn turned<'t>(rows: &[Vec<&'t str>], width: usize, table: RawTable<'t>) -> RawTable<'t> {
+    let named = usize::from(number(rows[0][0], true).is_none());
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
+    let names = if named == 1 {
+        column(0)
+    } else {
+        vec![&rows[0][0][..0]; rows.len()]
+    };
+    RawTable {
+        names,
+        rows: (named..width).map(column).collect(),
+        ..table
     }
 }
 
@@ -178,7 +184,7 @@ fn sorted(text: &str) -> Lines<'_> {
             _ if is_row && !is_comment(&line) => rows.push((line, cells)),
             // A row with a word in place of a number is one, so that the word is refused.
             false if begins > 0 && 2 * begins >= cells.len() && !is_comment(&line) => {
-                rows.push((line, cells))
+                rows.push((line, cells));
             }
             true => heads.push(line),
             false => {}
@@ -192,7 +198,8 @@ fn sorted(text: &str) -> Lines<'_> {
     }
 }
 
-/// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two cells.
+/// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
+/// cells.
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     // A frame has an edge on either side; without one, the last cell may be blank.
     let framed = line
@@ -228,7 +235,8 @@ fn cell(text: &str) -> &str {
         .trim()
 }
 
-/// The cells of a line in which each number is in quotes, if some stand above a number without: they are names.
+/// The cells of a line in which each number is in quotes, if some stand above a number without:
+/// they are names.
 fn names_in_quotes<'t>(
     line: &'t str,
     below: &str,
@@ -252,7 +260,8 @@ fn names_in_quotes<'t>(
     (is_head && names.iter().rev().zip(cells.iter().rev()).any(is_above)).then_some(names)
 }
 
-/// The separator of a table: the first that leaves no two numbers in one cell of its first row; `None` for blanks.
+/// The separator of a table: the first that leaves no two numbers in one cell of its first row;
+/// `None` for blanks.
 fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) -> Option<char> {
     let is_number = |text: &str| number(text, true).is_some();
     let leads = |line: &&str| {
@@ -287,9 +296,11 @@ fn is_rule(line: &str) -> bool {
             > 2
 }
 
-/// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns below which they stand.
+/// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns
+/// below which they stand.
 ///
-/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many times as long as the text.
+/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many
+/// times as long as the text.
 fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
     let span = |line: &str, cell: &str| {
         [0, cell.len()].map(|end| cell.as_ptr() as usize - line.as_ptr() as usize + end)
@@ -352,8 +363,22 @@ fn is_no_name(cell: &&str) -> bool {
             || cell.contains(|c: char| c.is_alphabetic() || c.is_control()))
 }
 
-/// The nearest line above the rows with a name for each column. Columns of rates, which begin or end with a dash, and
-/// the first column may have none.
+/// A line cut at its separator, at commas, at semicolons, and where there are several blanks.
+fn splits(line: &str, separator: Option<char>) -> [Vec<&str>; 4] {
+    let wide = line
+        .split("  ")
+        .map(|cell| cell.trim_matches([' ', '|', '\t']))
+        .filter(|cell| !cell.is_empty());
+    [
+        split(line, separator),
+        split(line, Some(',')),
+        split(line, Some(';')),
+        wide.collect(),
+    ]
+}
+
+/// The nearest line above the rows with a name for each column. Columns of rates, which begin or
+/// end with a dash, and the first column may have none.
 fn names<'t>(
     heads: &[&'t str],
     rows: &[Vec<&str>],
@@ -379,17 +404,9 @@ fn names<'t>(
     });
     let mut first = "";
     for line in heads.iter().rev() {
-        let wide = line
-            .split("  ")
-            .map(|cell| cell.trim_matches([' ', '|', '\t']));
-        let wide = wide.filter(|cell| !cell.is_empty()).collect();
-        let splits: [Vec<&str>; 4] = [
-            split(line, separator),
-            split(line, Some(',')),
-            split(line, Some(';')),
-            wide,
-        ];
-        // Between words of several names there are single blanks: no word is the name of a rate then.
+        let splits = splits(line, separator);
+        // Between words of several names there are single blanks: no word is the name of a rate
+        // then.
         let is_worded = separator.is_none() && (2..splits[0].len()).contains(&splits[3].len());
         let fits = |mask: &[usize], cells: &&Vec<&str>| {
             let is_sure = !is_worded
@@ -426,7 +443,8 @@ fn names<'t>(
     None
 }
 
-/// Whether columns stand as rows: words before them and none above, two rows of numbers, or the steps in the first one.
+/// Whether columns stand as rows: words before them and none above, two rows of numbers, or the
+/// steps in the first one.
 fn is_turned(rows: &[Vec<&str>]) -> bool {
     // Numbers with a constant ratio are those of a step.
     let is_even = |cells: &[&str]| {

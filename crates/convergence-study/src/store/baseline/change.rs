@@ -1,4 +1,5 @@
-//! Differences between a baseline and a run: in numbers, and in the claims of study files, value by value.
+//! Differences between a baseline and a run: in numbers, and in the claims of study files, value by
+//! value.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fmt;
@@ -45,7 +46,8 @@ impl Change {
         format!("{}:{}", self.study, self.subject())
     }
 
-    /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; any other change as displayed.
+    /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; any
+    /// other change as displayed.
     pub fn words(&self) -> String {
         let Self {
             study,
@@ -113,14 +115,16 @@ pub enum Movement {
         from: Option<String>,
         /// The value in the file; `None` if there is none.
         to: Option<String>,
-        /// The subject of the list entry that holds the value, such as the norm of `expect[0]`; `None` if no value gives it.
+        /// The subject of the list entry that holds the value, such as the norm of `expect[0]`;
+        /// `None` if no value gives it.
         entry: Option<String>,
     },
     /// The baseline has no claim of the study.
     NewFile {
         /// How many values its file has.
         values: usize,
-        /// How many numbers of the study the baseline guards nevertheless; more than 0 if its claims were removed.
+        /// How many numbers of the study the baseline guards nevertheless; more than 0 if its
+        /// claims were removed.
         guarded: usize,
     },
     /// The study's file no longer exists.
@@ -136,7 +140,8 @@ impl Movement {
         matches!(self, Self::Claim { .. })
     }
 
-    /// Whether a blessing needs a reason: a claim was changed, withdrawn with its study, or is missing although numbers are guarded.
+    /// Whether a blessing needs a reason: a claim was changed, withdrawn with its study, or is
+    /// missing although numbers are guarded.
     pub fn needs_a_reason(&self) -> bool {
         matches!(
             self,
@@ -144,8 +149,8 @@ impl Movement {
         )
     }
 
-    /// By how many times its tolerance a number has moved, for listing the largest changes first: infinite if old and
-    /// new value cannot be compared, 0 for new ones.
+    /// By how many times its tolerance a number has moved, for listing the largest changes first:
+    /// infinite if old and new value cannot be compared, 0 for new ones.
     pub fn weight(&self) -> f64 {
         match *self {
             Self::Moved {

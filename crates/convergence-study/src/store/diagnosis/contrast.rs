@@ -1,6 +1,8 @@
-//! Which settings separate failing from passing items: spectrum-based fault localisation by Ochiai's coefficient.
+//! Which settings separate failing from passing items: spectrum-based fault localisation by
+//! Ochiai's coefficient.
 //!
-//! For failing items F and items S with a setting the coefficient is |F ∩ S| / √(|F| |S|): 1 if exactly those with the setting fail.
+//! For failing items F and items S with a setting the coefficient is |F ∩ S| / √(|F| |S|): 1 if
+//! exactly those with the setting fail.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +24,8 @@ const COMBINED: usize = 80;
 /// Most groups of passing items that are named.
 const GROUPS: usize = 3;
 
-/// A setting shared by all failing items is informative if at most this share of the passing ones has it.
+/// A setting shared by all failing items is informative if at most this share of the passing ones
+/// has it.
 const RARE: f64 = 0.95;
 
 /// Most settings shared by all failing items that are named.
@@ -39,12 +42,14 @@ pub(super) struct Vote {
     pub(super) count: [usize; 2],
 }
 
-/// The conjunction of at most two settings that best separates failing from passing items; empty if nothing separates them.
+/// The conjunction of at most two settings that best separates failing from passing items; empty if
+/// nothing separates them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contrast {
     /// The settings; empty if none separates.
     pub settings: Vec<Setting>,
-    /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting, 0.06 less for a study.
+    /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting, 0.06 less for a
+    /// study.
     pub score: f64,
     /// Items with these settings: how many fail, and how many there are.
     pub fails: [usize; 2],

@@ -1,4 +1,5 @@
-//! The effect of a mistake on a run: which items fail, which fields move, and in which direction. Similar runs agree in these.
+//! The effect of a mistake on a run: which items fail, which fields move, and in which direction.
+//! Similar runs agree in these.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -6,9 +7,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::subject_of_number;
 use crate::run::Finished;
 use crate::store::{Change, Movement, read_if_there};
-use crate::study::header::field;
 
 /// Logarithm of the ratio that weighs as much as a failure.
 const LARGE: f64 = 2.0;
@@ -22,7 +23,8 @@ const FAILS: &str = " fails";
 pub struct Fingerprint(BTreeMap<String, f64>);
 
 impl Fingerprint {
-    /// That of a run: 1 for each field with a rate or check that does not pass; for a moved field the logarithm of its ratio.
+    /// That of a run: 1 for each field with a rate or check that does not pass; for a moved field
+    /// the logarithm of its ratio.
     pub fn of(finished: &[Finished], changes: &[Change]) -> Self {
         let mut items = BTreeMap::new();
         for Finished {
@@ -32,17 +34,15 @@ impl Fingerprint {
             let rates = outcome
                 .rates
                 .iter()
-                .map(|(norm, rate)| (norm, rate.verdict));
+                .map(|(norm, rate)| (outcome.subject_of_rate(norm).quantity, rate.verdict));
             let checks = outcome
                 .checks
                 .iter()
-                .map(|check| (&check.claim, check.verdict));
+                .map(|check| (check.quantity().to_owned(), check.verdict));
             let failing = rates
                 .chain(checks)
                 .filter(|(_, verdict)| !verdict.is_pass());
-            items.extend(
-                failing.map(|(name, _)| (format!("{}: {}{FAILS}", header.id, field(name)), 1.0)),
-            );
+            items.extend(failing.map(|(field, _)| (format!("{}: {field}{FAILS}", header.id), 1.0)));
         }
         for Change {
             study,
@@ -66,7 +66,14 @@ impl Fingerprint {
             } else {
                 (100.0 * size).round() / 100.0
             };
-            items.insert(format!("{study}: {}", field(name)), size);
+            let of_study = finished
+                .iter()
+                .find(|finished| finished.header.id == *study);
+            let field = of_study.map_or_else(
+                || name.clone(),
+                |finished| subject_of_number(&finished.outcome, name).quantity,
+            );
+            items.insert(format!("{study}: {field}"), size);
         }
         Self(items)
     }
@@ -111,7 +118,8 @@ pub struct Known {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fingerprints {
-    /// Found by leaving each one out: above this, the nearest is more often than not in the same file.
+    /// Found by leaving each one out: above this, the nearest is more often than not in the same
+    /// file.
     pub threshold: f64,
     /// The mistakes.
     pub known: Vec<Known>,
@@ -135,7 +143,8 @@ impl Fingerprints {
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }
 
-    /// The two most alike, if they are alike enough. Where nothing fails in the run, those that move numbers alike.
+    /// The two most alike, if they are alike enough. Where nothing fails in the run, those that
+    /// move numbers alike.
     pub fn nearest(&self, run: &Fingerprint) -> Vec<Resembling> {
         let only_moves = run.numbers() == *run;
         let likeness = |of: &Fingerprint| {
@@ -171,7 +180,8 @@ mod tests {
         )
     }
 
-    /// Most of what the mistake does in the dictionary are failures; a run with only its moved numbers resembles it all the same.
+    /// Most of what the mistake does in the dictionary are failures; a run with only its moved
+    /// numbers resembles it all the same.
     #[test]
     fn moved_numbers_are_compared_with_the_moved_numbers_of_mistakes_that_also_fail() {
         let moves = [("s: u", 0.5), ("s: v", -0.2)];

@@ -1,7 +1,11 @@
-//! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable branches; tables, figures
-//! and guarded numbers.
+//! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable
+//! branches; tables, figures and guarded numbers.
 
-use super::{AtRest, BRACKET, BifurcationStudy, CLOSE, Diagram, DiagramTask, Found, SteadyBranch};
+use std::cmp::Ordering;
+
+use super::{
+    AtRest, BRACKET, BifurcationStudy, BranchKey, CLOSE, Diagram, DiagramTask, Found, SteadyBranch,
+};
 use crate::kinds::prelude::*;
 
 /// A beam with a tip closer to zero than this is straight.
@@ -44,6 +48,12 @@ impl<'r> DiagramOf<'r> {
         self.diagram.map_or(f64::NAN, |diagram| diagram.event[0])
     }
 
+    fn guarded_event(&self) -> Quantity {
+        let theta_a = format!("θ_A = {}", self.theta_a());
+        let name = format!("event at {theta_a}");
+        Quantity::new(name, self.event(), 1e-8).about(Subject::of("event").in_case(theta_a))
+    }
+
     /// β and u(1) at rest; NaN if the case failed.
     fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
         self.rests
@@ -71,23 +81,25 @@ impl<'r> DiagramOf<'r> {
             .iter()
             .map(|(_, rest)| rest.map_or(f64::NAN, AtRest::distance));
         let farthest = distances.fold(0.0, max_or_nan);
-        let off = list(
-            self.rests
-                .iter()
-                .filter(|(_, rest)| !rest.is_some_and(is_stable))
-                .map(|(beta, _)| *beta),
-        );
+        let elsewhere = self
+            .rests
+            .iter()
+            .filter(|(_, rest)| !rest.is_some_and(is_stable));
+        let elsewhere: Vec<f64> = elsewhere.map(|(beta, _)| *beta).collect();
         let count = self.rests.len();
         Check::that(
-            count > 0 && off == "none",
+            count > 0 && elsewhere.is_empty(),
+            "every moving beam comes to rest on a stable branch",
             format!(
-                "θ_A = {}: every moving beam comes to rest on a stable branch",
-                self.theta_a()
-            ),
-            format!(
-                "{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {off}"
+                "{count} runs, at most {farthest:.1e} from an exact state; not on a stable branch: {}",
+                list(&elsewhere)
             ),
         )
+        .about(self.subject("ends of runs").by(ItemMethod::OneStep))
+    }
+
+    fn subject(&self, quantity: &str) -> Subject {
+        Subject::of(quantity).in_case(format!("θ_A = {}", self.theta_a()))
     }
 
     fn bent_below(&self) -> Check {
@@ -111,9 +123,10 @@ impl<'r> DiagramOf<'r> {
         let straight = straight.fold(f64::INFINITY, f64::min);
         Check::that(
             bent < straight && self.tips().all(as_expected),
-            "θ_A = 0: moving beams come to rest bent below β = -0.7116 and straight above",
+            "moving beams come to rest bent below β = -0.7116 and straight above",
             format!("bent up to β = {bent}, straight from β = {straight}"),
         )
+        .about(self.subject("bent ends of runs").by(ItemMethod::OneStep))
     }
 
     fn unambiguous(
@@ -127,29 +140,25 @@ impl<'r> DiagramOf<'r> {
         let claim = "contact, side and number of unstable directions tell all branches apart";
         Check::that(
             *ambiguous == 0 && !branches.is_empty(),
-            format!("θ_A = {}: {claim}", self.theta_a()),
+            claim,
             format!("{ambiguous} states could belong to two branches"),
         )
+        .about(self.subject("branches"))
     }
 
     fn one_state(&self, Diagram { counts, .. }: &Diagram) -> Check {
-        let several = list(
-            counts
-                .iter()
-                .filter(|(_, n)| *n != 1)
-                .map(|(beta, _)| *beta),
-        );
+        let several = counts.iter().filter(|(_, n)| *n != 1);
+        let several: Vec<f64> = several.map(|(beta, _)| *beta).collect();
         Check::that(
-            !counts.is_empty() && several == "none",
+            !counts.is_empty() && several.is_empty(),
+            "one steady state for every β of the diagram, even beyond buckling",
             format!(
-                "θ_A = {}: one steady state for every β of the diagram, even beyond buckling",
-                self.theta_a()
-            ),
-            format!(
-                "{} values of β, with another number of states: {several}",
-                counts.len()
+                "{} values of β, with another number of states: {}",
+                counts.len(),
+                list(&several)
             ),
         )
+        .about(self.subject("number of steady states"))
     }
 
     /// The whole diagram, and a close-up of the fork if there is one.
@@ -161,12 +170,28 @@ impl<'r> DiagramOf<'r> {
         let markers =
             "solid where stable, dashed where not; open markers: where moving beams come to rest";
         let caption = format!("Steady states over β for θ_A = {theta_a}: {markers}.");
-        let whole = self.drawing(diagram, [f64::NEG_INFINITY, f64::INFINITY]);
+        let fork = diagram.event[0];
+        let is_fork = super::buckles(self.scene);
+        // A minus sign, not a hyphen.
+        let event = format!("{fork:.4}").replace('-', "−");
+        let (title, end) = if is_fork {
+            // Above the fork there is the straight beam alone.
+            (
+                format!("Several steady states below β = {event}, one above"),
+                fork + 2.0 * CLOSE,
+            )
+        } else {
+            (
+                format!("One steady state for every β; it lifts off at β = {event}"),
+                f64::INFINITY,
+            )
+        };
+        let whole = self.drawing(diagram, title, [f64::NEG_INFINITY, end]);
         let mut figures = vec![Figure::new(&format!("theta-a-{theta_a}"), caption, whole)];
-        if super::buckles(self.scene) {
-            let fork = diagram.event[0];
+        if is_fork {
+            let title = "The beam bends until its free end meets an obstacle".to_owned();
             let caption = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
-            let close = self.drawing(diagram, [fork - CLOSE, fork + CLOSE]);
+            let close = self.drawing(diagram, title, [fork - CLOSE, fork + CLOSE]);
             figures.push(Figure::new(
                 &format!("theta-a-{theta_a}-fork"),
                 caption,
@@ -176,7 +201,7 @@ impl<'r> DiagramOf<'r> {
         figures
     }
 
-    fn drawing(&self, diagram: &Diagram, range: [f64; 2]) -> String {
+    fn drawing(&self, diagram: &Diagram, title: String, range: [f64; 2]) -> String {
         let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points
                 .iter()
@@ -184,39 +209,57 @@ impl<'r> DiagramOf<'r> {
                 .filter(|(beta, _)| (range[0]..=range[1]).contains(beta))
                 .collect()
         };
-        let labels = [
-            (Phase::Free, "free"),
-            (Phase::Upper, "upper obstacle"),
-            (Phase::Lower, "lower obstacle"),
-        ];
-        let mut branches = Vec::new();
-        for ((contact, label), stable) in labels
-            .into_iter()
-            .flat_map(|label| [(label, true), (label, false)])
-        {
-            let of = |branch: &&SteadyBranch| {
-                branch.key.contact == contact && branch.key.stable == stable
-            };
-            // A branch found at a single β is a corner of the diagram, not a line.
-            let curves = diagram
-                .branches
-                .iter()
-                .filter(of)
-                .map(|branch| shown(&branch.points));
-            let lines = curves.filter(|points| points.len() > 1);
-            branches.extend(lines.map(|points| figures::Branch {
-                label: label.to_owned(),
-                points,
-                stable,
-            }));
+        let curve = |branch: &SteadyBranch| figures::Branch {
+            label: branch_name(&branch.key).to_owned(),
+            points: shown(&branch.points),
+            stable: branch.key.stable,
+        };
+        let mut branches: Vec<figures::Branch> = vec![];
+        for next in diagram.branches.iter().map(curve) {
+            // The straight beam is one branch, whatever the number of its unstable directions.
+            let known = branches.iter_mut().find(|known| {
+                next.label == NAMES[0] && (&known.label, known.stable) == (&next.label, next.stable)
+            });
+            match known {
+                Some(known) => known.points.extend(next.points),
+                None => branches.push(next),
+            }
         }
+        // A branch found at a single β is a corner of the diagram, not a line.
+        branches.retain(|branch| branch.points.len() > 1);
+        let place = |branch: &figures::Branch| {
+            (
+                NAMES.iter().position(|name| *name == branch.label),
+                !branch.stable,
+            )
+        };
+        branches.sort_by_key(place);
         let ends = plots::Series::new("end of a run", shown(&self.tips().collect::<Vec<_>>()));
-        figures::bifurcation(
-            &branches,
-            figures::obstacle_lines(self.scene.obstacles),
-            &ends,
-        )
+        figures::bifurcation(&figures::Bifurcation {
+            title,
+            branches,
+            obstacles: figures::obstacle_lines(self.scene.obstacles),
+            ends,
+        })
     }
+}
+
+/// Names of branches, in the order of the legend.
+const NAMES: [&str; 4] = [
+    "straight",
+    "bent, free",
+    "on the upper obstacle",
+    "on the lower obstacle",
+];
+
+fn branch_name(key: &BranchKey) -> &'static str {
+    let place = match (key.contact, key.side) {
+        (Phase::Free, Some(Ordering::Equal)) => 0,
+        (Phase::Free, _) => 1,
+        (Phase::Upper, _) => 2,
+        (Phase::Lower, _) => 3,
+    };
+    NAMES[place]
 }
 
 pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -> Outcome {
@@ -242,18 +285,15 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     );
     let column = ErrorColumn {
         name,
+        symbol: None,
         errors,
         claim,
         look: 0,
     };
     let levels = Levels::new(Axis::Space, study.meshes.iter().map(refinement), [column]);
     let rates = levels.judge();
-    let events = scenes
-        .iter()
-        .map(|of| Quantity::new(format!("event at θ_A = {}", of.theta_a()), of.event(), 1e-8));
-    let guarded = forces
-        .iter()
-        .map(|(n, force)| Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11));
+    let events = scenes.iter().map(DiagramOf::guarded_event);
+    let guarded = forces.iter().map(guarded_force);
     let at: Vec<String> = scenes
         .iter()
         .map(|of| format!("{:.6}", of.event()))
@@ -263,7 +303,10 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
         study.scenes.len(),
         study.scenes.len() * study.rest.betas.len(),
     );
+    let ends = scenes.iter().flat_map(|of| &of.rests);
+    let left_out = ends.map(|(_, rest)| rest.is_none().then_some(NO_RESULT));
     Outcome {
+        coverage: vec![Coverage::of("runs to rest", left_out)],
         tables: vec![force_table(&forces), rest_table(study, &scenes)],
         figures: scenes.iter().flat_map(|of| of.figures()).collect(),
         quantities: events
@@ -280,6 +323,11 @@ pub(super) fn judge(study: &BifurcationStudy, ran: &[Ran<DiagramTask, Found>]) -
     }
 }
 
+fn guarded_force((n, force): &(usize, f64)) -> Quantity {
+    let subject = Subject::of("buckling force").at(format!("n = {n}"));
+    Quantity::new(format!("buckling force, n = {n}"), *force, 1e-11).about(subject)
+}
+
 fn numbers_not_finite(found: &Found) -> Vec<String> {
     not_finite(match found {
         Found::Diagram(Diagram {
@@ -291,8 +339,8 @@ fn numbers_not_finite(found: &Found) -> Vec<String> {
 }
 
 /// Numbers in words.
-fn list(betas: impl Iterator<Item = f64>) -> String {
-    let betas: Vec<String> = betas.map(|beta| beta.to_string()).collect();
+fn list(betas: &[f64]) -> String {
+    let betas: Vec<String> = betas.iter().map(f64::to_string).collect();
     if betas.is_empty() {
         "none".to_owned()
     } else {
@@ -315,6 +363,7 @@ fn discrete_limit(forces: &[(usize, f64)]) -> Check {
         "P1 elements buckle at -(π²/4)/(1 + π²/4) as the mesh is refined, to 1e-8",
         format!("extrapolated -{limit:.10} for -{BUCKLING:.10}"),
     )
+    .about(Subject::of("buckling force"))
 }
 
 fn buckles(diagram: &Diagram) -> Check {
@@ -323,12 +372,13 @@ fn buckles(diagram: &Diagram) -> Check {
     let holds = low <= -BUCKLING + BRACKET && -BUCKLING <= high + BRACKET && high - low <= BRACKET;
     Check::that(
         holds,
-        "θ_A = 0: the straight beam is the only steady state down to β = -(π²/4)/(1 + π²/4), and not below",
+        "the straight beam is the only steady state down to β = -(π²/4)/(1 + π²/4), and not below",
         format!(
             "several states up to {low:.10}, one from {high:.10}, for {:.10}",
             -BUCKLING
         ),
     )
+    .about(Subject::of("event").in_case("θ_A = 0"))
 }
 
 fn lifts_off(diagram: &Diagram) -> Check {
@@ -339,6 +389,7 @@ fn lifts_off(diagram: &Diagram) -> Check {
         claim,
         format!("between {low:.9} and {high:.9}"),
     )
+    .about(Subject::of("lift-off"))
 }
 
 fn force_table(forces: &[(usize, f64)]) -> Table {

@@ -1,8 +1,10 @@
-//! Steady states over the axial force at rest: all branches, stable and unstable, and where moving beams come to rest.
+//! Steady states over the axial force at rest: all branches, stable and unstable, and where moving
+//! beams come to rest.
 //!
-//! The branches are exact. They are continued from β to β by their invariants: the state of contact, the side and the
-//! number of unstable directions. Three independent answers are compared at the buckling point: where the number of exact
-//! steady states changes, the buckling force of P1 elements as the mesh is refined, and `-(π²/4)/(1 + π²/4)`.
+//! The branches are exact. They are continued from β to β by their invariants: the state of
+//! contact, the side and the number of unstable directions. Three independent answers are compared
+//! at the buckling point: where the number of exact steady states changes, the buckling force of P1
+//! elements as the mesh is refined, and `-(π²/4)/(1 + π²/4)`.
 
 mod judge;
 
@@ -13,6 +15,7 @@ use thermobeam::tridiagonal::TridiagonalFactor;
 use super::prelude::*;
 pub use super::steady::AtRest;
 use super::steady::{ToRest, exact_states, listed_scenes, meshes, tolerance};
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -22,6 +25,7 @@ pub const ROW: KindRow = KindRow {
           followed over beta, and stability is an exact count.",
     judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
     failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
+    settings: settings::of_branches,
 };
 
 /// Half the width of the close-up of a fork.
@@ -180,7 +184,8 @@ pub struct SteadyBranch {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The invariants of a branch: contact, side and number of unstable directions change only where branches meet.
+/// The invariants of a branch: contact, side and number of unstable directions change only where
+/// branches meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BranchKey {
     contact: Phase,
@@ -230,10 +235,12 @@ impl StatesAt {
     }
 }
 
-/// Halvings of an interval in which branches meet: a fork opens like a square root, so its tip needs close points.
+/// Halvings of an interval in which branches meet: a fork opens like a square root, so its tip
+/// needs close points.
 const HALVINGS: usize = 10;
 
-/// The steady states over a grid; intervals in which branches begin, meet or end are halved up to `halvings` times.
+/// The steady states over a grid; intervals in which branches begin, meet or end are halved up to
+/// `halvings` times.
 ///
 /// # Errors
 /// β at which the steady states cannot be found.
@@ -275,9 +282,11 @@ pub struct Diagram {
     pub branches: Vec<SteadyBranch>,
     /// β with the number of steady states.
     pub counts: Vec<(f64, usize)>,
-    /// Steady states that could belong to either of two branches: must be none for the diagram to have a meaning.
+    /// Steady states that could belong to either of two branches: must be none for the diagram to
+    /// have a meaning.
     pub ambiguous: usize,
-    /// Bracket of the β at which the beam buckles or lifts off; NaN if it does neither, or more than once.
+    /// Bracket of the β at which the beam buckles or lifts off; NaN if it does neither, or more
+    /// than once.
     pub event: [f64; 2],
 }
 
@@ -314,13 +323,15 @@ fn trace(samples: &[StatesAt], event: [f64; 2]) -> Diagram {
     diagram
 }
 
-/// Whether the event of a scene is buckling of its straight beam: below it there are several steady states, above it one. A heated beam
-/// lifts off instead: below the event it presses against the upper obstacle, above it is free.
+/// Whether the event of a scene is buckling of its straight beam: below it there are several steady
+/// states, above it one. A heated beam lifts off instead: below the event it presses against the
+/// upper obstacle, above it is free.
 fn buckles(scene: &Scene) -> bool {
     scene.beam.theta_a == 0.0
 }
 
-/// Brackets the event by bisection, starting from the samples; NaN if it does not occur exactly once.
+/// Brackets the event by bisection, starting from the samples; NaN if it does not occur exactly
+/// once.
 ///
 /// # Errors
 /// β at which the steady states cannot be found.
@@ -348,13 +359,16 @@ fn bracket(scene: &Scene, samples: &[StatesAt], width: f64) -> Result<[f64; 2], 
     Ok([low, high])
 }
 
-/// Iterations of the power method, with ratio 0.043/0.288 of the first two modes: three times as many as needed.
+/// Iterations of the power method, with ratio 0.043/0.288 of the first two modes: three times as
+/// many as needed.
 const ITERATIONS: usize = 60;
 
-/// The buckling force of the beam on a mesh, `min (‖v_x - w‖² + ‖w_x‖²) / ‖v_x‖²` over P1 functions v and w that vanish at 0.
+/// The buckling force of the beam on a mesh, `min (‖v_x - w‖² + ‖w_x‖²) / ‖v_x‖²` over P1 functions
+/// v and w that vanish at 0.
 ///
-/// For given p = v_x, constant on each element, the best w solves `(K + M) w = (p, N_i)`, and leaves `‖p‖² - (p, w)`. So
-/// the minimum is 1 - λ, where λ is the largest eigenvalue of p -> mean of w on each element.
+/// For given p = v_x, constant on each element, the best w solves `(K + M) w = (p, N_i)`, and
+/// leaves `‖p‖² - (p, w)`. So the minimum is 1 - λ, where λ is the largest eigenvalue of p -> mean
+/// of w on each element.
 ///
 /// # Errors
 /// A pivot that is not positive, which no mesh produces.

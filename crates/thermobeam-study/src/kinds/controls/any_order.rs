@@ -1,7 +1,9 @@
-//! Faults in the solver of any order: each study named must fail for every perturbed coefficient and for every defect.
+//! Faults in the solver of any order: each study named must fail for every perturbed coefficient
+//! and for every defect.
 //!
-//! The loads are derived with the study's own coefficients; the solver uses a changed value of one of them, or a defect is
-//! planted in the loads. The study itself gives the verdict, on the errors of its own runs.
+//! The loads are derived with the study's own coefficients; the solver uses a changed value of one
+//! of them, or a defect is planted in the loads. The study itself gives the verdict, on the errors
+//! of its own runs.
 //!
 //! ```toml
 //! [any-order]
@@ -167,11 +169,10 @@ impl Kind for AnyOrderControls {
                 if fault == Fault::None {
                     honest = max_or_nan(honest, error);
                 } else if error.is_finite() {
-                    quantities.push(Quantity::new(
-                        guarded_name(fault, &study.header.id),
-                        error,
-                        TOLERANCE,
-                    ));
+                    let id = &study.header.id;
+                    let guarded = Quantity::new(guarded_name(fault, id), error, TOLERANCE);
+                    let subject = Subject::of(format!("error with {}", fault.name())).in_case(id);
+                    quantities.push(guarded.about(subject));
                 }
             }
             let cell = |judged: &Option<&Judged>| match judged {

@@ -1,6 +1,7 @@
 //! Planted faults: solver or sources are wrong on purpose, and a convergence study must fail.
 //!
-//! A check that cannot fail proves nothing. The study file asks its question by one of three tables:
+//! A check that cannot fail proves nothing. The study file asks its question by one of three
+//! tables:
 //!
 //! | table | question |
 //! | --- | --- |
@@ -8,9 +9,10 @@
 //! | `[any-order]` | the same for studies of kind any-order: does each fail for every coefficient and defect named? |
 //! | `[sensitivity]` | what is the smallest relative error of each coefficient for which a study fails? |
 //!
-//! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while the sources keep the exact one;
-//! each [`Defect`] in turn is planted in the sources. Sources and solver share no function, so it stands for the same mistake in
-//! the solver. Without a fault every study must pass, since otherwise its failures would prove nothing.
+//! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while
+//! the sources keep the exact one; each [`Defect`] in turn is planted in the sources. Sources and
+//! solver share no function, so it stands for the same mistake in the solver. Without a fault every
+//! study must pass, since otherwise its failures would prove nothing.
 //!
 //! ```toml
 //! [controls]
@@ -25,6 +27,7 @@ pub mod sensitivity;
 use super::convergence::design::verdicts;
 use super::convergence::{Convergence, Defect, Prepared};
 use super::prelude::*;
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -37,9 +40,11 @@ pub const ROW: KindRow = KindRow {
              coefficient some study must detect a relative error as small as the file says.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
+    settings: settings::of_controls,
 };
 
-/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in the file.
+/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
+/// the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
     match only_table(root, ["controls", "any-order", "sensitivity"], allowed)? {
@@ -78,7 +83,8 @@ impl Fault {
         }
     }
 
-    /// The solver's coefficients and the defect of the sources; `None` if the study lacks what is wrong, or it is zero.
+    /// The solver's coefficients and the defect of the sources; `None` if the study lacks what is
+    /// wrong, or it is zero.
     ///
     /// * `relative`: relative error of a coefficient.
     fn plant(self, theory: Coefficients, relative: f64) -> Option<(Coefficients, Option<Defect>)> {
@@ -131,6 +137,10 @@ struct Matrix<'s> {
     every: bool,
     /// That of completion, that of all studies without a fault, then one for each fault.
     checks: Vec<Check>,
+    /// For each planted fault whether it was detected.
+    detected: Vec<bool>,
+    /// For each pair of a study and a fault why it was not judged.
+    left_out: Vec<Option<&'static str>>,
     rows: Vec<Vec<String>>,
 }
 
@@ -144,6 +154,8 @@ impl<'s> Matrix<'s> {
             ids,
             every,
             checks: vec![completion],
+            detected: vec![],
+            left_out: vec![],
             rows: vec![],
         }
     }
@@ -153,6 +165,16 @@ impl<'s> Matrix<'s> {
         self.rows
             .push([vec![fault.name().to_owned()], cells].concat());
         let all = verdicts.len();
+        // Where every study must notice the fault, each of them has the term.
+        let reason = if self.every {
+            NO_RESULT
+        } else {
+            "the study lacks the term"
+        };
+        let left_out = verdicts
+            .iter()
+            .map(|verdict| verdict.is_none().then_some(reason));
+        self.left_out.extend(left_out);
         if fault == Fault::None {
             let fail = self
                 .ids
@@ -166,11 +188,15 @@ impl<'s> Matrix<'s> {
                 format!("; not {}", others.join(", "))
             };
             let evidence = format!("{} of {all} pass{not}", all - others.len());
-            self.checks.push(Check::that(
+            let honest = Check::that(
                 others.is_empty(),
                 "without a fault every study passes",
                 evidence,
-            ));
+            );
+            self.checks.push(Check {
+                other_studies: others.iter().map(|id| (*id).to_owned()).collect(),
+                ..honest.about(Subject::of("no fault"))
+            });
             return;
         }
         let failed = verdicts
@@ -183,21 +209,17 @@ impl<'s> Matrix<'s> {
             (failed > 0, "")
         };
         let evidence = format!("{failed} of {all} studies notice it");
-        self.checks.push(Check::that(
-            holds,
-            format!("{} is detected{by}", fault.name()),
-            evidence,
-        ));
+        self.detected.push(holds);
+        let claim = format!("{} is detected{by}", fault.name());
+        let detected = Check::that(holds, claim, evidence);
+        self.checks.push(detected.about(Subject::of(fault.name())));
     }
 
-    /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the faults' column.
+    /// * `faults`, `more`: what was detected, and the rest of the summary; `first`: the head of the
+    ///   faults' column.
     fn outcome(self, faults: &str, more: &str, title: &str, first: &str) -> Outcome {
-        let of_faults = &self.checks[2..];
-        let detected = of_faults
-            .iter()
-            .filter(|check| check.verdict == Verdict::Pass)
-            .count();
-        let headline = format!("{detected} of {} {faults} detected", of_faults.len());
+        let detected = self.detected.iter().filter(|detected| **detected).count();
+        let headline = format!("{detected} of {} {faults} detected", self.detected.len());
         let summary = format!("{headline}, {more}");
         let tables = vec![Table::new(
             title,
@@ -207,6 +229,7 @@ impl<'s> Matrix<'s> {
         Outcome {
             headline,
             tables,
+            coverage: vec![Coverage::of("pairs of a study and a fault", self.left_out)],
             ..Outcome::new(summary, vec![], self.checks)
         }
     }
@@ -233,7 +256,8 @@ impl FromFile for Controls {
 }
 
 impl Kind for Controls {
-    /// Index of a study, with the elements and steps of one of its levels, on which every fault is planted.
+    /// Index of a study, with the elements and steps of one of its levels, on which every fault is
+    /// planted.
     type Data = (usize, (usize, usize));
     /// One run for each fault that can be planted, with its errors; NaN if it broke down.
     type Found = Vec<(Fault, Norms)>;
@@ -307,7 +331,8 @@ impl Kind for Controls {
 }
 
 impl Controls {
-    /// The verdict of one study under one fault, the worst over its norms; `None` if the fault cannot be planted.
+    /// The verdict of one study under one fault, the worst over its norms; `None` if the fault
+    /// cannot be planted.
     fn verdict(&self, study: usize, fault: Fault, ran: &[RanOnLevel]) -> Option<Verdict> {
         let spec = &self.studies[study].kind;
         fault.plant(spec.theory, self.relative)?;

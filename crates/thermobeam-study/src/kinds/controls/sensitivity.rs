@@ -41,7 +41,8 @@ impl FromFile for Sensitivity {
 }
 
 impl Kind for Sensitivity {
-    /// Index of a study, and a coefficient; coefficients that a study lacks or has zero are left out.
+    /// Index of a study, and a coefficient; coefficients that a study lacks or has zero are left
+    /// out.
     type Data = (usize, &'static str);
     /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
@@ -91,9 +92,9 @@ impl Kind for Sensitivity {
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (missed + detected);
             if detects(10f64.powf(middle)) {
-                detected = middle
+                detected = middle;
             } else {
-                missed = middle
+                missed = middle;
             }
         }
         Ok(Some(10f64.powf(detected)))
@@ -104,21 +105,22 @@ impl Kind for Sensitivity {
             not_finite([("the smallest error", *smallest)])
         })];
         let (mut rows, mut quantities) = (vec![], vec![]);
+        let mut left_out = vec![];
         for key in Coefficients::names() {
             let cells: Vec<(f64, String)> = (0..self.studies.len())
                 .map(|study| cell(study, key, ran))
                 .collect();
+            left_out.extend((0..self.studies.len()).map(|study| not_judged(study, key, ran)));
             let best = cells
                 .iter()
                 .map(|(smallest, _)| *smallest)
                 .fold(f64::INFINITY, min_or_nan);
             let claim = format!("{key} off by {:e} is detected", self.at_most);
-            checks.push(Check::that(
-                best <= self.at_most,
-                claim,
-                format!("detected from {best:.1e} on"),
-            ));
-            quantities.push(Quantity::new(format!("smallest {key} seen"), best, 0.2));
+            let evidence = format!("detected from {best:.1e} on");
+            let check = Check::that(best <= self.at_most, claim, evidence);
+            checks.push(check.about(Subject::of(key)));
+            let smallest = Quantity::new(format!("smallest {key} seen"), best, 0.2);
+            quantities.push(smallest.about(Subject::of(key)));
             rows.push(
                 std::iter::once(key.to_owned())
                     .chain(cells.into_iter().map(|(_, text)| text))
@@ -140,6 +142,7 @@ impl Kind for Sensitivity {
         let tables = vec![Table::new(title, head, rows)];
         Outcome {
             headline: summary.clone(),
+            coverage: vec![Coverage::of("pairs of a study and a coefficient", left_out)],
             tables,
             quantities,
             ..Outcome::new(summary, vec![], checks)
@@ -147,8 +150,23 @@ impl Kind for Sensitivity {
     }
 }
 
-/// The smallest error that a study detects, and its table cell: NaN if the case failed, infinite if the study lacks the
-/// coefficient or the range does not bracket it.
+/// Why the smallest error that a study detects is not known; `None` if it is.
+fn not_judged(
+    study: usize,
+    key: &str,
+    ran: &[Ran<(usize, &'static str), Option<f64>>],
+) -> Option<&'static str> {
+    let case = ran.iter().find(|ran| ran.case.data == (study, key));
+    match case.map(|case| &case.found) {
+        None => Some("the coefficient is absent or zero"),
+        Some(Err(_)) => Some(NO_RESULT),
+        Some(Ok(None)) => Some("not in the range"),
+        Some(Ok(Some(_))) => None,
+    }
+}
+
+/// The smallest error that a study detects, and its table cell: NaN if the case failed, infinite if
+/// the study lacks the coefficient or the range does not bracket it.
 fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> (f64, String) {
     let case = ran.iter().find(|ran| ran.case.data == (study, key));
     match case.map(|case| &case.found) {

@@ -1,13 +1,16 @@
 //! The three designs of a convergence study: coupled, space isolated, time isolated.
 //!
 //! * **Coupled**: loads from the strong form at t_{n-½}, errors against the exact solution at t_n.
-//! * **Space isolated**: the exact solution is replaced by its own time sequence `U^n = Σ X_j T_j(t_n)` with the
-//!   velocities of the scheme, and the loads are the time-discrete operator applied to it, with space still exact. The
-//!   time error is then exactly zero for every dt.
-//! * **Time isolated**: the exact solution is replaced by its nodal interpolant and the loads use the discrete matrices.
-//!   The space error is then exactly zero on every mesh.
+//! * **Space isolated**: the exact solution is replaced by its own time sequence
+//!   `U^n = Σ X_j T_j(t_n)` with the velocities of the scheme, and the loads are the time-discrete
+//!   operator applied to it, with space still exact. The time error is then exactly zero for every
+//!   dt.
+//! * **Time isolated**: the exact solution is replaced by its nodal interpolant and the loads use
+//!   the discrete matrices. The space error is then exactly zero on every mesh.
 //!
 //! Theory and solver differ by a [`Defect`] only in a negative control.
+
+use std::cell::RefCell;
 
 use convergence_study::judge::verdict::{Level as Error, judge};
 
@@ -79,52 +82,62 @@ impl<'a> Prepared<'a> {
             .formulas
             .map_or_else(|| formulas_of(refine.scheme), Ok)?;
         let obstacles = theory.obstacles.as_ref();
-        let (mut old, dt) = (Factors::default(), refine.dt(steps));
-        old.at(exact, 0.0);
-        let mut driver = self.start(&old, dt, solver, defect)?;
-        let (mut new, mut source, mut worst) = (old.clone(), old.clone(), Norms::ZERO);
-        for n in 1..=steps {
-            new.at(exact, n as f64 * dt);
+        let dt = refine.dt(steps);
+        let mut start = Factors::default();
+        start.at(exact, 0.0);
+        let driver = self.start(&start, dt, solver, defect)?;
+        // The exact solution at the end of the step whose loads are filled, for the watch too.
+        let reached = RefCell::new(start.clone());
+        let (mut old, mut source, mut n) = (start.clone(), start, 0.0);
+        let sources = &self.sources;
+        let fill = |_, load: &mut [[f64; 3]]| {
+            let mut new = reached.borrow_mut();
+            std::mem::swap(&mut old, &mut new);
+            n += 1.0;
+            new.at(exact, n * dt);
             let forces = if refine.isolates(Axis::Space) {
                 source.of_step(&old, &mut new, scheme.inertia(), dt);
                 if defect == Some(Defect::SourceAtNewLevel) {
                     source.u.value.clone_from(&new.u.value);
                 }
-                self.sources
-                    .forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
+                sources.forces_of_step(scheme, [&old.u, &new.u], obstacles, defect)
             } else {
                 let middle = if defect == Some(Defect::SourceAtNewLevel) {
-                    n as f64
+                    n
                 } else {
-                    n as f64 - 0.5
+                    n - 0.5
                 };
                 source.at(exact, middle * dt);
-                self.sources.forces(&source.u, obstacles, defect)
+                sources.forces(&source.u, obstacles, defect)
             };
-            driver.advance(|_, load| self.sources.fill(&source, forces, defect, load))?;
-            worst = worst.max(&self.meter.measure(driver.level(), &new));
-            std::mem::swap(&mut old, &mut new);
-        }
+            sources.fill(&source, forces, defect, load);
+        };
+        let meter = &mut self.meter;
+        let mut worst = Norms::ZERO;
+        run_to(&mut driver.loaded(fill), steps as f64 * dt, |driver, _| {
+            worst = worst.max(&meter.measure(driver.level(), &reached.borrow()));
+        })?;
         Ok(worst)
     }
 
     /// The solver at t = 0, and the lifting of its temperature in the error meter.
     ///
     /// * `factors`: those of the exact solution at t = 0; the rest as in [`Self::run`].
-    fn start(
+    fn start<'l>(
         &mut self,
         factors: &Factors,
         dt: f64,
         Coefficients { beam, obstacles }: Coefficients,
         defect: Option<Defect>,
-    ) -> Result<Driver, CaseFailure> {
+    ) -> Result<Driver<'l>, CaseFailure> {
         let Convergence { theory, refine, .. } = self.study;
         let exact_theta_a = theory.beam.theta_a;
         let mut initial = self
             .nodal
             .initial(&self.mesh, factors, exact_theta_a, beam.theta_a);
         if defect == Some(Defect::StartNotLifted) {
-            // Without the ends: the solver refuses initial data that contradict the boundary conditions.
+            // Without the ends: the solver refuses initial data that contradict the boundary
+            // conditions.
             let inner = 1..self.mesh.elements();
             for (theta, x) in initial.theta[inner.clone()]
                 .iter_mut()
@@ -215,7 +228,7 @@ pub(in crate::kinds) fn verdicts<'a>(
 ) -> impl Iterator<Item = Verdict> + 'a {
     study.expect.iter().map(move |&(norm, claim)| {
         let error = |&((n, steps), errors): &((usize, usize), Norms)| Error {
-            step: study.step(n, steps),
+            step: study.step_size(n, steps),
             error: errors[norm],
         };
         judge(
@@ -233,8 +246,9 @@ const OFF: f64 = 1e-4;
 /// Errors that are round-off on every level.
 const ROUND_OFF: f64 = 1e-12;
 
-/// What a study that passes does not test: coefficients whose error it would miss, and norms without any error. The study is
-/// repeated with a small error in each coefficient of the solver; if it still passes, it does not test that coefficient.
+/// What a study that passes does not test: coefficients whose error it would miss, and norms
+/// without any error. The study is repeated with a small error in each coefficient of the solver;
+/// if it still passes, it does not test that coefficient.
 ///
 /// Empty if it fails, if it is wrong on purpose, or if it has a grid of meshes and steps.
 pub(super) fn untested(study: &Convergence) -> Vec<Untested> {

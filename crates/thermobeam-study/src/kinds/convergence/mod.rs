@@ -1,7 +1,8 @@
 //! Convergence studies: a manufactured solution, levels of refinement, orders expected.
 //!
-//! `[refine]` selects one of three shapes: one axis, a path on which both are refined together (h = dt), or the full grid of (h, dt)
-//! with `e² = A(h)² + B(dt)²`, where each order is judged by itself. The step of a level is 1/n, the mean mesh width, or dt.
+//! `[refine]` selects one of three shapes: one axis, a path on which both are refined together (h =
+//! dt), or the full grid of (h, dt) with `e² = A(h)² + B(dt)²`, where each order is judged by
+//! itself. The step of a level is 1/n, the mean mesh width, or dt.
 //!
 //! ```toml
 //! [study]
@@ -38,6 +39,7 @@ use super::prelude::*;
 use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::settings;
 pub use design::Prepared;
 
 /// The row of the table of kinds.
@@ -52,6 +54,7 @@ pub const ROW: KindRow = KindRow {
              within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
     failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
               wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
+    settings: settings::of_solution,
 };
 
 /// Preparing the space vectors of a mesh costs as much as this many steps.
@@ -179,7 +182,7 @@ impl Kind for Convergence {
 
 impl Convergence {
     /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
-    pub(crate) fn step(&self, elements: usize, steps: usize) -> f64 {
+    pub(crate) fn step_size(&self, elements: usize, steps: usize) -> f64 {
         match self.refine.axis {
             Axis::Space | Axis::Both => 1.0 / elements as f64,
             Axis::Time => self.refine.dt(steps),
@@ -198,12 +201,13 @@ impl Convergence {
         norm_levels(
             &self.refine,
             &self.expect,
-            |elements, steps| self.step(elements, steps),
+            |elements, steps| self.step_size(elements, steps),
             errors,
         )
     }
 
-    /// The next action of a study that adds levels; `None` if the levels are listed or a case has failed.
+    /// The next action of a study that adds levels; `None` if the levels are listed or a case has
+    /// failed.
     fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
         let budget = self
             .refine
@@ -221,7 +225,8 @@ impl Convergence {
         ))
     }
 
-    /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is judged by itself.
+    /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is
+    /// judged by itself.
     fn judge_grid(
         &self,
         ran: &[Ran<(usize, usize), Norms>],
@@ -256,7 +261,7 @@ impl Convergence {
         outcome.extend(Outcome::new("", vec![], vec![completion]));
         Outcome {
             levels: levels.errors(),
-            figures: grid.figures("norm"),
+            figures: grid.figures(label),
             quantities: levels.quantities(&outcome.rates),
             ..outcome
         }
@@ -305,4 +310,13 @@ impl Convergence {
             }
         }
     }
+}
+
+/// The axis of a norm, in the notation of the paper.
+fn label(norm: &str) -> String {
+    let known = Norm::ALL.into_iter().find(|known| known.name() == norm);
+    format!(
+        "error, {}",
+        known.map_or_else(|| norm.to_owned(), |known| known.symbol().to_owned())
+    )
 }

@@ -1,4 +1,5 @@
-//! Proposition 3.1 and a sharper form of it: the energy never rises, and its balance closes in every step.
+//! Proposition 3.1 and a sharper form of it: the energy never rises, and its balance closes in
+//! every step.
 //!
 //! An exactly solved step without loads satisfies, with the energy E of (3.9),
 //!
@@ -6,8 +7,9 @@
 //! E^n - E^{n-1} + dt ζ (‖v_x - w‖² + ‖w_x‖²) + dt ‖θ_x‖² (at n-½) + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
 //! ```
 //!
-//! where gap >= 0 comes from the contact term. Only the first difference can be negative, so E cannot rise. An energy may
-//! decrease by chance, whereas a missing or wrong term opens the balance in the first step in which it acts.
+//! where gap >= 0 comes from the contact term. Only the first difference can be negative, so E
+//! cannot rise. An energy may decrease by chance, whereas a missing or wrong term opens the balance
+//! in the first step in which it acts.
 //!
 //! A study file selects its scenes by one of three tables:
 //!
@@ -17,8 +19,8 @@
 //! | `[[case]]` | single scenes at the limits of the allowed range, each with its own claim and the way its run must end |
 //! | `[random]` | batches of random scenes, in lanes |
 //!
-//! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, if that is larger, by a bound on
-//! the rounding errors of the step.
+//! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, if that is
+//! larger, by a bound on the rounding errors of the step.
 
 pub mod random;
 pub mod runs;
@@ -27,6 +29,7 @@ use std::f64::consts::PI;
 
 use super::prelude::*;
 pub use super::watch::Worst;
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -39,6 +42,7 @@ pub const ROW: KindRow = KindRow {
              with its answer or, where the scene asks for it, with the failure that it names.",
     failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
               very step in which it happens. Run the scene named alone.",
+    settings: settings::of_energy,
 };
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
@@ -157,8 +161,9 @@ fn smooth(mesh: &Mesh, seed: u64) -> Problem {
     }
 }
 
-/// A random beam and its time step, the same on every machine: every coefficient over its whole range including zero, element lengths that differ by a
-/// factor of up to 1000, initial data either smooth or independent from node to node.
+/// A random beam and its time step, the same on every machine: every coefficient over its whole
+/// range including zero, element lengths that differ by a factor of up to 1000, initial data either
+/// smooth or independent from node to node.
 fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
     let mut random = SplitMix::new(seed);
     let mesh = wild_mesh(&mut random, elements)?;
@@ -230,7 +235,8 @@ fn wild_mesh(random: &mut SplitMix, elements: usize) -> Result<Mesh, MeshError> 
     Mesh::from_nodes(nodes)
 }
 
-/// The five fields, each from `field(size, wave numbers in π)`; the temperature satisfies its boundary conditions.
+/// The five fields, each from `field(size, wave numbers in π)`; the temperature satisfies its
+/// boundary conditions.
 fn random_data(
     mesh: &Mesh,
     theta_a: f64,

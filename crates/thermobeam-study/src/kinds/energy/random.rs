@@ -1,10 +1,12 @@
-//! Random scenes by the thousand: every coefficient over its whole range, strongly graded meshes, rough data, steps up to 10.
+//! Random scenes by the thousand: every coefficient over its whole range, strongly graded meshes,
+//! rough data, steps up to 10.
 //!
 //! Newton's method runs eight scenes in lanes.
 //!
-//! A step may be refused only because its operator is not definite. With `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, where B is the
-//! buckling force, it is definite if `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every
-//! scene with `β > -B (1 + 2 ζ/dt)` must finish with an answer.
+//! A step may be refused only because its operator is not definite. With
+//! `‖V_x - W‖² + ‖W_x‖² >= B ‖V_x‖²`, where B is the buckling force, it is definite if
+//! `B (ζ + dt/2) + m dt/2 > 0`, and the mean axial force m is never below β. So every scene with
+//! `β > -B (1 + 2 ζ/dt)` must finish with an answer.
 //!
 //! ```toml
 //! [random]
@@ -56,8 +58,8 @@ pub struct Batch {
     pub not_finite_levels: usize,
     /// Largest rise and residual of a step.
     pub worst: Worst,
-    /// For each scene the time step and the shortest element, which determine its rounding errors most, and its largest
-    /// residual in units of the energy.
+    /// For each scene the time step and the shortest element, which determine its rounding errors
+    /// most, and its largest residual in units of the energy.
     pub scenes: Vec<[f64; 3]>,
 }
 
@@ -110,7 +112,11 @@ impl Kind for RandomScenes {
         checks.extend(total.claims(scenes, exceptions));
         let [answers, indefinite, others] = total.ended();
         let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
-        let largest = format!("{:.1e} of the energy", worst.residual);
+        let largest = if *steps > 0 {
+            format!("{:.1e} of the energy", worst.residual)
+        } else {
+            "unknown without a step".to_owned()
+        };
         let above = format!("residual at most {largest}, {exceptions} above {CLOSED:.0e}");
         let summary =
             format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
@@ -127,6 +133,7 @@ impl Kind for RandomScenes {
         // On another machine, a scene at the limit of definiteness may fall on either side.
         let quantities = vec![Quantity::new("answers", answers as f64, 1e-3)];
         Outcome {
+            coverage: vec![self.coverage(&total)],
             headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
             tables: vec![counts, self.table(&listed)],
             figures: vec![residuals(&total.scenes)],
@@ -137,6 +144,25 @@ impl Kind for RandomScenes {
 }
 
 impl RandomScenes {
+    /// The scenes that are judged to their last step; the others are judged up to the step that
+    /// fails.
+    fn coverage(&self, total: &Batch) -> Coverage {
+        let [answers, indefinite, others] = total.ended();
+        let ended = answers + indefinite + others;
+        let count = |reason: Option<&'static str>, n: usize| std::iter::repeat_n(reason, n);
+        let reasons = count(None, answers)
+            .chain(count(
+                Some("refused, the operator is not definite"),
+                indefinite,
+            ))
+            .chain(count(Some("ended by another failure"), others))
+            .chain(count(
+                Some(NO_RESULT),
+                (self.batches * BATCH).saturating_sub(ended),
+            ));
+        Coverage::of("scenes to their last step", reasons)
+    }
+
     fn scheme(&self, batch: usize) -> Scheme {
         SCHEMES[batch % SCHEMES.len()]
     }
@@ -175,7 +201,8 @@ impl RandomScenes {
         Ok(())
     }
 
-    /// The largest residuals, with the causes of rounding errors: dt, the axial stiffness, and short elements.
+    /// The largest residuals, with the causes of rounding errors: dt, the axial stiffness, and
+    /// short elements.
     fn table(&self, exceptions: &[(usize, f64)]) -> Table {
         let row = |&(scene, residual): &(usize, f64)| {
             let (problem, dt) = self.problem(scene).ok()?;
@@ -201,7 +228,8 @@ impl RandomScenes {
     }
 }
 
-/// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and residual.
+/// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and
+/// residual.
 fn exceptions(ran: &[Ran<usize, Batch>]) -> Vec<(usize, f64)> {
     let batches = ran
         .iter()
@@ -264,12 +292,14 @@ impl Batch {
                 format!(
                     "{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"
                 ),
-            ),
+            )
+            .about(Subject::of("ends")),
             Check::that(
                 *refused == 0 && others == 0,
                 "a step is refused for an indefinite operator only, and never where β > -B (1 + 2ζ/dt)",
                 format!("{refused} definite operators refused, {others} other failures"),
-            ),
+            )
+            .about(Subject::of("refusals")),
             Check::that(
                 worst.risen <= 1.0,
                 "the energy never rises by more than the bound on rounding errors",
@@ -278,7 +308,8 @@ impl Batch {
                     worst.rise,
                     of_allowed(worst.risen)
                 ),
-            ),
+            )
+            .about(Subject::of("energy")),
             Check::that(
                 worst.open <= 1.0,
                 "the balance closes to 1e-12 of the energy, or to the bound on rounding errors",
@@ -287,12 +318,14 @@ impl Batch {
                     worst.residual,
                     of_allowed(worst.open)
                 ),
-            ),
+            )
+            .about(Subject::of("balance")),
             Check::that(
                 exceptions as f64 <= RARE * scenes as f64,
                 "at most 2 scenes in 1000 have a residual above 1e-12 of the energy",
                 format!("{exceptions} of {scenes} scenes"),
-            ),
+            )
+            .about(Subject::of("residuals above 1e-12")),
         ]
     }
 }
@@ -318,6 +351,7 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
         .map(|row| row.iter().map(|value| value.is_nan()).collect())
         .collect();
     let map = plots::Surface {
+        title: Some("The balance of the energy closes to round-off".to_owned()),
         x: plots::Axis::log("time step dt"),
         y: plots::Axis::log("shortest element (dimensionless)"),
         z: plots::Axis::log("largest residual / energy"),

@@ -45,7 +45,8 @@ const SCALED: usize = 8;
 #[derive(Clone)]
 pub struct EnergyRuns {
     runs: Vec<EnergyRun>,
-    /// Whether the figures show energy and residual over time; else they show the sum of the residuals over the steps.
+    /// Whether the figures show energy and residual over time; else they show the sum of the
+    /// residuals over the steps.
     histories: bool,
 }
 
@@ -60,8 +61,8 @@ struct EnergyRun {
     /// In words.
     claim: String,
     end: End,
-    /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the bound on the rounding errors
-    /// of the step.
+    /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the
+    /// bound on the rounding errors of the step.
     share: Option<f64>,
     /// Bound of the sum of all residuals, in units of the energy.
     drift: Option<f64>,
@@ -87,7 +88,8 @@ pub struct Found {
     pub worst: Worst,
     /// Sum of all residuals with their signs, in units of the energy.
     pub drift: f64,
-    /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is claimed.
+    /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is
+    /// claimed.
     pub of_bound: Option<f64>,
     /// The term of the balance that does not close, and the factor of it that is left over.
     pub open_term: Option<(&'static str, f64)>,
@@ -284,7 +286,8 @@ impl Kind for EnergyRuns {
     type Found = Found;
 
     fn cases(&self) -> Vec<Case<usize>> {
-        // Observing a step costs three times its solution, and a step some 100 ns in addition to its elements.
+        // Observing a step costs three times its solution, and a step some 100 ns in addition to
+        // its elements.
         let cost =
             |run: &EnergyRun| run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
         let case = |(data, run): (usize, &EnergyRun)| Case::new(run.name.clone(), cost(run), data);
@@ -317,9 +320,13 @@ impl Kind for EnergyRuns {
                 .map(|(run, found)| run.share_of(found))
                 .fold(0.0, max_or_nan),
         );
-        let headline = format!(
-            "largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}"
-        );
+        let headline = if steps > 0 {
+            format!(
+                "largest residual {residual:.1e} of the energy, largest change in a step {rise:.1e}"
+            )
+        } else {
+            "no step".to_owned()
+        };
         let summary = format!(
             "{holding} of {} runs hold, {steps} steps: {headline}; at most {share}",
             self.runs.len()
@@ -329,9 +336,20 @@ impl Kind for EnergyRuns {
             .map(|(run, found)| (vec![run.name.clone()], run.readings(found)))
             .collect();
         let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";
+        let left_out = |ran: &Ran<usize, Found>| match ran.ok() {
+            None => Some(NO_RESULT),
+            Some(found) => (found.steps == 0).then_some("without a step"),
+        };
         Outcome {
             headline,
-            tables: vec![readings::table(title, &["run"], &rows)],
+            coverage: vec![Coverage::of(
+                "runs for the balance",
+                ran.iter().map(left_out),
+            )],
+            tables: [readings::table(title, &["run"], &rows)]
+                .into_iter()
+                .chain(self.balance(&found))
+                .collect(),
             figures: self.figures(&found),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
             ..Outcome::new(summary, vec![], checks)
@@ -343,7 +361,7 @@ impl EnergyRun {
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
     fn run(&self) -> Result<Found, CaseFailure> {
         let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
-        let (simulation, level) = driver.present();
+        let (simulation, level) = (driver.simulation(), driver.level());
         let mut watch = EnergyWatch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
         let Energy {
@@ -376,19 +394,10 @@ impl EnergyRun {
         };
         found.of_bound = share(level, &energy);
         let (every, mut residual) = (self.steps.div_ceil(SAMPLES), 0.0);
-        for step in 1..=self.steps {
-            let Step {
-                report,
-                old,
-                new,
-                simulation,
-            } = match driver.stepped() {
-                Ok(step) => step,
-                Err(error) => {
-                    found.end = End::of(Some(&error))?;
-                    break;
-                }
-            };
+        let until = self.steps as f64 * self.stepping.dt;
+        let ended = run_to(&mut driver, until, |driver, report| {
+            let (simulation, old, new) = (driver.simulation(), driver.old_level(), driver.level());
+            let step = simulation.step();
             found.steps = step;
             found.contact_steps += usize::from(new.contact_force != 0.0);
             found.most_iterations = report.iterations.max(found.most_iterations);
@@ -399,7 +408,7 @@ impl EnergyRun {
                 0.0
             };
             let balance = simulation.balance(old, new);
-            watch.step(&balance, scale, || simulation.rounding(old, new));
+            watch.add(&balance, scale, || simulation.rounding(old, new));
             residual = max_or_nan(residual, balance.residual.abs() / initial_energy);
             if let Some(of_bound) = &mut found.of_bound {
                 let reached = share(new, &simulation.energy(new)).unwrap_or(f64::NAN);
@@ -416,7 +425,8 @@ impl EnergyRun {
                     drift,
                 });
             }
-        }
+        });
+        found.end = End::of(ended.err().as_ref())?;
         Ok(Found {
             worst: watch.worst,
             drift: watch.drift,
@@ -461,7 +471,8 @@ impl EnergyRun {
         }
     }
 
-    /// The end that is claimed, and the bounds of every step before; a run without a step has nothing to bound.
+    /// The end that is claimed, and the bounds of every step before; a run without a step has
+    /// nothing to bound.
     fn check(&self, found: &Found) -> Check {
         let Found {
             end,
@@ -490,7 +501,10 @@ impl EnergyRun {
             is_bounded = of_bound <= 1.0;
         }
         let holds = ended && closes && drifted && is_bounded;
-        Check::that(holds, format!("{}: {}", self.name, self.claim), evidence)
+        let subject = Subject::of("energy and balance")
+            .in_case(&self.name)
+            .by(ItemMethod::of_scheme(&self.stepping.scheme));
+        Check::that(holds, self.claim.clone(), evidence).about(subject)
     }
 
     fn readings(&self, found: &Found) -> Vec<Reading> {
@@ -543,7 +557,8 @@ impl Found {
     }
 }
 
-/// The constant c of Corollary 3.2, by the energy E^0 at t = 0 (THEORY.md derives it); `None` where nothing is stated.
+/// The constant c of Corollary 3.2, by the energy E^0 at t = 0 (THEORY.md derives it); `None` where
+/// nothing is stated.
 fn stability(beam: &Beam, obstacles: Option<&Obstacles>, initial_energy: f64) -> Option<f64> {
     let Beam {
         beta, rho, theta_a, ..
@@ -580,50 +595,57 @@ impl EnergyRuns {
             };
             drawn.iter().map(curve).collect()
         };
-        // A line for each bound that the runs drawn must keep.
-        let allowed = |bound: fn(&EnergyRun) -> Option<f64>| -> Vec<plots::Guide> {
-            let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| bound(run)).collect();
+        // A line for each bound of the drift that the runs drawn must keep.
+        if !self.histories {
+            let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| run.drift).collect();
             bounds.sort_by(f64::total_cmp);
             bounds.dedup();
-            bounds
-                .into_iter()
-                .map(|value| plots::Guide {
-                    label: "allowed".to_owned(),
-                    value,
-                })
-                .collect()
-        };
-        if !self.histories {
+            let allowed = |value: f64| plots::Guide {
+                label: "allowed".to_owned(),
+                value,
+            };
             let drifts = not_zero(series(|_, sample| (sample.step as f64, sample.drift.abs())));
             let drift = Xy {
                 x: plots::Axis::linear("steps"),
-                guides: allowed(|run| run.drift),
+                guides: bounds.into_iter().map(allowed).collect(),
                 ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
             };
             let caption = "Sum of the signed residuals of the energy balance up to each step.";
-            return vec![Figure::new("drift", caption, drift.draw())];
+            let title = "The residuals of the balance do not add up";
+            return vec![Figure::new("drift", caption, drift.titled(title).draw())];
         }
         let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
         let energies = series(|found, sample| (sample.t, sample.energy / found.initial_energy));
         let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies)
-            .with_looks(&looks);
-        // The largest so far: residuals scatter too much for several curves in one figure.
-        let residuals = not_zero(series(|_, sample| (sample.t, sample.residual)));
-        let y = plots::Axis::log("largest residual up to t / initial energy");
-        let balance = Xy {
-            guides: allowed(|run| run.share),
-            ..plots::history(y, &residuals).with_looks(&looks)
+            .with_looks(&looks)
+            .titled("The energy never rises");
+        let caption = "The energy, in units of its initial size: it never rises.";
+        vec![Figure::new("energy", caption, energy.draw())]
+    }
+
+    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve
+    /// shows no more.
+    fn balance(&self, found: &[(&EnergyRun, &Found)]) -> Option<Table> {
+        let row = |(run, found): &(&EnergyRun, &Found)| {
+            vec![
+                run.scene().to_owned(),
+                format!("{:.1e}", found.worst.residual),
+                run.share.map_or_else(String::new, plain_text),
+            ]
         };
-        let of_energy = "The energy, in units of its initial size: it never rises.";
-        let caption = "Largest residual of the energy balance in a step up to t, in units of the initial energy.";
-        vec![
-            Figure::new("energy", of_energy, energy.draw()),
-            Figure::new("balance", caption, balance.draw()),
-        ]
+        let rows: Vec<Vec<String>> = found
+            .iter()
+            .filter(|(run, _)| run.is_drawn)
+            .map(row)
+            .collect();
+        let title = "Largest residual of the energy balance in a step, over the initial energy";
+        let head = ["scene", "residual", "allowed"];
+        (self.histories && !rows.is_empty()).then(|| Table::new(title, head, rows))
     }
 }
 
-/// Without values of exactly zero, such as that of the start: they have no place on a logarithmic axis.
+/// Without values of exactly zero, such as that of the start: they have no place on a logarithmic
+/// axis.
 fn not_zero(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
     series
         .iter_mut()

@@ -1,5 +1,17 @@
-//! The paper's Section 5, sentence by sentence: seven experiments are run until they are steady, the claims of the text are
-//! judged, its figures redrawn.
+//! The paper's Section 5, sentence by sentence: seven experiments are run until they are steady,
+//! the claims of the text are judged, its figures redrawn.
+//!
+//! # Which method shows what
+//!
+//! | run | until | for |
+//! | --- | --- | --- |
+//! | dG, by the first of `[[discretisations]]` | steady | statements about rest, and the figures |
+//! | dG, by the second | steady | the error of the first: the two share neither mesh nor degrees nor steps |
+//! | with a table `[fixed_point]`: the paper's algorithm (4.1)-(4.5) with η*, at the scene's own h and dt, and Newton's method beside it | t_end | statements about the motion, in place of dG; iterations per step; distance to Newton's solution |
+//! | dG, for each β of `[steady]` | rest | the number of steady states |
+//!
+//! The paper leaves open in which "appropriate norm" the increments fall below η*. Here it is that
+//! of (3.14), for the reasons in THEORY.md, "The norm of the stopping test".
 //!
 //! # What is measured, and how
 //!
@@ -8,49 +20,61 @@
 //! | steady | the energy has fallen by at most `rate` per unit of time over the last `window` |
 //! | frequency of u(1) | upward crossings of zero on [0, t_end]: (their number - 1) / (last - first), each interpolated |
 //! | amplitude of φ(1) | largest minus smallest value on [0, t_end] |
-//! | first contact | when the tip first passes the obstacle, interpolated |
-//! | rests on | the contact force of the last step, and the tip's position |
+//! | first contact | when the tip first passes the obstacle: a contact event of dG, or interpolated between time levels |
+//! | rests on | the contact force at the end, and the tip's position |
+//! | error of a figure | largest difference of the two discretisations, over the width of the line |
 //!
 //! t_end is that of the scene, 10 in the paper: the span of its figures.
 //!
 //! # Where the paper's text goes too far
 //!
-//! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But between
-//! -0.7116 and -1/2 it is wrong. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating, steady states are the critical points of
+//! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But
+//! between -0.7116 and -1/2 it is wrong. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating,
+//! steady states are the critical points of
 //!
 //! ```text
 //! ½ (‖u_x - φ‖² + ‖φ_x‖² + β ‖u_x‖²) + ρ/4 ‖u_x‖⁴ + G(u(1)),
 //! ```
 //!
-//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so the straight beam is the only one. The
-//! study shows this twice: by the list of all exact steady states, and by where moving beams come to rest.
+//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so the straight beam
+//! is the only one. The study shows this twice: by the list of all exact steady states, and by
+//! where moving beams come to rest.
 
 mod judge;
+mod plotted;
 mod report;
+mod runs;
+mod trace;
 
 use super::prelude::*;
-use super::steady::{ToRest, listed_scene};
-use thermobeam::simulation::Simulation;
+use super::settings;
+use super::side_by_side::SideBySide;
+use super::steady::{ToRest, compared, listed_scene};
+use super::tables::{Discretisation, discretisations};
+use trace::{Observed, Recorder};
 
+pub use super::side_by_side::SolverComparison;
 pub use super::steady::{AtRest, Nearest};
+pub use trace::Trace;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "experiment",
     read: reader::<Experiments>,
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
-    judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds.",
+    judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
+             Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
+    settings: settings::of_experiments,
 };
 
-/// Approximate number of points of a curve in a figure: more than the figure has columns.
-const POINTS: usize = 4000;
-
-/// The time that an animation shows: the beam hits both obstacles several times.
-const SPAN: f64 = 6.0;
-
-/// Number of intervals of that time, with a frame at each end; the motion between frames is interpolated.
-const PARTS: usize = 100;
+/// One of the experiments.
+#[derive(Debug, Clone, PartialEq)]
+struct Experiment {
+    group: SectionGroup,
+    /// The scene, at the paper's resolution.
+    scene: Scene,
+}
 
 /// The group of an experiment, which determines what is claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,61 +87,119 @@ enum SectionGroup {
     Third,
 }
 
-/// One of the experiments.
-#[derive(Debug, Clone, PartialEq)]
-struct Experiment {
-    group: SectionGroup,
-    /// The scene, at the study's resolution.
-    scene: Scene,
-}
-
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiments {
     experiments: Vec<Experiment>,
+    discretisations: [Discretisation; 2],
+    /// η* of the paper's algorithm, if that is run.
+    fixed_point: Option<f64>,
     /// A longer run fails.
     t_max: f64,
-    /// Span over which the energy's fall is measured: longer than an oscillation, because the beam stands still at
-    /// turning points.
+    /// Span over which the energy's fall is measured: longer than an oscillation, because the beam
+    /// stands still at turning points.
     window: f64,
     /// Fall of the energy per unit of time below which the state is steady.
     rate: f64,
     rest: ToRest,
 }
 
+/// What a case runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Task {
+    /// An experiment by dG until it is steady.
+    AnyOrder {
+        /// Its place.
+        experiment: usize,
+        /// The place of the discretisation.
+        discretisation: usize,
+    },
+    /// The experiment at this place by the paper's algorithm, with Newton's method beside it.
+    FixedPoint(usize),
+    /// A moving beam until it rests, with the β at this place.
+    Rest(usize),
+}
+
 /// What a case finds.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
-    /// Of an experiment.
+    /// Of an experiment by dG.
     Run(Box<Measured>),
+    /// Of an experiment by the paper's algorithm.
+    FixedPoint(Box<PaperRun>),
     /// Of a run to rest.
     Rest(AtRest),
 }
 
+/// An experiment by dG, until it is steady.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The motion.
+    pub trace: Trace,
+    /// The beam as soon as it is steady.
+    pub end: AtRest,
+    /// The energy then.
+    pub energy: f64,
+    /// The contact force then: positive at the upper obstacle.
+    pub contact_force: f64,
+    /// Largest absolute value of u, φ and the lifted temperature then.
+    pub largest_field: f64,
+}
+
+/// An experiment by the paper's algorithm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaperRun {
+    /// The motion.
+    pub trace: Trace,
+    /// Distance to Newton's solution, and iterations.
+    pub solvers: SolverComparison,
+}
+
 impl FromFile for Experiments {
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "experiments", "run", "steady"])?;
-        let run = root.table("run", &["elements", "dt", "t_max", "window", "rate"])?;
-        let (t_max, window, rate) = (
-            run.positive("t_max")?,
-            run.positive("window")?,
-            run.positive("rate")?,
-        );
+        let tables = ["run", "discretisations", "fixed_point", "steady"];
+        root.allow(&[&["study", "experiments"], &tables[..]].concat())?;
+        let run = root.table("run", &["t_max", "window", "rate"])?;
+        let t_max = run.positive("t_max")?;
+        let experiments = experiments(root, folder)?;
+        let ends = experiments.iter().map(|experiment| experiment.scene.t_end);
+        let t_end = ends.fold(0.0, f64::max);
+        let discretisations = discretisations(root, "discretisations", None, t_end)?;
         let field = run.require("t_max", POSITIVE)?;
-        let mut experiments = experiments(root, folder)?;
-        for Experiment { scene, .. } in &mut experiments {
-            refine(&run, scene)?;
-            limits::steps_until(&field, t_max, scene.dt(), limits::STEPS)?;
+        for Discretisation { stepping, .. } in &discretisations {
+            limits::steps_until(&field, t_max, stepping.dt, limits::STEPS)?;
         }
-        let rest = ToRest::read(&root.table("steady", &ToRest::KEYS)?)?;
+        let fixed_point = root
+            .section("fixed_point")?
+            .map(|section| {
+                section.allow(&["tolerance"])?;
+                comparable(root, &experiments)?;
+                section.positive("tolerance")
+            })
+            .transpose()?;
+        let steady = root.table("steady", &ToRest::ANY_ORDER_KEYS)?;
         Ok(Self {
+            rest: ToRest::read_any_order(&steady, discretisations[0])?,
             experiments,
+            discretisations,
+            fixed_point,
             t_max,
-            window,
-            rate,
-            rest,
+            window: run.positive("window")?,
+            rate: run.positive("rate")?,
         })
     }
+}
+
+/// Refuses scenes whose time levels are not those of a figure: dG is compared with them there.
+fn comparable(root: &Section<'_>, experiments: &[Experiment]) -> Result<(), InputError> {
+    for Experiment { scene, .. } in experiments {
+        if !scene.steps().is_multiple_of(trace::LEVELS) {
+            let found = format!("{}, which has {} steps", scene.name, scene.steps());
+            let expected = format!("scenes with a multiple of {} steps", trace::LEVELS);
+            return Err(root.refuse("fixed_point", found, expected));
+        }
+    }
+    Ok(())
 }
 
 /// The table `[experiments]`: the scenes of the three groups.
@@ -156,231 +238,174 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
         .collect())
 }
 
-/// Another mesh and time step, if `[run]` has them.
-fn refine(run: &Section<'_>, scene: &mut Scene) -> Result<(), InputError> {
-    let (elements, dt) = (run.get("elements"), run.get("dt"));
-    if elements.is_none() && dt.is_none() {
-        return Ok(());
-    }
-    let elements = elements
-        .as_ref()
-        .map_or(Ok(scene.mesh.elements()), tables::elements)?;
-    let dt = dt.map_or(Ok(scene.dt()), |field| field.positive())?;
-    let mesh = Mesh::uniform(elements)
-        .map_err(|error| run.refuse("elements", error.to_string(), "a mesh"))?;
-    *scene = scene.at(mesh, dt);
-    Ok(())
-}
-
 impl Kind for Experiments {
-    /// Number of the case: the experiments, then the runs to rest.
-    type Data = usize;
+    type Data = Task;
     type Found = Found;
 
-    /// The seven experiments, then for each β a moving beam until it rests.
-    fn cases(&self) -> Vec<Case<usize>> {
-        // Steady states are reached at t = 50 to 100.
-        let cost = |scene: &Scene| 80.0 / scene.dt() * scene.mesh.elements() as f64;
-        let run = |Experiment { scene, .. }: &Experiment| (scene.name.clone(), cost(scene));
-        let rest = |beta: &f64| (format!("to rest, beta = {beta}"), self.rest.cost());
-        let cases = self
-            .experiments
+    /// The experiments by both discretisations and, where asked for, by the paper's algorithm; then
+    /// for each β a moving beam until it rests.
+    fn cases(&self) -> Vec<Case<Task>> {
+        let places = 0..self.experiments.len();
+        let first = places.clone().map(|k| self.any_order_case(k, 0));
+        let second = places.clone().map(|k| self.any_order_case(k, 1));
+        let by_the_paper = self
+            .fixed_point
             .iter()
-            .map(run)
-            .chain(self.rest.betas.iter().map(rest));
-        cases
-            .enumerate()
-            .map(|(data, (label, cost))| Case::new(label, cost, data))
+            .flat_map(|_| places.clone().map(|k| self.fixed_point_case(k)));
+        let rest = self.rest.betas.iter().enumerate().map(|(k, beta)| {
+            Case::new(
+                format!("to rest, beta = {beta}"),
+                self.rest.cost(),
+                Task::Rest(k),
+            )
+        });
+        first
+            .chain(second)
+            .chain(by_the_paper)
+            .chain(rest)
             .collect()
     }
 
-    fn run(&self, &case: &usize) -> Result<Found, CaseFailure> {
-        if let Some(Experiment { scene, .. }) = self.experiments.get(case) {
-            return Ok(Found::Run(Box::new(self.run_until_steady(scene)?)));
-        }
-        let count = self.experiments.len();
-        // The third experiment is the last.
-        Ok(Found::Rest(
-            self.rest
-                .run(&self.experiments[count - 1].scene, case - count)?,
-        ))
+    fn run(&self, &task: &Task) -> Result<Found, CaseFailure> {
+        Ok(match task {
+            Task::AnyOrder {
+                experiment,
+                discretisation,
+            } => Found::Run(Box::new(self.run_until_steady(experiment, discretisation)?)),
+            Task::FixedPoint(experiment) => {
+                Found::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
+            }
+            Task::Rest(place) => {
+                let last = self.experiments.last();
+                let third = last.ok_or_else(|| CaseFailure::new("no experiment"))?;
+                Found::Rest(self.rest.run(&third.scene, place)?)
+            }
+        })
     }
 
-    fn judge(&self, ran: &[Ran<usize, Found>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
         report::outcome(self, ran)
     }
 }
 
-/// The results of an experiment.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
-    /// The beam as soon as it is steady.
-    pub end: AtRest,
-    /// The energy then.
-    pub energy: f64,
-    /// The contact force then: positive at the upper obstacle.
-    pub contact_force: f64,
-    /// Largest absolute nodal value of u, φ and the lifted temperature then.
-    pub largest_field: f64,
-    /// When u(1) first passes the upper obstacle, within the figures' span.
-    pub first_upper: Option<f64>,
-    /// When u(1) first passes the lower obstacle, within the figures' span.
-    pub first_lower: Option<f64>,
-    /// Upward crossings of zero by u(1) within the figures' span.
-    pub crossings: usize,
-    /// Frequency of u(1); `None` with fewer than two crossings.
-    pub frequency: Option<f64>,
-    /// Largest minus smallest φ(1) within the figures' span.
-    pub phi_amplitude: f64,
-    /// Largest change of the energy in a step: negative if the energy falls in every step.
-    pub largest_increase: f64,
-    /// Free end and energy over time.
-    pub points: Vec<Sample>,
-    /// u in the first seconds.
-    pub frames: figures::Frames,
-}
-
 impl Experiments {
-    /// Runs a scene until its energy is steady.
+    fn any_order_case(&self, experiment: usize, discretisation: usize) -> Case<Task> {
+        // Steady states are reached at t = 50 to 100.
+        const STEADY: f64 = 80.0;
+        let how = &self.discretisations[discretisation];
+        let name = &self.experiments[experiment].scene.name;
+        let label = match discretisation {
+            0 => name.clone(),
+            _ => format!("{name}, {}", how.label()),
+        };
+        let task = Task::AnyOrder {
+            experiment,
+            discretisation,
+        };
+        Case::new(label, how.cost(STEADY), task)
+    }
+
+    fn fixed_point_case(&self, experiment: usize) -> Case<Task> {
+        // Two to three iterations and a step of Newton's method cost as much as four of its steps.
+        let scene = &self.experiments[experiment].scene;
+        let cost = 4.0 * scene.steps() as f64 * scene.mesh.elements() as f64;
+        let label = format!("{}, fixed point and Newton", scene.name);
+        Case::new(label, cost, Task::FixedPoint(experiment))
+    }
+
+    /// The experiment that is shown in motion: the middle one of the first group, which has no
+    /// axial force at rest.
+    fn animated(&self) -> usize {
+        let first = |experiment: &&Experiment| experiment.group == SectionGroup::First;
+        self.experiments.iter().filter(first).count() / 2
+    }
+
+    /// Runs an experiment by dG until its energy is steady.
     ///
     /// # Errors
-    /// A step that fails, steady states that cannot be found, or a beam that still moves at `t_max`.
-    fn run_until_steady(&self, scene: &Scene) -> Result<Measured, CaseFailure> {
-        let mut driver = driver(scene)?;
-        let mut log = MotionLog::new(scene, &mut driver);
-        let window = (self.window / scene.dt()).round().max(1.0) as usize;
-        let mut fall = 0.0;
-        loop {
-            let Step {
-                old,
-                new,
-                simulation,
-                ..
-            } = driver.stepped()?;
+    /// A step that fails, steady states that cannot be found, or a beam that still moves at
+    /// `t_max`.
+    fn run_until_steady(
+        &self,
+        experiment: usize,
+        discretisation: usize,
+    ) -> Result<Measured, CaseFailure> {
+        let original = &self.experiments[experiment].scene;
+        let scene = self.discretisations[discretisation].of(original, self.t_max)?;
+        let mut motion = simulate::motion(&scene)?;
+        let observed = Observed {
+            t_end: original.t_end,
+            t_max: self.t_max,
+            levels: trace::POINTS,
+            frames: experiment == self.animated() && discretisation == 0,
+        };
+        let mut recorder = Recorder::new(observed, &mut *motion);
+        let mut windows = 0.0;
+        while motion.work().t < self.t_max {
+            windows += 1.0;
+            let end = (windows * self.window).min(self.t_max);
             // Summed from differences: the round-off of the total would hide a slow fall.
-            let change = simulation.energy_change(old, new);
-            log.largest_increase = max_or_nan(log.largest_increase, change);
-            log.add(simulation, new);
-            fall -= change;
-            if simulation.step() % window == 0 {
-                if fall <= self.rate * self.window {
-                    return log.finish(simulation, new);
-                }
-                fall = 0.0;
-            }
-            if !(simulation.t() < self.t_max) {
-                return Err(CaseFailure::new(format!(
-                    "not steady by t = {}",
-                    self.t_max
-                )));
+            let mut fall = 0.0;
+            run_to(&mut *motion, end, |motion, _| fall -= recorder.add(motion))?;
+            if fall <= self.rate * self.window {
+                return measured(
+                    &scene,
+                    recorder.finish(&*motion, scene.obstacles),
+                    &mut *motion,
+                );
             }
         }
+        Err(CaseFailure::new(format!(
+            "not steady by t = {}",
+            self.t_max
+        )))
     }
-}
 
-/// What has been recorded of a run so far.
-struct MotionLog<'a> {
-    scene: &'a Scene,
-    /// (t, u(1), φ(1)) at the start and after each step in the figures' span.
-    motion: Vec<[f64; 3]>,
-    largest_increase: f64,
-    points: Vec<Sample>,
-    frames: figures::Frames,
-}
-
-impl<'a> MotionLog<'a> {
-    fn new(scene: &'a Scene, driver: &mut Driver) -> Self {
-        let largest_increase = f64::NEG_INFINITY;
-        let frames = figures::Frames {
-            points: scene.mesh.nodes().to_vec(),
-            ..Default::default()
+    /// Runs an experiment by the paper's algorithm at its own resolution, with Newton's method
+    /// beside it.
+    ///
+    /// # Errors
+    /// A step that fails.
+    fn run_side_by_side(&self, experiment: usize) -> Result<PaperRun, CaseFailure> {
+        let scene = &self.experiments[experiment].scene;
+        let tolerance = self.fixed_point;
+        let tolerance = tolerance.ok_or_else(|| CaseFailure::new("the study has no tolerance"))?;
+        let mut both = SideBySide::new(scene, tolerance)?;
+        let observed = Observed {
+            t_end: scene.t_end,
+            t_max: scene.t_end,
+            levels: trace::LEVELS,
+            frames: false,
         };
-        let mut log = Self {
-            scene,
-            motion: vec![],
-            largest_increase,
-            points: vec![],
-            frames,
-        };
-        let (simulation, level) = driver.present();
-        log.add(simulation, level);
-        log
-    }
-
-    fn add(&mut self, simulation: &Simulation, level: &Level) {
-        let (t, step, tip) = (simulation.t(), simulation.step(), level.u.len() - 1);
-        let (t_end, dt) = (self.scene.t_end, self.scene.dt());
-        // Half a step of slack: n dt differs from t_end by round-off.
-        if t <= t_end + 0.5 * dt {
-            self.motion.push([t, level.u[tip], level.phi[tip]]);
+        let mut recorder = Recorder::new(observed, &mut both.fixed_point);
+        for _ in 0..scene.steps() {
+            both.step()?;
+            recorder.add(&mut both.fixed_point);
         }
-        let of_frames = (SPAN / dt).round() as usize;
-        if step <= of_frames && step.is_multiple_of((of_frames / PARTS).max(1)) {
-            self.frames.times.push(t);
-            self.frames.u.push(level.u.clone());
-        }
-        // Beyond the figures' span only slow, smooth motion is left.
-        let stride =
-            ((t_end / dt).round() as usize / POINTS).max(1) * if t <= t_end { 1 } else { 10 };
-        if step.is_multiple_of(stride) {
-            let (Scene { mesh, beam, .. }, energy) = (self.scene, simulation.energy(level).total());
-            self.points
-                .push(Sample::of(level, t, mesh, beam.theta_a, energy));
-        }
-    }
-
-    /// When u(1) passes a value between two levels that `passes` accepts, interpolated.
-    fn passings(&self, at: f64, passes: impl Fn(f64, f64) -> bool) -> impl Iterator<Item = f64> {
-        let pairs = self
-            .motion
-            .windows(2)
-            .map(|pair| [pair[0][1], pair[1][1], pair[1][0]]);
-        let passing = pairs.filter(move |[before, now, _]| passes(*before, *now));
-        passing.map(move |[before, now, t]| t - self.scene.dt() * (now - at) / (now - before))
-    }
-
-    fn finish(self, simulation: &Simulation, end: &Level) -> Result<Measured, CaseFailure> {
-        let values = [&end.u, &end.phi, &end.theta].into_iter().flatten();
-        let obstacles = self.scene.obstacles.as_ref();
-        let upper = obstacles.and_then(|of| {
-            self.passings(of.g2, |before, now| before <= of.g2 && now > of.g2)
-                .next()
-        });
-        let lower = obstacles.and_then(|of| {
-            self.passings(of.g1, |before, now| before >= of.g1 && now < of.g1)
-                .next()
-        });
-        let crossings: Vec<f64> = self
-            .passings(0.0, |before, now| before < 0.0 && now >= 0.0)
-            .collect();
-        let count = crossings.len();
-        // The start is not a step.
-        let largest = |sign: f64| {
-            self.motion
-                .iter()
-                .skip(1)
-                .map(|[_, _, phi]| sign * phi)
-                .fold(f64::NEG_INFINITY, max_or_nan)
-        };
-        Ok(Measured {
-            end: AtRest::of(self.scene, &self.scene.mesh, simulation.t(), end, |_| true)?,
-            energy: simulation.energy(end).total(),
-            contact_force: end.contact_force,
-            largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
-            first_upper: upper,
-            first_lower: lower,
-            crossings: count,
-            frequency: (count >= 2)
-                .then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0])),
-            phi_amplitude: largest(1.0) + largest(-1.0),
-            largest_increase: self.largest_increase,
-            points: self.points,
-            frames: self.frames,
+        Ok(PaperRun {
+            trace: recorder.finish(&both.fixed_point, scene.obstacles),
+            solvers: both.comparison,
         })
     }
 }
 
-/// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a constant.
+/// The beam at its end.
+fn measured(scene: &Scene, trace: Trace, motion: &mut dyn Motion) -> Result<Measured, CaseFailure> {
+    let nodes = compared(scene)?;
+    let t = motion.work().t;
+    let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
+    let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
+    Ok(Measured {
+        trace,
+        largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
+        end: AtRest::of(scene, &nodes, t, &level, |_| true)?,
+        energy: last.energy,
+        contact_force: last.contact_force,
+    })
+}
+
+/// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a
+/// constant.
 fn straight_energy(scene: &Scene) -> f64 {
     figures::energy_at_rest(&scene.beam).unwrap_or(f64::NAN)
 }

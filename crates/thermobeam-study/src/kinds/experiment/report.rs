@@ -1,48 +1,66 @@
 //! Tables, figures and guarded numbers.
 
-use super::judge::{self, OfGroup};
-use super::{Experiment, Experiments, Found, Measured, SPAN, SectionGroup, straight_energy};
+use super::judge;
+use super::plotted::{ENERGY, Plotted, Quantity, U_TIP};
+use super::runs::{OfGroup, Runs};
+use super::trace::SPAN;
+use super::{Experiments, Found, SectionGroup, Task, straight_energy};
 use crate::kinds::prelude::*;
+use convergence_study::plots::inset::Place;
 
-/// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can be followed.
+/// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can
+/// be followed.
 const SECONDS: f64 = 16.0;
 
-pub(super) fn outcome(study: &Experiments, ran: &[Ran<usize, Found>]) -> Outcome {
+pub(super) fn outcome(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
     let rests = judge::rests(study, ran);
-    let checks = judge::checks(study, ran, &rests);
+    let plotted = plotted(study, ran);
+    let checks = judge::checks(study, ran, &rests, &plotted);
     let headline = headline(&checks);
-    let row = |(experiment, run): &(&Experiment, &Measured)| {
-        let Scene { name, beam, .. } = &experiment.scene;
-        let bent = experiment.group != SectionGroup::First;
-        (
-            vec![beam.theta_a.to_string(), beam.beta.to_string()],
-            run.readings(name, bent),
-        )
-    };
-    let runs: Vec<_> = OfGroup::of(study, ran, |_| true)
-        .runs
+    let all = OfGroup::of(study, ran, |_| true).runs;
+    let rows: Vec<_> = all
         .iter()
-        .map(row)
+        .map(|runs| (names_of(runs), runs.readings()))
+        .collect();
+    let by_the_paper: Vec<_> = all
+        .iter()
+        .filter_map(|runs| {
+            let paper = runs.paper?;
+            Some((names_of(runs), paper.readings(&runs.experiment.scene.name)))
+        })
         .collect();
     let rests: Vec<_> = rests
         .iter()
         .map(|(beta, rest)| (vec![beta.to_string()], rest.readings()))
         .collect();
     let title = "Steady states without heating, and where the moving beam comes to rest";
+    let mut tables = vec![
+        readings::table("The seven experiments", &["θ_A", "β"], &rows),
+        readings::table(title, &["β"], &rests),
+    ];
+    if let Some(tolerance) = study.fixed_point {
+        let title = format!(
+            "The paper's algorithm (4.1)-(4.5), η* = {tolerance:e} in the norm of (3.14), and Newton's method beside it"
+        );
+        tables.push(readings::table(&title, &["θ_A", "β"], &by_the_paper));
+    }
+    let guarded = rows.iter().chain(&by_the_paper);
     Outcome {
-        tables: vec![
-            readings::table("The seven experiments", &["θ_A", "β"], &runs),
-            readings::table(title, &["β"], &rests),
-        ],
-        figures: figures(study, ran),
-        quantities: readings::guarded(runs.iter().flat_map(|(_, readings)| readings)),
+        tables,
+        figures: figures(study, ran, &plotted),
+        quantities: readings::guarded(guarded.flat_map(|(_, readings)| readings)),
         headline: headline.clone(),
         ..Outcome::new(headline, vec![], checks)
     }
 }
 
-/// How many statements hold: the paper's as printed, what holds in place of one that does not, and ours. That every case
-/// completes is no statement.
+fn names_of(runs: &Runs<'_>) -> Vec<String> {
+    let Scene { beam, .. } = &runs.experiment.scene;
+    vec![beam.theta_a.to_string(), beam.beta.to_string()]
+}
+
+/// How many statements hold: the paper's as printed, what holds in place of one that does not, and
+/// ours. That every case completes is no statement.
 fn headline(checks: &[Check]) -> String {
     let count = |origin: Origin| checks.iter().filter(|check| check.origin == origin).count();
     let holding = |origin: Origin| {
@@ -67,153 +85,210 @@ fn headline(checks: &[Check]) -> String {
     )
 }
 
-fn figures(study: &Experiments, ran: &[Ran<usize, Found>]) -> Vec<Figure> {
-    let first = OfGroup::of(study, ran, |group| group == SectionGroup::First).runs;
-    let second = OfGroup::of(study, ran, |group| matches!(group, SectionGroup::Second(_))).runs;
-    let third = OfGroup::of(study, ran, |group| group == SectionGroup::Third).runs;
-    // The middle one has no axial force at rest.
-    let beam = first.get(first.len() / 2).map(|(experiment, run)| {
-        let caption = format!(
-            "The experiment at {}, θ_A = 0, in motion up to t = {SPAN}.",
-            beta_label(experiment)
-        );
-        let svg = figures::animation(&figures::Animation {
-            title: Some("The beam between its obstacles".to_owned()),
-            frames: run.frames.clone(),
-            obstacles: experiment
-                .scene
-                .obstacles
-                .map(|obstacles| (obstacles.g1, obstacles.g2)),
-            seconds: SECONDS,
-        });
-        Figure::new("beam", caption, svg)
+/// Every figure, and what its caption says first.
+fn figures(study: &Experiments, ran: &[Ran<Task, Found>], plotted: &[Plotted]) -> Vec<Figure> {
+    let drawn = plotted.iter().map(|plot| {
+        let title = plot.xy.title.as_deref().unwrap_or_default();
+        let caption = format!("{}: {title}. {}.", plot.name, plot.accuracy().join(". "));
+        Figure::new(plot.what, caption, plot.draw())
     });
-    let above =
-        |experiment: &Experiment, point: &Sample| point.energy - straight_energy(&experiment.scene);
-    let decay = plots::Axis::log("E − β²/(4ρ) (dimensionless)");
-    let of_energy =
-        "Figure 2 of the paper: the energy for three β, θ_A = 0, and its limits β²/(4ρ), labelled.";
-    let falls = "the energy beyond buckling, until steady; the line is β²/(4ρ), which the bent beam falls below.";
-    let bends = "displacement and rotation of the free end beyond buckling, until steady: the beam comes to rest bent.";
-    let [left, right] = [
-        format!("Figure 7, left: {falls}"),
-        format!("Figure 7, right: {bends}"),
+    animation(study, ran).into_iter().chain(drawn).collect()
+}
+
+fn animation(study: &Experiments, ran: &[Ran<Task, Found>]) -> Option<Figure> {
+    let all = OfGroup::of(study, ran, |_| true).runs;
+    let shown = |runs: &&Runs<'_>| !runs.first.trace.frames.times.is_empty();
+    let Runs {
+        experiment, first, ..
+    } = all.iter().find(shown)?;
+    let caption = format!(
+        "The experiment at {}, θ_A = 0, in motion up to t = {SPAN}, by dG.",
+        figures::beta_label(&experiment.scene.beam)
+    );
+    let svg = figures::animation(&figures::Animation {
+        title: Some("The beam between its obstacles".to_owned()),
+        frames: first.trace.frames.clone(),
+        obstacles: experiment
+            .scene
+            .obstacles
+            .map(|obstacles| (obstacles.g1, obstacles.g2)),
+        seconds: SECONDS,
+    });
+    Some(Figure::new("beam", caption, svg))
+}
+
+/// Where the inset of Figure 2 lies: the energy falls so soon that the middle of the figure is
+/// empty.
+const MIDDLE: Place = Place {
+    left: 0.4,
+    top: 0.34,
+    right: 0.98,
+    bottom: 0.9,
+};
+
+/// Where that of Figure 7 lies.
+const UPPER: Place = Place {
+    left: 0.3,
+    top: 0.12,
+    right: 0.98,
+    bottom: 0.68,
+};
+
+/// The figures of the paper, and the decay of the energy until each run is steady.
+fn plotted(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Plotted> {
+    let of = |belongs: fn(SectionGroup) -> bool| OfGroup::of(study, ran, belongs).runs;
+    let first = of(|group| group == SectionGroup::First);
+    let second = of(|group| matches!(group, SectionGroup::Second(_)));
+    let third = of(|group| group == SectionGroup::Third);
+    let mut plotted = vec![
+        energies(&first),
+        Plotted::new(
+            ["figure-3", "Figure 3"],
+            displacement(
+                &first,
+                "The beam bounces off both obstacles, faster for larger β",
+            ),
+            &first,
+            &[U_TIP],
+        ),
+        Plotted::new(
+            ["figure-4", "Figure 4"],
+            rotation("The free end turns most for β = −0.5"),
+            &first,
+            &[PHI_TIP],
+        ),
+        Plotted::new(
+            ["figure-5", "Figure 5"],
+            displacement(
+                &second,
+                "Heated, the beam ends on the upper obstacle unless β = 5",
+            ),
+            &second,
+            &[U_TIP],
+        ),
+        Plotted::new(
+            ["figure-6", "Figure 6"],
+            rotation("Heated, the free end keeps a rotation"),
+            &second,
+            &[PHI_TIP],
+        ),
     ];
-    let decays = "Energy above that of the straight beam until each run is steady, θ_A = 0.";
-    let drawn = [
-        ("figure-2", of_energy, energy(&first, false)),
-        (
-            "figure-3",
-            "Figure 3: displacement of the free end, θ_A = 0.",
-            displacement(&first),
-        ),
-        (
-            "figure-4",
-            "Figure 4: rotation of the free end, θ_A = 0.",
-            rotation(&first),
-        ),
-        (
-            "figure-5",
-            "Figure 5: displacement of the free end, θ_A = 20.",
-            displacement(&second),
-        ),
-        (
-            "figure-6",
-            "Figure 6: rotation of the free end, θ_A = 20.",
-            rotation(&second),
-        ),
-        ("figure-7-energy", &left, energy(&third, true)),
-        ("figure-7-tip", &right, tip(&third)),
-        ("decay", decays, curves(&first, decay, true, above)),
-    ];
-    beam.into_iter()
-        .chain(drawn.map(|(what, caption, history)| Figure::new(what, caption, history.draw())))
-        .collect()
+    plotted.extend(beyond_buckling(&third));
+    plotted.push(decay(&first));
+    plotted
 }
 
-fn beta_label(experiment: &Experiment) -> String {
-    // A minus sign, not a hyphen.
-    format!("β = {}", experiment.scene.beam.beta).replace('-', "−")
+/// Figure 2. Two of its limits lie too close together for labels: the inset shows the distance to
+/// each.
+fn energies(runs: &[Runs<'_>]) -> Plotted {
+    let inset = axis(plots::Axis::log("E − β²/(4ρ)"));
+    let xy = energy("Without heating, the energy falls to its limit β²/(4ρ)");
+    Plotted::new(["figure-2", "Figure 2"], xy, runs, &[ENERGY])
+        .with_inset(Plotted::new(["", ""], inset, runs, &[EXCESS]), MIDDLE)
 }
 
-fn obstacles(runs: &[(&Experiment, &Measured)]) -> Vec<plots::Guide> {
-    figures::obstacle_lines(
-        runs.first()
-            .and_then(|(experiment, _)| experiment.scene.obstacles),
-    )
-}
-
-/// A curve for each run, with the look of its scene.
-///
-/// * `until_steady`: whether the whole curve is shown; otherwise it ends at the scene's t_end, as in the paper.
-fn curves(
-    runs: &[(&Experiment, &Measured)],
-    y: plots::Axis,
-    until_steady: bool,
-    value: impl Fn(&Experiment, &Sample) -> f64,
-) -> Xy {
-    let curve = |(experiment, run): &(&Experiment, &Measured)| {
-        let scene = &experiment.scene;
-        let end = if until_steady {
-            f64::INFINITY
-        } else {
-            scene.t_end + 0.5 * scene.dt()
-        };
-        let shown = run.points.iter().filter(|point| point.t <= end);
-        plots::Series::new(
-            beta_label(experiment),
-            shown.map(|point| (point.t, value(experiment, point))),
+/// Both parts of Figure 7.
+fn beyond_buckling(runs: &[Runs<'_>]) -> [Plotted; 2] {
+    let whole = Quantity {
+        until_steady: true,
+        ..ENERGY
+    };
+    let guides: Vec<plots::Guide> = runs.iter().map(straight).collect();
+    let energy = Xy {
+        guides: guides.clone(),
+        ..energy("Beyond buckling, the energy falls below β²/(4ρ)")
+    };
+    let late = Xy {
+        guides,
+        ..axis(plots::Axis::linear("E, enlarged"))
+    };
+    let late = Plotted::new(["", ""], late, runs, &[LATE]);
+    let tip = Xy {
+        y: plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
+        ..displacement(runs, "Beyond buckling, the beam comes to rest bent")
+    };
+    [
+        Plotted::new(
+            ["figure-7-energy", "Figure 7, left"],
+            energy,
+            runs,
+            &[whole],
         )
-    };
-    let looks = figures::looks(runs.iter().map(|(experiment, _)| &*experiment.scene.name));
-    plots::history(y, &runs.iter().map(curve).collect::<Vec<_>>()).with_looks(&looks)
+        .with_inset(late, UPPER),
+        Plotted::new(["figure-7-tip", "Figure 7, right"], tip, runs, &TIP),
+    ]
 }
 
-fn energy(runs: &[(&Experiment, &Measured)], until_steady: bool) -> Xy {
-    let limit = |(e, _): &(&Experiment, &Measured)| {
-        let value = straight_energy(&e.scene);
-        let label = format!("{value:.4}")
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned();
-        plots::Guide { label, value }
+fn decay(runs: &[Runs<'_>]) -> Plotted {
+    let excess = Quantity {
+        until_steady: true,
+        ..EXCESS
     };
-    let y = plots::Axis::linear("energy E (dimensionless)");
-    Xy {
-        guides: runs.iter().map(limit).collect(),
-        ..curves(runs, y, until_steady, |_, point| point.energy)
+    let xy = axis(plots::Axis::log("E − β²/(4ρ) (dimensionless)"))
+        .titled("Without heating, the energy of the straight beam is reached");
+    let name = "Figure 2 until the beams are steady";
+    Plotted::new(["decay", name], xy, runs, &[excess])
+}
+
+/// The energy when it is close to its limit.
+const LATE: Quantity = Quantity {
+    from: 7.0,
+    until_steady: true,
+    ..ENERGY
+};
+
+/// The energy above that of the straight beam.
+const EXCESS: Quantity = Quantity {
+    value: |experiment, point| point.energy - straight_energy(&experiment.scene),
+    ..ENERGY
+};
+
+const PHI_TIP: Quantity = Quantity {
+    value: |_, point| point.phi_tip,
+    ..ENERGY
+};
+
+/// Both in one figure, until steady.
+const TIP: [Quantity; 2] = [
+    Quantity {
+        label: Some("displacement u(1, t)"),
+        until_steady: true,
+        ..U_TIP
+    },
+    Quantity {
+        label: Some("rotation φ(1, t)"),
+        until_steady: true,
+        ..PHI_TIP
+    },
+];
+
+fn axis(y: plots::Axis) -> Xy {
+    Xy { y, ..Xy::default() }
+}
+
+/// The energy of the straight beam.
+fn straight(runs: &Runs<'_>) -> plots::Guide {
+    plots::Guide {
+        label: "β²/(4ρ)".to_owned(),
+        value: straight_energy(&runs.experiment.scene),
     }
 }
 
-fn displacement(runs: &[(&Experiment, &Measured)]) -> Xy {
-    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
+fn energy(title: &str) -> Xy {
+    axis(plots::Axis::linear("energy E (dimensionless)")).titled(title)
+}
+
+fn displacement(runs: &[Runs<'_>], title: &str) -> Xy {
+    let scene = runs.first().map(|runs| &runs.experiment.scene);
     Xy {
-        guides: obstacles(runs),
-        ..curves(runs, y, false, |_, point| point.u_tip)
+        guides: figures::obstacle_lines(scene.and_then(|scene| scene.obstacles)),
+        ..axis(plots::Axis::linear(
+            "tip displacement u(1, t) (dimensionless)",
+        ))
+        .titled(title)
     }
 }
 
-fn rotation(runs: &[(&Experiment, &Measured)]) -> Xy {
-    curves(
-        runs,
-        plots::Axis::linear("tip rotation φ(1, t) (dimensionless)"),
-        false,
-        |_, point| point.phi_tip,
-    )
-}
-
-fn tip(runs: &[(&Experiment, &Measured)]) -> Xy {
-    let curve = |label: &str, value: fn(&Sample) -> f64| {
-        let points = runs.first().into_iter().flat_map(|(_, run)| &run.points);
-        plots::Series::new(label, points.map(|point| (point.t, value(point))))
-    };
-    let series = [
-        curve("displacement u(1, t)", |point| point.u_tip),
-        curve("rotation φ(1, t)", |point| point.phi_tip),
-    ];
-    let y = plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)");
-    Xy {
-        guides: obstacles(runs),
-        ..plots::history(y, &series)
-    }
+fn rotation(title: &str) -> Xy {
+    axis(plots::Axis::linear("tip rotation φ(1, t) (dimensionless)")).titled(title)
 }

@@ -1,8 +1,9 @@
-//! Errors of random and of given scenes with contact: their estimates, and the runs chosen for an accuracy, against runs that share
-//! neither mesh nor steps with the search, at times and in a norm that are not those of the search.
+//! Errors of random and of given scenes with contact: their estimates, and the runs chosen for an
+//! accuracy, against runs that share neither mesh nor steps with the search, at times and in a norm
+//! that are not those of the search.
 //!
-//! Such runs would not reveal a mistake that all dG runs share. So for some scenes linear elements and steps of `midpoint` are refined
-//! in addition: they must converge to the chosen run.
+//! Such runs would not reveal a mistake that all dG runs share. So for some scenes linear elements
+//! and steps of `midpoint` are refined in addition: they must converge to the chosen run.
 //!
 //! ```toml
 //! [random-errors]
@@ -25,6 +26,7 @@ use thermobeam::simulation::Stepping as OneStep;
 use self::truth::{Trace, Truth, points};
 use super::energy::named_cases;
 use super::prelude::*;
+use crate::kinds::settings;
 use crate::predict::choice::{self, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{MOST_WORK, Unreachable, Work};
@@ -40,12 +42,14 @@ pub const ROW: KindRow = KindRow {
     judged: "No error of any number exceeds 1.3 times its estimate, no run the error asked for, no search is refused unless its data \
              are rough, and the error of linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
+    settings: settings::of_experiments,
 };
 
 /// An error may be this many times its estimate.
 const EXCEEDED: f64 = 1.3;
 
-/// Required ratio of linear elements' errors for four times the elements and steps: contact costs first order.
+/// Required ratio of linear elements' errors for four times the elements and steps: contact costs
+/// first order.
 const FALL: f64 = 4.0;
 
 /// Elements of the coarsest linear mesh, and its steps per unit of time.
@@ -91,6 +95,29 @@ struct Feature {
     width: f64,
 }
 
+/// Why a search was abandoned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// The search and the reason, in words.
+    pub words: String,
+    /// Whether data with features may be refused so: no mesh resolves them, or a finer run
+    /// contradicts the search.
+    pub is_of_features: bool,
+}
+
+impl Refusal {
+    fn new(search: &str, why: &Unreachable) -> Self {
+        let is_of_features = matches!(
+            why,
+            Unreachable::Unresolved { .. } | Unreachable::Contradicted { .. }
+        );
+        Self {
+            words: format!("{search}: {why}"),
+            is_of_features,
+        }
+    }
+}
+
 /// The results of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
@@ -101,7 +128,7 @@ pub struct Found {
     /// The same in the norm.
     pub over_norm_target: f64,
     /// Why searches were abandoned.
-    pub refused: Vec<String>,
+    pub refused: Vec<Refusal>,
     /// Whether a search may be refused, because the data have features that no mesh resolves.
     pub may_be_refused: bool,
     /// Errors of linear elements, and of four times as many with four times the steps.
@@ -170,7 +197,8 @@ impl RandomErrors {
         })
     }
 
-    /// Twelve elements of degree 14 or 11, shorter towards x = 1 and towards a feature, and short steps.
+    /// Twelve elements of degree 14 or 11, shorter towards x = 1 and towards a feature, and short
+    /// steps.
     fn independent(&self, scene: &Scene, feature: Option<&Feature>) -> Result<Scene, CaseFailure> {
         let mut nodes = vec![
             0.0, 0.125, 0.25, 0.375, 0.5, 0.65, 0.8, 0.9, 0.96, 0.985, 0.995, 0.999, 1.0,
@@ -183,7 +211,8 @@ impl RandomErrors {
             restart_dt *= 1e-3;
             let distances =
                 || std::iter::successors(Some(width), |d| Some(3.0 * d)).take_while(|d| *d < 0.1);
-            // A function may have no value at its jump; a kink is between the innermost nodes, 1e-5 apart.
+            // A function may have no value at its jump; a kink is between the innermost nodes, 1e-5
+            // apart.
             let around = distances().flat_map(|d| [x - d, x + d]);
             nodes.retain(|node| *node == 0.0 || *node == 1.0 || (node - x).abs() > 0.03);
             nodes.extend(around.filter(|node| 0.0 < *node && *node < 1.0));
@@ -237,7 +266,7 @@ impl RandomErrors {
         &self,
         scene: &Scene,
         quantity: choice::Quantity,
-        refused: &mut Vec<String>,
+        refused: &mut Vec<Refusal>,
         work: &mut Work<'_>,
     ) -> Vec<(f64, Scene)> {
         let targets = if quantity == choice::Quantity::Tip {
@@ -249,7 +278,10 @@ impl RandomErrors {
         for &target in targets {
             match choose(scene, quantity, target, work) {
                 Ok(choice) => chosen.push((target, choice.scene)),
-                Err(reason) => refused.push(format!("{} {target:e}: {reason}", quantity.name())),
+                Err(why) => {
+                    let search = format!("{} {target:e}", quantity.name());
+                    refused.push(Refusal::new(&search, &why));
+                }
             }
         }
         chosen
@@ -262,8 +294,8 @@ impl RandomErrors {
         let work = &mut Work::new(MOST_WORK, &mut ignored);
         let mut refused = vec![];
         let estimates = estimate(&scene, work).map_or_else(
-            |reason: Unreachable| {
-                refused.push(format!("estimate: {reason}"));
+            |why: Unreachable| {
+                refused.push(Refusal::new("estimate", &why));
                 vec![]
             },
             |budget| budget.quantities,
@@ -327,7 +359,7 @@ impl RandomErrors {
         ran: &[Ran<Drawn, Found>],
         found: &[(&Ran<Drawn, Found>, &Found)],
     ) -> Vec<Check> {
-        let [over_estimate, over_target, over_norm_target] = worst(found);
+        let [over_estimate, over_target, over_norm_target] = worst(found).unwrap_or([f64::NAN; 3]);
         let falls: Vec<f64> = found
             .iter()
             .filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine))
@@ -335,6 +367,7 @@ impl RandomErrors {
         let least = falls.iter().copied().fold(f64::INFINITY, min_or_nan);
         let fall = format!("their error falls {FALL} times or more");
         let [refused, rough] = [false, true].map(|is_rough| refusals(found, is_rough));
+        let [refused_words, rough_words] = [&refused, &rough].map(|refusals| in_words(refusals));
         let mut checks = vec![
             completion(ran, |found| readings::not_finite(&found.readings())),
             Check::that(
@@ -344,7 +377,8 @@ impl RandomErrors {
                     "the largest is {over_estimate:.2} of its estimate, of {} numbers",
                     8 * found.len()
                 ),
-            ),
+            )
+            .about(Subject::of("estimates")),
             Check::that(
                 over_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error",
@@ -352,34 +386,41 @@ impl RandomErrors {
                     "the largest is {over_target:.2} of it, of {} runs",
                     self.targets.len() * found.len()
                 ),
-            ),
+            )
+            .about(Subject::of("target errors")),
             Check::that(
                 over_norm_target <= 1.0 && !found.is_empty(),
                 "no chosen run misses its target error in the norm of Theorem 3.4",
                 format!("the largest is {over_norm_target:.2} of it"),
-            ),
+            )
+            .about(Subject::of("target errors in the norm")),
             Check::that(
                 refused.is_empty(),
                 "every search of smooth data ends with a run",
-                refused.join("; "),
-            ),
+                refused_words,
+            )
+            .about(Subject::of("refused searches")),
             Check::that(
-                rough
-                    .iter()
-                    .all(|reason| REFUSALS.iter().any(|words| reason.contains(words))),
+                rough.iter().all(|(_, refusal)| refusal.is_of_features),
                 "a search of rough data is refused only where no mesh resolves them, or because a finer run contradicts it",
-                format!("{} searches refused: {}", rough.len(), rough.join("; ")),
-            ),
+                format!("{} searches refused: {rough_words}", rough.len()),
+            )
+            .about(Subject::of("refused searches of rough data")),
         ];
         if self.refined > 0 {
-            checks.push(Check::that(
-                least >= FALL && !falls.is_empty(),
-                format!("linear elements and steps of midpoint tend to the same motion: {fall}"),
-                format!(
-                    "with four times of both it falls at least {least:.1} times, of {} scenes",
-                    falls.len()
-                ),
-            ));
+            checks.push(
+                Check::that(
+                    least >= FALL && !falls.is_empty(),
+                    format!(
+                        "linear elements and steps of midpoint tend to the same motion: {fall}"
+                    ),
+                    format!(
+                        "with four times of both it falls at least {least:.1} times, of {} scenes",
+                        falls.len()
+                    ),
+                )
+                .about(Subject::of("linear elements")),
+            );
         }
         checks
     }
@@ -392,12 +433,21 @@ impl RandomErrors {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let work = "work of a scene's searches (unknowns times solves)";
         let series = [plots::Series::new("random scenes", points)];
-        let drawn = plots::work_precision(work, "largest error of u(1, t) / target error", &series);
+        let drawn = Xy {
+            guides: vec![plots::Guide {
+                label: "target".to_owned(),
+                value: 1.0,
+            }],
+            ..plots::work_precision(work, "largest error of u(1, t) / target error", &series)
+        };
         let caption = "Largest errors of the runs chosen for random scenes, in units of their target errors: all below 1.";
         Figure::new(
             "errors",
             caption,
-            drawn.titled("Errors of the runs chosen").draw(),
+            drawn
+                .scattered()
+                .titled("Every error stays below its target")
+                .draw(),
         )
     }
 }
@@ -432,16 +482,19 @@ impl Kind for RandomErrors {
             .iter()
             .filter_map(|ran| Some((ran, ran.ok()?)))
             .collect();
-        let [over_estimate, over_target, over_norm_target] = worst(&found);
         let rows: Vec<_> = found
             .iter()
             .map(|(ran, found)| (vec![ran.case.label.clone()], found.readings()))
             .collect();
         let work: f64 = found.iter().map(|(_, found)| found.work).sum();
-        let most = max_or_nan(over_target, over_norm_target);
-        let errors =
-            format!("{over_estimate:.2} of their estimates and {most:.2} of the target error");
-        let headline = format!("{} scenes: errors at most {errors}", found.len());
+        let errors = worst(&found).map_or("no error is known".to_owned(), |worst| {
+            let [over_estimate, over_target, over_norm_target] = worst;
+            let most = max_or_nan(over_target, over_norm_target);
+            format!(
+                "errors at most {over_estimate:.2} of their estimates and {most:.2} of the target error"
+            )
+        });
+        let headline = format!("{} scenes: {errors}", found.len());
         Outcome {
             tables: vec![readings::table(
                 "Errors relative to the estimates and targets",
@@ -451,8 +504,24 @@ impl Kind for RandomErrors {
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
             headline: headline.clone(),
+            coverage: vec![self.searches(ran)],
             ..Outcome::new(headline, vec![], self.checks(ran, &found))
         }
+    }
+}
+
+impl RandomErrors {
+    /// Each scene has an estimate and a search for each target; some are refused.
+    fn searches(&self, ran: &[Ran<Drawn, Found>]) -> Coverage {
+        let each = 1 + self.targets.len() + self.norm_targets.len();
+        let of_scene = |ran: &Ran<Drawn, Found>| {
+            let (reason, count) = match ran.ok() {
+                Some(found) => ("refused with a reason", found.refused.len()),
+                None => (NO_RESULT, each),
+            };
+            (0..each).map(move |k| (k < count).then_some(reason))
+        };
+        Coverage::of("searches", ran.iter().flat_map(of_scene))
     }
 }
 
@@ -469,39 +538,45 @@ impl Found {
     }
 }
 
-/// The largest errors in units of their estimates, of the targets, and of those in the norm.
-fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> [f64; 3] {
+/// The largest errors in units of their estimates, of the targets, and of those in the norm; `None`
+/// without a scene.
+fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> Option<[f64; 3]> {
     let of: [fn(&Found) -> f64; 3] = [
         |found| found.over_estimate,
         |found| found.over_target,
         |found| found.over_norm_target,
     ];
-    of.map(|of| {
+    let largest = of.map(|of| {
         found
             .iter()
             .map(|(_, found)| of(found))
             .fold(0.0, max_or_nan)
-    })
+    });
+    (!found.is_empty()).then_some(largest)
 }
 
-/// Words of the refusals of rough data.
-const REFUSALS: [&str; 2] = ["do not resolve", "is contradicted by"];
-
 /// Why searches of smooth, or of rough, data were refused.
-fn refusals(found: &[(&Ran<Drawn, Found>, &Found)], is_rough: bool) -> Vec<String> {
+fn refusals<'r>(
+    found: &[(&'r Ran<Drawn, Found>, &'r Found)],
+    is_rough: bool,
+) -> Vec<(&'r str, &'r Refusal)> {
     let of = found
         .iter()
         .filter(|(_, found)| found.may_be_refused == is_rough);
     of.flat_map(|(ran, found)| {
-        found
-            .refused
-            .iter()
-            .map(|reason| format!("{}, {reason}", ran.case.label))
+        let refused = found.refused.iter();
+        refused.map(|refusal| (ran.case.label.as_str(), refusal))
     })
     .collect()
 }
 
-/// A scene with moderate coefficients, obstacles that the beam hits, and smooth initial data, to one of which a feature is added.
+fn in_words(refusals: &[(&str, &Refusal)]) -> String {
+    let one = |(scene, refusal): &(&str, &Refusal)| format!("{scene}, {}", refusal.words);
+    refusals.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+/// A scene with moderate coefficients, obstacles that the beam hits, and smooth initial data, to
+/// one of which a feature is added.
 fn random_scene(
     random: &mut SplitMix,
     number: usize,

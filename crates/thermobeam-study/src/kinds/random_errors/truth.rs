@@ -1,6 +1,8 @@
-//! True errors: runs against one run by dG on a mesh and with steps that no search tries, at own times and in an own norm.
+//! True errors: runs against one run by dG on a mesh and with steps that no search tries, at own
+//! times and in an own norm.
 //!
-//! Nothing here comes from the searches, so a mistake in their times, their norm or their extremes shows.
+//! Nothing here comes from the searches, so a mistake in their times, their norm or their extremes
+//! shows.
 
 use thermobeam::dg::{self, Field};
 
@@ -76,7 +78,7 @@ impl State {
             phi_tip,
             energy,
             ..
-        } = motion.at(t);
+        } = motion.inside(t);
         let simulation = motion.simulation();
         let mut integrands = vec![];
         if !located.is_empty() {
@@ -109,34 +111,34 @@ impl Trace {
         match scene.method {
             Method::OneStep(_) => {
                 let mut motion = simulate::motion(scene)?;
-                while motion.step(scene.t_end)?.is_some() {
+                run_to(&mut *motion, scene.t_end, |motion, _| {
                     let Sample {
                         t,
                         u_tip,
                         phi_tip,
                         energy,
                         ..
-                    } = motion.at(motion.t());
+                    } = motion.sample();
                     states.push(State {
                         t,
                         numbers: [u_tip, phi_tip, energy],
                         integrands: vec![],
                     });
-                }
+                })?;
             }
             Method::Dg(stepping) => {
                 let mut motion = DgMotion::new(scene, stepping)?;
                 let located = located(&motion, points);
-                while motion.step(scene.t_end)?.is_some() {
-                    let (from, to) = (motion.simulation().old_level().t, motion.t());
+                run_to(&mut motion, scene.t_end, |motion, _| {
+                    let (from, to) = (motion.simulation().old_level().t, motion.simulation().t());
                     for part in PARTS {
                         states.push(State::of_dg(
-                            &mut motion,
+                            motion,
                             (from + part * (to - from)).min(to),
                             &located,
                         ));
                     }
-                }
+                })?;
             }
         }
         Ok(Self { states })
@@ -161,9 +163,9 @@ impl Truth {
         let mut motion = DgMotion::new(scene, scene.dg_stepping())?;
         let located = located(&motion, points);
         let mut read: Vec<Trace> = traces.iter().map(|_| Trace { states: vec![] }).collect();
-        let mut tips = vec![(0.0, motion.at(0.0).u_tip)];
-        while motion.step(scene.t_end)?.is_some() {
-            let (from, to) = (motion.simulation().old_level().t, motion.t());
+        let mut tips = vec![(0.0, motion.sample().u_tip)];
+        run_to(&mut motion, scene.t_end, |motion, _| {
+            let (from, to) = (motion.simulation().old_level().t, motion.simulation().t());
             for (trace, read) in traces.iter().zip(&mut read) {
                 while let Some(state) = trace.states.get(read.states.len()) {
                     let t = state.t.min(scene.t_end);
@@ -175,8 +177,7 @@ impl Truth {
                     } else {
                         &located[..]
                     };
-                    read.states
-                        .push(State::of_dg(&mut motion, t.max(from), located));
+                    read.states.push(State::of_dg(motion, t.max(from), located));
                 }
             }
             for part in 1..=EXTREME_PARTS {
@@ -189,13 +190,13 @@ impl Truth {
                         .unwrap_or(f64::NAN),
                 ));
             }
-        }
+        })?;
         let Sample {
             u_tip,
             phi_tip,
             energy,
             ..
-        } = motion.at(motion.t());
+        } = motion.sample();
         let range = [
             -largest(tips.iter().map(|(t, u)| (*t, -u)).collect()),
             largest(tips),
@@ -261,7 +262,8 @@ impl Truth {
     }
 }
 
-/// The largest value of a curve: that of the parabola through the largest of its points and both neighbours.
+/// The largest value of a curve: that of the parabola through the largest of its points and both
+/// neighbours.
 fn largest(curve: Vec<(f64, f64)>) -> f64 {
     let most = curve
         .iter()

@@ -1,20 +1,26 @@
-//! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline guards.
+//! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline
+//! guards.
 
 use convergence_study::judge::fit::Level;
 use convergence_study::text::number::rate_text;
 
 use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
-use crate::figures::{contraction, obstacle_lines};
+use crate::figures::{ContractionFactors, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 
-/// Contraction above which a time step averages over the whole impact, so that the penetration is of order 1.
+/// Contraction above which a time step averages over the whole impact, so that the penetration is
+/// of order 1.
 const AVERAGED: f64 = 5.0;
 
-/// Compliance below which an obstacle is stiff: the layer of an impact is then short compared with the beam.
+/// Compliance below which an obstacle is stiff: the layer of an impact is then short compared with
+/// the beam.
 const STIFF: f64 = 1e-3;
 
 /// Contraction above which the fixed point may need more iterations than allowed.
 const SLOW: f64 = 0.8;
+
+/// Contraction below which a step takes too few iterations to show it.
+const MEASURABLE: f64 = 0.01;
 
 /// A rate, and the name of its curve.
 const LARGEST: &str = "largest penetration, fixed h and dt";
@@ -26,7 +32,8 @@ struct Compliance<'r> {
     fixed_point: Option<&'r ShownImpact>,
     rest: Option<&'r ShownImpact>,
     impact: Option<&'r ShownImpact>,
-    /// Largest distance over time between the free ends of the bouncing beam and of the beam with rigid obstacles.
+    /// Largest distance over time between the free ends of the bouncing beam and of the beam with
+    /// rigid obstacles.
     distance: f64,
 }
 
@@ -70,13 +77,34 @@ impl<'r> Compliance<'r> {
         number(self.fixed_point, |found| found.alpha)
     }
 
+    /// Whether a time step averages over the impact. The predicted α tells; if the case failed it
+    /// is NaN, which must not drop a level.
+    fn is_averaged(&self) -> bool {
+        !(self.alpha() < AVERAGED)
+    }
+
+    fn is_stiff(&self) -> bool {
+        self.epsilon <= STIFF
+    }
+
+    /// Why the factor of the fixed point is not compared with α; `None` if it is.
+    fn factor_left_out(&self) -> Option<&'static str> {
+        match self.alpha() {
+            alpha if alpha.is_nan() => Some(NO_RESULT),
+            alpha if alpha < MEASURABLE => Some("too few iterations to show a factor"),
+            alpha if alpha >= SLOW => Some("α near 1 or above"),
+            _ => None,
+        }
+    }
+
     /// Penetrations and forces.
     fn forces(&self) -> Vec<Reading> {
         let guarded = |head: &str, run: Option<&ShownImpact>, name: &str| {
-            let name = format!("{name}, ε = {:.1e}", self.epsilon);
+            let epsilon = format!("ε = {:.1e}", self.epsilon);
             Reading::new(head, penetration(run))
                 .scientific(4)
-                .guarded(name, 1e-6)
+                .guarded(format!("{name}, {epsilon}"), 1e-6)
+                .about(Subject::of(name).at(epsilon))
         };
         let shown = |head: &str, value: f64| Reading::new(head, value).scientific(4);
         let force =
@@ -188,6 +216,7 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
         ],
         figures: figures(study, &all, limit),
         quantities: readings::guarded(forces.iter().flat_map(|(_, readings)| readings)),
+        coverage: coverage(&all),
         ..Outcome::new(
             format!("orders in ε: {}", observed.join("; ")),
             rates,
@@ -198,9 +227,8 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
 
 /// The four orders in ε.
 fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
-    // The predicted α tells whether dt resolves the impact. If a case failed it is NaN, which must not drop a level.
-    let averaged = |of: &Compliance<'_>| !(of.alpha() < AVERAGED);
-    let stiff = |of: &Compliance<'_>| of.epsilon <= STIFF;
+    let averaged = |of: &Compliance<'_>| of.is_averaged();
+    let stiff = |of: &Compliance<'_>| of.is_stiff();
     let rate = |name: &str,
                 order,
                 belongs: &dyn Fn(&Compliance<'_>) -> bool,
@@ -246,6 +274,7 @@ fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check
         "the peak penetration of an impact is 0.858 v (ε √ζ)^(2/3), to half a per cent",
         format!("{measured:.5} for {exact:.5} at ε = {epsilon:.0e}"),
     )
+    .about(Subject::of("peak penetration"))
 }
 
 fn newton_does_not_depend_on_epsilon(
@@ -254,13 +283,14 @@ fn newton_does_not_depend_on_epsilon(
     limit: Option<&ShownImpact>,
 ) -> Check {
     let claim = "Newton's iterations do not grow as the obstacles become rigid";
+    let subject = Subject::of("Newton's iterations");
     let bouncing: Vec<&ShownImpact> = all
         .iter()
         .filter_map(|of| of.bouncing)
         .chain(limit)
         .collect();
     let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
-        return Check::that(false, claim, "no bouncing beam was run to its end");
+        return Check::that(false, claim, "no bouncing beam was run to its end").about(subject);
     };
     let mean = |found: &ShownImpact| number(Some(found), |found| found.mean_iterations);
     let holds = |found: &&ShownImpact| {
@@ -281,6 +311,7 @@ fn newton_does_not_depend_on_epsilon(
         claim,
         evidence,
     )
+    .about(subject)
 }
 
 fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
@@ -310,28 +341,55 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
             name(first)
         ),
     )
+    .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
 }
 
 fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
-    let judged = all.iter().filter(|of| (0.01..SLOW).contains(&of.alpha()));
+    let judged = all.iter().filter(|of| of.factor_left_out().is_none());
     let ratios: Vec<f64> = judged
         .map(|of| number(of.fixed_point, |run| run.contraction) / of.alpha())
         .collect();
-    let worst = ratios
-        .iter()
-        .map(|ratio| (ratio - 1.0).abs())
-        .fold(0.0, max_or_nan);
+    let worst = largest_of(ratios.iter().map(|ratio| (ratio - 1.0).abs()));
+    let farthest = worst.map_or("no ratio".to_owned(), |worst| {
+        format!("the farthest ratio {worst:.1e} from 1")
+    });
     Check::that(
-        !ratios.is_empty() && worst <= 0.1,
+        worst.is_some_and(|worst| worst <= 0.1),
         "in contact the fixed point contracts by α = (dt/ε) [A_u⁻¹]_nn, to a tenth",
         format!(
-            "{} compliances with α between 0.01 and {SLOW}, the farthest ratio {worst:.1e} from 1",
+            "{} compliances with α between {MEASURABLE} and {SLOW}, {farthest}",
             ratios.len()
         ),
     )
+    .about(Subject::of("contraction").by(ItemMethod::FixedPoint))
 }
 
-/// The first figure omits the distance to the rigid limit: on its scale it coincides with the largest penetration.
+/// The compliances that each statement judges; the orders have ranges of their own.
+fn coverage(all: &[Compliance<'_>]) -> Vec<Coverage> {
+    let count = |items: &str, reason: fn(&Compliance<'_>) -> Option<&'static str>| {
+        Coverage::of(items, all.iter().map(reason))
+    };
+    vec![
+        count("compliances on a fixed grid for an order", |of| {
+            (!of.is_averaged()).then_some("a time step resolves the impact")
+        }),
+        count("compliances at rest and in an impact for an order", |of| {
+            (!of.is_stiff()).then_some("too soft")
+        }),
+        count("compliances for the end of convergence", |of| {
+            if of.fixed_point.is_none() {
+                return Some(NO_RESULT);
+            }
+            (SLOW..=1.0)
+                .contains(&of.alpha())
+                .then_some("α just below 1")
+        }),
+        count("compliances for the factor α", |of| of.factor_left_out()),
+    ]
+}
+
+/// The first figure omits the distance to the rigid limit: on its scale it coincides with the
+/// largest penetration.
 fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
     let of_fixed_point = |label: &str, converges: bool| {
         let runs = all.iter().filter(|of| {
@@ -343,10 +401,15 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
             runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))),
         )
     };
-    let series = vec![
-        of_fixed_point("converges", true),
-        of_fixed_point("fails", false),
-    ];
+    let factors = ContractionFactors {
+        title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
+        measured: vec![
+            of_fixed_point("converges", true),
+            of_fixed_point("fails", false),
+        ],
+        predicted: "predicted factor α".to_owned(),
+        estimates: plots::Series::default(),
+    };
     let orders = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
                   order 2/3 where it is resolved.";
     let contracts = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
@@ -357,7 +420,7 @@ fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpac
             "Displacement of the free end as the obstacles become rigid.",
             tip(study, all, limit),
         ),
-        Figure::new("contraction", contracts, contraction(&series)),
+        Figure::new("contraction", contracts, contraction(&factors)),
     ]
 }
 
@@ -374,6 +437,9 @@ fn penetrations(all: &[Compliance<'_>]) -> String {
         over_epsilon("at rest", |of| penetration(of.rest)),
     ];
     let xy = Xy {
+        title: Some(
+            "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact".to_owned(),
+        ),
         x: plots::Axis::log("compliance of the obstacles ε"),
         y: plots::Axis::log("penetration (dimensionless)"),
         beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
@@ -402,5 +468,6 @@ fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) 
         guides: obstacle_lines(study.moving.obstacles),
         ..plots::history(y, &series)
     }
+    .titled("The motion tends to that between rigid obstacles")
     .draw()
 }

@@ -2,15 +2,17 @@
 //!
 //! # The time scale of an impact
 //!
-//! When the free end meets an obstacle with velocity ν, at first only a layer of width √(ζt) moves: there the beam is a
-//! viscous half-space, and its end resists a change of velocity with the force `√ζ D^½`, a derivative of order one half.
-//! With the penetration δ = ν t* C(t/t*) and the law F = δ/ε,
+//! When the free end meets an obstacle with velocity ν, at first only a layer of width √(ζt) moves:
+//! there the beam is a viscous half-space, and its end resists a change of velocity with the force
+//! `√ζ D^½`, a derivative of order one half. With the penetration δ = ν t* C(t/t*) and the law F =
+//! δ/ε,
 //!
 //! ```text
 //! C' + J C = 1,     C(0) = 0,      t* = (ε √ζ)^(2/3),
 //! ```
 //!
-//! J being the integral of order one half. So the peak of an impact has the time scale t*, its penetration is 0.858 ν (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
+//! J being the integral of order one half. So the peak of an impact has the time scale t*, its
+//! penetration is 0.858 ν (ε √ζ)^(2/3), and the force *grows* like ε^(-1/3). Three orders follow.
 //!
 //! | quantity | order in ε | why |
 //! | --- | --- | --- |
@@ -18,13 +20,15 @@
 //! | the same on a fixed mesh with a fixed dt, once t* < dt | 1 | the step averages the force, which then has a limit |
 //! | penetration at rest | 1 | the force at rest has a limit |
 //!
-//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it fails approximately where
-//! the time step no longer resolves the impact. The number of Newton iterations does not depend on ε.
+//! The fixed point contracts by `α = (dt/ε) [A_u⁻¹]_nn ≈ dt^(3/2) / (ε √ζ) = (dt/t*)^(3/2)`: it
+//! fails approximately where the time step no longer resolves the impact. The number of Newton
+//! iterations does not depend on ε.
 
 mod judge;
 
 use super::prelude::*;
 use super::steady::{listed_scene, settle, tolerance};
+use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -34,6 +38,7 @@ pub const ROW: KindRow = KindRow {
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
     failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
+    settings: settings::of_experiments,
 };
 
 /// The study.
@@ -52,7 +57,8 @@ pub struct RigidStudy {
     resting: Scene,
     speed: f64,
     t_max: f64,
-    /// A beam whose free end moves into the upper obstacle at t = 0, on a mesh graded towards that end.
+    /// A beam whose free end moves into the upper obstacle at t = 0, on a mesh graded towards that
+    /// end.
     impact: Scene,
     /// Time steps in units of t*.
     steps: usize,
@@ -90,8 +96,8 @@ pub struct ShownImpact {
     pub tip: Vec<(f64, f64)>,
     /// Predicted contraction factor of the fixed point in contact.
     pub alpha: Option<f64>,
-    /// Largest factor measured in contact, or the factor of the last increments of a failing step; `None` if no step was
-    /// in contact or the iterates overflowed.
+    /// Largest factor measured in contact, or the factor of the last increments of a failing step;
+    /// `None` if no step was in contact or the iterates overflowed.
     pub contraction: Option<f64>,
     /// Time of the step at which the fixed point fails, if any.
     pub failed_at: Option<f64>,
@@ -290,34 +296,30 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
         ..scene.clone()
     })?;
     let (mut contraction, mut iterations, mut failed_at) = (None, 0, None);
-    for _ in 0..scene.steps() {
-        match driver.stepped() {
-            Ok(Step {
-                report, old, new, ..
-            }) => {
-                iterations += report.iterations;
-                // While the tip enters or leaves contact the law is not linear, and two increments show nothing.
-                let in_contact = old.contact_force != 0.0 && new.contact_force != 0.0;
-                if let Some(found) = report.contraction.filter(|_| in_contact) {
-                    contraction =
-                        Some(contraction.map_or(found, |largest| max_or_nan(largest, found)));
-                }
-            }
-            Err(RunError::Step(error)) => {
-                contraction = match error.failure {
-                    StepFailure::Diverged { contraction, .. }
-                    | StepFailure::IterationLimit { contraction, .. } => {
-                        Some(contraction).filter(|contraction| contraction.is_finite())
-                    }
-                    _ => None,
-                };
-                failed_at = Some(error.step as f64 * error.dt);
-                break;
-            }
-            Err(other) => return Err(other.into()),
+    let ended = run_to(&mut driver, scene.t_end, |driver, report| {
+        iterations += report.iterations;
+        // While the tip enters or leaves contact the law is not linear, and two increments show
+        // nothing.
+        let in_contact = driver.old_level().contact_force != 0.0 && report.in_contact;
+        if let Some(measured) = report.contraction.filter(|_| in_contact) {
+            contraction = Some(contraction.map_or(measured, |most| max_or_nan(most, measured)));
         }
+    });
+    match ended {
+        Ok(()) => {}
+        Err(RunError::Step(error)) => {
+            contraction = match error.failure {
+                StepFailure::Diverged { contraction, .. }
+                | StepFailure::IterationLimit { contraction, .. } => {
+                    Some(contraction).filter(|contraction| contraction.is_finite())
+                }
+                _ => None,
+            };
+            failed_at = Some(error.step as f64 * error.dt);
+        }
+        Err(other) => return Err(other.into()),
     }
-    let mean_iterations = Some(iterations as f64 / driver.simulation().step().max(1) as f64);
+    let mean_iterations = Some(iterations as f64 / driver.work().steps.max(1) as f64);
     Ok(ShownImpact {
         alpha: Some(alpha(scene, &stepping)),
         contraction,
@@ -327,7 +329,8 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
     })
 }
 
-/// The factor for the mean axial force β of a nearly straight beam; infinite if the operator is not definite.
+/// The factor for the mean axial force β of a nearly straight beam; infinite if the operator is not
+/// definite.
 fn alpha(scene: &Scene, by: &Stepping) -> f64 {
     let case = simulate::problem(scene).case(by.scheme, by.dt);
     scene
@@ -337,7 +340,8 @@ fn alpha(scene: &Scene, by: &Stepping) -> f64 {
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.
 ///
-/// The largest value of `C(ξ) = Σ (-1)^n ξ^(1 + 3n/2) / Γ(2 + 3n/2)`, the inverse transform of `1/(s² + √s)`.
+/// The largest value of `C(ξ) = Σ (-1)^n ξ^(1 + 3n/2) / Γ(2 + 3n/2)`, the inverse transform of
+/// `1/(s² + √s)`.
 fn peak_penetration() -> f64 {
     // One smooth maximum at τ = 1.65; a step of 1e-3 misses its height by 1e-7.
     (0..4000)
@@ -348,7 +352,8 @@ fn peak_penetration() -> f64 {
 /// C(ξ) for 0 <= ξ <= 4, where the terms vanish long before the last.
 fn penetration(tau: f64) -> f64 {
     const TERMS: usize = 40;
-    // Γ(2 + 3k/2) from Γ(x + 3) = x (x + 1) (x + 2) Γ(x), starting from Γ(2) = 1 and Γ(7/2) = 15 √π / 8.
+    // Γ(2 + 3k/2) from Γ(x + 3) = x (x + 1) (x + 2) Γ(x), starting from Γ(2) = 1 and Γ(7/2) = 15 √π
+    // / 8.
     let mut gamma = [1.0, 1.875 * std::f64::consts::PI.sqrt()];
     let mut sum = 0.0;
     for k in 0..TERMS {

@@ -1,4 +1,5 @@
-//! The verdict: rates of both readings where an order is claimed, and contact where the study is one of contact.
+//! The verdict: rates of both readings where an order is claimed, and contact where the study is
+//! one of contact.
 
 use convergence_study::study::LevelErrors;
 use convergence_study::study::levels::{Rates, rate_table};
@@ -17,11 +18,14 @@ const VALUE_TOLERANCE: f64 = 1e-8;
 /// The part of the finest level's error that the two references may differ by.
 const KNOWN: f64 = 1e-2;
 
-/// A difference of two runs, the second on a mesh that is the first's or nested in it; each the maximum over the times compared.
+/// A difference of two runs, the second on a mesh that is the first's or nested in it; each the
+/// maximum over the times compared.
 #[derive(Debug)]
 pub(super) struct Observable {
     /// The name in study files and tables.
     pub(super) name: &'static str,
+    /// The notation of the paper.
+    symbol: &'static str,
     /// The order in h for a smooth solution.
     in_space: f64,
     of: fn(&Traced, &Traced) -> f64,
@@ -31,36 +35,43 @@ static OBSERVABLES: [Observable; 7] = [
     TIP,
     Observable {
         name: "rotation",
+        symbol: "φ(1, t)",
         in_space: 2.0,
         of: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
     },
     // The energy (3.9).
     Observable {
         name: "energy",
+        symbol: "E",
         in_space: 2.0,
         of: |a, b| distance_of_curves(&a.energies, &b.energies),
     },
     // The largest u(1) over all time levels.
     Observable {
         name: "tip-max",
+        symbol: "max u(1, t)",
         in_space: 2.0,
         of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
     },
-    // The largest defect of the energy balance in a step; of a fixed number of iterations it has an order of its own.
+    // The largest defect of the energy balance in a step; of a fixed number of iterations it has an
+    // order of its own.
     Observable {
         name: "balance",
+        symbol: "defect of the balance",
         in_space: 2.0,
         of: |a, b| (a.energy_defect - b.energy_defect).abs(),
     },
     // The solutions as functions.
     Observable {
         name: "theorem-3.4",
+        symbol: Norm::Theorem34.symbol(),
         in_space: 1.0,
         of: |coarse, fine| functions(coarse, fine)[0],
     },
     // The same norm of their values at the nodes of the coarser mesh.
     Observable {
         name: "superclose",
+        symbol: Norm::Superclose.symbol(),
         in_space: 2.0,
         of: |coarse, fine| functions(coarse, fine)[1],
     },
@@ -68,6 +79,7 @@ static OBSERVABLES: [Observable; 7] = [
 
 const TIP: Observable = Observable {
     name: "tip",
+    symbol: "u(1, t)",
     in_space: 2.0,
     of: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()),
 };
@@ -98,8 +110,9 @@ fn last(values: &[f64]) -> f64 {
 }
 
 impl Observable {
-    /// Those that a refinement of this axis tells apart: without refinement in space both distances in the norm of Theorem
-    /// 3.4 are the same, and the balance of solved steps closes to round-off.
+    /// Those that a refinement of this axis tells apart: without refinement in space both distances
+    /// in the norm of Theorem 3.4 are the same, and the balance of solved steps closes to
+    /// round-off.
     pub(super) fn all(axis: Axis, stopping: Stopping) -> impl Iterator<Item = &'static Self> {
         OBSERVABLES
             .iter()
@@ -110,7 +123,8 @@ impl Observable {
             })
     }
 
-    /// The order for a smooth solution in the step that is refined, in which the scheme has the order `in_time`.
+    /// The order for a smooth solution in the step that is refined, in which the scheme has the
+    /// order `in_time`.
     fn order(&self, axis: Axis, in_time: f64) -> f64 {
         if axis == Axis::Time {
             in_time
@@ -160,7 +174,7 @@ pub(super) fn judge(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Outc
         tables,
         figures: vec![to_reference(study, ran, &rates, &shown), tip(study, ran)],
         quantities,
-        ..Outcome::new(summary(&rates), rates, checks)
+        ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
     }
 }
 
@@ -185,10 +199,11 @@ fn to_reference(
         .filter(|column| shown.iter().any(|(name, _)| *name == column.name))
     {
         column.name = not_claimed(&column.name);
+        column.symbol = column.symbol.as_deref().map(not_claimed);
     }
-    let title = format!("Differences to a run of any order: {}", study.scene.name);
+    let subject = study.scene.name.clone();
     let caption = "Differences to a run of any order, with the orders of a smooth solution.";
-    differences.figure("errors", Some(title), caption.to_owned(), &rates)
+    differences.figure("errors", Some(subject), caption.to_owned(), &rates)
 }
 
 /// How far u(1) of each level is from the reference over time.
@@ -204,8 +219,10 @@ fn tip(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Figure {
         plots::Series::new(name(level), (1..=study.samples).map(point))
     };
     let curves: Vec<_> = (0..reference).map(curve).collect();
-    let title = format!("Tip of {}: distance to the reference", study.scene.name);
-    let drawn = plots::history(plots::Axis::log("|u(1, t) - reference|"), &curves).titled(title);
+    let y = plots::Axis::log("|u(1, t) − reference| (dimensionless)");
+    let drawn = plots::history(y, &curves)
+        .marked()
+        .titled("Each refinement brings the tip nearer to the reference, at all times");
     Figure::new(
         "tip",
         "Distance of u(1, t) to the reference on each level.",
@@ -223,7 +240,8 @@ fn append(levels: &mut Vec<LevelErrors>, more: Vec<LevelErrors>) {
     levels.extend(more);
 }
 
-/// Differences of each level to what it is compared with, of the observables whose claim is `wanted`.
+/// Differences of each level to what it is compared with, of the observables whose claim is
+/// `wanted`.
 fn differences(
     study: &SelfConvergence,
     ran: &[Ran<usize, Traced>],
@@ -255,12 +273,14 @@ fn differences(
         );
         wanted(claim).then(|| ErrorColumn {
             name: format!("{}, {reading}", observable.name),
+            symbol: Some(observable.symbol.to_owned()),
             errors: (0..count).map(difference).collect(),
             claim: Some(claim.copied().unwrap_or(smooth)),
             look: norm.unwrap_or(Norm::ALL.len() + place),
         })
     };
-    let refinement = |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step(k));
+    let refinement =
+        |k: usize| Refine::level(study.levels[k].0, study.levels[k].1, study.step_size(k));
     Levels::new(
         study.axis,
         (0..count).map(refinement),
@@ -300,7 +320,7 @@ fn tip_at(ran: &[Ran<usize, Traced>], run: usize, k: usize) -> f64 {
 fn values(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Table {
     let reference = study.levels.len();
     let [before, finest] = [reference - 2, reference - 1];
-    let ratio = study.step(before) / study.step(finest);
+    let ratio = study.step_size(before) / study.step_size(finest);
     let order = TIP.order(study.axis, study.order_in_time);
     let row = |k: usize| {
         let value = |run: usize| tip_at(ran, run, k);
@@ -336,14 +356,18 @@ fn contact(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Option<Check>
         "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
         obstacles.g1, obstacles.g2
     );
-    Some(Check::that(
-        low < obstacles.g1 || high > obstacles.g2,
-        "the tip meets an obstacle",
-        evidence,
-    ))
+    Some(
+        Check::that(
+            low < obstacles.g1 || high > obstacles.g2,
+            "the tip meets an obstacle",
+            evidence,
+        )
+        .about(Subject::of("contact")),
+    )
 }
 
-/// Does another discretisation give the same reference, to a small part of the smallest error that is measured with it?
+/// Does another discretisation give the same reference, to a small part of the smallest error that
+/// is measured with it?
 fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check {
     let reference = study.levels.len();
     let part = |observable: &Observable| {
@@ -371,6 +395,7 @@ fn reference_known(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> Check
             .collect::<Vec<_>>()
             .join(", "),
     )
+    .about(Subject::of("reference"))
 }
 
 /// Values of the finest level.
@@ -383,12 +408,15 @@ fn values_guarded(study: &SelfConvergence, ran: &[Ran<usize, Traced>]) -> [Quant
         (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
         ("tip max".to_owned(), tip_max),
     ]
-    .map(|(name, value)| Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE))
+    .map(|(name, value)| {
+        Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE)
+            .about(Subject::of(name).at("finest level"))
+    })
 }
 
 impl SelfConvergence {
     /// h of a level, or dt where time alone is refined.
-    fn step(&self, level: usize) -> f64 {
+    fn step_size(&self, level: usize) -> f64 {
         match self.axis {
             Axis::Space | Axis::Both => resampled(&self.scene.mesh, self.levels[level].0)
                 .map_or(f64::NAN, |mesh| mesh.size()),

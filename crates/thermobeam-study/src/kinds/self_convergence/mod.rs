@@ -2,18 +2,22 @@
 //!
 //! Two readings of the same runs:
 //!
-//! * *successive* (three-level Richardson): with `q_h = q + C h^p` the difference of neighbouring levels is `q_h -
-//!   q_{h/2} = C (1 - 2^-p) h^p`: it falls with the order p, and two differences (three levels) give a rate;
-//! * *reference*: the difference to a run of any order, see [`crate::error::reference`]. If h and dt are refined together, this is
-//!   the error against the equations themselves, contact included; if only time is refined, against the semi-discrete system of
-//!   the mesh. A second reference with other degrees and steps shows the accuracy of the first.
+//! * *successive* (three-level Richardson): with `q_h = q + C h^p` the difference of neighbouring
+//!   levels is `q_h - q_{h/2} = C (1 - 2^-p) h^p`: it falls with the order p, and two differences
+//!   (three levels) give a rate;
+//! * *reference*: the difference to a run of any order, see [`crate::error::reference`]. If h and
+//!   dt are refined together, this is the error against the equations themselves, contact included;
+//!   if only time is refined, against the semi-discrete system of the mesh. A second reference with
+//!   other degrees and steps shows the accuracy of the first.
 //!
-//! Only the second reading sees a fault of the scheme that does not vanish with h and dt, such as a wrong coefficient.
+//! Only the second reading sees a fault of the scheme that does not vanish with h and dt, such as a
+//! wrong coefficient.
 //!
-//! The effect of contact is not assumed. The contact force is Lipschitz, so it has a kink in time where the tip enters or
-//! leaves an obstacle. That costs one step a local error of dt² instead of dt³, once for each event: first and second order
-//! should survive at fixed times, but the constant depends on where in its step the event falls, so rates scatter. No order
-//! can be expected of the largest displacement over all levels: it misses the true maximum by a share of a step. Only the
+//! The effect of contact is not assumed. The contact force is Lipschitz, so it has a kink in time
+//! where the tip enters or leaves an obstacle. That costs one step a local error of dt² instead of
+//! dt³, once for each event: first and second order should survive at fixed times, but the constant
+//! depends on where in its step the event falls, so rates scatter. No order can be expected of the
+//! largest displacement over all levels: it misses the true maximum by a share of a step. Only the
 //! claims under `[[expect]]` are judged; other rates are shown with the verdict they would get.
 //!
 //! ```toml
@@ -48,6 +52,7 @@ use super::prelude::*;
 use super::tables::{Discretisation, Refine, claims, discretisations};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
+use crate::kinds::settings;
 use judge::Observable;
 
 /// The row of the table of kinds.
@@ -59,6 +64,7 @@ pub const ROW: KindRow = KindRow {
     judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
     failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
               reference fail, scheme and reference solve different equations.",
+    settings: settings::of_experiments,
 };
 
 /// A study of rates without an exact solution.

@@ -7,13 +7,15 @@ use super::map::{Boundary, Map, NewtonSteps, Parameter, Point, spaced};
 use crate::kinds::prelude::*;
 use crate::kinds::watch::of_allowed;
 
-/// A factor for which the map's iterations suffice, with a margin for the mean force, which is not known in advance.
+/// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
+/// known in advance.
 const SLOW: f64 = 0.8;
 /// γ up to which α alone decides.
 const ALONE: f64 = 0.01;
 /// Maximum number of Newton iterations in a step.
 const MOST: usize = 30;
-/// Smaller contractions are shown as this value: after a few iterations the ratio is no longer meaningful.
+/// Smaller contractions are shown as this value: after a few iterations the ratio is no longer
+/// meaningful.
 const FASTEST: f64 = 1e-6;
 /// Smaller residuals are shown as this value, a hundredth of a rounding error.
 const EXACT: f64 = 1e-18;
@@ -34,18 +36,14 @@ impl Map {
         );
         let converged = points(rows).filter(|point| point.step.converged).count();
         let completes = points(rows).filter(|point| point.newton_completes).count();
-        let ratio = |line: &Boundary| {
-            let crossing = line.found.filter(|crossing| crossing.gamma <= ALONE)?;
-            Some((crossing.dt / line.predicted.unwrap_or(f64::NAN) - 1.0).abs())
-        };
-        let worst = 100.0
-            * lines
-                .iter()
-                .filter_map(|(_, line)| ratio(line))
-                .fold(0.0, max_or_nan);
-        let residual = largest(rows, |newton| newton.worst.residual);
-        let boundary = format!("boundary within {worst:.2} % of alpha = 1");
-        let residual = format!("residual at most {residual:.1e} of the energy");
+        let worst = largest_of(lines.iter().filter_map(|(_, line)| line.distance_alone()));
+        let boundary = worst.map_or("no boundary".to_owned(), |worst| {
+            format!("boundary within {:.2} % of alpha = 1", 100.0 * worst)
+        });
+        let residual = largest_of(newton(rows).map(|newton| newton.worst.residual));
+        let residual = residual.map_or("no residual".to_owned(), |residual| {
+            format!("residual at most {residual:.1e} of the energy")
+        });
         let all = self.points * self.points;
         let points = format!(
             "{all} points: the fixed point converges at {converged}, Newton's method at {completes}"
@@ -53,11 +51,41 @@ impl Map {
         let summary = format!("{points}; {boundary} where gamma <= {ALONE}; {residual}");
         Outcome {
             headline: format!("{boundary}, {residual}"),
+            coverage: self.coverage(rows, lines),
             tables: vec![self.boundaries(lines)],
             figures: self.figures(rows, lines),
             quantities: self.quantities(lines, converged as f64),
             ..Outcome::new(summary, vec![], checks)
         }
+    }
+
+    /// The points and boundaries that each statement judges.
+    fn coverage(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Coverage> {
+        let points: Vec<&Point> = points(rows).collect();
+        let missing = (self.points * self.points).saturating_sub(points.len());
+        let of_points = |items: &str, reason: fn(&Point) -> Option<&'static str>| {
+            let reasons = points.iter().map(|point| reason(point));
+            Coverage::of(
+                items,
+                reasons.chain(std::iter::repeat_n(Some(NO_RESULT), missing)),
+            )
+        };
+        let not_run = self.lines.len().saturating_sub(lines.len());
+        let reasons = lines.iter().map(|(_, line)| line.not_alone());
+        vec![
+            of_points("points for convergence", |point| {
+                let between = prediction(&point.step).is_none();
+                between.then_some("factors near 1, which predict nothing")
+            }),
+            of_points("points for the balance", |point| {
+                let failed = point.newton.is_none();
+                failed.then_some("no step by Newton's method")
+            }),
+            Coverage::of(
+                "boundaries for alpha = 1 alone",
+                reasons.chain(std::iter::repeat_n(Some(NO_RESULT), not_run)),
+            ),
+        ]
     }
 
     fn complete(&self, rows: &MapRows<'_>) -> Check {
@@ -67,6 +95,7 @@ impl Map {
             "both solvers were run at every point",
             format!("{found} of {expected}"),
         )
+        .about(Subject::of("points"))
     }
 
     /// Newton's method must converge wherever its operator is known to be definite.
@@ -92,12 +121,15 @@ impl Map {
                 failed - wrong
             ),
         )
+        .about(Subject::of("convergence of Newton's method"))
     }
 
     /// The contact's factor at the boundary found is 1, up to a share of γ.
     fn check_boundary(&self, value: f64, line: &Boundary) -> Check {
-        let (name, value) = (self.over.name(), plain_text(value));
-        let claim = format!("{name} = {value}: the fixed point fails from alpha = 1 on");
+        let subject = Subject::of("boundary")
+            .in_case(format!("{} = {}", self.over.name(), plain_text(value)))
+            .by(ItemMethod::FixedPoint);
+        let claim = "the fixed point fails from alpha = 1 on";
         let (
             FixedPointStep {
                 dt, alpha, gamma, ..
@@ -112,8 +144,9 @@ impl Map {
                 found: None,
                 predicted: None,
             } => {
-                let claim = format!("{name} = {value}: no boundary on the map, as predicted");
-                return Check::that(true, claim, "the fixed point behaves alike at both ends");
+                let claim = "no boundary on the map, as predicted";
+                return Check::that(true, claim, "the fixed point behaves alike at both ends")
+                    .about(subject);
             }
             Boundary { found, .. } => {
                 let [here, not] = if found.is_some() {
@@ -125,7 +158,8 @@ impl Map {
                     false,
                     claim,
                     format!("a boundary is {here} on the map, but none is {not}"),
-                );
+                )
+                .about(subject);
             }
         };
         let difference = 100.0 * (dt / predicted - 1.0);
@@ -137,6 +171,7 @@ impl Map {
             claim,
             evidence,
         )
+        .about(subject)
     }
 
     fn boundaries(&self, lines: &Lines<'_>) -> Table {
@@ -165,11 +200,17 @@ impl Map {
     fn quantities(&self, lines: &Lines<'_>, converged: f64) -> Vec<Quantity> {
         let found = |(value, line): &(f64, &Boundary)| {
             let name = format!("boundary at {} = {value:e}", self.over.name());
-            line.found.map(|at| Quantity::new(name, at.dt, 1e-2))
+            let subject = Subject::of("boundary")
+                .by(ItemMethod::FixedPoint)
+                .at(format!("{} = {value:e}", self.over.name()));
+            line.found
+                .map(|at| Quantity::new(name, at.dt, 1e-2).about(subject))
         };
         let mut quantities: Vec<Quantity> = lines.iter().filter_map(found).collect();
         // A point next to the boundary may fall on either side.
-        quantities.push(Quantity::new("points with a fixed point", converged, 1e-2));
+        let points = "points with a fixed point";
+        let subject = Subject::of(points).by(ItemMethod::FixedPoint);
+        quantities.push(Quantity::new(points, converged, 1e-2).about(subject));
         quantities
     }
 }
@@ -194,25 +235,43 @@ fn in_contact(rows: &MapRows<'_>) -> Check {
         "the first step ends in contact",
         format!("least contact force {least:.2e}"),
     )
+    .about(Subject::of("contact"))
 }
 
-/// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds 1 by more than γ.
+/// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict
+/// nothing.
+fn prediction(&FixedPointStep { alpha, gamma, .. }: &FixedPointStep) -> Option<bool> {
+    if alpha < SLOW && gamma < SLOW {
+        return Some(true);
+    }
+    // An infinite α means that the operator A_u of the step is not definite.
+    (alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW)).then_some(false)
+}
+
+impl Boundary {
+    /// Why α alone does not decide where the boundary is; `None` if it does.
+    fn not_alone(&self) -> Option<&'static str> {
+        match self.found {
+            None => Some("no boundary on the map"),
+            Some(crossing) => (!(crossing.gamma <= ALONE)).then_some("gamma takes part"),
+        }
+    }
+
+    /// Relative distance of the boundary to α = 1, where α alone decides.
+    fn distance_alone(&self) -> Option<f64> {
+        let crossing = self.found.filter(|_| self.not_alone().is_none())?;
+        Some((crossing.dt / self.predicted.unwrap_or(f64::NAN) - 1.0).abs())
+    }
+}
+
+/// The map against α and γ: convergence where both are well below 1, no convergence where α exceeds
+/// 1 by more than γ.
 fn as_predicted(rows: &MapRows<'_>) -> Check {
     let (mut fast, mut beyond, mut wrong) = (0, 0, 0);
-    for FixedPointStep {
-        alpha,
-        gamma,
-        converged,
-        ..
-    } in points(rows).map(|point| point.step)
-    {
-        if alpha < SLOW && gamma < SLOW {
-            fast += 1;
-            wrong += usize::from(!converged);
-        } else if alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW) {
-            // An infinite α means that the operator A_u of the step is not definite.
-            beyond += 1;
-            wrong += usize::from(converged);
+    for step in points(rows).map(|point| &point.step) {
+        if let Some(converges) = prediction(step) {
+            *(if converges { &mut fast } else { &mut beyond }) += 1;
+            wrong += usize::from(step.converged != converges);
         }
     }
     let claim = "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma";
@@ -222,6 +281,7 @@ fn as_predicted(rows: &MapRows<'_>) -> Check {
         claim,
         format!("{points}, {wrong} of them against the prediction"),
     )
+    .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
 }
 
 fn newton_is_quick(rows: &MapRows<'_>) -> Check {
@@ -231,6 +291,7 @@ fn newton_is_quick(rows: &MapRows<'_>) -> Check {
     });
     let claim = format!("Newton's method takes at most {MOST} iterations in any step");
     Check::that(most.is_some_and(|most| most <= MOST), claim, evidence)
+        .about(Subject::of("iterations of Newton's method"))
 }
 
 fn energy(rows: &MapRows<'_>) -> [Check; 2] {
@@ -253,12 +314,14 @@ fn energy(rows: &MapRows<'_>) -> [Check; 2] {
             "the energy never rises beyond rounding errors",
             |newton| newton.worst.rise,
             |newton| newton.worst.risen,
-        ),
+        )
+        .about(Subject::of("energy")),
         check(
             closes,
             |newton| newton.worst.residual,
             |newton| newton.worst.open,
-        ),
+        )
+        .about(Subject::of("balance")),
     ]
 }
 
@@ -296,7 +359,15 @@ impl Map {
 
     fn figures(&self, rows: &MapRows<'_>, lines: &Lines<'_>) -> Vec<Figure> {
         let over = self.over.name();
-        let draw = |file: &str, caption: String, colours, value: &dyn Fn(&Point) -> Option<f64>| {
+        let draw = |file: &str,
+                    title: &str,
+                    caption: String,
+                    colours: Surface,
+                    value: &dyn Fn(&Point) -> Option<f64>| {
+            let colours = Surface {
+                title: Some(title.to_owned()),
+                ..colours
+            };
             Figure::new(file, caption, self.surface(rows, colours, value))
         };
         let colours = |z, fails: &str, boundaries| Surface {
@@ -322,6 +393,7 @@ impl Map {
         vec![
             draw(
                 "contraction",
+                "The fixed point fails where α reaches 1",
                 format!(
                     "Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."
                 ),
@@ -335,12 +407,14 @@ impl Map {
             ),
             draw(
                 "iterations",
+                "The iterations of the fixed point grow towards α = 1",
                 format!("Iterations of the fixed point in a step over dt and {over}."),
                 fixed_point(Axis::log("iterations of the fixed point")),
                 &|point| Some(step(point)?.iterations.max(1) as f64),
             ),
             draw(
                 "newton",
+                "Newton's method needs few iterations at every step",
                 format!("Most iterations of Newton's method in a step over dt and {over}."),
                 newton(
                     Axis::linear("most Newton iterations in a step"),
@@ -350,6 +424,7 @@ impl Map {
             ),
             draw(
                 "balance",
+                "The balance of the energy closes to round-off at every step",
                 format!(
                     "Largest residual of the energy balance in a step of Newton's method over dt and {over}."
                 ),

@@ -2,20 +2,21 @@
 //!
 //! # The scene
 //!
-//! A beam touches the upper obstacle and is driven into it, by its velocity for short steps and by the heat of its clamped
-//! end for long ones. So the tip is in contact at the end of the first step for every parameter on the map. That step
-//! measures the fixed point: whether it converges, in how many iterations, and the factor by which the last increment
-//! shrank. Newton's method does more steps: its iterations, the largest rise of the energy, and the largest residual of the
-//! energy balance are compared with the effect of rounding errors.
+//! A beam touches the upper obstacle and is driven into it, by its velocity for short steps and by
+//! the heat of its clamped end for long ones. So the tip is in contact at the end of the first step
+//! for every parameter on the map. That step measures the fixed point: whether it converges, in how
+//! many iterations, and the factor by which the last increment shrank. Newton's method does more
+//! steps: its iterations, the largest rise of the energy, and the largest residual of the energy
+//! balance are compared with the effect of rounding errors.
 //!
 //! # The prediction
 //!
-//! The eigenvalues of the error propagation lie between `-α` (contact) and `γ` (coupling between rotation and
-//! displacement). The boundary of convergence therefore lies at α = 1 if γ is small, and otherwise above it by a share
-//! of γ. On lines through the map it is found by bisection in dt.
+//! The eigenvalues of the error propagation lie between `-α` (contact) and `γ` (coupling between
+//! rotation and displacement). The boundary of convergence therefore lies at α = 1 if γ is small,
+//! and otherwise above it by a share of γ. On lines through the map it is found by bisection in dt.
 //!
-//! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is sufficient, with the buckling force B and
-//! the mean axial force m >= β.
+//! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is sufficient, with the
+//! buckling force B and the mean axial force m >= β.
 
 use super::{FixedPointStep, SolverTask, factors};
 use crate::kinds::prelude::*;
@@ -29,16 +30,19 @@ const HEAT: f64 = 20.0;
 const SPEED: f64 = 0.1;
 /// Iterations after which the fixed point iteration is abandoned on the map.
 const ITERATIONS: usize = 150;
-/// Increment at which it counts as converged: large against round-off, so that the last ratio is a contraction.
+/// Increment at which it counts as converged: large against round-off, so that the last ratio is a
+/// contraction.
 const TOLERANCE: f64 = 1e-10;
 /// Halvings of the logarithm of dt: seven decades to one part in ten thousand.
 const HALVINGS: usize = 20;
 /// Iterations after which the ratio of two increments equals the factor of the slowest mode.
 const SETTLED: usize = 400;
-/// Largest α at which the boundary is sought. Far beyond it the iterates grow so large that the Kirchhoff term stiffens
-/// the beam: the increments may shrink for many iterations without convergence. The map shows the failure there.
+/// Largest α at which the boundary is sought. Far beyond it the iterates grow so large that the
+/// Kirchhoff term stiffens the beam: the increments may shrink for many iterations without
+/// convergence. The map shows the failure there.
 const FAR: f64 = 4.0;
-/// Consecutive ratios that must be below 1: past the boundary the iteration may enter a cycle in which some are.
+/// Consecutive ratios that must be below 1: past the boundary the iteration may enter a cycle in
+/// which some are.
 const CONSECUTIVE: usize = 8;
 
 /// The table `[map]`.
@@ -48,7 +52,7 @@ pub(super) struct Map {
     pub(super) dt: [f64; 2],
     pub(super) range: [f64; 2],
     pub(super) points: usize,
-    lines: Vec<f64>,
+    pub(super) lines: Vec<f64>,
     elements: usize,
     steps: usize,
     pub(super) agreement: f64,
@@ -309,7 +313,8 @@ impl Map {
     pub(super) fn row(&self, value: f64) -> Result<Vec<Point>, CaseFailure> {
         let (problem, dts) = (self.problem(value)?, self.time_steps());
         let n_value = axial_force(&problem);
-        // By Newton's method the most iterations, and the contact force after the first step if it succeeded.
+        // By Newton's method the most iterations, and the contact force after the first step if it
+        // succeeded.
         let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
         let problems = vec![problem.clone(); dts.len()];
         let runs = watched(
@@ -348,7 +353,8 @@ impl Map {
 pub struct Boundary {
     /// The dt at which α = 1; `None` if α does not cross 1 within the map.
     pub predicted: Option<f64>,
-    /// The step with the dt above which the fixed point fails; `None` if the outcome is the same at both ends of the map.
+    /// The step with the dt above which the fixed point fails; `None` if the outcome is the same at
+    /// both ends of the map.
     pub found: Option<FixedPointStep>,
 }
 
@@ -404,7 +410,8 @@ fn contracts(problem: &Problem, dt: f64, n_value: f64) -> Result<bool, CaseFailu
     Ok(true)
 }
 
-/// The boundary between a `low` that satisfies the condition and a `high` that does not; `None` for any other pair.
+/// The boundary between a `low` that satisfies the condition and a `high` that does not; `None` for
+/// any other pair.
 fn bisect(
     mut low: f64,
     mut high: f64,

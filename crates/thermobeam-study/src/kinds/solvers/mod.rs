@@ -1,9 +1,11 @@
-//! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always converges.
+//! Where and how fast the paper's fixed point (4.2) converges, and whether Newton's method always
+//! converges.
 //!
-//! The paper does not treat the convergence of its iteration. Near a state it multiplies errors by a linear map
-//! ([`linearized`](thermobeam::linearized)), and converges if the spectral radius of that map is below 1. Where contact dominates,
-//! the radius is `α = (dt/ε) [A_u⁻¹]_nn`; without contact it is a factor γ < 1 ([`contraction`](thermobeam::contraction)). A study
-//! asks one or more of three questions, one table of its file each:
+//! The paper does not treat the convergence of its iteration. Near a state it multiplies errors by
+//! a linear map ([`linearized`](thermobeam::linearized)), and converges if the spectral radius of
+//! that map is below 1. Where contact dominates, the radius is `α = (dt/ε) [A_u⁻¹]_nn`; without
+//! contact it is a factor γ < 1 ([`contraction`](thermobeam::contraction)). A study asks one or
+//! more of three questions, one table of its file each:
 //!
 //! ```toml
 //! [contraction]              # the factor of one step in contact against the spectral radius, for all combinations
@@ -35,7 +37,9 @@ mod parts;
 mod spectrum;
 
 use super::prelude::*;
+use crate::kinds::settings;
 
+pub use super::side_by_side::SolverComparison;
 pub use map::{Boundary, NewtonSteps, Point};
 pub use parts::{Agreement, Contraction};
 
@@ -51,6 +55,7 @@ pub const ROW: KindRow = KindRow {
              and for Newton's method convergence, energy and balance at every point.",
     failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
+    settings: settings::of_solvers,
 };
 
 /// A study of the two solvers; it has at least one part.
@@ -64,7 +69,8 @@ pub struct Solvers {
 /// What a case computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SolverTask {
-    /// One step by the fixed point in contact, with this time step, compliance of the obstacles and viscosity.
+    /// One step by the fixed point in contact, with this time step, compliance of the obstacles and
+    /// viscosity.
     Contraction([f64; 3]),
     /// The scene by both solvers, the fixed point to this tolerance η*.
     Comparison(f64),
@@ -98,13 +104,9 @@ impl Found {
                 ("the measured factor", found.measured),
                 ("the deviation", found.deviation),
             ]),
-            Found::Comparison(Agreement {
-                distance,
-                mean_iterations,
-                ..
-            }) => not_finite([
-                ("the distance", *distance),
-                ("the mean number of iterations", *mean_iterations),
+            Found::Comparison(Agreement { solvers, .. }) => not_finite([
+                ("the distance", solvers.distance),
+                ("the mean number of iterations", solvers.mean_iterations),
             ]),
             Found::Row(row) => row.iter().flat_map(Point::not_finite).collect(),
             Found::Boundary(boundary) => boundary.not_finite(),
@@ -193,7 +195,7 @@ impl Kind for Solvers {
             match (task, found) {
                 (SolverTask::Contraction(at), Found::Contraction(of)) => factors.push((at, of)),
                 (SolverTask::Comparison(tolerance), Found::Comparison(of)) => {
-                    agreements.push((tolerance, of))
+                    agreements.push((tolerance, of));
                 }
                 (SolverTask::Row(value), Found::Row(row)) => rows.push((value, &row[..])),
                 (SolverTask::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),
@@ -232,24 +234,27 @@ pub struct FixedPointStep {
     pub dt: f64,
     /// Predicted factor of the contact; infinite if its operator is not definite.
     pub alpha: f64,
-    /// Predicted factor of the coupling between rotation and displacement; infinite if its operator is not definite.
+    /// Predicted factor of the coupling between rotation and displacement; infinite if its operator
+    /// is not definite.
     pub gamma: f64,
     /// Whether the increment fell below the tolerance.
     pub converged: bool,
     /// Iterations done.
     pub iterations: usize,
-    /// Ratio of the last two increments, if there were two; infinite if the iterates overflowed or the operator was not
-    /// definite.
+    /// Ratio of the last two increments, if there were two; infinite if the iterates overflowed or
+    /// the operator was not definite.
     pub contraction: Option<f64>,
 }
 
 impl FixedPointStep {
-    /// The first step of the problem, with at most `iterations` iterations, to an increment below `tolerance`.
+    /// The first step of the problem, with at most `iterations` iterations, to an increment below
+    /// `tolerance`.
     ///
     /// * `n_value`: mean axial force for the predicted factors.
     ///
     /// # Errors
-    /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the iteration is a result.
+    /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the
+    /// iteration is a result.
     fn run(
         problem: &Problem,
         dt: f64,
@@ -274,9 +279,13 @@ impl FixedPointStep {
             dt,
             loaded: false,
         };
-        let outcome = Driver::new(problem.clone(), stepping)?.advance(|_, _| ());
+        let mut driver = Driver::new(problem.clone(), stepping)?;
+        let mut reached = (0, None);
+        let outcome = run_to(&mut driver, dt, |_, report| {
+            reached = (report.iterations, report.contraction);
+        });
         let (iterations, contraction) = match &outcome {
-            Ok(report) => (report.iterations, report.contraction),
+            Ok(()) => reached,
             Err(RunError::Step(error)) => match error.failure {
                 StepFailure::Diverged {
                     iterations,
@@ -305,8 +314,8 @@ impl FixedPointStep {
     }
 }
 
-/// The factors α of the contact and γ of the coupling, for a step with the mean axial force `n_value`; infinite if the
-/// operator is not definite.
+/// The factors α of the contact and γ of the coupling, for a step with the mean axial force
+/// `n_value`; infinite if the operator is not definite.
 fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
     let case = problem.case(EULER_CRANK_NICOLSON, dt);
     [

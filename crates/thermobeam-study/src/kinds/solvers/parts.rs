@@ -1,23 +1,26 @@
-//! Two parts of a study: the contraction factor in contact, measured against α; and the difference between the fixed point
-//! and Newton's method on a scene, against the fixed point's tolerance.
+//! Two parts of a study: the contraction factor in contact, measured against α; and the difference
+//! between the fixed point and Newton's method on a scene, against the fixed point's tolerance.
 
 use super::spectrum::spectral_radius;
 use super::{SolverTask, factors, positive_numbers};
-use crate::error::reference::distance;
 use crate::kinds::prelude::*;
+use crate::kinds::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
 
-/// Smallest and largest number of iterations between the start and the last increment but one of a measurement.
+/// Smallest and largest number of iterations between the start and the last increment but one of a
+/// measurement.
 const FEWEST: usize = 3;
 const ITERATIONS: usize = 60;
-/// The increments of a measurement shrink or grow by about this factor: so much that the largest eigenvalue dominates, and so
-/// little that rounding errors do not show.
+/// The increments of a measurement shrink or grow by about this factor: so much that the largest
+/// eigenvalue dominates, and so little that rounding errors do not show.
 const SPAN: f64 = 1e8;
-/// Largest displacement of the free end by the disturbance, in all iterates: small against the depth of the contact, 0.02.
+/// Largest displacement of the free end by the disturbance, in all iterates: small against the
+/// depth of the contact, 0.02.
 const DISTURBANCE: f64 = 1e-5;
 /// Largest relative difference between the measured factor and the spectral radius.
 const AGREEMENT: f64 = 0.01;
-/// Iterations from which the ratio of two increments shows the largest eigenvalue. The first increment is not one of the
-/// linearised iteration, by (4.1), and with fewer ratios the other eigenvalues still take part.
+/// Iterations from which the ratio of two increments shows the largest eigenvalue. The first
+/// increment is not one of the linearised iteration, by (4.1), and with fewer ratios the other
+/// eigenvalues still take part.
 const SETTLED: usize = 5;
 /// Largest distance of an increment to that of the linearised iteration.
 const LINEAR: f64 = 1e-3;
@@ -66,8 +69,9 @@ impl Grid {
 
     /// The first step next to a state of rest in contact, after a disturbance of u_t.
     ///
-    /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper obstacle. On a uniform mesh they are,
-    /// by (3.7) at rest, `(1 + N) p + g(p)` at the free end in the first equation, and `-p (1, χ_i)` in the second.
+    /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper
+    /// obstacle. On a uniform mesh they are, by (3.7) at rest, `(1 + N) p + g(p)` at the free end
+    /// in the first equation, and `-p (1, χ_i)` in the second.
     pub(super) fn measure(
         &self,
         [dt, epsilon, zeta]: [f64; 3],
@@ -108,7 +112,7 @@ impl Grid {
             tip_load: (1.0 + n_value) * PRESSED + obstacles.force(PRESSED),
         };
         let [before, one, two] =
-            [iterations - 1, iterations, iterations + 1].map(|count| held.step(count));
+            [iterations - 1, iterations, iterations + 1].map(|count| held.iterate(count));
         let (before, one, two) = (before?, one?, two?);
         let mut expected = one.minus(&before);
         map.apply(&mut expected.v, &mut expected.w);
@@ -130,7 +134,8 @@ impl Grid {
 pub struct Contraction {
     /// Predicted factor of the contact alone; infinite if its operator is not definite.
     pub alpha: f64,
-    /// Predicted factor of the coupling between rotation and displacement alone; infinite if its operator is not definite.
+    /// Predicted factor of the coupling between rotation and displacement alone; infinite if its
+    /// operator is not definite.
     pub gamma: f64,
     /// Spectral radius of the whole iteration, linearised at the state.
     pub radius: f64,
@@ -138,7 +143,8 @@ pub struct Contraction {
     pub iterations: usize,
     /// Ratio of the last two increments in the norm of (3.14).
     pub measured: f64,
-    /// Distance of the last increment of (û, φ̂) to the image of the one before under the linearised iteration, relative.
+    /// Distance of the last increment of (û, φ̂) to the image of the one before under the
+    /// linearised iteration, relative.
     pub deviation: f64,
 }
 
@@ -160,7 +166,7 @@ struct Velocities {
 
 impl Held {
     /// The iterate after this number of iterations.
-    fn step(&self, iterations: usize) -> Result<Velocities, CaseFailure> {
+    fn iterate(&self, iterations: usize) -> Result<Velocities, CaseFailure> {
         let stopping = Stopping::Iterations(iterations);
         let settings = Settings {
             solver: Solver::FixedPoint,
@@ -173,18 +179,22 @@ impl Held {
             dt: self.dt,
             loaded: true,
         };
-        let mut driver = Driver::new(self.problem.clone(), stepping)?;
-        let report = driver.advance(|_, load| {
+        let hold = |_, load: &mut [[f64; 3]]| {
             let n = load.len() - 1;
             let moment = -PRESSED / n as f64;
             load.iter_mut().for_each(|load| load[1] = moment);
             load[n] = [self.tip_load, 0.5 * moment, 0.0];
+        };
+        let mut driver = Driver::new(self.problem.clone(), stepping)?.loaded(hold);
+        let mut contraction = None;
+        run_to(&mut driver, self.dt, |_, report| {
+            contraction = report.contraction;
         })?;
         let Level { v, w, .. } = driver.level().clone();
         Ok(Velocities {
             v,
             w,
-            contraction: report.contraction.unwrap_or(f64::NAN),
+            contraction: contraction.unwrap_or(f64::NAN),
         })
     }
 }
@@ -226,35 +236,28 @@ pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)], all: usize) 
         .map(|(_, point)| *point)
         .filter(|point| point.is_settled())
         .collect();
-    let worst = settled
-        .iter()
-        .map(|point| point.error())
-        .fold(0.0, max_or_nan);
-    let deviation = found
-        .iter()
-        .map(|(_, point)| point.deviation)
-        .fold(0.0, max_or_nan);
+    let worst = largest_of(settled.iter().map(|point| point.error()));
+    let deviation = largest_of(found.iter().map(|(_, point)| point.deviation));
     let linear = found
         .iter()
         .filter(|(_, point)| point.deviation <= LINEAR)
         .count();
-    let increments = format!(
-        "increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points"
-    );
-    let factors = format!(
-        "the factor is its spectral radius to {:.1} % at {}",
-        100.0 * worst,
-        settled.len()
-    );
-    let unsettled = all - settled.len();
-    let left_out = if unsettled == 0 {
-        String::new()
-    } else {
-        format!("; too few iterations for that at {unsettled}")
-    };
-    let summary = format!("{increments}; {factors}{left_out}");
+    let increments = deviation.map_or("no point has a result".to_owned(), |deviation| {
+        format!(
+            "increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points"
+        )
+    });
+    let factors = worst.map_or("no factor is known".to_owned(), |worst| {
+        format!(
+            "the factor is its spectral radius to {:.1} % at {}",
+            100.0 * worst,
+            settled.len()
+        )
+    });
+    let summary = format!("{increments}; {factors}");
     Outcome {
         headline: summary.clone(),
+        coverage: vec![factors_judged(found, all)],
         tables: vec![contraction_table(found)],
         figures: vec![contraction_figure(found)],
         quantities: found
@@ -270,6 +273,15 @@ pub(super) fn judge_contraction(found: &[([f64; 3], &Contraction)], all: usize) 
                 .collect(),
         )
     }
+}
+
+/// The points whose factor is compared with the spectral radius.
+fn factors_judged(found: &[([f64; 3], &Contraction)], all: usize) -> Coverage {
+    let unsettled = format!("fewer than {SETTLED} iterations");
+    let reason = |point: &Contraction| (!point.is_settled()).then(|| unsettled.clone());
+    let missing = std::iter::repeat_n(Some(NO_RESULT.to_owned()), all - found.len());
+    let reasons = found.iter().map(|(_, point)| reason(point));
+    Coverage::of("factors", reasons.chain(missing))
 }
 
 impl Contraction {
@@ -291,23 +303,33 @@ fn contraction_checks(at: [f64; 3], point: &Contraction) -> Vec<Check> {
         deviation,
         ..
     } = *point;
-    let mut checks = vec![Check::that(
+    let subject = |quantity: &str| {
+        Subject::of(quantity)
+            .in_case(&name)
+            .by(ItemMethod::FixedPoint)
+    };
+    let linear = Check::that(
         deviation <= LINEAR,
-        format!("{name}: the last increment is that of the linearised iteration"),
+        "the last increment is that of the linearised iteration",
         format!("apart by {deviation:.1e} of it"),
-    )];
+    );
+    let mut checks = vec![linear.about(subject("increment"))];
     if point.is_settled() {
-        checks.push(Check::that(
+        let factor = Check::that(
             point.error() <= AGREEMENT,
-            format!("{name}: the contraction factor is the spectral radius"),
+            "the contraction factor is the spectral radius",
             format!("spectral radius {radius:.5}, measured {measured:.5}"),
-        ));
+        );
+        checks.push(factor.about(subject("contraction")));
     }
     checks
 }
 
 fn contraction_quantity(at: [f64; 3], point: &Contraction) -> Quantity {
-    Quantity::new(format!("contraction, {}", name(at)), point.measured, 1e-2)
+    let subject = Subject::of("contraction")
+        .by(ItemMethod::FixedPoint)
+        .at(name(at));
+    Quantity::new(format!("contraction, {}", name(at)), point.measured, 1e-2).about(subject)
 }
 
 fn contraction_table(found: &[([f64; 3], &Contraction)]) -> Table {
@@ -339,21 +361,30 @@ fn contraction_row([dt, epsilon, zeta]: [f64; 3], point: &Contraction) -> Vec<St
 fn contraction_figure(found: &[([f64; 3], &Contraction)]) -> Figure {
     let mut zetas: Vec<f64> = found.iter().map(|([_, _, zeta], _)| *zeta).collect();
     zetas.dedup();
-    let series = zetas.iter().map(|zeta| {
+    let measured = |zeta: &f64| {
         let of_zeta = found.iter().filter(|([_, _, z], _)| z == zeta);
         plots::Series::new(
             format!("ζ = {zeta}"),
             of_zeta.map(|(_, point)| (point.radius, point.measured)),
         )
+    };
+    // Elsewhere α lies under the marker of the measured factor.
+    let is_off = |point: &&Contraction| (point.alpha / point.measured - 1.0).abs() > 0.1;
+    let off = found
+        .iter()
+        .map(|(_, point)| *point)
+        .filter(is_off)
+        .map(|point| (point.radius, point.alpha));
+    let svg = figures::contraction(&figures::ContractionFactors {
+        title: "The fixed point contracts as its linearisation does".to_owned(),
+        measured: zetas.iter().map(measured).collect(),
+        predicted: "spectral radius of the linearised iteration".to_owned(),
+        estimates: plots::Series::new("α, where over 10 % off", off.collect::<Vec<_>>()),
     });
-    let svg = figures::contraction(&series.collect::<Vec<_>>());
     let caption = "Contraction factor of the fixed point in contact: measured over the spectral radius of the linearised \
-                   iteration. From 1 on the iteration diverges.";
+                   iteration, and the estimate α. From 1 on the iteration diverges.";
     Figure::new("contraction", caption, svg)
 }
-
-/// Tolerance of the Newton run that is compared with the fixed point.
-const SOLVED: f64 = 1e-14;
 
 /// The table `[comparison]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -365,14 +396,10 @@ pub(super) struct Comparison {
 }
 
 /// The results of running both solvers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Agreement {
-    /// Largest distance of their levels in the norm of Theorem 3.4, over all steps.
-    pub distance: f64,
-    /// Iterations of the fixed point per step.
-    pub mean_iterations: f64,
-    /// Its largest number of iterations in a step.
-    pub most_iterations: usize,
+    /// Distance and iterations over all steps.
+    pub solvers: SolverComparison,
     /// Its iterations in each step, as (t, iterations).
     pub iterations: Vec<(f64, f64)>,
     /// Newton iterations in each step, likewise.
@@ -409,53 +436,32 @@ impl Comparison {
         self.tolerances.iter().map(case).collect()
     }
 
-    /// Steps the scene by both solvers in parallel.
+    /// Steps the scene by both solvers side by side.
     pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
         let scene = Scene {
             mesh: Mesh::uniform(self.elements)?,
             ..self.scene.clone()
         };
-        let driver = |settings| {
-            let stepping = Stepping {
-                settings,
-                ..scene.one_step()?
-            };
-            Driver::new(simulate::problem(&scene), stepping)
-        };
-        let mut newton = driver(Settings {
-            stopping: Stopping::below(SOLVED),
-            ..Settings::default()
-        })?;
-        let mut fixed = driver(Settings {
-            solver: Solver::FixedPoint,
-            stopping: Stopping::below(tolerance),
-            ..Settings::default()
-        })?;
-        let lengths: Vec<f64> = scene.mesh.lengths().collect();
-        let (mut farthest, mut total, mut most_iterations) = (0.0, 0, 0);
-        let (mut iterations, mut of_newton, mut contact) = (vec![], vec![], vec![]);
+        let mut both = SideBySide::new(&scene, tolerance)?;
+        let mut agreement = Agreement::default();
         for _ in 0..self.steps {
-            let solved = newton.advance(|_, _| ())?;
-            let report = fixed.advance(|_, _| ())?;
-            let t = fixed.simulation().t();
-            let level = fixed.level();
-            farthest = max_or_nan(farthest, distance(&lengths, level, newton.level()));
-            total += report.iterations;
-            most_iterations = most_iterations.max(report.iterations);
-            iterations.push((t, report.iterations as f64));
-            of_newton.push((t, solved.iterations as f64));
-            if level.contact_force != 0.0 {
-                contact.push((t - scene.dt(), t));
+            let StepOfBoth {
+                fixed_point,
+                newton,
+            } = both.step()?;
+            let t = both.fixed_point.work().t;
+            agreement
+                .iterations
+                .push((t, fixed_point.iterations as f64));
+            agreement.newton.push((t, newton.iterations as f64));
+            if fixed_point.in_contact {
+                agreement.contact.push((t - scene.dt(), t));
             }
         }
-        let mean_iterations = total as f64 / self.steps as f64;
+        let solvers = both.comparison;
         Ok(Agreement {
-            distance: farthest,
-            mean_iterations,
-            most_iterations,
-            iterations,
-            newton: of_newton,
-            contact,
+            solvers,
+            ..agreement
         })
     }
 }
@@ -463,24 +469,33 @@ impl Comparison {
 /// * `found`: the results, each with its tolerance η*.
 pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
     let check = |(eta, found): &(f64, &Agreement)| {
-        // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the rest.
+        // A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps
+        // the rest.
         let evidence = format!(
             "{:.2e}, {:.3} of the tolerance",
-            found.distance,
-            found.distance / eta
+            found.solvers.distance,
+            found.solvers.distance / eta
         );
         Check::that(
-            found.distance <= *eta,
-            format!("eta* = {eta:e}: the error is below eta*"),
+            found.solvers.distance <= *eta,
+            "the error is below eta*",
             evidence,
+        )
+        .about(
+            Subject::of("distance to Newton's method")
+                .in_case(format!("eta* = {eta:e}"))
+                .by(ItemMethod::FixedPoint),
         )
     };
     let row = |(
         eta,
         Agreement {
-            distance,
-            mean_iterations,
-            most_iterations,
+            solvers:
+                SolverComparison {
+                    distance,
+                    mean_iterations,
+                    most_iterations,
+                },
             ..
         },
     ): &(f64, &Agreement)| {
@@ -499,7 +514,7 @@ pub(super) fn judge_comparison(found: &[(f64, &Agreement)]) -> Outcome {
         "most iterations",
     ];
     let last = found.last().map(|(_, found)| *found);
-    let distance = last.map_or(f64::NAN, |found| found.distance);
+    let distance = last.map_or(f64::NAN, |found| found.solvers.distance);
     let summary = format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
     let title = "Fixed point against Newton's method on the scene";
     Outcome {
@@ -522,10 +537,13 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
         label: "in contact".to_owned(),
         intervals: curve(|found| &found.contact),
     };
-    let shaded = if phases.intervals.is_empty() {
-        ""
+    let (title, shaded) = if phases.intervals.is_empty() {
+        ("Newton's method takes fewer iterations", "")
     } else {
-        "; shaded where the tip is in contact"
+        (
+            "The fixed point takes more iterations in contact",
+            "; shaded where the tip is in contact",
+        )
     };
     let caption = format!(
         "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
@@ -537,6 +555,7 @@ fn iterations_figure(found: Option<&Agreement>) -> Figure {
             phases,
             ..plots::iterations(&series)
         }
+        .titled(title)
         .draw(),
     )
 }

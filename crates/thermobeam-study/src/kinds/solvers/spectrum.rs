@@ -5,17 +5,18 @@ use thermobeam::linearized::LinearizedIteration;
 
 use crate::kinds::prelude::max_or_nan;
 
-/// Vectors of the Krylov space: on 100 elements its largest eigenvalue agrees with that of the dense matrix to 1e-6 at every
-/// point of the study.
+/// Vectors of the Krylov space: on 100 elements its largest eigenvalue agrees with that of the
+/// dense matrix to 1e-6 at every point of the study.
 const VECTORS: usize = 30;
-/// Share of a vector's length below which what is left of it is round-off: the Krylov space is then invariant.
+/// Share of a vector's length below which what is left of it is round-off: the Krylov space is then
+/// invariant.
 const INVARIANT: f64 = 1e-13;
 
-/// The spectral radius of the map of (δV, δW), by Arnoldi's method: the largest modulus of an eigenvalue of the map's projection
-/// to the space of v, M v, M² v, ....
+/// The spectral radius of the map of (δV, δW), by Arnoldi's method: the largest modulus of an
+/// eigenvalue of the map's projection to the space of v, M v, M² v, ....
 ///
-/// The first vector is 1 at every free node of both fields; it contains the layer at the free end and all long waves. With as
-/// many vectors as unknowns the projection is the map itself.
+/// The first vector is 1 at every free node of both fields; it contains the layer at the free end
+/// and all long waves. With as many vectors as unknowns the projection is the map itself.
 pub(super) fn spectral_radius(map: &mut LinearizedIteration) -> f64 {
     let unknowns = 2 * map.elements();
     let most = VECTORS.min(unknowns);

@@ -1,5 +1,5 @@
-//! Tables that several kinds of study share: exact solution, refinement, expected orders, coefficients of a control, two
-//! discretisations of any order.
+//! Tables that several kinds of study share: exact solution, refinement, expected orders,
+//! coefficients of a control, two discretisations of any order.
 
 mod refine;
 
@@ -104,40 +104,41 @@ fn meets(
     Ok(())
 }
 
-/// The norms in words, for `explain`, in the order of [`Norm::ALL`].
+/// The norms in the notation of the paper and in words, for `explain`, in the order of
+/// [`Norm::ALL`].
 pub const TERMS: [Term; Norm::ALL.len()] = [
     term(
         Norm::Velocity,
-        "the L2 norm of the error of the velocity u_t",
+        "‖ûₕ−uₜ‖, the L2 norm of the error of the velocity u_t",
     ),
     term(
         Norm::Shear,
-        "the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best",
+        "‖uₕₓ−φₕ−(uₓ−φ)‖, the L2 norm of the error of the shear u_x - phi: a derivative, so first order in h at best",
     ),
     term(
         Norm::RotationRate,
-        "the L2 norm of the error of the rate of rotation phi_t",
+        "‖φ\u{302}ₕ−φₜ‖, the L2 norm of the error of the rate of rotation phi_t",
     ),
     term(
         Norm::Curvature,
-        "the L2 norm of the error of phi_x: a derivative, so first order in h at best",
+        "‖φₕₓ−φₓ‖, the L2 norm of the error of phi_x: a derivative, so first order in h at best",
     ),
     term(
         Norm::Temperature,
-        "the L2 norm of the error of the temperature",
+        "‖θₕ−θ‖, the L2 norm of the error of the temperature",
     ),
     term(
         Norm::Theorem34,
-        "the root of the sum of the squares of velocity, shear, rotation-rate, curvature and temperature at the same time: \
-         the left-hand side of Theorem 3.4, bounded there by c (h + dt)",
+        "The norm of (3.14), the left-hand side of Theorem 3.4: the root of the sum of the squares of velocity, shear, \
+         rotation-rate, curvature and temperature at the same time, bounded there by c (h + dt)",
     ),
     term(
         Norm::Displacement,
-        "the L2 norm of the error of the displacement u",
+        "‖uₕ−u‖, the L2 norm of the error of the displacement u",
     ),
     term(
         Norm::Superclose,
-        "as theorem-3.4, but of the distance to the interpolant of the exact solution: Z_n^1/2 of (3.16). The first order of \
+        "√Zₙ of (3.16): as theorem-3.4, but of the distance to the interpolant of the exact solution. The first order of \
          Theorem 3.4 is that of interpolation alone; to the interpolant the scheme is of order h^2 + dt. The sharpest guard: \
          it sees defects which the interpolation error hides",
     ),
@@ -197,10 +198,12 @@ pub(crate) fn claims<T: Copy>(
     )
 }
 
-/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected order.
+/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected
+/// order.
 ///
 /// * `step`: the step, from elements and steps, against which errors are judged.
-/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` if the case failed.
+/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` if the case
+///   failed.
 pub(crate) fn norm_levels<'r>(
     refine: &Refine,
     expect: &[(Norm, Claim)],
@@ -210,6 +213,7 @@ pub(crate) fn norm_levels<'r>(
     let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
     let column = |norm: Norm| ErrorColumn {
         name: norm.name().to_owned(),
+        symbol: Some(norm.symbol().to_owned()),
         errors: ran
             .clone()
             .map(|(_, errors)| errors.map(|errors| errors[norm]))
@@ -227,7 +231,8 @@ pub(crate) fn norm_levels<'r>(
     )
 }
 
-/// The table `[control]`: coefficients in which the solver differs from `theory`; without the table they are equal.
+/// The table `[control]`: coefficients in which the solver differs from `theory`; without the table
+/// they are equal.
 pub(crate) fn control(
     root: &Section<'_>,
     theory: Coefficients,
@@ -265,7 +270,8 @@ pub(crate) fn control(
     Ok(solver)
 }
 
-/// The cost of a run of a scene, in element-steps of a one-step scheme, which takes for a step as long as for four elements.
+/// The cost of a run of a scene, in element-steps of a one-step scheme, which takes for a step as
+/// long as for four elements.
 pub fn cost_of_run(scene: &Scene) -> f64 {
     match scene.method {
         Method::OneStep(_) => scene.steps() as f64 * (scene.mesh.elements() as f64 + 4.0),
@@ -364,8 +370,8 @@ impl Discretisation {
 
 /// A list of two tables.
 ///
-/// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both must have; otherwise
-///   the two must differ in elements and degree.
+/// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both
+///   must have; otherwise the two must differ in elements and degree.
 /// * `t_end`: the final time of the runs.
 pub(crate) fn discretisations(
     root: &Section<'_>,

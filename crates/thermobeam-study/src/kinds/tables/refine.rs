@@ -93,7 +93,8 @@ pub struct Refine {
     pub scheme: Scheme,
     /// How each step is solved.
     pub settings: Settings,
-    /// Levels are added until there is a verdict or the budget of node-steps (elements times time steps) is used up.
+    /// Levels are added until there is a verdict or the budget of node-steps (elements times time
+    /// steps) is used up.
     pub budget: Option<f64>,
 }
 

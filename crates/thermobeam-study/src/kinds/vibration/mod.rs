@@ -1,7 +1,8 @@
 //! Damped vibrations without any source term: the only motion of this beam known in closed form.
 //!
-//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam::vibration`] are decoupled. No load keeps the solution in
-//! place, so equal errors in the scheme and in the sources cannot cancel. `modes` isolates the error of space or time.
+//! For a = β = ρ = 0 and without obstacles the modes of [`thermobeam_exact::vibration`] are
+//! decoupled. No load keeps the solution in place, so equal errors in the scheme and in the sources
+//! cannot cancel. `modes` isolates the error of space or time.
 
 mod modes;
 
@@ -9,6 +10,7 @@ use super::convergence::design::formulas_of;
 use super::prelude::*;
 use super::tables::{Refine, control, expectations, norm_levels, refine};
 use crate::exact::sources::Nodal;
+use crate::kinds::settings;
 use modes::Modes;
 
 /// The row of the table of kinds.
@@ -21,10 +23,12 @@ pub const ROW: KindRow = KindRow {
     judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
     failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
               can be to blame.",
+    settings: settings::of_vibrations,
 };
 
-/// Allowed distance of the solver from the closed form of its own steps, relative to the size of the motion in the norm
-/// of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a coefficient would show.
+/// Allowed distance of the solver from the closed form of its own steps, relative to the size of
+/// the motion in the norm of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a
+/// coefficient would show.
 const CLOSED_FORM: f64 = 1e-12;
 
 /// A study of exact vibrations.
@@ -34,7 +38,8 @@ pub struct Vibration {
     theory: Coefficients,
     /// The solver's coefficients: another beam in a negative control.
     solver: Coefficients,
-    /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the mode at t = 0.
+    /// Index of each vibration, from 0, the lowest frequency; tip displacement and velocity of the
+    /// mode at t = 0.
     modes: Vec<(usize, [f64; 2])>,
     /// k of each temperature sin kπx, and its amplitude at t = 0.
     heat: Vec<(usize, f64)>,
@@ -47,8 +52,8 @@ pub struct Vibration {
 pub struct Vibrated {
     /// The largest error over the time levels in each norm.
     pub errors: Norms,
-    /// If time is isolated: the largest distance from the scheme's own steps of the mesh's modes, relative to the size of
-    /// the motion, both in the norm of Theorem 3.4.
+    /// If time is isolated: the largest distance from the scheme's own steps of the mesh's modes,
+    /// relative to the size of the motion, both in the norm of Theorem 3.4.
     pub closed_form: Option<f64>,
     /// (t, u(1, t)) of the solver at each time level.
     pub tip: Vec<(f64, f64)>,
@@ -97,7 +102,8 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
     Ok(theory)
 }
 
-/// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds the modes of a mesh.
+/// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds
+/// the modes of a mesh.
 fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     let section = root.require("refine", "a table")?.section()?;
     let (steps, elements) = (
@@ -225,8 +231,8 @@ impl Kind for Vibration {
         let zero = Level::new(elements + 1);
         let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
         let mut tip = vec![(0.0, driver.level().u[elements])];
-        for n in 1..=steps {
-            let Step { new, .. } = driver.stepped()?;
+        run_to(&mut driver, steps as f64 * dt, |driver, _| {
+            let (n, new) = (driver.work().steps, driver.level());
             if let Some(closed) = &mut closed {
                 closed(n, &mut factors);
                 let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];
@@ -236,7 +242,7 @@ impl Kind for Vibration {
             reference(n, &mut factors);
             errors = errors.max(&meter.measure(new, &factors));
             tip.push((n as f64 * dt, new.u[elements]));
-        }
+        })?;
         Ok(Vibrated {
             errors,
             closed_form: closed.map(|_| deviation / size),
@@ -275,8 +281,8 @@ impl Kind for Vibration {
             .map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
         let levels = norm_levels(&self.refine, &self.expect, step, errors);
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
-        let title = Some("Damped vibration, no source term");
-        let mut outcome = levels.outcome("errors", title, caption, checks);
+        let subject = Some("Damped vibration");
+        let mut outcome = levels.outcome("errors", subject, caption, checks);
         if self.refine.axis == Axis::Both {
             outcome.figures.extend(self.tip_figure(ran));
         }
@@ -300,6 +306,7 @@ fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
         "each step is the scheme's own step of each mode of the mesh, to round-off",
         format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
     )
+    .about(Subject::of("closed form"))
 }
 
 impl Vibration {
@@ -348,8 +355,8 @@ impl Vibration {
         let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
         let caption =
             "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        let figure =
-            plots::history(y, &[exact, coarsest, finest]).titled("Tip of the vibrating beam");
+        let figure = plots::history(y, &[exact, coarsest, finest])
+            .titled("The tip of the fine beam moves as the exact one does");
         Some(Figure::new("tip", caption, figure.draw()))
     }
 }

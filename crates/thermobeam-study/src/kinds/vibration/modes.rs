@@ -1,29 +1,31 @@
 //! Superposed modes of the beam or of a mesh, and their motion in time: exact, or by a time scheme.
 //!
-//! A mode of the beam, exact or of a mesh, satisfies `A(x; y) = ω² B(x; y)` for all test functions y in its space. Put
-//! `u = U q, φ = Φ q, û = U v, φ̂ = Φ v` into (3.7) with a = β = ρ = 0 and no obstacle: all terms are multiples of the
-//! mode, and a step becomes one scalar equation for the velocity V,
+//! A mode of the beam, exact or of a mesh, satisfies `A(x; y) = ω² B(x; y)` for all test functions
+//! y in its space. Put `u = U q, φ = Φ q, û = U v, φ̂ = Φ v` into (3.7) with a = β = ρ = 0 and no
+//! obstacle: all terms are multiples of the mode, and a step becomes one scalar equation for the
+//! velocity V,
 //!
 //! ```text
 //! κ (V - v0) + ω² (q0 + dt V/2 + ζ V) = 0,      κ = inertia/dt,
 //! V = (κ v0 - ω² q0) / (κ + ω² (ζ + dt/2)),     q = q0 + dt V,     v = v0 + inertia (V - v0).
 //! ```
 //!
-//! So the time-discrete solution of a mode is known in closed form, with space exact or discrete, and either error of
-//! the whole scheme can be isolated:
+//! So the time-discrete solution of a mode is known in closed form, with space exact or discrete,
+//! and either error of the whole scheme can be isolated:
 //!
-//! * *space*: the scheme on a mesh against the exact mode advanced by the scheme: the time error cancels exactly;
-//! * *time*: the scheme started from a mode of the mesh against that mode advanced exactly at its own ω: the space
-//!   error is exactly zero;
+//! * *space*: the scheme on a mesh against the exact mode advanced by the scheme: the time error
+//!   cancels exactly;
+//! * *time*: the scheme started from a mode of the mesh against that mode advanced exactly at its
+//!   own ω: the space error is exactly zero;
 //! * neither: the solver must reproduce a mode of the mesh advanced by the scheme, to round-off.
 //!
-//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, does not act on the beam for a = 0; Crank-Nicolson multiplies it by `(1 -
-//! κ² dt/2)/(1 + κ² dt/2)` per step.
+//! A temperature `sin kπx e^{-κ²t}`, κ = kπ, does not act on the beam for a = 0; Crank-Nicolson
+//! multiplies it by `(1 - κ² dt/2)/(1 + κ² dt/2)` per step.
 
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
-use thermobeam::assembly::{Tridiagonal, coupling, mass, stiffness};
+use thermobeam_exact::assembly::{Tridiagonal, coupling, mass, stiffness};
 
 use super::Vibration;
 use crate::error::free_vibration::{self, piecewise_linear};
@@ -104,8 +106,8 @@ impl Modes {
         Ok(modes)
     }
 
-    /// Sets the time factors to those at a time level: exactly, or by a time scheme, one level after the other. All
-    /// schemes treat the temperature by Crank-Nicolson.
+    /// Sets the time factors to those at a time level: exactly, or by a time scheme, one level
+    /// after the other. All schemes treat the temperature by Crank-Nicolson.
     pub(super) fn moved(
         &self,
         by: Option<SchemeFormulas>,
@@ -155,10 +157,11 @@ fn scheme_step(
     [q + dt * carrying, v + scheme.inertia() * (carrying - v)]
 }
 
-/// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled to U(1) = 1 like the exact ones.
+/// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled
+/// to U(1) = 1 like the exact ones.
 ///
-/// A and B are the forms `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on the n free nodes of each field. The method is dense and
-/// shares nothing with the solver's sweeps.
+/// A and B are the forms `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on the n free nodes of each field.
+/// The method is dense and shares nothing with the solver's sweeps.
 fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
     let n = mesh.elements();
     let [mass, stiffness, coupling] = [mass(mesh), stiffness(mesh), coupling(mesh)]
@@ -181,7 +184,8 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
     Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
 }
 
-/// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first: κ² and nodal values, scaled to a largest value of 1.
+/// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first: κ² and nodal
+/// values, scaled to a largest value of 1.
 fn temperatures(mesh: &Mesh) -> Option<Vec<(f64, Vec<f64>)>> {
     let n = mesh.elements();
     let [a, b] = [stiffness(mesh), mass(mesh)]
@@ -238,7 +242,7 @@ fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use thermobeam::vibration::discrete_frequencies;
+    use thermobeam_exact::vibration::discrete_frequencies;
 
     #[test]
     fn the_schemes_paths_converge_at_their_order() {

@@ -1,139 +1,179 @@
-//! The study file: the problem, the grid of runs, and the claimed advantages.
+//! The study file: the problem, the runs, and the claimed ratios.
 
 use std::sync::OnceLock;
 
-use super::method::{Degrees, METHODS, NamedMethod};
-use super::{Advantage, OBSERVED, ROW, WorkPrecision, Yardstick};
+use convergence_study::study::Tier;
+
+use super::method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial};
+use super::{ROW, Target, WorkPrecision};
 use crate::kinds::convergence::Convergence;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::discretisations;
 
-/// A tolerance of the solver that does not affect the measured errors.
-const TOLERANCE: f64 = 1e-11;
-/// Default for the largest misfit of the law.
-const MISFIT: f64 = 0.15;
-/// The keys of the problem, which is a solution, a scene or a vibration, and those of the runs.
-const PROBLEM: [&str; 6] = [
-    "solution",
-    "scene",
-    "vibration",
-    "zeta",
-    "t_end",
-    "agreement",
-];
-const RUNS: [&str; 6] = ["elements", "steps", "dg", "diagonal", "tolerance", "misfit"];
+/// The keys of the problem, which is a solution, a scene or a vibration.
+const PROBLEM: [&str; 5] = ["solution", "scene", "vibration", "zeta", "t_end"];
+const DEGREES: &str = "[degree p, degree q, largest step]";
+/// Element-steps of a run in the quick tier, and in the full one.
+const QUICK: usize = 1_000_000;
+const FULL: usize = 10_000_000;
 
 impl FromFile for WorkPrecision {
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", ROW.name, "reference", "advantage"])?;
-        let section = root.table(ROW.name, &[RUNS, PROBLEM].concat())?;
-        let steps = levels(&section, "steps", limits::STEPS)?;
-        if let Some(odd) = steps.iter().find(|number| !number.is_multiple_of(steps[0])) {
-            return Err(section.refuse("steps", odd.to_string(), "multiples of the first number"));
-        }
-        let elements = levels(&section, "elements", 1 << 20)?;
-        let number = |key: &str, default: f64| {
-            section
-                .get(key)
-                .map_or(Ok(default), |field| field.positive())
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError> {
+        root.allow(&["study", ROW.name, "reference", "runs", "target"])?;
+        let section = root.table(ROW.name, &[&PROBLEM[..], &["observations"]].concat())?;
+        let observations = section
+            .require("observations", "a number of times")?
+            .count(1..=10_000)?;
+        let family = problem(&section, folder)?;
+        let most = if header.tier == Tier::Quick {
+            QUICK
+        } else {
+            FULL
         };
-        let diagonal = diagonal(&section, &elements, &steps)?;
-        let (family, answer) = problem(root, &section, folder, diagonal.is_some())?;
+        let trials = root.list(
+            "runs",
+            "at least one table [[runs]]",
+            |item| trials(&item.section()?, observations, most),
+            |list| !list.is_empty(),
+        )?;
         Ok(Self {
+            reference: reference(root, family.exact().is_none())?,
             family,
-            answer,
-            dg: dg(&section)?,
-            diagonal,
-            tolerance: number("tolerance", TOLERANCE)?,
-            misfit: number("misfit", MISFIT)?,
-            advantages: advantages(root)?,
-            elements,
-            steps,
+            observations,
+            computed: OnceLock::new(),
+            trials: trials.concat(),
+            targets: root.list(
+                "target",
+                "at least one table [[target]]",
+                |item| target(&item.section()?),
+                |list| !list.is_empty(),
+            )?,
         })
     }
 }
 
-/// An increasing list of at least two whole numbers.
-fn levels(section: &Section<'_>, key: &str, most: usize) -> Result<Vec<usize>, InputError> {
-    let allowed = "a list of at least two increasing whole numbers >= 1";
+/// The runs of one table.
+fn trials(
+    section: &Section<'_>,
+    observations: usize,
+    most: usize,
+) -> Result<Vec<Trial>, InputError> {
+    section.allow(&["method", "grading", "nodes", "runs"])?;
+    let methods = METHODS.map(|method| (method.name, method));
+    let method = section
+        .require("method", "the name of a method")?
+        .choice(&methods)?;
+    let other = if method.one_step.is_some() {
+        "nodes"
+    } else {
+        "grading"
+    };
+    if let Some(field) = section.get(other) {
+        let allowed = format!("no {other} for {}", method.name);
+        return Err(field.refuse(format!("{other} of {}", method.name), allowed));
+    }
+    let resolutions = if method.one_step.is_some() {
+        grids(section, observations, most)?
+    } else {
+        let nodes = nodes(section)?;
+        let run = |item: &Field<'_>| dg(item, &nodes);
+        let allowed = format!("a list of {DEGREES}");
+        section.list("runs", &allowed, run, |list| !list.is_empty())?
+    };
+    let trial = |resolution| Trial { method, resolution };
+    Ok(resolutions.into_iter().map(trial).collect())
+}
+
+fn grids(
+    section: &Section<'_>,
+    observations: usize,
+    most: usize,
+) -> Result<Vec<Resolution>, InputError> {
+    let grading = section
+        .get("grading")
+        .map_or(Ok(1.0), |field| field.positive())?;
+    let allowed = format!("a list of [elements, steps], steps multiples of {observations}");
+    let run = |item: &Field<'_>| {
+        let [elements, steps] = item
+            .items(&allowed)?
+            .try_into()
+            .map_err(|_| item.refuse_as_written(&allowed))?;
+        let elements = elements.count(1..=most)?;
+        let steps = steps.count(1..=most)?;
+        if !steps.is_multiple_of(observations) {
+            return Err(item.refuse_as_written(&allowed));
+        }
+        if elements * steps > most {
+            let limit = format!("at most {most} element-steps in this tier");
+            return Err(item.refuse(format!("{} element-steps", elements * steps), limit));
+        }
+        Ok(Resolution::OneStep(Grid {
+            grading,
+            elements,
+            steps,
+        }))
+    };
+    section.list("runs", &allowed, run, |list| !list.is_empty())
+}
+
+fn nodes(section: &Section<'_>) -> Result<Vec<f64>, InputError> {
+    let allowed = "an increasing list of numbers from 0 to 1";
     section.list(
-        key,
+        "nodes",
         allowed,
-        |item| item.count(1..=most),
-        |list: &[usize]| list.len() > 1 && increases(list),
+        |item| item.number(),
+        |list: &[f64]| increases(list) && list.first() == Some(&0.0) && list.last() == Some(&1.0),
     )
 }
 
-/// The runs of dG.
-fn dg(section: &Section<'_>) -> Result<Vec<Degrees>, InputError> {
-    let allowed = "a list of [degree p, degree q, largest step]";
-    let row = |item: &Field<'_>| {
-        let [p, q, dt] = item
-            .items(allowed)?
-            .try_into()
-            .map_err(|_| item.refuse_as_written(allowed))?;
-        Ok(Degrees {
-            p: p.count(1..=MAX_DEGREE)?,
-            q: q.count(0..=MAX_TIME_DEGREE)?,
-            dt: dt.positive()?,
+/// A run by dG.
+fn dg(item: &Field<'_>, nodes: &[f64]) -> Result<Resolution, InputError> {
+    let [p, q, dt] = item
+        .items(DEGREES)?
+        .try_into()
+        .map_err(|_| item.refuse_as_written(DEGREES))?;
+    let degrees = Degrees {
+        p: p.count(1..=MAX_DEGREE)?,
+        q: q.count(0..=MAX_TIME_DEGREE)?,
+        dt: dt.positive()?,
+    };
+    Ok(Resolution::Dg {
+        nodes: nodes.to_vec(),
+        degrees,
+    })
+}
+
+/// Two runs by dG for a scene; none where there is an exact solution.
+fn reference(root: &Section<'_>, is_needed: bool) -> Result<Option<[Trial; 2]>, InputError> {
+    if !is_needed {
+        return match root.get("reference") {
+            Some(field) => Err(field.refuse("reference without scene", "reference beside scene")),
+            None => Ok(None),
+        };
+    }
+    let dg_row = METHODS[METHODS.len() - 1];
+    let run = |item: &Field<'_>| {
+        let section = item.section()?;
+        section.allow(&["nodes", "runs"])?;
+        let resolution = dg(&section.require("runs", DEGREES)?, &nodes(&section)?)?;
+        Ok(Trial {
+            method: dg_row,
+            resolution,
         })
     };
-    section
-        .get("dg")
-        .map_or(Ok(vec![]), |_| section.list("dg", allowed, row, |_| true))
+    let allowed = "two different tables [[reference]]";
+    let differ = |list: &[Trial]| list.len() == 2 && list[0] != list[1];
+    let two = root.list("reference", allowed, run, differ)?;
+    Ok(two.try_into().ok())
 }
 
-/// The one-step method that is run with a single number of steps on each mesh.
-fn diagonal(
-    section: &Section<'_>,
-    elements: &[usize],
-    steps: &[usize],
-) -> Result<Option<NamedMethod>, InputError> {
-    let Some(field) = section.get("diagonal") else {
-        return Ok(None);
-    };
-    let one_step: Vec<_> = METHODS
-        .iter()
-        .filter(|method| method.one_step.is_some())
-        .map(|&m| (m.name, m))
-        .collect();
-    let doubled = |list: &[usize]| list.windows(2).all(|two| two[1] == 2 * two[0]);
-    if elements.len() != steps.len()
-        || !doubled(elements)
-        || !doubled(steps)
-        || !steps[0].is_multiple_of(OBSERVED)
-    {
-        let allowed = format!(
-            "as many elements as steps, each twice the one before, steps multiples of {OBSERVED}"
-        );
-        return Err(section.refuse(
-            "steps",
-            format!("{steps:?} with {elements:?} elements"),
-            allowed,
-        ));
-    }
-    field.choice(&one_step).map(Some)
-}
-
-/// The problem, and the reference for its errors.
-fn problem(
-    root: &Section<'_>,
-    section: &Section<'_>,
-    folder: &Path,
-    tip_alone: bool,
-) -> Result<(Family, Yardstick), InputError> {
-    for (table, key, owner) in [
-        (section, "zeta", "vibration"),
-        (section, "agreement", "scene"),
-        (section, "diagonal", "scene"),
-        (root, "reference", "scene"),
-    ] {
-        if let (Some(field), None) = (table.get(key), section.get(owner)) {
-            return Err(field.refuse(
-                format!("{key} without {owner}"),
-                format!("{key} beside {owner}"),
-            ));
-        }
+/// The problem.
+fn problem(section: &Section<'_>, folder: &Path) -> Result<Family, InputError> {
+    if let (Some(field), None) = (section.get("zeta"), section.get("vibration")) {
+        return Err(field.refuse("zeta without vibration", "zeta beside vibration"));
     }
     match (
         section.get("solution"),
@@ -153,39 +193,18 @@ fn problem(
                 refine,
                 ..
             } = Convergence::read(file.file(folder)?)?;
-            Ok((
-                Family::of_solution(exact, theory.beam, theory.obstacles, refine.t_end),
-                Yardstick::Exact,
+            Ok(Family::of_solution(
+                exact,
+                theory.beam,
+                theory.obstacles,
+                refine.t_end,
             ))
         }
-        (None, Some(file), None) => {
-            let scene = Scene {
-                t_end: section.positive("t_end")?,
-                ..Scene::read(file.file(folder)?)?
-            };
-            let family = Family::of_scene(&scene);
-            if tip_alone {
-                return match root.get("reference").or_else(|| section.get("agreement")) {
-                    Some(field) => {
-                        Err(field
-                            .refuse("beside diagonal", "no reference: a finer run of dG is one"))
-                    }
-                    None => Ok((family, Yardstick::Tip(OnceLock::new()))),
-                };
-            }
-            let by = discretisations(root, "reference", None, scene.t_end)?;
-            let agreement = section.positive("agreement")?;
-            Ok((
-                family,
-                Yardstick::Agreed {
-                    scene: Box::new(scene),
-                    by: Box::new(by),
-                    agreement,
-                    computed: OnceLock::new(),
-                },
-            ))
-        }
-        (None, None, Some(_)) => Ok((vibration(section)?, Yardstick::Exact)),
+        (None, Some(file), None) => Ok(Family::of_scene(&Scene {
+            t_end: section.positive("t_end")?,
+            ..Scene::read(file.file(folder)?)?
+        })),
+        (None, None, Some(_)) => vibration(section),
         _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
     }
 }
@@ -196,7 +215,8 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     let allowed = "a list of at least one mode, numbered from 0";
     let mode = |item: &Field<'_>| Ok((item.count(0..=1000)?, AMPLITUDE));
     let modes = section.list("vibration", allowed, mode, |modes| !modes.is_empty())?;
-    let (zeta, t_end) = (section.positive("zeta")?, section.positive("t_end")?);
+    let zeta = section.positive("zeta")?;
+    let t_end = section.positive("t_end")?;
     let exact = free_vibration::vibration(&modes, zeta);
     let exact = exact.map_err(|error| section.refuse("zeta", error.to_string(), "a viscosity"))?;
     Ok(Family::of_free_solution(
@@ -206,32 +226,28 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
     ))
 }
 
-/// The claims: at least one advantage.
-fn advantages(root: &Section<'_>) -> Result<Vec<Advantage>, InputError> {
+fn target(section: &Section<'_>) -> Result<Target, InputError> {
+    section.allow(&["norm", "error", "methods", "times"])?;
+    let measures = ErrorMeasure::ALL.map(|measure| (measure.name(), measure));
     let methods = METHODS.map(|method| (method.name, method));
-    let quantities = ErrorMeasure::ALL.map(|quantity| (quantity.name(), quantity));
-    let advantage = |item: &Field<'_>| {
-        let section = item.section()?;
-        section.allow(&["norm", "error", "of", "over", "times"])?;
-        let method = |key: &str| {
-            section
-                .require(key, "the name of a method")?
-                .choice(&methods)
-        };
-        Ok(Advantage {
-            quantity: section
-                .require("norm", "the name of a norm")?
-                .choice(&quantities)?,
-            error: section.positive("error")?,
-            of: method("of")?,
-            over: method("over")?,
-            times: section.positive("times")?,
-        })
+    let once = |list: &[NamedMethod]| {
+        list.len() > 1 && (1..list.len()).all(|k| !list[..k].contains(&list[k]))
     };
-    root.list(
-        "advantage",
-        "at least one table [[advantage]]",
-        advantage,
-        |list| !list.is_empty(),
-    )
+    let methods = section.list(
+        "methods",
+        "at least two different methods, the dearest first",
+        |item| item.choice(&methods),
+        once,
+    )?;
+    let fits = |list: &[f64]| list.len() + 1 == methods.len();
+    let allowed =
+        "a number for each method but the last: how many times dearer it is than the next";
+    Ok(Target {
+        measure: section
+            .require("norm", "the name of a norm")?
+            .choice(&measures)?,
+        error: section.positive("error")?,
+        times: section.list("times", allowed, |item| item.positive(), fits)?,
+        methods,
+    })
 }

@@ -1,21 +1,26 @@
 //! The compared methods, and a single run of each.
 //!
-//! The errors of dG fall faster than any power of h and dt, so no law is fitted: the cost of an error is that of the cheapest
-//! run that reaches it. The unit is the node-solve of `midpoint`, with two 3 x 3 blocks per row. A solve of dG(q) has 3 (q + 1)
-//! unknowns per block, each of which costs (q + 1)² as much; a factorisation counts as 3 (q + 1) solves.
+//! The unit of counted work is the node-solve of `midpoint`, with two 3 x 3 blocks per row. A
+//! factorisation of a one-step method counts as one solve; an iteration of the fixed point, with
+//! both, takes about 2.7 times as long as one of Newton's method. A solve of dG(q) has 3 (q + 1)
+//! unknowns per block, each of which costs (q + 1)² as much; its factorisation counts as 3 (q + 1)
+//! solves.
 
 use thermobeam::dg;
 
-use crate::error::Evaluator;
+use crate::error::polynomials::Polynomials;
 use crate::error::reference::combine;
+use crate::error::{AnyOrderEvaluator, Errors, Evaluator};
 use crate::kinds::prelude::*;
-use crate::run::family::{Family, OnMesh, Spent};
+use crate::run::family::Spent;
 
 /// A method of solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NamedMethod {
     /// Name in study files, tables and figures.
     pub name: &'static str,
+    /// The name in words.
+    pub in_words: &'static str,
     /// The one-step method; `None`: dG(q) on elements of degree p.
     pub one_step: Option<OneStep>,
 }
@@ -27,91 +32,193 @@ pub struct OneStep {
     pub scheme: Scheme,
     /// Solver of a step.
     pub solver: Solver,
+    /// When its iteration ends.
+    pub stopping: Stopping,
     /// Two runs, with dt and dt/2, combined to `2 u_{dt/2} - u_dt`.
     pub extrapolated: bool,
 }
 
+/// The solver's tolerance is far below the measured errors.
+const SOLVED: Stopping = Stopping::Converged {
+    tolerance: 1e-11,
+    max_iterations: 1000,
+};
+/// The paper's η*, Section 5.
+const PAPER: Stopping = Stopping::Converged {
+    tolerance: 1e-7,
+    max_iterations: 1000,
+};
+
 const fn row(
     name: &'static str,
-    scheme: Scheme,
-    solver: Solver,
-    extrapolated: bool,
+    in_words: &'static str,
+    (scheme, extrapolated): (Scheme, bool),
+    (solver, stopping): (Solver, Stopping),
 ) -> NamedMethod {
     NamedMethod {
         name,
+        in_words,
         one_step: Some(OneStep {
             scheme,
             solver,
+            stopping,
             extrapolated,
         }),
     }
 }
 
 /// All methods; a new one-step method is a row.
-pub const METHODS: [NamedMethod; 5] = [
+pub const METHODS: [NamedMethod; 6] = [
     row(
         "fixed-point",
-        EULER_CRANK_NICOLSON,
-        Solver::FixedPoint,
-        false,
+        "the paper's fixed point, η* = 1e-7",
+        (EULER_CRANK_NICOLSON, false),
+        (Solver::FixedPoint, PAPER),
+    ),
+    row(
+        "fixed-point-once",
+        "the paper's fixed point, L = 1",
+        (EULER_CRANK_NICOLSON, false),
+        (Solver::FixedPoint, Stopping::Iterations(1)),
     ),
     row(
         "euler-crank-nicolson",
-        EULER_CRANK_NICOLSON,
-        Solver::Newton,
-        false,
+        "the paper's scheme by Newton",
+        (EULER_CRANK_NICOLSON, false),
+        (Solver::Newton, SOLVED),
     ),
-    row("richardson", EULER_CRANK_NICOLSON, Solver::Newton, true),
-    row("midpoint", MIDPOINT, Solver::Newton, false),
+    row(
+        "richardson",
+        "Richardson",
+        (EULER_CRANK_NICOLSON, true),
+        (Solver::Newton, SOLVED),
+    ),
+    row(
+        "midpoint",
+        "midpoint",
+        (MIDPOINT, false),
+        (Solver::Newton, SOLVED),
+    ),
     NamedMethod {
         name: "dg",
+        in_words: "dG(q), degree p",
         one_step: None,
     },
 ];
 
+/// Mesh and steps of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Resolution {
+    /// Linear elements and equal steps.
+    OneStep(Grid),
+    /// Elements of degree p between these nodes, dG(q) in time.
+    Dg {
+        /// The nodes, from 0 to 1.
+        nodes: Vec<f64>,
+        /// Degrees and steps.
+        degrees: Degrees,
+    },
+}
+
+/// Linear elements and equal steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// The nodes are `1 - (1 - i/n)^grading`: 1 for equal elements, more for small ones at the free
+    /// end.
+    pub grading: f64,
+    /// Number of elements n.
+    pub elements: usize,
+    /// Number of steps; of the coarser run of two.
+    pub steps: usize,
+}
+
+impl Grid {
+    /// The mesh.
+    ///
+    /// # Errors
+    /// [`MeshError`] if elements are too small.
+    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+        if self.grading == 1.0 {
+            return Mesh::uniform(self.elements);
+        }
+        Mesh::mapped(self.elements, |s| 1.0 - (1.0 - s).powf(self.grading))
+    }
+}
+
+impl std::fmt::Display for Resolution {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::OneStep(Grid {
+                grading,
+                elements,
+                steps,
+            }) => {
+                write!(f, "{elements} x {steps}")?;
+                if *grading == 1.0 {
+                    return Ok(());
+                }
+                write!(f, ", grading {grading}")
+            }
+            Self::Dg { nodes, degrees } => {
+                write!(f, "{degrees}")?;
+                match nodes.len() {
+                    2 => Ok(()),
+                    more => write!(f, ", {} elements", more - 1),
+                }
+            }
+        }
+    }
+}
+
+/// A run to be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trial {
+    /// The method.
+    pub method: NamedMethod,
+    /// Its mesh and steps.
+    pub resolution: Resolution,
+}
+
 /// A run: largest errors over the times of observation, and its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
-    /// Errors in the order of [`crate::error::ErrorMeasure::ALL`].
-    pub errors: [f64; 3],
-    /// The cost, excluding the measurement.
+    /// The errors.
+    pub errors: Errors,
+    /// The counted work, excluding the measurement.
     pub spent: Spent,
+    /// Seconds of the clock, excluding the measurement.
+    pub seconds: f64,
 }
 
-/// The larger of each two errors; NaN if either is NaN.
-pub(super) fn worst(errors: [f64; 3], found: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| max_or_nan(errors[k], found[k]))
-}
+/// A reading of a clock, in seconds. Studies have [`no_clock`].
+pub type Clock = fn() -> f64;
 
-/// Does this number of steps.
-fn advance(motion: &mut impl Motion, steps: usize) -> Result<(), CaseFailure> {
-    (0..steps).try_for_each(|_| motion.step(f64::INFINITY).map(drop))?;
-    Ok(())
+/// A clock that stands still.
+pub fn no_clock() -> f64 {
+    0.0
 }
 
 impl OneStep {
-    /// Steps of unit size per step of the coarse run: 3 if a second run halves the step.
-    pub(super) fn runs(&self) -> f64 {
+    /// Runs of unit size per step of the coarse run: 3 if a second run halves the step.
+    pub fn runs(&self) -> f64 {
         if self.extrapolated { 3.0 } else { 1.0 }
     }
 
-    /// Runs `steps` steps and measures at `observations` equidistant times; `steps` must be a multiple of their number.
+    /// Runs `steps` steps, a multiple of `observations`, and measures at that many equidistant
+    /// times; without an evaluator it only takes the time.
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's message.
     pub(super) fn run(
         &self,
         on: &OnMesh<'_>,
-        evaluator: &mut Evaluator<'_>,
+        mut evaluator: Option<Evaluator<'_>>,
         [steps, observations]: [usize; 2],
-        tolerance: f64,
+        clock: Clock,
     ) -> Result<Measurement, CaseFailure> {
         let settings = Settings {
             solver: self.solver,
-            stopping: Stopping::Converged {
-                tolerance,
-                max_iterations: 1000,
-            },
+            stopping: self.stopping,
             ..Settings::default()
         };
         let mut run = on.start(self.scheme, settings, steps)?;
@@ -120,33 +227,35 @@ impl OneStep {
         } else {
             None
         };
-        let mut errors = [0.0_f64; 3];
+        let mut errors = Errors::default();
+        let mut seconds = 0.0;
         for index in 0..observations {
-            advance(&mut run, steps / observations)?;
-            let (mut level, t) = (run.on(on.mesh()), run.t());
+            let begun = clock();
+            let until = on.t_end() * (index + 1) as f64 / observations as f64;
+            run_to(&mut run, until, |_, _| ())?;
             if let Some(half) = &mut half {
-                advance(half, 2 * steps / observations)?;
-                level = combine(&half.on(on.mesh()), &level, 2.0);
+                run_to(half, until, |_, _| ())?;
             }
-            errors = worst(errors, evaluator.measure(&level, index, t));
+            seconds += clock() - begun;
+            if let Some(evaluator) = &mut evaluator {
+                let mut level = run.snapshot().on(on.mesh());
+                if let Some(half) = &half {
+                    level = combine(&half.snapshot().on(on.mesh()), &level, 2.0);
+                }
+                errors = errors.worst(evaluator.measure(&level, index, run.work().t));
+            }
         }
         let mut spent = Spent::of(&run, on.mesh().elements());
         if let Some(half) = &half {
             spent += Spent::of(half, on.mesh().elements());
         }
-        Ok(Measurement { errors, spent })
+        Ok(Measurement {
+            errors,
+            spent,
+            seconds,
+        })
     }
 }
-
-/// Elements that grow towards x = 0: the last one holds the layer of an impact.
-pub(super) const GRADED: [f64; 3] = [0.0, 0.9, 1.0];
-
-/// The default reference.
-pub(super) const REFERENCE: Degrees = Degrees {
-    p: 26,
-    q: 5,
-    dt: 0.0021,
-};
 
 /// Ratio of the first step to the largest.
 const RESTART: f64 = 0.05;
@@ -171,28 +280,39 @@ impl std::fmt::Display for Degrees {
     }
 }
 
+/// Who sees a run by dG.
+pub(super) enum Audience<'r> {
+    /// An evaluator, against this reference or the exact solution.
+    Errors(Option<&'r Polynomials>),
+    /// The levels are kept.
+    Levels(&'r mut Vec<dg::Level>),
+    /// Nobody: the run only takes its time.
+    Nobody,
+}
+
 impl Degrees {
-    /// Runs a problem on the elements between these nodes. `observe` receives the level at each of the `times` equidistant times,
-    /// numbered from 0; most of them lie inside steps.
+    /// Runs a problem on the elements between these nodes, observed at `times` equidistant times,
+    /// most of them inside steps.
     ///
     /// # Errors
     /// [`CaseFailure`] with the solver's message.
-    pub(crate) fn run(
+    pub(super) fn run(
         self,
         family: &Family,
         nodes: &[f64],
         times: usize,
-        observe: &mut dyn FnMut(&dg::Space, &dg::Level, usize),
-    ) -> Result<Spent, CaseFailure> {
-        let Self { p, q, dt } = self;
-        let stepping = dg::Stepping {
-            degree: q,
-            dt,
-            restart_dt: RESTART * dt,
-            growth: 1.0 + 0.5 * dt / COARSE,
-            ..dg::Stepping::default()
+        mut audience: Audience<'_>,
+        clock: Clock,
+    ) -> Result<(dg::Space, Measurement), CaseFailure> {
+        let mesh = Mesh::from_nodes(nodes.to_vec())?;
+        let mut motion = family.dg(mesh, self.p, self.stepping())?;
+        let space = motion.simulation().space().clone();
+        let mut evaluator = match &audience {
+            Audience::Errors(reference) => {
+                Some(AnyOrderEvaluator::new(family, &space, *reference)?)
+            }
+            Audience::Levels(_) | Audience::Nobody => None,
         };
-        let mut motion = family.dg(Mesh::from_nodes(nodes.to_vec())?, p, stepping)?;
         let time = |k: usize| {
             if k == times {
                 family.t_end
@@ -200,22 +320,54 @@ impl Degrees {
                 family.t_end * k as f64 / times as f64
             }
         };
-        let (mut level, mut shown) = (motion.simulation().level().clone(), 0);
-        while motion.step(family.t_end)?.is_some() {
-            let simulation = motion.simulation();
-            while shown < times && simulation.level_into(time(shown + 1), &mut level) {
-                observe(simulation.space(), &level, shown);
-                shown += 1;
+        let mut level = motion.simulation().level().clone();
+        let mut errors = Errors::default();
+        let (mut index, mut seconds, mut begun) = (0, 0.0, clock());
+        run_to(&mut motion, family.t_end, |motion, _| {
+            if motion.work().t < time(index + 1) {
+                return;
             }
+            seconds += clock() - begun;
+            while index < times && motion.simulation().level_into(time(index + 1), &mut level) {
+                if let Some(evaluator) = &mut evaluator {
+                    errors = errors.worst(evaluator.measure(&level, index));
+                }
+                if let Audience::Levels(levels) = &mut audience {
+                    levels.push(level.clone());
+                }
+                index += 1;
+            }
+            begun = clock();
+        })?;
+        drop(evaluator);
+        let spent = self.spent(&space, motion.simulation().work());
+        let measurement = Measurement {
+            errors,
+            spent,
+            seconds,
+        };
+        Ok((space, measurement))
+    }
+
+    fn stepping(self) -> dg::Stepping {
+        let Self { q, dt, .. } = self;
+        dg::Stepping {
+            degree: q,
+            dt,
+            restart_dt: RESTART * dt,
+            growth: 1.0 + 0.5 * dt / COARSE,
+            ..dg::Stepping::default()
         }
-        let (simulation, seconds) = (motion.simulation(), motion.wall().as_secs_f64());
-        let (stages, work) = ((q + 1) as f64, simulation.work());
+    }
+
+    /// The counted work, in the unit of the head of this file.
+    fn spent(self, space: &dg::Space, work: dg::Work) -> Spent {
+        let stages = (self.q + 1) as f64;
         let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
-        let weight = simulation.space().blocks() as f64 * stages * stages;
-        Ok(Spent {
+        let weight = space.blocks() as f64 * stages * stages;
+        Spent {
             node_steps: weight * work.steps as f64,
             node_solves: weight * solves,
-            seconds,
-        })
+        }
     }
 }

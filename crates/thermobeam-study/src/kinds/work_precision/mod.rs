@@ -1,297 +1,242 @@
-//! The cost of an error by method: error over node-steps and solves.
+//! The work for an error by method, measured: no law is fitted and nothing is extrapolated.
 //!
-//! Every one-step method runs over the same grid of elements and steps; dG(q) runs with the degrees and steps listed in the file.
-//! Errors are those of the [`evaluator`](mod@crate::error), the largest over equidistant times of observation common to all
-//! runs; those of dG use its values at the nodes of a mesh finer than all others. A grid gives the fitted law ([`law`]), the best
-//! path dt(h), and the cost of an error E; for dG the cheapest run with that error counts. Costs are counted, not timed, so that a
-//! report is the same on every machine at any time; [`timing`](crate::timing) measures seconds.
+//! A study lists runs of each method, and targets: errors of u(1, t) and in the norm of Theorem
+//! 3.4. The cost of a target is the work of the cheapest run whose error is not larger; a method
+//! without such a run does not reach it. Each target names the methods that reach it, from the
+//! dearest to the cheapest, and claims how many times dearer each of them is than the next one.
+//! Errors are the largest over equidistant times, common to all runs. Work is counted, not timed,
+//! so that a report is the same on every machine; `cargo xtask bench` takes the seconds of longer
+//! runs of the same problems.
 //!
 //! ```toml
 //! [work-precision]
 //! solution = "midpoint-coupled.toml"   # a convergence study beside this one; or scene = "...", with t_end and
-//!                                      # two tables [[reference]] of runs of any order that must agree within
-//!                                      # agreement = 1e-6; or vibration = [0, 1], with zeta and t_end
-//! elements = [8, 16, 32, 64]
-//! steps = [32, 64, 128, 256]           # multiples of the first, which is the number of observations
-//! dg = [[12, 2, 0.02], [14, 3, 0.01]]  # degree p, degree q, largest step; optional
-//! diagonal = "midpoint"                # optional, for a scene: this method and dG alone, each number of elements with one
-//!                                      # of steps, both twice the ones before; u(1, t) alone, against a finer run of dG
-//! tolerance = 1e-11                    # of the solver; optional
-//! misfit = 0.15                        # root mean square of log e about the law that is allowed; optional
+//!                                      # two tables [[reference]]; or vibration = [0, 1], with zeta and t_end
+//! observations = 16                    # times at which errors are measured
 //!
-//! [[advantage]]
-//! norm = "superclose"                  # theorem-3.4, superclose, tip
-//! error = 1e-6
-//! of = "midpoint"
-//! over = "euler-crank-nicolson"
-//! times = 100
+//! [[reference]]                        # two runs by dG that agree within a tenth of the smallest targets
+//! nodes = [0.0, 1.0]
+//! runs = [36, 4, 0.003]                # degree p, degree q, largest step
+//!
+//! [[runs]]
+//! method = "midpoint"                  # fixed-point, fixed-point-once, euler-crank-nicolson, richardson, midpoint
+//! grading = 1.5                        # optional: nodes 1 - (1 - i/n)^1.5, small elements at the free end
+//! runs = [[16, 128], [32, 256]]        # elements and steps, a multiple of the observations; at most 1e6 element-steps
+//!                                      # in the quick tier, 1e7 in the full one
+//! [[runs]]
+//! method = "dg"
+//! nodes = [0.0, 0.9, 1.0]
+//! runs = [[12, 2, 0.02]]               # degree p, degree q, largest step
+//!
+//! [[target]]
+//! norm = "tip"                         # or theorem-3.4
+//! error = 1e-3
+//! methods = ["euler-crank-nicolson", "midpoint", "dg"]   # all that reach it, the dearest first
+//! times = [10, 1.5]                    # at least so many times dearer than the next one
 //! ```
 
+pub mod compared;
 mod file;
 mod judge;
-pub mod law;
 pub mod method;
 
 use std::sync::OnceLock;
 
-use crate::error::reference::{FINER, Traced, fine_mesh};
-use crate::error::{ErrorMeasure, Evaluator};
+use crate::error::polynomials::Polynomials;
+use crate::error::{Errors, Evaluator};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Discretisation;
-use crate::run::dg::nodal;
-use method::{Degrees, GRADED, METHODS, Measurement, NamedMethod, OneStep, REFERENCE, worst};
+use crate::kinds::settings;
+use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "work-precision",
     read: reader::<WorkPrecision>,
-    why: "Every method pays for a smaller error with more work. The law e^2 = (C_h h^p)^2 + (C_t dt^q)^2 of each one-step method gives \
-          its cheapest path, and its cost for any error: a power of it. High orders pay little more for ten digits than for five.",
-    judged: "Costs are counted, not timed. The laws must fit what was measured, and the advantage claimed must be there.",
-    failure: "A method has become more expensive for the same error, or its order is not what the law says.",
+    why: "Every method pays for a smaller error with more work. At each error that two methods both reach, the ratio of their work \
+          is measured. High orders pay little more for ten digits than for five.",
+    judged: "Work is counted, not timed. The ratios must be at least those claimed, and every method that reaches a target must be \
+             compared.",
+    failure: "A method has become more expensive for the same error, or it does not reach an error any more.",
+    settings: settings::of_cost,
 };
 
-/// Times of observation if only u(1, t) is measured.
-const OBSERVED: usize = 250;
+/// A reference is so many times better than the smallest target.
+const BETTER: f64 = 10.0;
 
-/// A claim that one method is `times` times cheaper than another.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Advantage {
-    /// The quantity in which the error is measured.
-    pub quantity: ErrorMeasure,
+/// An error, and the claimed order of the methods that reach it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// The measure of the error.
+    pub measure: ErrorMeasure,
     /// The error.
     pub error: f64,
-    /// The cheaper method.
-    pub of: NamedMethod,
-    /// The more expensive method.
-    pub over: NamedMethod,
-    /// Minimum ratio of the costs.
-    pub times: f64,
+    /// The methods that reach it, the dearest first.
+    pub methods: Vec<NamedMethod>,
+    /// Least ratio of the work of each method to that of the next one.
+    pub times: Vec<f64>,
 }
 
 /// A study of this kind.
 pub struct WorkPrecision {
     family: Family,
-    answer: Yardstick,
-    elements: Vec<usize>,
-    steps: Vec<usize>,
-    dg: Vec<Degrees>,
-    /// The only one-step method, with one number of steps for each mesh.
-    diagonal: Option<NamedMethod>,
-    tolerance: f64,
-    misfit: f64,
-    advantages: Vec<Advantage>,
-}
-
-impl Advantage {
-    /// The compared cost: node-steps (0), or node-solves (1) if dG takes part, since its steps are of a different kind.
-    fn unit(&self) -> usize {
-        usize::from(self.of.one_step.is_none() || self.over.one_step.is_none())
-    }
-}
-
-type Computed<T> = OnceLock<Result<T, CaseFailure>>;
-
-/// The reference for errors. References to be computed are computed once, by the first thread that needs them.
-enum Yardstick {
-    /// The exact solution.
-    Exact,
-    /// A scene by two discretisations of any order, and their largest allowed distance in the norm of Theorem 3.4.
-    Agreed {
-        scene: Box<Scene>,
-        by: Box<[Discretisation; 2]>,
-        agreement: f64,
-        computed: Computed<Traced>,
-    },
-    /// u(1, t) at the times of observation, by dG.
-    Tip(Computed<Vec<f64>>),
-}
-
-/// Runs of a method.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Runs {
-    /// A one-step method on a mesh with this number of elements: one run for each number of steps.
-    OnMesh(NamedMethod, OneStep, usize),
-    /// One run by dG.
-    Dg(Degrees),
+    observations: usize,
+    /// Runs by dG that serve as reference; none for an exact solution.
+    reference: Option<[Trial; 2]>,
+    /// The reference, computed once by the first thread that needs it, and the distance of the two
+    /// runs.
+    computed: OnceLock<Result<(Polynomials, Errors), CaseFailure>>,
+    trials: Vec<Trial>,
+    targets: Vec<Target>,
 }
 
 impl WorkPrecision {
-    /// Equidistant times at which the error is measured.
-    fn observations(&self) -> usize {
-        if self.diagonal.is_some() {
-            OBSERVED
-        } else {
-            self.steps[0]
-        }
-    }
-
-    /// The measured quantities.
-    pub fn quantities(&self) -> &'static [ErrorMeasure] {
-        if self.diagonal.is_some() {
-            &[ErrorMeasure::Tip]
-        } else {
-            &ErrorMeasure::ALL
-        }
-    }
-
+    /// The methods of the study, in the order of the table.
     pub(crate) fn methods(&self) -> impl Iterator<Item = NamedMethod> {
-        METHODS.into_iter().filter(|method| match method.one_step {
-            None => !self.dg.is_empty(),
-            Some(_) => self.diagonal.is_none_or(|only| only == *method),
-        })
+        method::METHODS
+            .into_iter()
+            .filter(|method| self.trials.iter().any(|trial| trial.method == *method))
     }
 
-    /// Steps of the runs on a mesh.
-    pub(crate) fn steps_on(&self, elements: usize) -> &[usize] {
-        match self
-            .elements
-            .iter()
-            .position(|&n| n == elements)
-            .filter(|_| self.diagonal.is_some())
-        {
-            Some(place) => &self.steps[place..=place],
-            None => &self.steps,
-        }
+    /// The number of times at which errors are measured: steps of a one-step method are a multiple
+    /// of it.
+    pub fn observations(&self) -> usize {
+        self.observations
     }
 
-    pub(crate) fn runs(&self) -> impl Iterator<Item = Runs> {
-        self.methods().flat_map(|method| -> Vec<Runs> {
-            match method.one_step {
-                Some(scheme) => self
-                    .elements
-                    .iter()
-                    .map(|&n| Runs::OnMesh(method, scheme, n))
-                    .collect(),
-                None => self.dg.iter().copied().map(Runs::Dg).collect(),
-            }
-        })
+    /// The targets.
+    pub fn targets(&self) -> &[Target] {
+        &self.targets
     }
 
-    fn agreed(
-        &self,
-        scene: &Scene,
-        by: &[Discretisation; 2],
-        agreement: f64,
-    ) -> Result<Traced, CaseFailure> {
-        let finest = self.elements.last().copied().unwrap_or(1);
-        let run = |how: &Discretisation| {
-            Traced::compute(
-                &how.of(scene, self.family.t_end)?,
-                fine_mesh(scene, finest)?,
-                self.observations(),
-            )
+    fn polynomials(&self, trial: &Trial) -> Result<Polynomials, CaseFailure> {
+        let Resolution::Dg { nodes, degrees } = &trial.resolution else {
+            return Err(CaseFailure::new("a reference is a run by dG"));
         };
-        let (one, other) = (run(&by[0])?, run(&by[1])?);
-        let apart = one.distance(&other);
-        if apart <= agreement {
-            return Ok(one);
-        }
-        Err(CaseFailure::new(format!(
-            "the two references are {apart:.1e} apart, allowed {agreement:e}"
-        )))
+        let mut levels = vec![];
+        let audience = Audience::Levels(&mut levels);
+        let (space, _) = degrees.run(&self.family, nodes, self.observations, audience, no_clock)?;
+        Ok(Polynomials::new(space, levels))
     }
 
-    fn exact_tip(&self) -> Result<Vec<f64>, CaseFailure> {
-        let mut tip = vec![];
-        REFERENCE.run(
-            &self.family,
-            &GRADED,
-            self.observations(),
-            &mut |space, level, _| {
-                tip.extend(nodal(space, level, &[1.0]).u);
-            },
-        )?;
-        Ok(tip)
-    }
-
-    /// Measures levels on a mesh.
-    fn evaluator(&self, on: &OnMesh<'_>) -> Result<Evaluator<'_>, CaseFailure> {
-        let reference = match &self.answer {
-            Yardstick::Tip(computed) => {
-                let tip = computed
-                    .get_or_init(|| self.exact_tip())
-                    .as_ref()
-                    .map_err(Clone::clone)?;
-                return Ok(Evaluator::of_tip(tip));
-            }
-            Yardstick::Agreed {
-                scene,
-                by,
-                agreement,
-                computed,
-            } => {
-                let computed = computed.get_or_init(|| self.agreed(scene, by, *agreement));
-                Some(computed.as_ref().map_err(Clone::clone)?)
-            }
-            Yardstick::Exact => None,
+    /// The reference and the distance of its two runs; `None` if there is an exact solution.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] of a run that does not finish.
+    pub fn reference(&self) -> Result<Option<&(Polynomials, Errors)>, CaseFailure> {
+        let Some([one, other]) = &self.reference else {
+            return Ok(None);
         };
-        Evaluator::new(&self.family, on, reference)
+        let computed = self.computed.get_or_init(|| {
+            let best = self.polynomials(one)?;
+            let distance = best.distance(&self.polynomials(other)?);
+            Ok((best, distance))
+        });
+        computed.as_ref().map(Some).map_err(Clone::clone)
     }
 
-    pub(crate) fn measure(&self, runs: Runs) -> Result<Vec<Measurement>, CaseFailure> {
-        let times = self.observations();
-        match runs {
-            Runs::OnMesh(_, scheme, elements) => {
-                let on = self.family.on(elements)?;
-                let mut evaluator = self.evaluator(&on)?;
-                let mut run = |&steps: &usize| {
-                    scheme.run(&on, &mut evaluator, [steps, times], self.tolerance)
-                };
-                self.steps_on(elements).iter().map(&mut run).collect()
-            }
-            Runs::Dg(degrees) => {
-                let finest = self.elements.last().copied().unwrap_or(1);
-                let on = self.family.on(if self.diagonal.is_some() {
-                    1
-                } else {
-                    FINER * finest
-                })?;
-                let (mut evaluator, mut errors) = (self.evaluator(&on)?, [0.0; 3]);
-                let spent =
-                    degrees.run(&self.family, &GRADED, times, &mut |space, level, index| {
-                        let level_on = nodal(space, level, on.mesh().nodes());
-                        let [_, nodal, tip] = evaluator.measure(&level_on, index, level.t);
-                        errors = worst(errors, [nodal, nodal, tip]);
-                    })?;
-                Ok(vec![Measurement { errors, spent }])
+    /// The reference, if its runs agree well enough for the targets of the study.
+    fn agreed(&self) -> Result<Option<&Polynomials>, CaseFailure> {
+        let Some((reference, distance)) = self.reference()? else {
+            return Ok(None);
+        };
+        for target in &self.targets {
+            let apart = distance.of(target.measure);
+            let allowed = target.error / BETTER;
+            if !(apart <= allowed) {
+                return Err(CaseFailure::new(format!(
+                    "the two references are {apart:.1e} apart in {}, allowed {allowed:.1e}",
+                    target.measure.name()
+                )));
             }
         }
+        Ok(Some(reference))
+    }
+
+    /// Makes a run and measures its errors.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] of a run that does not finish.
+    pub fn measure(&self, trial: &Trial, clock: Clock) -> Result<Measurement, CaseFailure> {
+        let reference = self.agreed()?;
+        match &trial.resolution {
+            Resolution::OneStep(grid) => {
+                let on = self.family.on_nodes(grid.mesh()?);
+                let evaluator = Evaluator::new(&self.family, &on, reference)?;
+                let times = [grid.steps, self.observations];
+                trial.scheme()?.run(&on, Some(evaluator), times, clock)
+            }
+            Resolution::Dg { nodes, degrees } => {
+                let audience = Audience::Errors(reference);
+                let run = degrees.run(&self.family, nodes, self.observations, audience, clock)?;
+                Ok(run.1)
+            }
+        }
+    }
+
+    /// Makes a run without looking at it: for the seconds of short runs, which looking would
+    /// lengthen.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] of a run that does not finish.
+    pub fn seconds(&self, trial: &Trial, clock: Clock) -> Result<f64, CaseFailure> {
+        let measurement = match &trial.resolution {
+            Resolution::OneStep(grid) => {
+                let on = self.family.on_nodes(grid.mesh()?);
+                trial.scheme()?.run(&on, None, [grid.steps, 1], clock)?
+            }
+            Resolution::Dg { nodes, degrees } => {
+                let run = degrees.run(&self.family, nodes, 1, Audience::Nobody, clock)?;
+                run.1
+            }
+        };
+        Ok(measurement.seconds)
     }
 }
 
-impl Kind for WorkPrecision {
-    type Data = Runs;
-    /// One measurement for each number of steps; only the counted cost is judged, not the seconds.
-    type Found = Vec<Measurement>;
+impl Trial {
+    fn scheme(&self) -> Result<method::OneStep, CaseFailure> {
+        let no_steps = || CaseFailure::new(format!("{} has no equal steps", self.method.name));
+        self.method.one_step.ok_or_else(no_steps)
+    }
 
-    fn cases(&self) -> Vec<Case<Runs>> {
-        let case = |data: Runs| match data {
-            Runs::Dg(degrees) => {
-                let Degrees { p, q, dt } = degrees;
-                let cost = 60.0 * (p * (q + 1)) as f64 * self.family.t_end / dt;
-                Case::new(format!("dg, {degrees}"), cost, data)
-            }
-            Runs::OnMesh(method, scheme, elements) => {
-                let steps: usize = self.steps_on(elements).iter().sum();
-                // The fixed point needs several iterations where Newton's method needs one pass.
+    /// The work of a run in node-solves, roughly.
+    fn cost(&self, t_end: f64) -> f64 {
+        match (&self.resolution, self.method.one_step) {
+            (Resolution::OneStep(grid), Some(scheme)) => {
+                // The fixed point factorises in each of several iterations.
                 let passes = if scheme.solver == Solver::FixedPoint {
                     8.0
                 } else {
                     1.0
                 };
-                let cost = (elements * steps) as f64 * scheme.runs() * passes;
-                Case::new(format!("{}, n = {elements}", method.name), cost, data)
+                (grid.elements * grid.steps) as f64 * scheme.runs() * passes
             }
+            (Resolution::Dg { nodes, degrees }, _) => {
+                let Degrees { p, q, dt } = *degrees;
+                60.0 * ((nodes.len() - 1) * p * (q + 1)) as f64 * t_end / dt
+            }
+            (Resolution::OneStep(_), None) => 0.0,
+        }
+    }
+}
+
+impl Kind for WorkPrecision {
+    type Data = Trial;
+    type Found = Measurement;
+
+    fn cases(&self) -> Vec<Case<Trial>> {
+        let case = |trial: &Trial| {
+            let label = format!("{}, {}", trial.method.name, trial.resolution);
+            Case::new(label, trial.cost(self.family.t_end), trial.clone())
         };
-        self.runs().map(case).collect()
+        self.trials.iter().map(case).collect()
     }
 
-    fn run(&self, runs: &Runs) -> Result<Vec<Measurement>, CaseFailure> {
-        self.measure(*runs)
+    fn run(&self, trial: &Trial) -> Result<Measurement, CaseFailure> {
+        self.measure(trial, no_clock)
     }
 
-    fn judge(&self, ran: &[Ran<Runs, Vec<Measurement>>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<Trial, Measurement>]) -> Outcome {
         judge::judge(self, ran)
     }
 }

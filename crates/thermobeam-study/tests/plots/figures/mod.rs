@@ -24,17 +24,22 @@ fn tip(t: f64) -> f64 {
     free.clamp(-0.0105, 0.1004)
 }
 
-pub(crate) fn contraction_factors() -> Vec<Series> {
+pub(crate) fn contraction_factors() -> ContractionFactors {
     let dt = |k: i32| 10f64.powf(-4.0 + 0.25 * f64::from(k));
     let alpha = |eps: f64, k: i32| dt(k).powf(1.5) / (eps * 0.1_f64.sqrt());
     let family = |eps: f64, ks: std::ops::Range<i32>| {
         ks.map(|k| (alpha(eps, k), 0.985 * alpha(eps, k))).collect()
     };
-    vec![
-        series("ε = 10⁻²", family(1e-2, 0..9)),
-        series("ε = 10⁻³", family(1e-3, 0..7)),
-        series("ε = 10⁻⁴", family(1e-4, 0..5)),
-    ]
+    ContractionFactors {
+        title: "The fixed point contracts as predicted".into(),
+        predicted: "predicted factor".into(),
+        measured: vec![
+            series("ε = 10⁻²", family(1e-2, 0..9)),
+            series("ε = 10⁻³", family(1e-3, 0..7)),
+            series("ε = 10⁻⁴", family(1e-4, 0..5)),
+        ],
+        estimates: series("an estimate", vec![(1e-3, 2e-3), (1e-2, 1.3e-2)]),
+    }
 }
 
 pub(crate) fn equilibria() -> String {
@@ -79,7 +84,12 @@ pub(crate) fn equilibria() -> String {
         "end of a simulation",
         vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)],
     );
-    bifurcation(&branches, obstacles, &ends)
+    bifurcation(&Bifurcation {
+        title: "Several equilibria below β = −0.7116".into(),
+        branches: branches.into(),
+        obstacles,
+        ends,
+    })
 }
 
 pub(crate) fn motion() -> Animation {

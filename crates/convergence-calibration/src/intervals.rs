@@ -1,0 +1,132 @@
+//! What each law does to claims and to intervals, on 3 to 8 levels with equal and unequal ratios.
+
+use convergence_study::judge::random::SplitMix;
+use convergence_study::judge::verdict::{FEWEST_LEVELS, Judge, Reading, Verdict};
+
+use crate::draw::{CalibrationError, Draw};
+use crate::laws::{Group, LAWS, Law, Table};
+use crate::rules::CLAIMS;
+use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::{judge, wrong};
+
+/// Numbers of levels drawn: 3 to 8.
+pub(crate) const LEVEL_COUNTS: usize = 6;
+
+/// Laws that intervals are not made for: far from asymptotic, or with rates that wander too slowly
+/// or endlessly.
+const NO_INTERVAL: [&str; 12] = [
+    "h^p |1 + a h^r|, r 0.25 to 0.5, |a| < 0.5",
+    "h^p (1 + a h^(1/3)), a 0.5 to 3",
+    "h^p (1 + a h), a 1 to 30",
+    "h^p (1 + a h^2), a 1 to 100",
+    "h^p |1 - a h^r|, a 1 to 30",
+    "h^p (L - log h)^k",
+    "h^p (1 ± a), odd and even",
+    "h^p (1 + a cos)",
+    "h^p + b h^(p - 1/2 or 1)",
+    "h^p / (h + h0)^g",
+    "noise 30 %",
+    "one outlier, up to a factor of 3",
+];
+
+/// The row of all laws that are declared.
+pub const ALL: &str = "all declared";
+
+/// Whether the rule answers for a law: it has an order, and is not one of those excepted.
+pub(crate) fn is_declared(law: &Law, not: &[&str]) -> bool {
+    law.group != Group::Stagnating && !not.contains(&law.name)
+}
+
+/// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in
+/// [1.4, 2.5] each time.
+pub(crate) fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
+    let fixed = [Some(2.0), Some(2.0), Some(1.5), Some(3.0), None][random.below(5)];
+    let mut step = 1.0;
+    let mut next = || {
+        let here = step;
+        step /= fixed.unwrap_or_else(|| random.within([1.4, 2.5]));
+        here
+    };
+    (0..count).map(|_| next()).collect()
+}
+
+/// Verdicts on claims, and how often the interval holds the order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Verdicts {
+    wrong_pass: Share,
+    true_fail: Share,
+    inconclusive: Share,
+    interval_holds: Share,
+}
+
+impl Verdicts {
+    /// * `off`: distance of the wrong claims from the order.
+    fn count(&mut self, table: &Table, reading: &Reading<'_>, judge: &Judge, off: f64) {
+        for claim in wrong(table, off) {
+            self.wrong_pass
+                .count(judge.decide(reading, claim).is_pass());
+        }
+        let Some(order) = table.order else { return };
+        let verdict = judge.decide(reading, order);
+        self.true_fail.count(verdict == Verdict::Fail);
+        self.inconclusive.count(verdict == Verdict::Inconclusive);
+        if let Some(fit) = reading.fit {
+            let [low, high] = fit.interval;
+            self.interval_holds.count(low <= order && order <= high);
+        }
+    }
+
+    fn cells(&self) -> Vec<Cell> {
+        vec![
+            self.wrong_pass.cell("wrong pass"),
+            self.true_fail.cell("true fail"),
+            self.inconclusive.cell("inconclusive"),
+            self.interval_holds.cell("interval holds the order"),
+        ]
+    }
+}
+
+/// What each law does to claims 0.1 off at ±0.05 and to intervals.
+pub(crate) fn intervals(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+    let (tolerance, off) = CLAIMS[0];
+    let judge = judge(tolerance)?;
+    let mut rows = vec![];
+    let mut by_levels = [Verdicts::default(); LEVEL_COUNTS];
+    let mut of_all = Verdicts::default();
+    for law in &LAWS {
+        let mut of_law = Verdicts::default();
+        let declared = is_declared(law, &NO_INTERVAL);
+        for _ in 0..tables {
+            let random = draw.next()?;
+            let count = FEWEST_LEVELS + random.below(LEVEL_COUNTS);
+            let table = law.draw_at(&steps(random, count), random);
+            let reading = judge.read(&table.levels);
+            of_law.count(&table, &reading, &judge, off);
+            if declared {
+                by_levels[count - FEWEST_LEVELS].count(&table, &reading, &judge, off);
+                of_all.count(&table, &reading, &judge, off);
+            }
+        }
+        rows.push(Row::new(law.name, declared, of_law.cells()));
+    }
+    for (count, verdicts) in (FEWEST_LEVELS..).zip(&by_levels) {
+        rows.push(Row::new(format!("{count} levels"), false, verdicts.cells()));
+    }
+    rows.push(Row::new(ALL, true, of_all.cells()));
+    Ok(Sheet {
+        key: "laws",
+        title: "Claims 0.1 off at ±0.05, 3 to 8 levels, equal and unequal ratios".to_owned(),
+        rows,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_law_that_is_excepted_is_a_law() {
+        let is_law = |name: &&str| LAWS.iter().any(|law| law.name == *name);
+        assert!(NO_INTERVAL.iter().all(is_law));
+    }
+}

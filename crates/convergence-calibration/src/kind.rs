@@ -1,0 +1,362 @@
+//! The rules that judge rates, error bars and grids are judged themselves, on data whose order or
+//! limit is known.
+//!
+//! ```toml
+//! [[measure]]            # what is counted
+//! of = "rule"            # the sheets of the rule, of the bars or of the grids
+//! tables = 4             # for each law and mesh
+//! seed = 7919
+//!
+//! [[expect]]             # one share of one sheet
+//! sheet = "rules"
+//! column = "wrong pass, ±0.05, 0.1 off"
+//! row = "this rule"      # left out: each row for which the rule answers
+//! most = 0.006           # or least = ...
+//! ```
+
+use std::path::Path;
+
+use convergence_study::input::{InputError, Section};
+use convergence_study::plots;
+use convergence_study::plots::xy::Xy;
+use convergence_study::study::kind::completion;
+use convergence_study::study::{
+    Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
+    Subject, Table, header, reader,
+};
+use plots::Axis;
+
+use crate::bars::of_the_bars;
+use crate::grids::of_grids;
+use crate::laws::HIDDEN_SHARES;
+use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
+use crate::sheet::{Row, Sheet};
+use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "calibration",
+    read: reader::<Calibration>,
+    why: "The rules that turn errors into verdicts, and values into error bars, are applied to thousands of made-up sequences and grids whose order or limit \
+          is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
+    judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
+             has its limit.",
+    failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
+    settings: header::of_file,
+};
+
+/// A quantity that can be counted.
+#[derive(Debug)]
+struct Part {
+    /// Its name in files.
+    name: &'static str,
+    /// Measured cost in tables of all laws and meshes, for each of `tables`.
+    cost: usize,
+    /// Counts on this number of tables, drawn from a seed.
+    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
+}
+
+static PARTS: [Part; 3] = [
+    Part {
+        name: "rule",
+        cost: 3000,
+        sheets: of_the_rule,
+    },
+    Part {
+        name: "bars",
+        cost: 90,
+        sheets: of_the_bars,
+    },
+    Part {
+        name: "grids",
+        cost: 40,
+        sheets: of_grids,
+    },
+];
+
+/// A part with the number of its tables.
+#[derive(Debug, Clone, Copy)]
+pub struct Measure {
+    of: &'static Part,
+    tables: usize,
+    seed: u64,
+}
+
+impl Measure {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["of", "tables", "seed"])?;
+        let parts = PARTS.each_ref().map(|part| (part.name, part));
+        Ok(Self {
+            of: section
+                .require("of", "rule, bars or grids")?
+                .choice(&parts)?,
+            tables: section
+                .require("tables", "a number of tables")?
+                .count(1..=10_000)?,
+            seed: section
+                .require("seed", "an integer >= 0")?
+                .count(0..=usize::MAX)? as u64,
+        })
+    }
+}
+
+/// A share with a bound.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expectation {
+    sheet: String,
+    column: String,
+    row: Option<String>,
+    bounds: [f64; 2],
+}
+
+impl Expectation {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["sheet", "column", "row", "most", "least"])?;
+        let text = |key: &str| Ok(section.require(key, "a text in quotes")?.text()?.to_owned());
+        let bound =
+            |key: &str, open: f64| section.get(key).map_or(Ok(open), |field| field.positive());
+        if section.get("most").is_some() == section.get("least").is_some() {
+            return Err(section.refuse("most", "both or none of most and least", "one of the two"));
+        }
+        Ok(Self {
+            sheet: text("sheet")?,
+            column: text("column")?,
+            row: section
+                .get("row")
+                .map(|field| field.text().map(str::to_owned))
+                .transpose()?,
+            bounds: [
+                bound("least", f64::NEG_INFINITY)?,
+                bound("most", f64::INFINITY)?,
+            ],
+        })
+    }
+
+    fn checks(&self, sheets: &[Sheet]) -> Vec<Check> {
+        let Self {
+            sheet,
+            column,
+            row,
+            bounds: [least, most],
+        } = self;
+        let sheet_of_key = sheets.iter().find(|known| known.key == sheet);
+        let is_meant = |known: &&Row| {
+            row.as_ref()
+                .map_or(known.declared, |name| *name == known.name)
+        };
+        let rows = sheet_of_key.iter().flat_map(|sheet| &sheet.rows);
+        let values: Vec<(&Row, f64)> = rows
+            .filter(is_meant)
+            .filter_map(|row| Some((row, row.value(column)?)))
+            .collect();
+        if values.is_empty() {
+            let columns = |sheet: &Sheet| format!("columns: {}", sheet.columns().join("; "));
+            let there = sheet_of_key.map_or_else(|| "no such sheet".to_owned(), columns);
+            let row = row.as_deref().unwrap_or("each declared");
+            let claim = format!("{sheet} has {column} of {row}");
+            let check = Check::that(false, claim, there);
+            return vec![check.about(Subject::of(column).in_case(sheet))];
+        }
+        let bound = if least.is_finite() {
+            format!("at least {least}")
+        } else {
+            format!("at most {most}")
+        };
+        let check = |(row, value): (&Row, f64)| {
+            Check::that(
+                *least <= value && value <= *most,
+                format!("{column}: {bound}"),
+                text(value),
+            )
+            .about(Subject::of(column).in_case(format!("{sheet}, {}", row.name)))
+        };
+        values.into_iter().map(check).collect()
+    }
+}
+
+/// A study of this kind.
+pub struct Calibration {
+    measures: Vec<Measure>,
+    expected: Vec<Expectation>,
+}
+
+impl FromFile for Calibration {
+    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "measure", "expect"])?;
+        let measures = root.tables("measure", "", Measure::read)?;
+        Ok(Self {
+            measures,
+            expected: root.tables("expect", "", Expectation::read)?,
+        })
+    }
+}
+
+impl Kind for Calibration {
+    type Data = Measure;
+    type Found = Vec<Sheet>;
+
+    fn cases(&self) -> Vec<Case<Measure>> {
+        let case = |&data: &Measure| {
+            let Measure { of, tables, .. } = data;
+            let cost = of.cost * tables * ELEMENTS_OF_A_TABLE;
+            Case::new(
+                format!("{}, {tables} tables of each law", of.name),
+                cost as f64,
+                data,
+            )
+        };
+        self.measures.iter().map(case).collect()
+    }
+
+    fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
+        (of.sheets)(tables, seed).map_err(CaseFailure::from)
+    }
+
+    fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
+        let sheets: Vec<Sheet> = ran.iter().filter_map(Ran::ok).flatten().cloned().collect();
+        let mut checks: Vec<Check> = self
+            .expected
+            .iter()
+            .flat_map(|expected| expected.checks(&sheets))
+            .collect();
+        checks.push(completion(ran, |_| vec![]));
+        let summary = format!(
+            "{} shares of {} sheets are within their limits",
+            checks.len() - 1,
+            sheets.len()
+        );
+        Outcome {
+            tables: sheets.iter().map(table).collect(),
+            figures: figures(&sheets),
+            quantities: sheets.iter().flat_map(guarded).collect(),
+            ..Outcome::new(summary, vec![], checks)
+        }
+    }
+}
+
+/// The shares of true claims that our own rule passes. Every run draws the same tables, so these
+/// shares change only with the rule. A few verdicts may differ on another machine.
+fn guarded(sheet: &Sheet) -> Vec<Quantity> {
+    let own = sheet.row(Rule::Ours.name());
+    let columns = CLAIMS.map(|(tolerance, _)| true_pass(tolerance));
+    let shares = columns
+        .iter()
+        .filter_map(|column| Some((column, own?.value(column)?)));
+    shares
+        .map(|(column, share)| {
+            Quantity::new(format!("{}: {column}", sheet.key), share, 0.01)
+                .about(Subject::of(column).in_case(sheet.key))
+        })
+        .collect()
+}
+
+fn text(value: f64) -> String {
+    if value.is_nan() {
+        "none".to_owned()
+    } else {
+        format!("{value:.4}")
+    }
+}
+
+fn table(sheet: &Sheet) -> Table {
+    let name = |row: &Row| {
+        if row.declared {
+            row.name.clone()
+        } else {
+            format!("({})", row.name)
+        }
+    };
+    let cells = |row: &Row| {
+        std::iter::once(name(row))
+            .chain(row.cells.iter().map(|cell| text(cell.value)))
+            .collect()
+    };
+    let columns = sheet.columns().into_iter().map(str::to_owned);
+    let head = std::iter::once(String::new()).chain(columns);
+    Table::new(&sheet.title, head, sheet.rows.iter().map(cells))
+}
+
+/// A curve for each rule of a sheet.
+///
+/// * `show_x`: values that the axis must contain.
+/// * `points`: of the curve of a row.
+fn figure(
+    sheet: &Sheet,
+    title: &str,
+    caption: &str,
+    [x, y]: [Axis; 2],
+    show_x: [f64; 2],
+    note: String,
+    points: fn(&Row) -> Vec<(f64, f64)>,
+) -> Figure {
+    let curve = |row: &Row| plots::Series::new(row.name.clone(), points(row));
+    let curves: Vec<plots::Series> = sheet.rows.iter().map(curve).collect();
+    let figure = Xy {
+        title: Some(title.to_owned()),
+        x,
+        show_x: show_x.to_vec(),
+        show_y: vec![100.0],
+        notes: vec![note],
+        ..plots::history(y, &curves).marked()
+    };
+    Figure::new(sheet.key, caption, figure.draw())
+}
+
+/// True claims that pass, and wrong ones, in per cent, at each tolerance.
+fn trade(row: &Row) -> Vec<(f64, f64)> {
+    let percent = |column: String| 100.0 * row.value(&column).unwrap_or(f64::NAN);
+    CLAIMS
+        .map(|(tolerance, off)| {
+            (
+                percent(true_pass(tolerance)),
+                percent(wrong_pass(tolerance, off)),
+            )
+        })
+        .to_vec()
+}
+
+/// Tables that pass, by the share of the hidden term, both in per cent.
+fn hidden(row: &Row) -> Vec<(f64, f64)> {
+    let passes = |share: f64| 100.0 * row.value(&hidden_part(share)).unwrap_or(f64::NAN);
+    HIDDEN_SHARES
+        .map(|share| (100.0 * share, passes(share)))
+        .to_vec()
+}
+
+/// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order
+/// goes unnoticed.
+fn figures(sheets: &[Sheet]) -> Vec<Figure> {
+    let sheet = |key: &str| sheets.iter().find(|sheet| sheet.key == key);
+    let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
+    let of_rules = sheet("rules").map(|sheet| {
+        figure(
+            sheet,
+            "The rule seldom passes a wrong claim",
+            "What each rule pays for the true claims it passes: wrong claims that pass, too.",
+            [
+                Axis::linear("true claims that pass (%)"),
+                Axis::log("wrong claims that pass (%)"),
+            ],
+            [0.0, 100.0],
+            format!(
+                "tolerances {first}, {second}, {third} from left to right; better: right and down"
+            ),
+            trade,
+        )
+    });
+    let of_hidden = sheet("hidden-8").map(|sheet| {
+        figure(
+            sheet,
+            "The rule seldom passes a table that hides a lower order",
+            "How often a term of lower order goes unnoticed, by its share of the finest error.",
+            [
+                Axis::linear("share of the finest error (%)"),
+                Axis::linear("tables that pass (%)"),
+            ],
+            [4.0, 21.0],
+            "better: down".to_owned(),
+            hidden,
+        )
+    });
+    of_rules.into_iter().chain(of_hidden).collect()
+}

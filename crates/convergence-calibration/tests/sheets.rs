@@ -1,0 +1,184 @@
+//! The published numbers of the rule.
+
+use std::sync::LazyLock;
+
+use convergence_calibration::bars::of_the_bars;
+use convergence_calibration::grids::of_grids;
+use convergence_calibration::intervals::ALL;
+use convergence_calibration::of_the_rule;
+use convergence_calibration::rules::{CLAIMS, wrong_pass};
+use convergence_calibration::sheet::{Row, Sheet};
+
+static RULE: LazyLock<Vec<Sheet>> = LazyLock::new(|| of_the_rule(20, 1).expect("usable settings"));
+
+fn sheet<'s>(sheets: &'s [Sheet], key: &str) -> &'s Sheet {
+    sheets
+        .iter()
+        .find(|sheet| sheet.key == key)
+        .expect("a sheet")
+}
+
+fn cell(row: &Row, column: &str) -> f64 {
+    row.value(column)
+        .unwrap_or_else(|| panic!("no {column}: {row:?}"))
+}
+
+fn value(sheet: &Sheet, row: &str, column: &str) -> f64 {
+    cell(sheet.row(row).expect("a row"), column)
+}
+
+fn declared(sheet: &Sheet) -> impl Iterator<Item = &Row> {
+    sheet.rows.iter().filter(|row| row.declared)
+}
+
+#[test]
+fn few_wrong_claims_pass_and_few_right_ones_fail_under_any_law_and_number_of_levels() {
+    let laws = sheet(&RULE, "laws");
+    for row in &laws.rows {
+        assert!(cell(row, "wrong pass") <= 0.015, "{row:?}");
+        assert!(!row.declared || cell(row, "true fail") <= 0.04, "{row:?}");
+    }
+    assert!(value(laws, ALL, "wrong pass") <= 0.002 && value(laws, ALL, "true fail") <= 0.01);
+}
+
+#[test]
+fn intervals_hold_the_order_under_every_declared_law() {
+    let laws = sheet(&RULE, "laws");
+    assert_eq!(declared(laws).count(), 12);
+    for row in declared(laws) {
+        assert!(cell(row, "interval holds the order") >= 0.86, "{row:?}");
+    }
+    assert!(value(laws, ALL, "interval holds the order") >= 0.94);
+}
+
+#[test]
+fn pure_powers_always_pass() {
+    let pure = &sheet(&RULE, "laws").rows[0];
+    let columns = [
+        "wrong pass",
+        "true fail",
+        "inconclusive",
+        "interval holds the order",
+    ];
+    assert_eq!(
+        columns.map(|column| cell(pure, column)),
+        [0.0, 0.0, 0.0, 1.0]
+    );
+}
+
+#[test]
+fn more_levels_decide_more_and_added_ones_cost_less() {
+    let levels = sheet(&RULE, "levels");
+    let passes =
+        ["4 levels", "5 levels", "6 levels", "8 levels"].map(|row| value(levels, row, "true pass"));
+    assert!(
+        passes.windows(2).all(|pair| pair[1] > pair[0]),
+        "{passes:?}"
+    );
+    assert!(value(levels, "added up to 8", "true pass") > passes[3]);
+    assert!(
+        value(levels, "added up to 8", "levels") < 6.5
+            && value(levels, "8 levels", "levels") == 8.0
+    );
+    for row in &levels.rows {
+        assert!(
+            cell(row, "visibly wrong pass") <= 0.006 && cell(row, "wrong pass") <= 0.015,
+            "{row:?}"
+        );
+    }
+}
+
+#[test]
+fn the_rule_errs_less_than_the_others() {
+    for key in ["rules", "rules-wide"] {
+        let rules = sheet(&RULE, key);
+        let [ours, others @ ..] = &rules.rows[..] else {
+            panic!("no rules")
+        };
+        for (tolerance, off) in CLAIMS {
+            let wrong = |row| cell(row, &wrong_pass(tolerance, off));
+            let least = others[1..].iter().map(wrong).fold(1.0, f64::min);
+            assert!(
+                wrong(ours) < 0.1 * least,
+                "±{tolerance}: {} {least}",
+                wrong(ours)
+            );
+        }
+    }
+}
+
+#[test]
+fn hidden_terms_and_wrong_limits_rarely_pass_and_no_coarse_level_excuses_one() {
+    for (key, most) in [("hidden-8", 0.06), ("hidden-wide", 0.06)] {
+        assert!(
+            value(sheet(&RULE, key), "this rule", "10 %") <= most,
+            "{key}"
+        );
+    }
+    let limits = sheet(&RULE, "limits");
+    assert!(
+        limits
+            .rows
+            .iter()
+            .all(|row| cell(row, "and departs without its coarsest levels") == 0.0),
+        "{limits:?}"
+    );
+    assert!(
+        value(limits, "±0.1", "wrong limit passes") <= 0.2,
+        "{limits:?}"
+    );
+    assert!(
+        value(limits, "±0.2", "three terms pass") <= 0.15,
+        "{limits:?}"
+    );
+}
+
+#[test]
+fn constants_are_held_and_too_high_a_least_order_rarely_passes() {
+    for row in &sheet(&RULE, "claims").rows {
+        let too_much = cell(row, "at least half an order too much passes");
+        let holds = cell(row, "interval holds the constant");
+        let fails = cell(row, "right constant fails");
+        let wrong = cell(row, "wrong constant passes");
+        assert!(
+            too_much <= 0.02 && holds >= 0.95 && fails <= 0.005 && wrong <= 0.005,
+            "{row:?}"
+        );
+    }
+}
+
+#[test]
+fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
+    let grids = of_grids(120, 5).expect("usable settings");
+    for row in &grids[0].rows {
+        let fail = cell(row, "sound orders fail");
+        let holds = cell(row, "interval holds the order");
+        let hidden = cell(row, "hidden order passes");
+        let constant = cell(row, "constant passes");
+        let squares = cell(row, "constant in squares passes");
+        let noisy_fail = cell(row, "sound orders fail, noise 1 %");
+        let noisy_holds = cell(row, "interval holds the order, noise 1 %");
+        assert!(
+            fail == 0.0 && holds >= 0.95 && hidden <= 0.02 && constant == 0.0 && squares <= 0.02,
+            "{row:?}"
+        );
+        assert!(noisy_fail <= 0.02 && noisy_holds >= 0.88, "{row:?}");
+    }
+    let sound: Vec<f64> = grids[0]
+        .rows
+        .iter()
+        .map(|row| cell(row, "sound pass"))
+        .collect();
+    assert!(
+        sound.windows(2).all(|pair| pair[1] > pair[0]) && sound[2] > 0.9,
+        "{sound:?}"
+    );
+}
+
+#[test]
+fn the_same_seed_gives_the_same_sheets() {
+    // NaN, for claims that no law has, is not equal to itself.
+    let text = |seed: u64| format!("{:?} {:?}", of_the_rule(1, seed), of_the_bars(1, seed));
+    assert_eq!(text(7), text(7));
+    assert_ne!(text(7), text(8));
+}

@@ -1,0 +1,121 @@
+//! Texts of files and programs neither command a terminal nor annotate a job.
+
+use std::fs;
+
+use super::{command, run, study, texts, workspace};
+
+/// No control characters except line ends, and no line that GitHub Actions would obey.
+#[track_caller]
+fn is_harmless(text: &str) {
+    assert!(
+        !text.contains(|c: char| c.is_control() && c != '\n'),
+        "{text:?}"
+    );
+    assert!(
+        !text.lines().any(|line| line.trim_start().starts_with("::")),
+        "{text:?}"
+    );
+}
+
+#[test]
+fn annotations_are_commands_and_nothing_else_is() {
+    let root = workspace(false);
+    fs::write(
+        root.path().join("studies/two.toml"),
+        study("two", "::error title=forged::x", 0.5),
+    )
+    .unwrap();
+    let mut command = command(root.path(), &["verify"]);
+    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true"));
+    assert_eq!(status, Some(1));
+    let commands: Vec<&str> = out
+        .lines()
+        .filter(|line| line.trim_start().starts_with("::"))
+        .collect();
+    assert!(
+        commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"),
+        "{commands:?}"
+    );
+    // GitHub shows ten: the last one counts the others.
+    assert!(
+        commands[1..9]
+            .iter()
+            .all(|line| line.starts_with("::error title=baseline::")),
+        "{commands:?}"
+    );
+    assert!(
+        commands.len() == 10 && commands[9].starts_with("::error title=and more::6 more: "),
+        "{commands:?}"
+    );
+    let (_, out, _) = run(&root, &["study", "studies/two.toml"]);
+    assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
+    is_harmless(&out);
+    is_harmless(&run(&root, &["list"]).1);
+    is_harmless(&run(&root, &["explain", "two"]).1);
+}
+
+#[test]
+fn claims_and_ids_with_control_characters_are_refused() {
+    let root = workspace(false);
+    for (id, claim, words) in [
+        ("a", r"c\n::error::forged", "study.claim: found the text"),
+        ("a", r"c\u001b[31m", "study.claim: found the text"),
+        ("a", r"\r", "study.claim: found the text"),
+        ("a", "", "study.claim: found the text"),
+        (r"a\n::error::forged", "c", "study.id: found the text"),
+        (r"a\u0007", "c", "study.id: found the text"),
+        ("../a", "c", "study.id: found the text"),
+        ("A", "c", "study.id: found the text"),
+        ("--bless", "c", "study.id: found the text"),
+        (&"a".repeat(5000), "c", "study.id: found the text"),
+    ] {
+        fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
+        let (status, out, err) = run(&root, &["study", "a.toml"]);
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(words),
+            "{err}"
+        );
+        is_harmless(&err);
+    }
+    // Written raw, TOML itself refuses them.
+    fs::write(root.path().join("a.toml"), study("a", "c\x1b[31m", 1.0)).unwrap();
+    let (status, _, err) = run(&root, &["study", "a.toml"]);
+    assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
+    is_harmless(&err);
+}
+
+#[test]
+fn names_of_columns_and_files_are_no_commands() {
+    let root = workspace(false);
+    let table =
+        |name: &str| format!("h,{name}\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n");
+    let write = |name: &str, text: String| fs::write(root.path().join(name), text).unwrap();
+    for name in ["a\x1b", "a\u{9b}b", "\x07"] {
+        write("table.csv", table(name));
+        let (status, out, err) = run(&root, &["rates", "table.csv", "--order", "1"]);
+        assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
+        assert!(
+            err.contains("table.csv:1:3: expected a name without control characters, found `"),
+            "{err}"
+        );
+        is_harmless(&err);
+    }
+    write("table.csv", table("::error title=x::forged"));
+    let (status, out, _) = run(&root, &["rates", "table.csv", "--order", "1"]);
+    assert_eq!(status, Some(0), "{out}");
+    is_harmless(&out);
+    let file = "a\n::error::x\x1b[31m.csv";
+    write(file, "h\n".to_owned());
+    for arguments in [
+        &["rates", file][..],
+        &["study", file],
+        &["explain", file],
+        &["verify", file],
+        &["list", file],
+    ] {
+        let (status, out, err) = run(&root, arguments);
+        assert_eq!(status, Some(2), "{arguments:?}");
+        is_harmless(&out);
+        is_harmless(&err);
+    }
+}

@@ -1,0 +1,149 @@
+//! Programs that misbehave: one line about each, and no process is left.
+
+use convergence_study_tests::{PATIENCE, finished, interruptible, signal, started};
+use std::fs;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use super::{Place, SOLVER};
+
+/// The one line about the case n = 16.
+#[track_caller]
+fn complaint(place: &Place) -> String {
+    let (status, out, err) = place.study(&["--jobs", "2"]);
+    assert_eq!(status, Some(1), "{out}{err}");
+    assert!(
+        !out.contains(|c: char| c.is_control() && c != '\n'),
+        "{out:?}"
+    );
+    assert!(out.contains("4 of 5 cases completed"), "{out}");
+    assert_eq!(place.running(), [""; 0]);
+    let at = out.find("n = 16: ").unwrap_or_else(|| panic!("{out}"));
+    out[at..].lines().next().unwrap().to_owned()
+}
+
+#[test]
+fn every_misbehaviour_is_one_line_and_leaves_nothing() {
+    for (mode, told) in [
+        ("abort", "ended with signal 6 (SIGABRT)"),
+        (
+            "status",
+            "ended with exit status 3; its last words: reading the mesh | \u{fffd}[31mno such file: mesh.msh",
+        ),
+        (
+            "garbage",
+            "answered nothing: no line of its standard output is a JSON object; the last line is `\u{fffd}\u{fffd}`",
+        ),
+        ("silent", "answered nothing: its standard output is empty"),
+        (
+            "nan",
+            "`L2` of its errors is NaN, infinite or null; expected a finite number",
+        ),
+        ("missing", "its answer has no error `L2`; it has H1"),
+        (
+            "cut",
+            "it does not end on its line: print it with json.dumps(...) on one line",
+        ),
+    ] {
+        let line = complaint(&Place::new(mode, ""));
+        assert!(
+            line.contains(told) && line.contains(SOLVER),
+            "{mode}: {line}"
+        );
+    }
+    // A missing program.
+    let place = Place::new("ok", "");
+    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let (head, tail) = text.split_once("command = [").unwrap();
+    let (_, tail) = tail.split_once(']').unwrap();
+    place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
+    let (status, out, _) = place.study(&[]);
+    assert!(
+        status == Some(1)
+            && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"),
+        "{out}"
+    );
+    // Children that outlive their program, inside or outside its group, harm neither this case nor
+    // the others.
+    for mode in ["fork", "leave"] {
+        let place = Place::new(mode, "");
+        let (status, out, err) = place.study(&[]);
+        assert_eq!(status, Some(0), "{mode}: {out}{err}");
+        assert_eq!(place.running(), [""; 0]);
+    }
+}
+
+#[test]
+fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
+    // Long enough for the programs that do not hang, on a busy machine.
+    for mode in ["hang", "ignore-term"] {
+        let line = complaint(&Place::new(mode, "timeout = 3"));
+        assert!(line.contains("was stopped at the limit of 3 s"), "{line}");
+    }
+    let place = Place::new("hang", "");
+    let (status, out, _) = place.study(&["--case-limit", "3"]);
+    assert!(
+        status == Some(1) && out.contains("was stopped at the limit of 3 s"),
+        "{out}"
+    );
+    assert_eq!(place.running(), [""; 0]);
+}
+
+#[test]
+fn much_output_takes_little_memory() {
+    let place = Place::new("flood", "");
+    let mut harness = place.start();
+    let peak = |pid: u32| {
+        let status = fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
+        let line = status
+            .lines()
+            .find_map(|line| line.strip_prefix("VmHWM:"))?;
+        line.trim().trim_end_matches(" kB").parse::<u64>().ok()
+    };
+    let mut kilobytes = 0;
+    let start = Instant::now();
+    while harness.try_wait().unwrap().is_none() {
+        assert!(start.elapsed() < PATIENCE, "the harness hangs");
+        kilobytes = peak(harness.id()).map_or(kilobytes, |now| now.max(kilobytes));
+        sleep(Duration::from_millis(2));
+    }
+    assert_eq!(finished(harness).status.code(), Some(0));
+    assert!((1000..60_000).contains(&kilobytes), "{kilobytes} kB");
+}
+
+/// Processes of every kind end when this signal ends the harness.
+fn nothing_is_left_after(name: &str) {
+    for mode in ["hang", "ignore-term", "fork", "leave"] {
+        let mut place = Place::new(mode, "");
+        // So that a program whose child hangs is still running, too.
+        place.more = "timeout = 100".to_owned();
+        let hangs = |mode: &str| matches!(mode, "hang" | "ignore-term");
+        let harness = place.start();
+        if hangs(mode) {
+            place.wait_for(|running| running > 0);
+        }
+        sleep(Duration::from_millis(50));
+        signal(harness.id(), name);
+        let status = finished(harness).status;
+        assert!(!hangs(mode) || !status.success(), "{mode}: {status}");
+        place.wait_for(|running| running == 0);
+    }
+}
+
+#[test]
+fn a_killed_harness_leaves_nothing() {
+    nothing_is_left_after("-KILL");
+    nothing_is_left_after("-TERM");
+}
+
+#[test]
+fn an_interrupted_harness_leaves_nothing() {
+    let place = Place::new("hang", "");
+    let harness = started(&mut interruptible(
+        &place.command(&["study", "s.toml", "--jobs", "2"]),
+    ));
+    place.wait_for(|running| running > 0);
+    signal(harness.id(), "-INT");
+    assert_eq!(finished(harness).status.code(), Some(130));
+    place.wait_for(|running| running == 0);
+}

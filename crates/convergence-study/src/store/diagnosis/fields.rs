@@ -1,0 +1,119 @@
+//! Which fields moved, and how much of the movement each has.
+
+use super::{Field, numbers, subject_of_number};
+use crate::run::Finished;
+use crate::store::{Change, Movement};
+use crate::study::Sort;
+
+/// Fields by their share of the movement: within a study each is measured by its tolerance, on its
+/// finest level, where its own error has had the least time to mix with those of others.
+pub(super) fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
+    let mut fields: Vec<Field> = vec![];
+    for study in finished {
+        let moved = moved_fields(study, changes);
+        let most = moved
+            .iter()
+            .map(|field| field.weight)
+            .fold(f64::MIN_POSITIVE, f64::max);
+        for one in &moved {
+            // A study with one wrong field does not show which is first.
+            let share = if moved.len() > 1 {
+                (one.weight / most).powi(8)
+            } else {
+                0.1
+            };
+            add(&mut fields, one, share);
+        }
+    }
+    fields.sort_by(|one, next| next.share.total_cmp(&one.share));
+    fields
+}
+
+/// A field of one study whose errors moved or whose rate does not pass.
+struct MovedField {
+    name: String,
+    /// How far its error on the finest level moved, in tolerances, as a logarithm; 1 if only the
+    /// rate is wrong.
+    weight: f64,
+    /// By what its error on the finest level was multiplied.
+    factor: f64,
+    /// The rate that does not pass, with its order.
+    rate: Option<[f64; 2]>,
+}
+
+/// The fields of a study whose errors moved, then those of which only the rate does not pass.
+fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
+    // Levels are in order: the last number of a field belongs to its finest level.
+    let mut moved: Vec<MovedField> = vec![];
+    let outcome = &study.outcome;
+    let is_rate = |name: &str| {
+        let known = outcome.quantities.iter().find(|known| known.name == name);
+        known.is_some_and(|known| known.sort == Sort::Rate)
+    };
+    let errors = numbers(changes, &study.header.id).filter(|(name, _)| !is_rate(name));
+    for (name, movement) in errors {
+        let Movement::Moved { from, to, .. } = movement else {
+            continue;
+        };
+        let name = subject_of_number(outcome, name).quantity;
+        let factor = (to / from).abs();
+        moved.retain(|known| known.name != name);
+        moved.push(MovedField {
+            name,
+            weight: movement.weight().clamp(0.0, 1e12).ln_1p(),
+            factor: if factor.is_nan() {
+                f64::INFINITY
+            } else {
+                factor
+            },
+            rate: None,
+        });
+    }
+    let rates = outcome.rates.iter();
+    let wrong: Vec<(String, Option<[f64; 2]>)> = rates
+        .filter(|(_, rate)| !rate.verdict.is_pass())
+        .map(|(norm, rate)| {
+            let name = outcome.subject_of_rate(norm).quantity;
+            (name, rate.fitted.map(|fitted| [fitted, rate.order]))
+        })
+        .collect();
+    let unmoved: Vec<MovedField> = wrong
+        .iter()
+        .filter(|(name, _)| moved.iter().all(|known| known.name != *name))
+        .map(|(name, _)| MovedField {
+            name: name.clone(),
+            weight: 1.0,
+            factor: 1.0,
+            rate: None,
+        })
+        .collect();
+    moved.extend(unmoved);
+    for one in &mut moved {
+        let mut of_field = wrong.iter().filter(|(name, _)| *name == one.name);
+        one.rate = of_field.find_map(|(_, rate)| *rate);
+    }
+    moved
+}
+
+/// Adds what one study says about a field to what the others say.
+fn add(fields: &mut Vec<Field>, moved: &MovedField, share: f64) {
+    let known = fields.iter().position(|field| field.name == moved.name);
+    let place = known.unwrap_or(fields.len());
+    if known.is_none() {
+        fields.push(Field {
+            name: moved.name.clone(),
+            share: 0.0,
+            rate: None,
+            factor: 1.0,
+        });
+    }
+    let field = &mut fields[place];
+    field.share += share;
+    field.rate = [field.rate, moved.rate]
+        .into_iter()
+        .flatten()
+        .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
+    if moved.factor.ln().abs() > field.factor.ln().abs() {
+        field.factor = moved.factor;
+    }
+}

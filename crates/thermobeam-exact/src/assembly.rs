@@ -1,0 +1,192 @@
+//! The matrices of (3.7) for the P1 hat functions N_0..N_n, tridiagonal, over all n + 1 nodes.
+//!
+//! The solver works element by element without them. The manufactured solutions that isolate the
+//! time error, the studies of vibrations, and tests use them.
+
+use thermobeam::mesh::Mesh;
+
+/// A tridiagonal matrix of n + 1 rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tridiagonal {
+    /// Entries (i, i - 1); entry 0 is unused and zero.
+    pub lower: Vec<f64>,
+    /// Entries (i, i).
+    pub diagonal: Vec<f64>,
+    /// Entries (i, i + 1); the last is unused and zero.
+    pub upper: Vec<f64>,
+}
+
+impl Tridiagonal {
+    /// Assembles the 2 x 2 matrices that `local` returns for an element of length h.
+    fn assemble(mesh: &Mesh, local: impl Fn(f64) -> [[f64; 2]; 2]) -> Self {
+        let zeros = vec![0.0; mesh.nodes().len()];
+        let mut matrix = Self {
+            lower: zeros.clone(),
+            diagonal: zeros.clone(),
+            upper: zeros,
+        };
+        for (i, h) in mesh.lengths().enumerate() {
+            let block = local(h);
+            matrix.diagonal[i] += block[0][0];
+            matrix.upper[i] += block[0][1];
+            matrix.lower[i + 1] += block[1][0];
+            matrix.diagonal[i + 1] += block[1][1];
+        }
+        matrix
+    }
+
+    /// `product = A vector`.
+    pub fn multiply_into(&self, vector: &[f64], product: &mut [f64]) {
+        let last = self.diagonal.len() - 1;
+        for i in 0..=last {
+            let left = if i > 0 {
+                self.lower[i] * vector[i - 1]
+            } else {
+                0.0
+            };
+            let right = if i < last {
+                self.upper[i] * vector[i + 1]
+            } else {
+                0.0
+            };
+            product[i] = left + self.diagonal[i] * vector[i] + right;
+        }
+    }
+
+    /// `A vector`.
+    pub fn multiply(&self, vector: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; vector.len()];
+        self.multiply_into(vector, &mut product);
+        product
+    }
+
+    /// Aᵀ.
+    pub fn transpose(&self) -> Self {
+        let mut lower = self.upper.clone();
+        lower.rotate_right(1);
+        let mut upper = self.lower.clone();
+        upper.rotate_left(1);
+        Self {
+            lower,
+            diagonal: self.diagonal.clone(),
+            upper,
+        }
+    }
+
+    /// Entry (i, j), zero outside the three diagonals.
+    pub fn entry(&self, i: usize, j: usize) -> f64 {
+        match j as isize - i as isize {
+            -1 => self.lower[i],
+            0 => self.diagonal[i],
+            1 => self.upper[i],
+            _ => 0.0,
+        }
+    }
+}
+
+/// Consistent mass matrix, `M_ij = (N_j, N_i)`.
+///
+/// Symmetric positive definite; its entries sum to 1, the beam's length. Source: first term of
+/// (3.7).
+pub fn mass(mesh: &Mesh) -> Tridiagonal {
+    Tridiagonal::assemble(mesh, |h| [[h / 3.0, h / 6.0], [h / 6.0, h / 3.0]])
+}
+
+/// Stiffness matrix, `K_ij = (N_j', N_i')`.
+///
+/// Symmetric, with the constants in its kernel. Source: `(u_x, w_x)` in (3.7).
+pub fn stiffness(mesh: &Mesh) -> Tridiagonal {
+    Tridiagonal::assemble(mesh, |h| [[1.0 / h, -1.0 / h], [-1.0 / h, 1.0 / h]])
+}
+
+/// Coupling matrix, `C_ij = (N_j, N_i')`.
+///
+/// `(φ, w_x) = wᵀ C φ` and `(u_x, χ) = χᵀ Cᵀ u`. Source: the coupling terms of (3.7) between u, φ
+/// and θ.
+pub fn coupling(mesh: &Mesh) -> Tridiagonal {
+    Tridiagonal::assemble(mesh, |_| [[-0.5, -0.5], [0.5, 0.5]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ p q over the mesh for polynomials of low degree, by Simpson's rule on each element (exact
+    /// to degree 3).
+    fn integral(mesh: &Mesh, f: impl Fn(f64) -> f64) -> f64 {
+        mesh.nodes()
+            .windows(2)
+            .map(|x| (x[1] - x[0]) / 6.0 * (f(x[0]) + 4.0 * f(0.5 * (x[0] + x[1])) + f(x[1])))
+            .sum()
+    }
+
+    fn graded() -> Mesh {
+        Mesh::mapped(7, |s| 0.3 * s + 0.7 * s * s).unwrap()
+    }
+
+    fn interpolate(mesh: &Mesh, slope: f64, offset: f64) -> Vec<f64> {
+        mesh.nodes().iter().map(|x| slope * x + offset).collect()
+    }
+
+    fn form(matrix: &Tridiagonal, test: &[f64], trial: &[f64]) -> f64 {
+        matrix
+            .multiply(trial)
+            .iter()
+            .zip(test)
+            .map(|(a, b)| a * b)
+            .sum()
+    }
+
+    #[test]
+    fn every_matrix_is_exact_on_linear_functions() {
+        let mesh = graded();
+        let (p, q) = (interpolate(&mesh, 2.0, -0.3), interpolate(&mesh, -1.5, 0.7));
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-15 * 16.0, "{a} {b}");
+        close(
+            form(&mass(&mesh), &p, &q),
+            integral(&mesh, |x| (2.0 * x - 0.3) * (-1.5 * x + 0.7)),
+        );
+        close(form(&stiffness(&mesh), &p, &q), -3.0);
+        close(
+            form(&coupling(&mesh), &p, &q),
+            integral(&mesh, |x| 2.0 * (-1.5 * x + 0.7)),
+        );
+        close(
+            form(&coupling(&mesh).transpose(), &p, &q),
+            integral(&mesh, |x| (2.0 * x - 0.3) * -1.5),
+        );
+    }
+
+    #[test]
+    fn each_entry_is_its_integral() {
+        let mesh = graded();
+        let n = mesh.elements();
+        let x = mesh.nodes().to_vec();
+        let hat = |i: usize| {
+            let x = x.clone();
+            move |at: f64| {
+                if i > 0 && at >= x[i - 1] && at <= x[i] {
+                    (at - x[i - 1]) / (x[i] - x[i - 1])
+                } else if i < n && at >= x[i] && at <= x[i + 1] {
+                    (x[i + 1] - at) / (x[i + 1] - x[i])
+                } else {
+                    0.0
+                }
+            }
+        };
+        let (m, c) = (mass(&mesh), coupling(&mesh));
+        for i in 0..=n {
+            for j in i.saturating_sub(1)..=(i + 1).min(n) {
+                let (ni, nj) = (hat(i), hat(j));
+                assert!((m.entry(i, j) - integral(&mesh, |t| ni(t) * nj(t))).abs() < 1e-15);
+                // N_i' is constant on each element: the integral of N_i' N_j is a difference of N_i
+                // times the mean of N_j.
+                let exact: f64 = x
+                    .windows(2)
+                    .map(|e| (ni(e[1]) - ni(e[0])) * nj(0.5 * (e[0] + e[1])))
+                    .sum();
+                assert!((c.entry(i, j) - exact).abs() < 1e-15);
+            }
+        }
+    }
+}

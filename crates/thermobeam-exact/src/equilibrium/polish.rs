@@ -1,0 +1,207 @@
+//! Newton's method on the pole-free system for (N, α, c), from an approximate state.
+//!
+//! The f of the scan has poles: near a pole, the distance to it, and with it the amplitude, has a
+//! relative error of round-off divided by that distance. The three conditions
+//!
+//! `φ(0) = 0`, `εc + u(1) = g` (or c = 0), `N = β + ρ‖u'‖²`
+//!
+//! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below
+//! N = -1 the shape satisfies φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
+
+use super::law::{Law, Support};
+use super::shape::Shape;
+
+/// Iteration limit; the convergence is quadratic up to the error of the difference quotients.
+const STEPS: usize = 12;
+
+/// Relative step of the central differences, which are exact in α and c: the conditions are
+/// quadratic in them.
+const DIFFERENCE: f64 = 1e-5;
+
+/// A larger first relative step indicates a fold, where the result of the scan is more accurate.
+const LARGEST_FIRST_STEP: f64 = 1e-3;
+
+/// Improves a state by Newton's method; returns it unchanged if the first step is too large.
+pub(super) fn polish(law: &Law, start: Shape) -> Shape {
+    if start.is_line() {
+        return start;
+    }
+    let residual = |v: [f64; 3]| residual(law, v);
+    let mut state = [1.0 / start.q, start.alpha, start.stress];
+    let mut bound = LARGEST_FIRST_STEP;
+    for _ in 0..STEPS {
+        let Some(step) = newton_step(&residual, state) else {
+            break;
+        };
+        let size = relative_size(step, state);
+        // No decrease: round-off has been reached, or the start was too far away.
+        if size.is_nan() || size >= bound {
+            break;
+        }
+        (0..3).for_each(|i| state[i] -= step[i]);
+        bound = 0.5 * size;
+    }
+    unpack(law, state)
+}
+
+/// `|ds|/|s| + max(|dα|, |dc|)/max(|α|, |c|)`.
+fn relative_size(step: [f64; 3], state: [f64; 3]) -> f64 {
+    let bending = state[1].abs().max(state[2].abs());
+    let change = step[1].abs().max(step[2].abs());
+    (step[0] / state[0]).abs() + if change == 0.0 { 0.0 } else { change / bending }
+}
+
+fn unpack(law: &Law, [s, alpha, stress]: [f64; 3]) -> Shape {
+    Shape {
+        q: 1.0 / s,
+        alpha,
+        stress,
+        moment: law.moment,
+    }
+}
+
+/// The three conditions.
+fn residual(law: &Law, v: [f64; 3]) -> [f64; 3] {
+    let shape = unpack(law, v);
+    let [s, alpha, stress] = v;
+    let clamped = if s > 0.0 { shape.phi(0.0) } else { alpha };
+    let contact = match law.support {
+        None => stress,
+        Some(Support { epsilon, position }) => epsilon * stress + shape.u(1.0) - position,
+    };
+    [
+        clamped,
+        contact,
+        s - (1.0 + law.beta) - law.rho * shape.slope_squared(),
+    ]
+}
+
+fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Option<[f64; 3]> {
+    let bending = state[1].abs().max(state[2].abs());
+    let mut jacobian = [[0.0; 3]; 3];
+    for (column, scale) in [state[0].abs(), bending, bending].into_iter().enumerate() {
+        let h = DIFFERENCE * scale;
+        let (mut up, mut down) = (state, state);
+        up[column] += h;
+        down[column] -= h;
+        let (up_residual, down_residual) = (residual(up), residual(down));
+        for row in 0..3 {
+            jacobian[row][column] =
+                (up_residual[row] - down_residual[row]) / (up[column] - down[column]);
+        }
+    }
+    solve(jacobian, residual(state))
+}
+
+/// Solves a 3 x 3 system by Cramer's rule; `None` if it is singular.
+fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> Option<[f64; 3]> {
+    let cross = |x: [f64; 3], y: [f64; 3]| -> [f64; 3] {
+        [
+            x[1] * y[2] - x[2] * y[1],
+            x[2] * y[0] - x[0] * y[2],
+            x[0] * y[1] - x[1] * y[0],
+        ]
+    };
+    let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
+    let inverse_rows = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
+    let determinant = dot(a[0], inverse_rows[0]);
+    if determinant == 0.0 || !determinant.is_finite() {
+        return None;
+    }
+    // The columns of the inverse are cross products of the rows of a over the determinant.
+    let component = |i: usize| (0..3).map(|j| inverse_rows[j][i] * b[j]).sum::<f64>() / determinant;
+    Some([component(0), component(1), component(2)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newton_step_is_measured_relative_to_the_state() {
+        assert!((relative_size([0.1, 0.3, -0.4], [-2.0, 1.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
+        assert!((relative_size([0.1, -0.5, 0.4], [2.0, 10.0, -8.0]) - (0.05 + 0.05)).abs() < 1e-15);
+        // The straight beam: no bending, and no change of it.
+        assert_eq!(relative_size([0.5, 0.0, 0.0], [2.0, 0.0, 0.0]), 0.25);
+    }
+
+    #[test]
+    fn the_residual_equals_the_documented_conditions() {
+        let coefficients = Law {
+            moment: 0.5,
+            beta: -3.0,
+            rho: 2.0,
+            support: None,
+        };
+        let law = |epsilon, position| Law {
+            support: Some(Support { epsilon, position }),
+            ..coefficients
+        };
+        for s in [0.25, 2.0, -0.5] {
+            let Shape { alpha, stress, .. } = law(0.5, 0.125).solve(s);
+            if s < 0.0 {
+                assert_eq!(alpha, 0.0);
+                assert_eq!(residual(&law(0.5, 0.125), [s, 0.25, stress])[0], 0.25);
+            }
+            let at = |law: &Law| residual(law, [s, alpha, stress]);
+            let found = at(&law(0.5, 0.125));
+            let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).slope_squared();
+            assert!(
+                found[0].abs() < 1e-14
+                    && found[1].abs() < 1e-14
+                    && (found[2] - balance).abs() < 1e-14,
+                "{found:?}"
+            );
+            // A compliance and a position of the obstacle that the shape does not satisfy.
+            assert!((at(&law(2.5, 0.125))[1] - 2.0 * stress).abs() < 1e-14);
+            assert!((at(&law(0.5, 1.125))[1] + 1.0).abs() < 1e-14);
+            assert_eq!(at(&coefficients)[1], stress);
+        }
+    }
+
+    #[test]
+    fn polishing_improves_a_nearby_state_and_leaves_a_distant_one_unchanged() {
+        let support = Some(Support {
+            epsilon: 0.5,
+            position: 0.125,
+        });
+        let law = Law {
+            moment: 0.5,
+            rho: 2.0,
+            support,
+            ..Law::default()
+        };
+        // The β for which s is the state.
+        for s in [0.7, 2.0, -0.5] {
+            let beta = s - 1.0 - 2.0 * law.solve(s).slope_squared();
+            let at = Law { beta, ..law };
+            let n = |start: f64| polish(&at, law.solve(start)).n_value();
+            assert!(
+                (n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14,
+                "{s}: {:e}",
+                n(s * (1.0 + 1e-5)) - (s - 1.0)
+            );
+            let far = law.solve(1.1 * s);
+            assert_eq!(polish(&at, far), far, "{s}");
+        }
+        let line = Shape::line(-1.0);
+        assert_eq!(polish(&law, line), line);
+    }
+
+    #[test]
+    fn a_regular_3_by_3_system_is_solved_and_a_singular_one_rejected() {
+        let a = [[2.0, -1.0, 0.5], [0.0, 3.0, 1.0], [4.0, 1.0, -2.0]];
+        let x = [1.0, -2.0, 4.0];
+        let b = a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum());
+        let found = solve(a, b).unwrap();
+        assert!(
+            found
+                .iter()
+                .zip(x)
+                .all(|(found, x)| (found - x).abs() < 1e-14),
+            "{found:?}"
+        );
+        assert_eq!(solve([a[0], a[0], a[2]], b), None);
+        assert_eq!(solve([[f64::NAN; 3], a[1], a[2]], b), None);
+    }
+}

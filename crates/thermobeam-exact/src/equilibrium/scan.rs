@@ -1,0 +1,352 @@
+//! All roots N of `f(N) = N - β - ρ‖u'(N)‖²` for one law, and a proof that none is missed.
+//!
+//! Write the law as `(B + N K) w = ℓ`, with B the elastic form (support included, positive
+//! definite) and K that of ‖u'‖². In the eigenbasis of K against B,
+//!
+//! `S(N) = ‖u'‖² = Σ_j a_j / (N - N_j)²`, a_j >= 0,
+//!
+//! whose poles are the buckling values N_j (in general an integral over the spectrum, which apart
+//! from the N_j is the point N = -1). So S is convex and f strictly concave between neighbouring
+//! poles:
+//!
+//! * above the largest pole S decreases and f increases to ∞: exactly one root;
+//! * between two poles: none, two, or one double root, decided by the maximum of f;
+//! * in an interval below N = -1: the same. Next to -1, S stays finite for the free law and for a
+//!   support at -aθ_A: there exactly one root if f(-1⁻) > 0. For any other support S → ∞, and the
+//!   interval is like the others;
+//! * below β: none, since ρS >= 0.
+//!
+//! Moreover dS/dN = -2 bᵀ(B + NK)⁻¹b with b = Kw. The second variation of the energy is B + NK + 2ρ
+//! b bᵀ, so by Sylvester's law it has as many negative directions as there are poles above N, less
+//! one if f' = 1 - ρS' < 0.
+
+use super::law::Law;
+use super::maximum::maximize;
+use std::cmp::Ordering;
+use thermobeam::bracket::bisect;
+
+/// A root closer to a pole than this, relative to `1 + N`, is represented by its amplitude instead
+/// of N.
+///
+/// Large against round-off, so that the sign of f is certain at this distance, and small enough
+/// that the pole's N gives the amplitude to eleven digits.
+const POLE_GAP: f64 = 1e-11;
+
+/// Bound on |max f| for a double root, in units of the largest term of f.
+const FOLD: f64 = 32.0 * f64::EPSILON;
+
+/// Distance from N = -1 at which the search below it starts.
+const MINUS_ONE_GAP: f64 = 1e-14;
+
+/// Position of a root.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Position {
+    /// At this `s = 1 + N`.
+    Between(f64),
+    /// Within round-off of the buckling value s: the solution is the mode with an amplitude of this
+    /// sign.
+    Buckling(f64, f64),
+}
+
+/// A root and its stability.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Root {
+    /// Its position.
+    pub(super) position: Position,
+    /// Number of negative directions of the second variation; `None` if there are infinitely many.
+    pub(super) unstable_directions: Option<usize>,
+    /// Whether f' = 0 as well: the second variation is singular.
+    pub(super) fold: bool,
+}
+
+/// An end of an interval: a pole or a regular point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Endpoint {
+    Buckling(f64),
+    Regular(f64),
+}
+
+/// f is a function of `s = 1 + N`; all of this is for ρ > 0.
+impl Law {
+    /// All roots N > -1 above the `count`-th buckling value, in decreasing order.
+    pub(super) fn roots_above_minus_one(&self, count: usize) -> Vec<Root> {
+        let rest = 1.0 + self.beta;
+        let mut hi = Endpoint::Regular(self.upper_end(self.buckling(1)));
+        let mut roots = Vec::new();
+        for above in 0..count {
+            let pole = self.buckling(above + 1);
+            roots.extend(self.interval(Endpoint::Buckling(pole), hi, Some(above)));
+            if pole <= rest {
+                break;
+            }
+            hi = Endpoint::Buckling(pole);
+        }
+        roots
+    }
+
+    /// All roots N < -1.
+    pub(super) fn roots_below_minus_one(&self) -> Vec<Root> {
+        let rest = 1.0 + self.beta;
+        if rest >= -MINUS_ONE_GAP {
+            return Vec::new();
+        }
+        let upper = Endpoint::Regular(-MINUS_ONE_GAP);
+        match self.buckling_below_minus_one() {
+            Some(pole) if rest < pole => {
+                let mut roots =
+                    self.interval(Endpoint::Regular(rest), Endpoint::Buckling(pole), None);
+                roots.extend(self.interval(Endpoint::Buckling(pole), upper, None));
+                roots
+            }
+            _ => self.interval(Endpoint::Regular(rest), upper, None),
+        }
+    }
+
+    fn f(&self, s: f64) -> f64 {
+        s - (1.0 + self.beta) - self.rho * self.solve(s).slope_squared()
+    }
+
+    /// An s above the largest pole with f(s) > 0.
+    ///
+    /// For `s > max(pole, 1 + β)`, `f(s + ρS(s)) >= s - (1 + β) > 0`, because S decreases there.
+    fn upper_end(&self, pole: f64) -> f64 {
+        let s = 2.0 * (pole + (1.0 + self.beta).abs());
+        s + self.rho * self.solve(s).slope_squared()
+    }
+
+    /// The roots of f in an interval in which it is concave, with `above` poles above the interval.
+    fn interval(&self, lo: Endpoint, hi: Endpoint, above: Option<usize>) -> Vec<Root> {
+        let inside = |end: Endpoint, side: f64| match end {
+            Endpoint::Regular(s) => s,
+            Endpoint::Buckling(s) => s + side * POLE_GAP * s.abs(),
+        };
+        let (a, b) = (inside(lo, 1.0), inside(hi, -1.0));
+        let (left, right) = (self.f(a) > 0.0, self.f(b) > 0.0);
+        let rising = |position| Root {
+            position,
+            unstable_directions: above,
+            fold: false,
+        };
+        let falling = |position| Root {
+            position,
+            unstable_directions: above.map(|n| n.saturating_sub(1)),
+            fold: false,
+        };
+        let between = |a, b| Position::Between(bisect(|s| self.f(s), a, b));
+        match (left, right) {
+            (true, true) => [
+                self.at_pole(lo, 1.0).map(rising),
+                self.at_pole(hi, -1.0).map(falling),
+            ],
+            (false, true) => [
+                Some(rising(between(a, b))),
+                self.at_pole(hi, -1.0).map(falling),
+            ],
+            (true, false) => [
+                self.at_pole(lo, 1.0).map(rising),
+                Some(falling(between(a, b))),
+            ],
+            (false, false) => match self.maximum(a, b) {
+                (Ordering::Greater, s) => {
+                    [Some(rising(between(a, s))), Some(falling(between(s, b)))]
+                }
+                (Ordering::Equal, s) => [
+                    Some(Root {
+                        fold: true,
+                        ..falling(Position::Between(s))
+                    }),
+                    None,
+                ],
+                (Ordering::Less, _) => [None, None],
+            },
+        }
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// The root between a pole and the point next to it: f > 0 there, and f → -∞ at the pole.
+    fn at_pole(&self, end: Endpoint, side: f64) -> Option<Position> {
+        match end {
+            Endpoint::Regular(_) => None,
+            Endpoint::Buckling(s) => Some(Position::Buckling(s, side * self.sign_above(s))),
+        }
+    }
+
+    /// How the maximum of f on [a, b] compares with 0, to round-off, and its position.
+    fn maximum(&self, a: f64, b: f64) -> (Ordering, f64) {
+        let round_off = |s: f64| {
+            let tension = self.rho * self.solve(s).slope_squared();
+            FOLD * (s.abs() + (1.0 + self.beta).abs() + tension)
+        };
+        let (s, value) = maximize(|s| self.f(s), a, b);
+        let sign = if value > round_off(s) {
+            Ordering::Greater
+        } else if value >= -round_off(s) {
+            Ordering::Equal
+        } else {
+            Ordering::Less
+        };
+        (sign, s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::BUCKLING_VALUES;
+    use super::super::law::Support;
+    use super::*;
+
+    fn laws() -> [Law; 4] {
+        let support = |epsilon, position| Some(Support { epsilon, position });
+        [
+            (0.5, None),
+            (0.5, support(0.5, 0.125)),
+            (-0.25, support(0.01, -0.5)),
+            (0.0, support(2.0, 0.25)),
+        ]
+        .map(|(moment, support)| Law {
+            moment,
+            support,
+            ..Law::default()
+        })
+    }
+
+    #[test]
+    fn the_scan_finds_a_root_placed_at_any_axial_force() {
+        let mut below = 0;
+        for law in laws() {
+            for s in [
+                5.0, 1.5, 0.9, 0.5, 0.15, 0.06, 0.011, -0.02, -0.3, -0.9, -2.0, -6.0, -40.0, -200.0,
+            ] {
+                for rho in [0.25, 30.0] {
+                    // The β for which s is a root.
+                    let beta = s - 1.0 - rho * law.solve(s).slope_squared();
+                    let scan = Law { beta, rho, ..law };
+                    let roots = if s > 0.0 {
+                        scan.roots_above_minus_one(BUCKLING_VALUES + 1)
+                    } else {
+                        scan.roots_below_minus_one()
+                    };
+                    let is_found = |root: &Root| match root.position {
+                        Position::Between(found) => (found / s - 1.0).abs() < 1e-9,
+                        Position::Buckling(..) => false,
+                    };
+                    let found: Vec<&Root> = roots.iter().filter(|root| is_found(root)).collect();
+                    assert_eq!(found.len(), 1, "{s}, rho {rho} of {law:?}: {roots:?}");
+                    below += usize::from(found[0].unstable_directions.is_none());
+                }
+            }
+        }
+        assert_eq!(
+            below,
+            4 * 7 * 2,
+            "no count of unstable directions below N = -1"
+        );
+    }
+
+    #[test]
+    fn the_upper_end_of_the_scan_lies_above_the_largest_root() {
+        for (law, moment) in laws()
+            .into_iter()
+            .flat_map(|law| [0.01, 1.0, 60.0, 1e4].map(|moment| (law, moment)))
+        {
+            let law = Law { moment, ..law };
+            for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 100.0, 1e6] {
+                for rho in [1e-6, 1.0, 400.0, 1e6] {
+                    let scan = Law { beta, rho, ..law };
+                    let pole = law.buckling(1);
+                    let end = scan.upper_end(pole);
+                    assert!(
+                        end > pole && scan.f(end) > 0.0,
+                        "{law:?}, beta {beta}, rho {rho}: {end}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn roots_below_minus_one_exist_only_for_beta_below_minus_one() {
+        for law in laws() {
+            for beta in [3.0, -0.5, -1.0, -1.0 + f64::EPSILON] {
+                assert_eq!(
+                    Law {
+                        beta,
+                        rho: 1.0,
+                        ..law
+                    }
+                    .roots_below_minus_one(),
+                    []
+                );
+            }
+        }
+    }
+
+    /// At a fold the maximum of f is zero; the tolerance is 32 units of round-off of the sum of its
+    /// terms.
+    #[test]
+    fn zero_one_and_two_roots_are_distinguished_to_round_off() {
+        for (law, rho) in laws().into_iter().zip([6.0, 4.0, 3.0, 20.0]) {
+            let (low, high) = (law.buckling(2), law.buckling(1));
+            let (a, b) = (low + 1e-3 * (high - low), high - 1e-3 * (high - low));
+            // f = without_beta - β; its maximum is the fold.
+            let without_beta = |s: f64| s - 1.0 - rho * law.solve(s).slope_squared();
+            let (mut left, mut right) = (a, b);
+            while right - left > 1e-9 {
+                let (c, d) = (left + (right - left) / 3.0, right - (right - left) / 3.0);
+                if without_beta(c) < without_beta(d) {
+                    left = c;
+                } else {
+                    right = d;
+                }
+            }
+            let (s, beta) = (left, without_beta(left));
+            let terms = s + (1.0 + beta).abs() + rho * law.solve(s).slope_squared();
+            let allowed = 32.0 * f64::EPSILON * terms;
+            for (shift, expected) in [(-1.3, 2), (-0.7, 1), (0.7, 1), (1.3, 0)] {
+                let scan = Law {
+                    beta: beta + shift * allowed,
+                    rho,
+                    ..law
+                };
+                let found = match scan.maximum(a, b).0 {
+                    Ordering::Greater => 2,
+                    Ordering::Equal => 1,
+                    Ordering::Less => 0,
+                };
+                assert_eq!(
+                    found, expected,
+                    "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}"
+                );
+            }
+            let fold = Law { beta, rho, ..law }.interval(
+                Endpoint::Buckling(low),
+                Endpoint::Buckling(high),
+                Some(1),
+            );
+            let [
+                Root {
+                    position: Position::Between(at),
+                    unstable_directions: Some(0),
+                    fold: true,
+                },
+            ] = fold[..]
+            else {
+                panic!("{fold:?} of {law:?}");
+            };
+            assert!((at - s).abs() < 1e-6);
+            let apart = Law {
+                beta: beta - 1e-6,
+                rho,
+                ..law
+            }
+            .interval(Endpoint::Buckling(low), Endpoint::Buckling(high), Some(1));
+            let kinds = apart
+                .iter()
+                .map(|root| (root.unstable_directions, root.fold))
+                .collect::<Vec<_>>();
+            assert_eq!(kinds, [(Some(1), false), (Some(0), false)], "{law:?}");
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! Exact modes against the equations, and frequencies against a dense eigenvalue problem.
+
+use thermobeam::mesh::Mesh;
+use thermobeam_exact::vibration::{
+    Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies,
+};
+
+use crate::p1_matrices::P1Matrices;
+
+#[track_caller]
+fn close(found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} is not {expected} to {tolerance:e}"
+    );
+}
+
+fn uniform(elements: usize) -> Mesh {
+    Mesh::uniform(elements).expect("a uniform mesh")
+}
+
+/// All ω of the pencil (K, M) on n elements, by Cholesky of M and dense eigenvalues.
+fn dense_frequencies(elements: usize) -> Vec<f64> {
+    let beam = P1Matrices::new(elements);
+    let mut mass = nalgebra::DMatrix::zeros(2 * elements, 2 * elements);
+    for block in [0, elements] {
+        mass.view_mut((block, block), (elements, elements))
+            .copy_from(&beam.mass);
+    }
+    let inverse = mass
+        .cholesky()
+        .expect("a positive mass")
+        .l()
+        .try_inverse()
+        .expect("regular");
+    let standard = &inverse * beam.stiffness_form(0.0) * inverse.transpose();
+    let mut all: Vec<f64> = standard
+        .symmetric_eigenvalues()
+        .iter()
+        .map(|lambda| lambda.sqrt())
+        .collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// ∫₀¹ f by Simpson's rule.
+fn integral(f: impl Fn(f64) -> f64) -> f64 {
+    let n = 4000;
+    let weight = |i: i32| {
+        if i == 0 || i == n {
+            1.0
+        } else {
+            f64::from(2 + 2 * (i % 2))
+        }
+    };
+    (0..=n)
+        .map(|i| weight(i) * f(f64::from(i) / f64::from(n)))
+        .sum::<f64>()
+        / (3.0 * f64::from(n))
+}
+
+#[test]
+fn the_lowest_frequency_is_the_reference() {
+    close(frequencies(1)[0], 1.27396492100, 5.1e-12);
+}
+
+#[test]
+fn frequencies_are_the_zeros_of_the_determinant() {
+    let all = frequencies(60);
+    for (i, &omega) in all.iter().enumerate() {
+        let (plus, minus) = (
+            (omega * omega - omega).sqrt(),
+            (omega * omega + omega).sqrt(),
+        );
+        let determinant = 1.0 + plus.cos() * minus.cos()
+            - omega * omega * (plus.sin() / plus) * (minus.sin() / minus);
+        close(determinant, 0.0, 4e-15 * (1.0 + omega));
+        assert!(i == 0 || omega > all[i - 1]);
+    }
+    // High frequencies come in pairs near (n - 1/2)π, but not symmetrically about it.
+    let middle = 29.5 * std::f64::consts::PI;
+    let split = 0.5 * 0.5_f64.cos();
+    close(all[58], middle + (0.125 - split) / middle, 1e-5);
+    close(all[59], middle + (0.125 + split) / middle, 1e-5);
+}
+
+#[test]
+fn no_frequency_is_missed() {
+    // P1 frequencies are larger than the exact ones by about ω³h²/24, which identifies each by its
+    // index.
+    let elements = 128;
+    let dense = dense_frequencies(elements);
+    for (i, omega) in frequencies(24).into_iter().enumerate() {
+        let error = dense[i] - omega;
+        let expected = omega.powi(3) / (24.0 * (elements * elements) as f64);
+        assert!(
+            error > 0.0 && error < 1.5 * expected + 1e-4,
+            "{i}: {omega} {} {expected:e}",
+            dense[i]
+        );
+    }
+}
+
+#[test]
+fn the_determinant_is_positive_below_the_first_bracket() {
+    // From ω = 0 to s = 1, ω = (√3 + 1/√3)/2, in steps small against the scale of the function.
+    let end = 2.0 / 3.0_f64.sqrt();
+    for i in 0..=20_000 {
+        let omega = end * f64::from(i) / 20_000.0;
+        let (plus, minus) = (omega * omega - omega, (omega * omega + omega).sqrt());
+        let root = plus.abs().sqrt();
+        let (c, s) = if plus < 0.0 {
+            (root.cosh(), root.sinh())
+        } else {
+            (root.cos(), root.sin())
+        };
+        let sine = if root == 0.0 { 1.0 } else { s / root };
+        let lower = if minus == 0.0 {
+            1.0
+        } else {
+            minus.sin() / minus
+        };
+        assert!(
+            1.0 + c * minus.cos() - omega * omega * sine * lower > 0.09,
+            "{omega}"
+        );
+    }
+}
+
+#[test]
+fn modes_solve_the_equations_and_the_boundary_conditions() {
+    for index in [0, 1, 2, 3, 7, 30, 101] {
+        let mode = Mode::new(index);
+        let (omega, h) = (mode.omega(), 1e-4);
+        let size = 1.0 + omega * omega;
+        for i in 1..40 {
+            let x = f64::from(i) / 40.0;
+            let slope = |f: &dyn Fn(f64) -> f64| (f(x + h) - f(x - h)) / (2.0 * h);
+            let truncation = 1e-8 * omega.powi(3) + 1e-10;
+            close(slope(&|x| mode.u(x)), mode.u_x(x), truncation);
+            close(slope(&|x| mode.phi(x)), mode.phi_x(x), truncation);
+            let force = slope(&|x| mode.u_x(x)) - mode.phi_x(x) + omega * omega * mode.u(x);
+            let moment =
+                slope(&|x| mode.phi_x(x)) + mode.u_x(x) + (omega * omega - 1.0) * mode.phi(x);
+            close(force, 0.0, truncation * size);
+            close(moment, 0.0, truncation * size);
+        }
+        close(mode.u(1.0), 1.0, 1e-14);
+        let at_ends = [
+            mode.u(0.0),
+            mode.phi(0.0),
+            mode.u_x(1.0) - mode.phi(1.0),
+            mode.phi_x(1.0),
+        ];
+        at_ends
+            .iter()
+            .for_each(|value| close(*value, 0.0, 1e-14 * size));
+    }
+}
+
+#[test]
+fn modes_are_orthogonal_and_their_rayleigh_quotient_is_the_frequency() {
+    let modes: Vec<_> = (0..8).map(Mode::new).collect();
+    for (i, a) in modes.iter().enumerate() {
+        for (j, b) in modes.iter().enumerate() {
+            let mass = integral(|x| a.u(x) * b.u(x) + a.phi(x) * b.phi(x));
+            let energy = integral(|x| {
+                (a.u_x(x) - a.phi(x)) * (b.u_x(x) - b.phi(x)) + a.phi_x(x) * b.phi_x(x)
+            });
+            if i == j {
+                close(energy / mass, a.omega().powi(2), 1e-10 * a.omega().powi(2));
+            } else {
+                close(mass, 0.0, 1e-11);
+                close(energy, 0.0, 1e-9);
+            }
+        }
+    }
+}
+
+/// T and T' by the Taylor series of the equation over short steps.
+fn by_taylor(omega: f64, zeta: f64, start: (f64, f64), t: f64) -> (f64, f64) {
+    let steps = 2000;
+    let h = t / f64::from(steps);
+    let (square, mut state) = (omega * omega, start);
+    for _ in 0..steps {
+        let (mut value, mut slope, mut derivative, mut power) = (0.0, 0.0, state, 1.0);
+        for order in 1..=20 {
+            value += derivative.0 * power;
+            slope += derivative.1 * power;
+            derivative = (derivative.1, -square * (derivative.0 + zeta * derivative.1));
+            power *= h / f64::from(order);
+        }
+        state = (value, slope);
+    }
+    state
+}
+
+#[test]
+fn the_time_factor_solves_its_equation_under_at_and_over_critical_damping() {
+    let omega = Mode::new(0).omega();
+    let critical = 2.0 / omega;
+    for zeta in [
+        0.0,
+        0.1,
+        critical * (1.0 - 1e-9),
+        critical,
+        critical * (1.0 + 1e-9),
+        2.0 * critical,
+        40.0,
+    ] {
+        for start in [(1.0, 0.0), (0.3, -2.0)] {
+            let damped = TimeFactor::new(omega, zeta, start.0, start.1).expect("a viscosity");
+            close(damped.value(0.0), start.0, 0.0);
+            close(damped.slope(0.0), start.1, 0.0);
+            for t in [1e-3, 0.5, 3.0, 10.0] {
+                let (value, slope) = by_taylor(omega, zeta, start, t);
+                close(damped.value(t), value, 3e-12);
+                close(damped.slope(t), slope, 3e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mode_without_frequency_moves_uniformly() {
+    for zeta in [0.0, 0.1] {
+        let uniform = TimeFactor::new(0.0, zeta, 0.3, -2.0).expect("a frequency");
+        for t in [0.0, 0.5, 10.0] {
+            assert_eq!((uniform.value(t), uniform.slope(t)), (0.3 - 2.0 * t, -2.0));
+        }
+    }
+}
+
+#[test]
+fn an_invalid_viscosity_is_rejected() {
+    let new = |zeta, velocity| TimeFactor::new(Mode::new(0).omega(), zeta, 1.0, velocity);
+    for zeta in [-0.1, f64::NAN, f64::INFINITY] {
+        assert_eq!(new(zeta, 0.0).expect_err("no viscosity").name, "zeta");
+    }
+    assert!(new(0.1, f64::NAN).is_err() && new(0.1, 0.0).is_ok());
+}
+
+#[test]
+fn overdamped_modes_are_accurate_for_long_times() {
+    let damped = TimeFactor::new(Mode::new(5).omega(), 1e9, 1.0, 0.0).expect("a viscosity");
+    // The slow root is -1/ζ up to 1/(ζω)²: after t = ζ the mode has fallen to 1/e.
+    close(damped.value(1e9), (-1.0_f64).exp(), 1e-15);
+    close(damped.slope(1e9), -(-1.0_f64).exp() * 1e-9, 1e-24);
+}
+
+#[test]
+fn discrete_frequencies_are_those_of_the_dense_pencil() {
+    for elements in [1, 2, 7, 40] {
+        let dense = dense_frequencies(elements);
+        let found = discrete_frequencies(&uniform(elements), 1, 2 * elements).expect("all of them");
+        for (found, dense) in found.iter().zip(&dense) {
+            close(*found, *dense, 1e-11 * dense.max(1.0) * elements as f64);
+        }
+    }
+    let too_many = discrete_frequencies(&uniform(3), 1, 7);
+    assert_eq!(
+        too_many,
+        Err(SpectrumError::Count {
+            count: 7,
+            available: 6
+        })
+    );
+    for degree in [0, 41] {
+        assert_eq!(
+            discrete_frequencies(&uniform(3), degree, 1),
+            Err(SpectrumError::Degree(degree))
+        );
+    }
+}
+
+#[test]
+fn a_single_element_of_high_degree_has_the_frequencies_of_the_beam() {
+    let exact = frequencies(6);
+    for (degree, tolerance) in [(14, 1e-5), (20, 1e-12), (40, 1e-12)] {
+        let found = discrete_frequencies(&uniform(1), degree, 6).expect("six of them");
+        found
+            .iter()
+            .zip(&exact)
+            .for_each(|(found, exact)| close(*found, *exact, tolerance));
+    }
+}
+
+#[test]
+fn the_first_eight_discrete_frequencies_converge_at_second_order_from_above() {
+    let exact = frequencies(8);
+    let meshes: [&dyn Fn(usize) -> Mesh; 2] = [&uniform, &|n| {
+        Mesh::mapped(n, |s| s + 0.1 * (2.0 * std::f64::consts::PI * s).sin())
+            .expect("a graded mesh")
+    }];
+    for mesh in meshes {
+        let errors = |n: usize| -> Vec<f64> {
+            let found = discrete_frequencies(&mesh(n), 1, 8).expect("eight of them");
+            found
+                .iter()
+                .zip(&exact)
+                .map(|(found, exact)| found - exact)
+                .collect()
+        };
+        for (coarse, fine) in errors(256).iter().zip(errors(512)) {
+            assert!(fine > 0.0);
+            let rate = (coarse / fine).log2();
+            assert!(
+                (1.99..2.01).contains(&rate),
+                "rate {rate}, errors {coarse:e} {fine:e}"
+            );
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! Errors against a run of any order in the norm of Theorem 3.4, as functions: the reference's
+//! polynomials are never interpolated, so a mesh of the measured run may have any nodes and any
+//! number of elements.
+//!
+//! The square of the norm is a sum over Gauss points. The error of a linear element is nearly
+//! quadratic, its slope nearly linear, so that few points suffice; between polynomials of degrees p
+//! and P the rule is exact.
+
+use convergence_study::study::CaseFailure;
+use convergence_study::text::number::max_or_nan;
+use thermobeam::dg::{self, Field};
+use thermobeam::mesh::Mesh;
+use thermobeam::solve::Level;
+
+use crate::error::Errors;
+
+/// Gauss points in each linear element, exact to degree 11: coarse elements see polynomials of high
+/// degree.
+const COARSE_POINTS: usize = 6;
+/// The same on fine meshes, exact to degree 5.
+const FINE_POINTS: usize = 3;
+/// From this number of elements a mesh is fine.
+const FINE: usize = 512;
+
+/// A run of any order at the times of observation, in ascending order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polynomials {
+    space: dg::Space,
+    levels: Vec<dg::Level>,
+}
+
+/// A Gauss point, with the bases of both sides there.
+struct GaussPoint<P> {
+    weight: f64,
+    /// Place in the measured run.
+    own: P,
+    /// Place in the reference.
+    reference: dg::Point,
+}
+
+/// Place in a linear element.
+struct Linear {
+    element: usize,
+    /// From 0 at the left end to 1 at the right end.
+    s: f64,
+}
+
+/// The functions whose squares (3.14) adds: v, u_x - φ, w, φ_x, θ.
+type Integrands = [f64; 5];
+
+impl Polynomials {
+    /// * `levels`: at the times of observation.
+    pub(crate) fn new(space: dg::Space, levels: Vec<dg::Level>) -> Self {
+        Self { space, levels }
+    }
+
+    /// u(1) at the observation with this number.
+    pub(crate) fn tip(&self, index: usize) -> f64 {
+        tip(&self.space, &self.levels[index])
+    }
+
+    /// The largest distances between two runs over their common times of observation; NaN if those
+    /// differ.
+    pub(crate) fn distance(&self, other: &Self) -> Errors {
+        if self.levels.len() != other.levels.len() || self.levels.is_empty() {
+            return Errors::NAN;
+        }
+        let meter = other.against(self);
+        let levels = other.levels.iter().enumerate();
+        levels
+            .map(|(index, level)| meter.errors(level, index))
+            .fold(Errors::default(), Errors::worst)
+    }
+
+    /// Measures runs on this space against a reference.
+    fn against<'r>(&'r self, reference: &'r Self) -> OfAnyOrder<'r> {
+        OfAnyOrder::new(&self.space, reference)
+    }
+}
+
+/// Measures levels of any order.
+pub(crate) struct OfAnyOrder<'r> {
+    space: &'r dg::Space,
+    reference: &'r Polynomials,
+    points: Vec<GaussPoint<dg::Point>>,
+}
+
+impl<'r> OfAnyOrder<'r> {
+    /// * `space`: of the measured levels.
+    pub(crate) fn new(space: &'r dg::Space, reference: &'r Polynomials) -> Self {
+        let mut nodes = [space.mesh().nodes(), reference.space.mesh().nodes()].concat();
+        nodes.sort_by(f64::total_cmp);
+        nodes.dedup();
+        // Between these nodes the integrand is one polynomial of twice the higher degree.
+        let gauss = dg::Space::gauss(space.degree().max(reference.space.degree()) + 1);
+        let mut points = vec![];
+        for ends in nodes.windows(2) {
+            let half = 0.5 * (ends[1] - ends[0]);
+            for (xi, weight) in &gauss {
+                let x = ends[0] + half * (1.0 + xi);
+                points.push(GaussPoint {
+                    weight: half * weight,
+                    own: space.locate(x),
+                    reference: reference.space.locate(x),
+                });
+            }
+        }
+        Self {
+            space,
+            reference,
+            points,
+        }
+    }
+
+    /// The errors of a level at the observation with this number.
+    pub(crate) fn errors(&self, level: &dg::Level, index: usize) -> Errors {
+        let norm = self.reference.norm(index, &self.points, |point| {
+            integrands(self.space, level, point)
+        });
+        let tip = (tip(self.space, level) - self.reference.tip(index)).abs();
+        Errors { norm, tip }
+    }
+}
+
+/// Measures levels of linear elements.
+pub(crate) struct OfLinear<'r> {
+    mesh: Mesh,
+    reference: &'r Polynomials,
+    points: Vec<GaussPoint<Linear>>,
+}
+
+impl<'r> OfLinear<'r> {
+    /// * `mesh`: of the measured levels.
+    pub(crate) fn new(mesh: Mesh, reference: &'r Polynomials) -> Self {
+        let count = if mesh.elements() < FINE {
+            COARSE_POINTS
+        } else {
+            FINE_POINTS
+        };
+        let gauss = dg::Space::gauss(count);
+        let mut points = vec![];
+        for (element, ends) in mesh.nodes().windows(2).enumerate() {
+            let h = ends[1] - ends[0];
+            for (xi, weight) in &gauss {
+                let s = 0.5 * (1.0 + xi);
+                points.push(GaussPoint {
+                    weight: 0.5 * h * weight,
+                    own: Linear { element, s },
+                    reference: reference.space.locate(ends[0] + s * h),
+                });
+            }
+        }
+        Self {
+            mesh,
+            reference,
+            points,
+        }
+    }
+
+    /// The errors of a level at the observation with this number.
+    pub(crate) fn errors(&self, level: &Level, index: usize) -> Errors {
+        let nodes = self.mesh.nodes();
+        let norm = self
+            .reference
+            .norm(index, &self.points, |&Linear { element: e, s }| {
+                let value = |y: &[f64]| (1.0 - s) * y[e] + s * y[e + 1];
+                let slope = |y: &[f64]| (y[e + 1] - y[e]) / (nodes[e + 1] - nodes[e]);
+                [
+                    value(&level.v),
+                    slope(&level.u) - value(&level.phi),
+                    value(&level.w),
+                    slope(&level.phi),
+                    value(&level.theta),
+                ]
+            });
+        let tip = (level.u[level.u.len() - 1] - self.reference.tip(index)).abs();
+        Errors { norm, tip }
+    }
+}
+
+impl Polynomials {
+    /// The norm of the difference to the functions `own`.
+    fn norm<P>(
+        &self,
+        index: usize,
+        points: &[GaussPoint<P>],
+        own: impl Fn(&P) -> Integrands,
+    ) -> f64 {
+        let mut square = 0.0;
+        for point in points {
+            let exact = integrands(&self.space, &self.levels[index], &point.reference);
+            for (own, exact) in own(&point.own).iter().zip(exact) {
+                square += point.weight * (own - exact).powi(2);
+            }
+        }
+        square.sqrt()
+    }
+}
+
+fn integrands(space: &dg::Space, level: &dg::Level, point: &dg::Point) -> Integrands {
+    let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
+        level.values_and_slopes_at(space, point);
+    [v, u_x - phi, w, phi_x, theta]
+}
+
+pub(crate) fn tip(space: &dg::Space, level: &dg::Level) -> f64 {
+    level.value_and_slope(space, Field::U, 1.0).0
+}
+
+impl Errors {
+    /// Errors that are not known.
+    pub const NAN: Self = Self {
+        norm: f64::NAN,
+        tip: f64::NAN,
+    };
+
+    /// The larger of each two; NaN if either is NaN.
+    #[must_use]
+    pub fn worst(self, other: Self) -> Self {
+        Self {
+            norm: max_or_nan(self.norm, other.norm),
+            tip: max_or_nan(self.tip, other.tip),
+        }
+    }
+}
+
+/// A reference that is not there.
+pub(crate) fn missing() -> CaseFailure {
+    CaseFailure::new("there is nothing to measure the error against")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::{AnyOrderEvaluator, Evaluator, free_vibration};
+    use crate::run::Motion;
+    use crate::run::family::Family;
+    use thermobeam::scheme::EULER_CRANK_NICOLSON;
+    use thermobeam::solve::Settings;
+
+    const ZETA: f64 = 0.1;
+
+    /// The exact vibration of the lowest mode, to t = 1.
+    fn vibrating() -> Family {
+        let exact = free_vibration::vibration(&[(0, 0.1)], ZETA).unwrap();
+        Family::of_free_solution(exact, free_vibration::beam(ZETA), 1.0)
+    }
+
+    /// Its state at the end by dG, on elements of this degree.
+    fn end(family: &Family, nodes: &[f64], degree: usize) -> Polynomials {
+        let stepping = dg::Stepping {
+            degree: 4,
+            dt: 0.05,
+            ..dg::Stepping::default()
+        };
+        let mesh = Mesh::from_nodes(nodes.to_vec()).unwrap();
+        let mut motion = family.dg(mesh, degree, stepping).unwrap();
+        while motion.step(1.0).unwrap().is_some() {}
+        let simulation = motion.simulation();
+        Polynomials::new(simulation.space().clone(), vec![simulation.level().clone()])
+    }
+
+    fn agree(one: Errors, other: Errors) {
+        for (a, b) in [(one.norm, other.norm), (one.tip, other.tip)] {
+            assert!(a > 1e-8 && (a / b - 1.0).abs() < 1e-5, "{one:?}, {other:?}");
+        }
+    }
+
+    /// The other path integrates products of interpolation errors, and knows no polynomials.
+    #[test]
+    fn errors_of_linear_elements_are_those_to_the_exact_solution() {
+        let family = vibrating();
+        let reference = end(&family, &[0.0, 0.7, 1.0], 14);
+        for elements in [5, 40, 600] {
+            let mesh = Mesh::mapped(elements, |s| 1.0 - (1.0 - s).powf(1.5)).unwrap();
+            let on = family.on_nodes(mesh);
+            let settings = Settings::default();
+            let mut run = on.start(EULER_CRANK_NICOLSON, settings, 20).unwrap();
+            for _ in 0..20 {
+                run.step(f64::INFINITY).unwrap();
+            }
+            let level = run.snapshot().on(on.mesh());
+            let errors = |reference| {
+                let mut evaluator = Evaluator::new(&family, &on, reference).unwrap();
+                evaluator.measure(&level, 0, run.work().t)
+            };
+            agree(errors(None), errors(Some(&reference)));
+        }
+    }
+
+    #[test]
+    fn errors_of_any_order_are_those_to_the_exact_solution() {
+        let family = vibrating();
+        let reference = end(&family, &[0.0, 0.7, 1.0], 14);
+        for nodes in [&[0.0, 1.0][..], &[0.0, 0.4, 1.0]] {
+            let coarse = end(&family, nodes, 3);
+            let errors = |reference| {
+                let mut evaluator =
+                    AnyOrderEvaluator::new(&family, &coarse.space, reference).unwrap();
+                evaluator.measure(&coarse.levels[0], 0)
+            };
+            agree(errors(None), errors(Some(&reference)));
+            agree(errors(None), reference.distance(&coarse));
+        }
+    }
+
+    #[test]
+    fn runs_with_other_times_have_no_distance() {
+        let family = vibrating();
+        let one = end(&family, &[0.0, 1.0], 3);
+        let mut other = one.clone();
+        assert_eq!(one.distance(&other), Errors::default());
+        other.levels.push(other.levels[0].clone());
+        assert!(one.distance(&other).norm.is_nan());
+    }
+}

@@ -1,0 +1,99 @@
+//! Every beam is stepped by `run`: no other code calls a step of a motion, a simulation or lanes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Crates above the solver, and their folders of sources.
+const SOURCES: [&str; 3] = [
+    "../thermobeam-study/src",
+    "../thermobeam-cli/src",
+    "../../xtask/src",
+];
+
+/// Files that call a step, with the number of calls.
+const CALLS: [(&str, usize); 5] = [
+    // The loop.
+    ("run/mod.rs", 1),
+    // The steps themselves: each method's own.
+    ("run/driver.rs", 2),
+    ("run/dg.rs", 1),
+    // Several beams at once, in lanes.
+    ("run/together.rs", 3),
+    // Steps are timed without anything around them.
+    ("bench/step_time.rs", 2),
+];
+
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder of sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files(&path, found);
+        } else {
+            found.push(path);
+        }
+    }
+}
+
+/// The code of a source without comments and tests.
+fn code(text: &str) -> String {
+    let text = text.split("\n#[cfg(test)]").next().unwrap_or("");
+    let without_comment = |line: &str| line.split("//").next().unwrap_or("").to_owned() + "\n";
+    text.lines().map(without_comment).collect()
+}
+
+/// Calls of `step` with an argument, of `advance` and of `stepped`; a call of `step()` reads a
+/// number.
+fn calls(code: &str) -> usize {
+    let rest = |name: &str| {
+        let uses = code.match_indices(name);
+        uses.map(|(at, _)| code[at + name.len()..].trim_start().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let [steps, others] = [
+        [rest(".step("), rest("::step(")].concat(),
+        [".advance(", ".stepped(", "::advance(", "::stepped("]
+            .map(rest)
+            .concat(),
+    ];
+    steps.iter().filter(|rest| !rest.starts_with(')')).count() + others.len()
+}
+
+#[test]
+fn no_code_but_the_loop_steps_a_beam() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut sources = vec![];
+    for folder in SOURCES {
+        files(&root.join(folder), &mut sources);
+    }
+    assert!(sources.len() > 70, "{}", sources.len());
+    let mut seen = 0;
+    for path in sources {
+        let text = fs::read_to_string(&path).expect("a source");
+        let name = path.display().to_string().replace('\\', "/");
+        let known = CALLS
+            .iter()
+            .find(|(file, _)| name.ends_with(&format!("src/{file}")));
+        seen += usize::from(known.is_some());
+        let expected = known.map_or(0, |(_, count)| *count);
+        assert_eq!(calls(&code(&text)), expected, "calls of a step in {name}");
+    }
+    assert_eq!(seen, CALLS.len());
+}
+
+#[test]
+fn a_call_of_a_step_is_found() {
+    for (text, count) in [
+        ("let report = motion.step(t_end)?;", 1),
+        ("driver\n    .step(\n        until,\n    )", 1),
+        ("Motion::step(&mut motion, 1.0)", 1),
+        ("simulation.advance()?; ensemble.advance();", 2),
+        ("let n = simulation.step();", 0),
+        ("// motion.step(1.0)\nlet x = 1;", 0),
+        (
+            "fn f() {}\n#[cfg(test)]\nmod tests { fn g() { motion.step(1.0) } }",
+            0,
+        ),
+    ] {
+        assert_eq!(calls(&code(text)), count, "{text}");
+    }
+}

@@ -1,0 +1,276 @@
+//! `bench`: run time against error, and times of steps, on this machine. No verdict depends on it.
+//!
+//! The runs are kept in a record, [`record::FILE`], so that the benchmark can be made in pieces;
+//! report and figures come from it.
+
+mod page;
+mod record;
+mod search;
+mod step_time;
+
+use std::path::{Path, PathBuf};
+
+use convergence_study::cli::exit::{Outcome, Unusable};
+use convergence_study::cli::running::LongRun;
+use convergence_study::cli::workspace;
+use convergence_study::input;
+use convergence_study::judge::verdict::Verdict;
+use convergence_study::project::Project;
+use convergence_study::report;
+use convergence_study::store::atomic;
+use convergence_study::study::{Described, Table};
+use serde::Deserialize;
+use thermobeam_study::kinds::work_precision::WorkPrecision;
+use thermobeam_study::kinds::work_precision::method::{METHODS, NamedMethod};
+use thermobeam_study::scene::Scene;
+
+use page::{LIBRARY, PROBLEMS};
+use record::{Record, Timed};
+use search::Search;
+
+/// Elements of the scaling table.
+const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
+
+/// The scene whose steps are timed.
+const SCENE: &str = "studies/scenes/paper-1-beta-0.toml";
+
+/// How the runs of the library are made.
+const RECIPE: &str = "CVODE is run by hand: `apt-get install libsundials-dev`, compile `studies/programs/cvode.cpp` as \
+                      `studies/programs/cvode.toml` says, `./cvode > cvode.json`, `cargo xtask bench --only CVODE --beside cvode.json --out \
+                      reports`. Its space is that of dG, on one or two elements of degree p; its relative and absolute tolerance is given; its \
+                      work, of dense matrices, is of another kind and not counted. Its errors are those to a run of its own with two \
+                      elements of degree 30 and tolerance 1e-12.";
+
+/// Run time against error, and time per step, on this machine
+///
+/// Takes half an hour of CPU time, or a piece of it with --only. With --out it keeps the runs in
+/// DIR/bench/runs.json, and writes DIR/bench.md and its figures from all runs that are there; this
+/// project's is in reports.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Makes only the runs of this method, of this problem (a study), or `steps`; again for more
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Keeps the runs of an earlier piece, and makes only those that it lacks
+    #[arg(long, requires = "out")]
+    resume: bool,
+    /// CPU seconds that a run may take; for all pieces the same, since a dash means that it was not
+    /// enough
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    limit: f64,
+    /// Output of studies/programs/cvode.cpp on this machine
+    #[arg(long, value_name = "FILE")]
+    beside: Option<PathBuf>,
+    /// Writes the report, its figures and the record there
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// CPU seconds of this thread: on a machine with other load the time of the clock on the wall means
+/// little.
+#[cfg(unix)]
+fn cpu_seconds() -> f64 {
+    use nix::time::{ClockId, clock_gettime};
+    clock_gettime(ClockId::CLOCK_THREAD_CPUTIME_ID).map_or(f64::NAN, |time| {
+        time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64
+    })
+}
+
+/// Seconds since the program's first reading.
+#[cfg(not(unix))]
+fn cpu_seconds() -> f64 {
+    use std::sync::OnceLock;
+    use std::time::Instant;
+    static FIRST: OnceLock<Instant> = OnceLock::new();
+    FIRST.get_or_init(Instant::now).elapsed().as_secs_f64()
+}
+
+/// The output of `studies/programs/cvode.cpp`.
+#[derive(Debug, Deserialize)]
+struct Library {
+    runs: Vec<LibraryRun>,
+}
+
+#[derive(Debug, Deserialize)]
+struct LibraryRun {
+    elements: usize,
+    degree: usize,
+    tolerance: f64,
+    norm: f64,
+    tip: f64,
+    milliseconds: f64,
+}
+
+impl Arguments {
+    /// Whether a part is to be run: all its names are selected, or nothing is.
+    fn selects(&self, method: &str, problem: &str) -> bool {
+        let any = |names: &[&str]| {
+            let own: Vec<&String> = self
+                .only
+                .iter()
+                .filter(|name| names.contains(&name.as_str()))
+                .collect();
+            (own.is_empty(), own)
+        };
+        let problems = PROBLEMS.map(|(id, _)| id);
+        let mut methods = METHODS.map(|method| method.name).to_vec();
+        methods.extend([LIBRARY, "steps"]);
+        let (all_problems, own_problems) = any(&problems);
+        let (all_methods, own_methods) = any(&methods);
+        (all_problems || own_problems.iter().any(|name| *name == problem))
+            && (all_methods && method != "steps"
+                || self.only.is_empty()
+                || own_methods.iter().any(|name| *name == method))
+    }
+
+    fn check(&self) -> Result<(), Unusable> {
+        let known = |name: &str| {
+            name == "steps"
+                || name == LIBRARY
+                || METHODS.iter().any(|method| method.name == name)
+                || PROBLEMS.iter().any(|problem| problem.0 == name)
+        };
+        match self.only.iter().find(|name| !known(name)) {
+            Some(name) => {
+                let methods = METHODS.map(|method| method.name).join(", ");
+                let problems = PROBLEMS.map(|problem| problem.0).join(", ");
+                Err(Unusable::because(&format!(
+                    "--only {name}: expected {methods}, {LIBRARY}, {problems} or steps"
+                )))
+            }
+            None if self.limit > 0.0 => Ok(()),
+            None => Err(Unusable::because(&format!(
+                "--limit {}: expected a number above 0",
+                self.limit
+            ))),
+        }
+    }
+}
+
+/// Runs the command.
+pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    arguments.check()?;
+    let root = workspace::root()?;
+    let library = arguments.beside.as_deref().map(library).transpose()?;
+    let folder = arguments.out.as_ref().map(|out| out.join("bench"));
+    let clock = LongRun::begin("the benchmark", &root.join("reports/bench.md"), false);
+    let mut record = folder
+        .as_deref()
+        .map_or(Ok(Record::default()), Record::read)?;
+    record.limit = arguments.limit;
+    if let Some(runs) = library {
+        record.replace(PROBLEMS[0].0, LIBRARY, runs);
+    }
+    for (id, _) in PROBLEMS {
+        let file = root.join("studies").join(format!("{id}.toml"));
+        let study = Described::<WorkPrecision>::read(&file)?.kind;
+        for method in METHODS {
+            if !arguments.selects(method.name, id) {
+                continue;
+            }
+            add(&mut record, (id, &study), method, arguments)?;
+            if let Some(folder) = &folder {
+                record.write(folder)?;
+            }
+            clock.done(&format!("{id}, {}", method.name));
+        }
+    }
+    if arguments.selects("steps", PROBLEMS[0].0) {
+        record.tables = step_tables(&root)?;
+        clock.done("steps");
+    }
+    let (text, drawings) = page::accuracy(&record);
+    let mut text = heading(project, &record) + &text;
+    for table in &record.tables {
+        text += &format!("## {}\n\n{}\n", table.title, report::markdown(table));
+    }
+    match (&arguments.out, &folder) {
+        (Some(out), Some(folder)) => {
+            record.write(folder)?;
+            for drawing in drawings {
+                atomic::write(&folder.join(&drawing.file), &drawing.svg)?;
+            }
+            let page = out.join("bench.md");
+            atomic::write(&page, format!("{text}{}\n", clock.ended(&root)))?;
+            println!("written to {}", page.display());
+        }
+        _ => println!("{text}nothing is written without --out"),
+    }
+    Ok(Verdict::Pass)
+}
+
+/// Makes the runs of a method on a problem.
+fn add(
+    record: &mut Record,
+    problem: (&str, &WorkPrecision),
+    method: NamedMethod,
+    arguments: &Arguments,
+) -> Result<(), Unusable> {
+    let unusable = |failure: convergence_study::study::CaseFailure| {
+        Unusable::because(&format!("{}: {}", problem.0, failure.reason))
+    };
+    let apart = problem.1.reference().map_err(unusable)?;
+    let apart = apart.map_or([0.0; 2], |(_, apart)| [apart.norm, apart.tip]);
+    record.references.insert(problem.0.to_owned(), apart);
+    let made = if arguments.resume {
+        record.made(problem.0, method.name)
+    } else {
+        vec![]
+    };
+    let runs = Search::new(problem, method, made, arguments.limit, cpu_seconds)
+        .all()
+        .map_err(unusable)?;
+    record.replace(problem.0, method.name, runs);
+    Ok(())
+}
+
+fn step_tables(root: &Path) -> Result<Vec<Table>, Unusable> {
+    let scene = Scene::read(root.join(SCENE))?;
+    Ok(vec![
+        step_time::ways(&scene, 100)?,
+        step_time::ways(&scene, 1000)?,
+        step_time::scaling(&scene, &ELEMENTS)?,
+    ])
+}
+
+/// The runs of a library, from the output of its program.
+fn library(path: &Path) -> Result<Vec<Timed>, Unusable> {
+    let text = input::read_text(path)?;
+    let library: Library = serde_json::from_str(&text).map_err(|error| {
+        Unusable::because(&format!(
+            "{}: {error}; expected what studies/programs/cvode.cpp prints",
+            path.display()
+        ))
+    })?;
+    let timed = |run: LibraryRun| Timed {
+        problem: PROBLEMS[0].0.to_owned(),
+        method: LIBRARY.to_owned(),
+        resolution: format!(
+            "p = {}, tolerance {:e}{}",
+            run.degree,
+            run.tolerance,
+            if run.elements == 1 {
+                ""
+            } else {
+                ", 2 elements"
+            }
+        ),
+        norm: run.norm,
+        tip: run.tip,
+        work: None,
+        seconds: 1e-3 * run.milliseconds,
+    };
+    Ok(library.runs.into_iter().map(timed).collect())
+}
+
+fn heading(project: &Project, record: &Record) -> String {
+    let command = format!("{} bench --out reports", project.command);
+    format!(
+        "# Benchmarks\n\nWritten by `{command}`; the machine of the last piece is named at the end. All methods aim at the same \
+         errors, the largest over equidistant times. A run may take {} seconds of CPU time; only that limits elements and steps. \
+         Nothing is extrapolated. **A dash: not reached within that time.** Short runs are the fastest of several; the loads of the \
+         manufactured solution count. Counted work is the same on every machine; another machine gives other times: compare \
+         ratios.\n\n{RECIPE}\n\n",
+        record.limit
+    )
+}

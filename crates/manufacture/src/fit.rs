@@ -37,7 +37,8 @@ fn subtract(from: &mut [f64], times: f64, column: &[f64]) {
 /// Columns below this share of their norm after orthogonalisation depend on those before.
 const DEPENDENT: f64 = 1e-12;
 
-/// The combination of columns that is closest to the target, by Gram-Schmidt, twice against loss of orthogonality.
+/// The combination of columns that is closest to the target, by Gram-Schmidt, twice against loss of
+/// orthogonality.
 ///
 /// A column that depends on those before it has the factor 0.
 pub(crate) fn least_squares(columns: &[&Column], target: &[f64]) -> Fitted {

@@ -96,7 +96,8 @@ impl Manufacture {
         emit::study(&self.model)
     }
 
-    /// Builds and runs the files of a language in a folder, which is for temporary files, and compares their values.
+    /// Builds and runs the files of a language in a folder, which is for temporary files, and
+    /// compares their values.
     ///
     /// # Errors
     /// A folder that cannot be written to.
@@ -118,7 +119,8 @@ impl Manufacture {
         at::values(&self.model, table, file)
     }
 
-    /// Compares sources, or the data of a face, with those that a command computes, and explains the differences.
+    /// Compares sources, or the data of a face, with those that a command computes, and explains
+    /// the differences.
     ///
     /// # Errors
     /// A command that fails, or whose answer cannot be used.

@@ -154,7 +154,8 @@ impl<'m> Sampler<'m> {
         }
     }
 
-    /// The zero of a level between two points of the box where it has different signs, to the last digit.
+    /// The zero of a level between two points of the box where it has different signs, to the last
+    /// digit.
     fn on_level(&mut self, face: &str, start: Vec<f64>) -> Option<Vec<f64>> {
         let place = self.level_faces.iter().position(|name| name == face)?;
         let mut end = self.in_box();

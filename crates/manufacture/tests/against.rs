@@ -12,7 +12,8 @@ const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\n
 [equations.u]\nstorage = \"dt(u)\"\ndiffusion = \"-div(k*grad(u))\"\nreaction = \"u^2\"\n[equations]\nv = \"dot(grad(v), v) - div(sym(grad(v)))\"\n\
 [boundary.x_max]\nflux = \"-k*dot(grad(u), n)\"\nrobin = \"-k*dot(grad(u), n) - 3*u\"\n";
 
-/// What is said of a program that computes `u` in Python from the terms S (storage), D (diffusion), R (reaction).
+/// What is said of a program that computes `u` in Python from the terms S (storage), D (diffusion),
+/// R (reaction).
 fn of(expression: &str, on: Option<&str>, columns: &str) -> Vec<Comparison> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("foreign.py");

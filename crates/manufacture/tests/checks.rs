@@ -153,7 +153,8 @@ fn terms_that_cannot_be_missed_are_noted() {
 
 #[test]
 fn slips_that_cannot_be_seen_are_noted() {
-    // The velocity of a rigid rotation: its gradient is skew, so v·∇v with the transpose has the opposite sign.
+    // The velocity of a rigid rotation: its gradient is skew, so v·∇v with the transpose has the
+    // opposite sign.
     let rotation = "v = [\"-y\", \"x\"]";
     does_not_find(
         &plane(rotation, "", "a = \"dot(grad(v), v)\""),

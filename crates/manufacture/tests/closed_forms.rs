@@ -120,7 +120,8 @@ fn functions_have_their_derivatives() {
     );
 }
 
-/// Third derivatives by the rules of the graph and by the recurrences of the jets, for each function.
+/// Third derivatives by the rules of the graph and by the recurrences of the jets, for each
+/// function.
 #[test]
 fn both_ways_agree_on_third_derivatives_of_each_function() {
     for function in [

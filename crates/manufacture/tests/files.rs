@@ -41,7 +41,8 @@ pub(crate) fn found<'c>(check: &'c Check, code: &str) -> Vec<&'c Finding> {
         .collect()
 }
 
-/// A stationary file in the plane with these fields, definitions and equations, each `KEY = "TEXT"` a line.
+/// A stationary file in the plane with these fields, definitions and equations, each `KEY = "TEXT"`
+/// a line.
 pub(crate) fn plane(exact: &str, define: &str, equations: &str) -> String {
     format!(
         "[manufacture]\nname = \"test\"\ncoordinates = [\"x\", \"y\"]\n[domain]\nx = [0.2, 1.1]\ny = [0.3, 1.4]\n\

@@ -1,4 +1,5 @@
-//! Expressions drawn at random: values against a direct evaluation, derivatives against dual numbers and jets.
+//! Expressions drawn at random: values against a direct evaluation, derivatives against dual
+//! numbers and jets.
 
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;

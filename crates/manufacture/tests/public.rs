@@ -1,4 +1,5 @@
-//! Problems of other projects: sources against their own formulas, and the mistakes of public threads named.
+//! Problems of other projects: sources against their own formulas, and the mistakes of public
+//! threads named.
 
 use std::f64::consts::{LN_2, PI, SQRT_2};
 
@@ -47,7 +48,8 @@ fn phase_field() -> String {
     )
 }
 
-/// Its equation (4): sech²(z)/(4 √κ) (-2 √κ tanh(z) α_x² + √2 (α_t - κ α_xx)) with z = (y - α)/√(2κ).
+/// Its equation (4): sech²(z)/(4 √κ) (-2 √κ tanh(z) α_x² + √2 (α_t - κ α_xx)) with z = (y -
+/// α)/√(2κ).
 #[test]
 fn the_phase_field_has_the_source_of_its_page() {
     let [kappa, a1, b1, a2, b2, c2] = [0.0004_f64, 0.0075, 8.0 * PI, 0.03, 22.0 * PI, 0.0625 * PI];
@@ -103,7 +105,8 @@ fn the_constant_source_of_minife_is_named() {
     );
 }
 
-/// github.com/ufz/ogs/pull/2241: the equation of the analytical solution was written on the other side.
+/// github.com/ufz/ogs/pull/2241: the equation of the analytical solution was written on the other
+/// side.
 #[test]
 fn the_sign_of_a_source_of_opengeosys_is_named() {
     let text = file(
@@ -119,7 +122,8 @@ fn the_sign_of_a_source_of_opengeosys_is_named() {
     );
 }
 
-/// github.com/Argonne-National-Laboratory/deer/pull/75: a minus forgotten on the body force, and a solution whose error is round-off.
+/// github.com/Argonne-National-Laboratory/deer/pull/75: a minus forgotten on the body force, and a
+/// solution whose error is round-off.
 #[test]
 fn the_body_force_of_deer_is_named_and_its_polynomial_noted() {
     let text = file(
@@ -132,7 +136,8 @@ fn the_body_force_of_deer_is_named_and_its_polynomial_noted() {
     assert_eq!(against(&text, "x, y", "2*y").cause, "sign-of-source");
 }
 
-/// github.com/pmgbergen/porepy/issues/146: with tractions that vanish the order is seen, with others it is lost.
+/// github.com/pmgbergen/porepy/issues/146: with tractions that vanish the order is seen, with
+/// others it is lost.
 #[test]
 fn tractions_that_vanish_are_noted() {
     let text = |u: &str| {
@@ -155,7 +160,8 @@ fn tractions_that_vanish_are_noted() {
     assert!(found(&other, "data-zero").is_empty());
 }
 
-/// MASA, `euler_2d`: compressible flow. Its formulas are products of the same waves; here by hand, with density 1.02 refused as MASA's was.
+/// MASA, `euler_2d`: compressible flow. Its formulas are products of the same waves; here by hand,
+/// with density 1.02 refused as MASA's was.
 #[test]
 fn compressible_flow_has_the_sources_of_masa() {
     let text = |density: &str| {
@@ -205,7 +211,8 @@ fn compressible_flow_has_the_sources_of_masa() {
     );
 }
 
-/// Ethier and Steinman's flow solves Navier-Stokes' equations in three dimensions without a source, and does not notice a transposed gradient.
+/// Ethier and Steinman's flow solves Navier-Stokes' equations in three dimensions without a source,
+/// and does not notice a transposed gradient.
 #[test]
 fn the_flow_of_ethier_and_steinman_needs_no_source() {
     let check = check(include_str!("files/ethier-steinman.toml"));
@@ -240,7 +247,8 @@ fn maxwell_has_the_source_of_mfem() {
     }
 }
 
-/// Cahn and Hilliard's equation is of fourth order; by hand for c = cos(x) e^t: ∇⁴c = c, ∇²c³ = 3 c (2 c_x² - c²).
+/// Cahn and Hilliard's equation is of fourth order; by hand for c = cos(x) e^t: ∇⁴c = c, ∇²c³ = 3 c
+/// (2 c_x² - c²).
 #[test]
 fn a_phase_field_of_fourth_order_by_hand() {
     let text = file(
@@ -279,7 +287,8 @@ fn a_solid_with_large_strains_by_hand() {
     close(&values["boundary"]["x_min"]["traction_x"][1], traction, 1.0);
 }
 
-/// Stokes' equations for a flow in a pipe: v = (0, 0, 1 - r²), p = -4 z; and with a swirl r³ the source -8 r.
+/// Stokes' equations for a flow in a pipe: v = (0, 0, 1 - r²), p = -4 z; and with a swirl r³ the
+/// source -8 r.
 #[test]
 fn axisymmetric_stokes_by_hand() {
     let text = file(
@@ -299,7 +308,8 @@ fn axisymmetric_stokes_by_hand() {
     }
 }
 
-/// The shallow water equations of Trixi's convergence test, one-dimensional: H = 7 + cos(ω x) cos(2π t), v = 1/2, b = 2 + sin(ω x)/2.
+/// The shallow water equations of Trixi's convergence test, one-dimensional: H = 7 + cos(ω x)
+/// cos(2π t), v = 1/2, b = 2 + sin(ω x)/2.
 #[test]
 fn shallow_water_by_hand() {
     let text = file(

@@ -1,4 +1,5 @@
-//! Files drawn at random, their emitted C, and slips in it: no right source is called wrong, and no slip is missed.
+//! Files drawn at random, their emitted C, and slips in it: no right source is called wrong, and no
+//! slip is missed.
 //!
 //! `MANUFACTURE_FILES=2000` draws more files, `MANUFACTURE_SEED=7` others.
 
@@ -169,7 +170,8 @@ impl Built<'_> {
             .collect()
     }
 
-    /// The library with one slip in a source: of a sign, a function, a digit or an index. `None` if there is no room for it.
+    /// The library with one slip in a source: of a sign, a function, a digit or an index. `None` if
+    /// there is no room for it.
     fn slip(&self, random: &mut Random) -> Option<String> {
         let slips = [
             (" + ", " - "),

@@ -169,7 +169,8 @@ fn an_integral_that_does_not_converge_is_refused() {
     );
 }
 
-/// Definitions that double at each step, or that are nested deeply, take no time that grows with the number of paths.
+/// Definitions that double at each step, or that are nested deeply, take no time that grows with
+/// the number of paths.
 #[test]
 fn long_chains_of_definitions_are_read_or_refused() {
     // The first in the alphabet is the last of the chain.

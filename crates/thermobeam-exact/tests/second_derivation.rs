@@ -1,5 +1,6 @@
-//! The loads against sources that `manufacture` derives from the equations of `studies/manufactured/beam.toml`: a second derivation
-//! that shares no code with the first. Solutions, coefficients, meshes and times are drawn at random; the tip is in contact in many.
+//! The loads against sources that `manufacture` derives from the equations of
+//! `studies/manufactured/beam.toml`: a second derivation that shares no code with the first.
+//! Solutions, coefficients, meshes and times are drawn at random; the tip is in contact in many.
 
 use std::cell::{Cell, RefCell};
 

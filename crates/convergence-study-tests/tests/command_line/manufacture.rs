@@ -1,4 +1,5 @@
-//! `manufacture`: the page of ten minutes as a newcomer follows it, exit status, and what is written.
+//! `manufacture`: the page of ten minutes as a newcomer follows it, exit status, and what is
+//! written.
 
 use std::fs;
 use std::process::Command;

@@ -18,8 +18,9 @@ const SCHEMA: u32 = 1;
 
 /// Derive and check source terms and data for a chosen exact solution, and write them in a language
 ///
-/// Without further options: the check. Its notes say what a test with this solution would not notice. Exit status 1 if the check
-/// fails, or if a foreign source differs; then no file is written.
+/// Without further options: the check. Its notes say what a test with this solution would not
+/// notice. Exit status 1 if the check fails, or if a foreign source differs; then no file is
+/// written.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The file with coordinates, exact solution, equations and data
@@ -27,13 +28,14 @@ pub struct Arguments {
     /// Write files in these languages to the folder of --out: c, fortran, python, ufl, octave, rust
     #[arg(long, value_name = "LANGUAGE", value_delimiter = ',', value_parser = language)]
     language: Vec<Language>,
-    /// Print the values at the points of a table: coordinates, time and optionally the face, under a header
+    /// Print the values at the points of a table: coordinates, time and optionally the face, under
+    /// a header
     #[arg(long, value_name = "POINTS", conflicts_with_all = ["language", "against"])]
     at: Option<PathBuf>,
     /// Compare with the source that a command computes, and say what is wrong with it
     ///
-    /// The command reads a line of names and then a point a line; it prints a line of numbers for each point, under a line of
-    /// names if there are several quantities.
+    /// The command reads a line of names and then a point a line; it prints a line of numbers for
+    /// each point, under a line of names if there are several quantities.
     #[arg(long, value_name = "COMMAND", conflicts_with = "language")]
     against: Option<String>,
     /// The face whose data the command computes

@@ -203,8 +203,8 @@ const MOST_DIGITS: i32 = 14;
 
 /// One unit of the last printed digit of each number of a column.
 ///
-/// Programs print a fixed number of decimals, or a number of significant digits without trailing zeros: the largest
-/// number of digits in the column is how exactly it is printed.
+/// Programs print a fixed number of decimals, or a number of significant digits without trailing
+/// zeros: the largest number of digits in the column is how exactly it is printed.
 fn units(cells: &[String]) -> Vec<f64> {
     let all: Vec<Digits> = cells.iter().map(|cell| digits(cell)).collect();
     let significant = all

@@ -1,4 +1,5 @@
-//! The causes, in the order in which they are tried: the first that explains all points is reported.
+//! The causes, in the order in which they are tried: the first that explains all points is
+//! reported.
 
 use super::ask::Answer;
 use super::right::{Place, Right};

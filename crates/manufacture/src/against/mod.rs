@@ -1,4 +1,5 @@
-//! A source, or data of a face, that another program computes: is it the right one, and if not, what is wrong with it?
+//! A source, or data of a face, that another program computes: is it the right one, and if not,
+//! what is wrong with it?
 
 pub(crate) mod ask;
 mod causes;

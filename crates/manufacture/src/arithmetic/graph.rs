@@ -1,5 +1,5 @@
-//! The graph of expressions: each node is stored once, 0, 1 and numbers are folded when a node is made, and each kind of
-//! node has one rule for its derivative.
+//! The graph of expressions: each node is stored once, 0, 1 and numbers are folded when a node is
+//! made, and each kind of node has one rule for its derivative.
 
 use std::collections::HashMap;
 
@@ -194,7 +194,8 @@ impl Graph {
             }
             Node::Integral { body, variable, .. } => {
                 let slope = self.derivative(&body, by);
-                // A slope that is not integrated accurately becomes NaN, which the check reports as singular.
+                // A slope that is not integrated accurately becomes NaN, which the check reports as
+                // singular.
                 self.integral(&slope, variable)
                     .unwrap_or_else(|_| self.number(f64::NAN))
             }
@@ -440,7 +441,8 @@ impl Algebra for Graph {
 }
 
 impl Graph {
-    /// The largest relative change of an integral by halving its panels, over a few points of the other variables.
+    /// The largest relative change of an integral by halving its panels, over a few points of the
+    /// other variables.
     fn worst_difference(
         &self,
         tape: &Tape<'_>,

@@ -1,5 +1,5 @@
-//! Truncated Taylor series in all variables about a point: the second way to derivatives, which shares no rule with the
-//! graph's.
+//! Truncated Taylor series in all variables about a point: the second way to derivatives, which
+//! shares no rule with the graph's.
 
 use std::collections::HashMap;
 use std::rc::Rc;

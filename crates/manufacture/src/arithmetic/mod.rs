@@ -1,5 +1,5 @@
-//! Arithmetics that expressions are computed in: a graph with symbolic derivatives, Taylor jets at a point, and the number
-//! of derivatives that a jet needs.
+//! Arithmetics that expressions are computed in: a graph with symbolic derivatives, Taylor jets at
+//! a point, and the number of derivatives that a jet needs.
 
 mod depth;
 pub(crate) mod graph;

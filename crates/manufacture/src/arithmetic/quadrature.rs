@@ -3,9 +3,11 @@
 /// Points on a panel.
 pub(crate) const POINTS: usize = 10;
 
-/// Points and weights of Gauss-Legendre quadrature on [0, 1], exact for polynomials of degree 2 `points` - 1.
+/// Points and weights of Gauss-Legendre quadrature on [0, 1], exact for polynomials of degree 2
+/// `points` - 1.
 ///
-/// The points are the zeros of the Legendre polynomial, found by Newton's method from the usual cosines.
+/// The points are the zeros of the Legendre polynomial, found by Newton's method from the usual
+/// cosines.
 pub(crate) fn gauss(points: usize) -> Vec<[f64; 2]> {
     let n = points as f64;
     let rule = |index: usize| {

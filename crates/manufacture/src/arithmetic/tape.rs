@@ -7,8 +7,8 @@ use crate::language::tree::Binary;
 
 /// A value, and its size: the sum of the absolute values of the summands, at every sum.
 ///
-/// A sum may cancel to zero; what rounding leaves of it is still small against its size. The size of f(a) is
-/// `|f'(a)|` times the size of a, or `|f(a)|` if that is larger.
+/// A sum may cancel to zero; what rounding leaves of it is still small against its size. The size
+/// of f(a) is `|f'(a)|` times the size of a, or `|f(a)|` if that is larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Measured {
     pub(crate) value: f64,

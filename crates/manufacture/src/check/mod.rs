@@ -15,7 +15,8 @@ use crate::model::{Model, Rows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
-/// Values that should be equal may differ by this times their size: derivatives of high order lose digits by rounding.
+/// Values that should be equal may differ by this times their size: derivatives of high order lose
+/// digits by rounding.
 pub(crate) const SAME: f64 = 1e4 * f64::EPSILON;
 
 /// A condition may be missed by this times the size.

@@ -5,7 +5,8 @@ use crate::derive::components;
 use crate::model::Model;
 use crate::problem::InputError;
 
-/// Points of a part where the two ways are compared. A rule that is wrong is wrong almost everywhere.
+/// Points of a part where the two ways are compared. A rule that is wrong is wrong almost
+/// everywhere.
 const MOST_POINTS: usize = 200;
 
 pub(super) fn compare(model: &Model, sampled: &Sampled<'_>) -> Result<Vec<Finding>, InputError> {

@@ -1,4 +1,5 @@
-//! Fields that are unchanged or reversed by a reflection, an exchange or a shift: superconvergence for free.
+//! Fields that are unchanged or reversed by a reflection, an exchange or a shift: superconvergence
+//! for free.
 
 use super::{Finding, Sampled, finding, is_same};
 use crate::arithmetic::tape::Measured;

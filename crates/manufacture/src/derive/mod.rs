@@ -116,7 +116,8 @@ impl Part {
     }
 }
 
-/// The names of the components: `T`, `v_x`, `sigma_xy`; numbers if the length is not that of a vector of the space.
+/// The names of the components: `T`, `v_x`, `sigma_xy`; numbers if the length is not that of a
+/// vector of the space.
 pub(crate) fn components(problem: &Problem, name: &str, shape: &[usize]) -> Vec<String> {
     let axes = problem.axes();
     let mut names = vec![String::new()];

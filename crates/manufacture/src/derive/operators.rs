@@ -220,8 +220,9 @@ impl<A: Algebra> Elaborator<'_, A> {
         Ok(self.partial(&of, by))
     }
 
-    /// The outer derivative of `k*grad(T)` with k before it, also where a definition hides the product; `None` where no
-    /// factor stands out as the coefficient, because it alone has no derivative.
+    /// The outer derivative of `k*grad(T)` with k before it, also where a definition hides the
+    /// product; `None` where no factor stands out as the coefficient, because it alone has no
+    /// derivative.
     fn without_product_rule(
         &mut self,
         outer: &Outer,

@@ -1,7 +1,8 @@
 //! Derivatives in space, in all four coordinate systems by one rule.
 //!
-//! Components are physical ones in the orthonormal basis. The derivative along theta is (1/r)(∂_θ + turn), where turn acts
-//! on each index: (f_r, f_θ) becomes (-f_θ, f_r). `grad` appends the index of the direction, `div` contracts it.
+//! Components are physical ones in the orthonormal basis. The derivative along theta is (1/r)(∂_θ +
+//! turn), where turn acts on each index: (f_r, f_θ) becomes (-f_θ, f_r). `grad` appends the index
+//! of the direction, `div` contracts it.
 
 use super::tensor::{Tensor, combine, scale, sum_of_products};
 use crate::arithmetic::Algebra;
@@ -118,7 +119,8 @@ impl Space {
         sum.unwrap_or_else(|| of.clone())
     }
 
-    /// Of a vector of three: a vector; of two: ∂_1 v_2 - ∂_2 v_1; of a scalar in two dimensions: (∂_2 s, -∂_1 s).
+    /// Of a vector of three: a vector; of two: ∂_1 v_2 - ∂_2 v_1; of a scalar in two dimensions:
+    /// (∂_2 s, -∂_1 s).
     pub(crate) fn curl<A: Algebra>(
         self,
         algebra: &mut A,

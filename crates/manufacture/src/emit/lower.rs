@@ -1,4 +1,5 @@
-//! From nodes of the graph to statements: a subexpression that is used twice, or is long, becomes a constant.
+//! From nodes of the graph to statements: a subexpression that is used twice, or is long, becomes a
+//! constant.
 
 use std::collections::{HashMap, HashSet};
 
@@ -91,7 +92,8 @@ pub(super) fn lower(graph: &Graph, roots: &[NodeId], names: &Names<'_>) -> Lower
     }
 }
 
-/// Nodes that become constants whatever their length: those used twice, bases of products, operands of choices.
+/// Nodes that become constants whatever their length: those used twice, bases of products, operands
+/// of choices.
 fn constants(graph: &Graph, roots: &[NodeId], order: &[NodeId]) -> HashSet<NodeId> {
     let mut used: HashSet<NodeId> = HashSet::new();
     let mut constants = HashSet::new();

@@ -49,7 +49,8 @@ impl Language {
             .map_or("", |known| known.0)
     }
 
-    /// The commands that make the answering program of a file in a folder, the last of which runs it; none for UFL.
+    /// The commands that make the answering program of a file in a folder, the last of which runs
+    /// it; none for UFL.
     pub(crate) fn commands(self, name: &str, folder: &Path) -> Vec<Vec<String>> {
         let file = |file: String| folder.join(file).display().to_string();
         let answer = |ending: &str| file(format!("{name}_answer.{ending}"));

@@ -34,7 +34,8 @@ impl fmt::Display for SyntaxError {
     }
 }
 
-/// Two lines: the text, and a caret below the byte `offset`. A long text is cut to the part around it.
+/// Two lines: the text, and a caret below the byte `offset`. A long text is cut to the part around
+/// it.
 pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     const BEFORE: usize = 48;
     const AFTER: usize = 24;

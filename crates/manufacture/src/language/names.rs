@@ -107,15 +107,17 @@ pub(crate) fn reserved() -> impl Iterator<Item = &'static str> {
         .chain(["n", "identity"])
 }
 
-/// The part of a message about an unknown name that suggests a known one; empty without a suggestion.
+/// The part of a message about an unknown name that suggests a known one; empty without a
+/// suggestion.
 pub fn did_you_mean<'c>(name: &str, known: impl IntoIterator<Item = &'c str>) -> String {
     nearest(name, known).map_or(String::new(), |near| format!(", did you mean `{near}`?"))
 }
 
 /// The candidate closest to `name`; `None` if none is close enough to be a typing error.
 ///
-/// The distance counts insertions, deletions, replacements and swaps of neighbours, ignoring case. It must be at most a
-/// third of the length of `name`, or 1, and less than the length of the candidate.
+/// The distance counts insertions, deletions, replacements and swaps of neighbours, ignoring case.
+/// It must be at most a third of the length of `name`, or 1, and less than the length of the
+/// candidate.
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // The computation of the distance takes time proportional to the product of both lengths.
     const LONGEST: usize = 40;

@@ -5,7 +5,8 @@ use super::names::{CALLEES, Callee, Function, nearest};
 use super::token::{Token, TokenKind, next_token};
 use super::tree::{Binary, Comparison, Kind, Tree};
 
-/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds their stack.
+/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds
+/// their stack.
 pub const MAX_DEPTH: usize = 256;
 
 /// Precedence of a sign: above a product, below a power.
@@ -88,7 +89,8 @@ impl Parser<'_> {
         Ok(operand)
     }
 
-    /// Parses a number, a name, a call, a list, or an expression in brackets, with or without a sign.
+    /// Parses a number, a name, a call, a list, or an expression in brackets, with or without a
+    /// sign.
     fn primary(&mut self) -> Result<Deep, SyntaxError> {
         let token = self.token;
         let at = token.start;
@@ -176,7 +178,8 @@ impl Parser<'_> {
         self.grow(token.start, parts.depth, Kind::Call(callee, parts.trees))
     }
 
-    /// Parses expressions with commas between them, and the bracket that closes the one at byte `opened`.
+    /// Parses expressions with commas between them, and the bracket that closes the one at byte
+    /// `opened`.
     fn parts(
         &mut self,
         opened: usize,

@@ -65,7 +65,8 @@ pub(crate) struct Definition {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Term {
     pub(crate) label: String,
-    /// Its place in the file. Terms are added in another order, which does not depend on that of the keys.
+    /// Its place in the file. Terms are added in another order, which does not depend on that of
+    /// the keys.
     pub(crate) place: usize,
     pub(crate) is_negative: bool,
     /// The text that the tree belongs to.

@@ -1,4 +1,5 @@
-//! From text to the syntax tree of a function: the parser is that of `manufacture`, whose language has more.
+//! From text to the syntax tree of a function: the parser is that of `manufacture`, whose language
+//! has more.
 
 use manufacture::language::names::{CONSTANTS, Callee, did_you_mean};
 use manufacture::language::tree::{Binary, Kind, Tree, callee_name};

@@ -155,7 +155,7 @@ impl Copy {
     fn cargo(&self, command: &str) -> Command {
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo
-            .args([command, "--quiet", "--profile", PROFILE, "--target-dir"])
+            .args([command, "--profile", PROFILE, "--target-dir"])
             .arg(self.folder.join("build"));
         cargo.current_dir(self.tree());
         cargo
@@ -191,7 +191,10 @@ impl Copy {
 
     fn verify(&self, key: String, test: &str) -> Result<Found, Unusable> {
         let [build, out] = ["build", "out"].map(|name| self.folder.join(name));
-        let built = self.cargo("build").args(["--package", "xtask"]).output()?;
+        let built = self
+            .cargo("build")
+            .args(["--quiet", "--package", "xtask"])
+            .output()?;
         if !built.status.success() {
             let why = String::from_utf8_lossy(&built.stderr);
             return Err(Unusable::because(&format!("it does not compile:\n{why}")));

@@ -1,10 +1,12 @@
-//! No code reads a sentence of a finding: whoever improves the wording changes nothing else.
+//! No code reads a sentence of a finding, so a better wording changes nothing else.
 //!
 //! The texts of findings are claim, evidence, summary, headline, because and reason. They are made
 //! for people, from data that stands next to them, and only printed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+
+use convergence_study_tests::files::files_below;
 
 /// The names of the texts, as fields and as variables.
 const TEXTS: [&str; 6] = [
@@ -86,26 +88,19 @@ fn reads(text: &str) -> Vec<String> {
     found
 }
 
-/// The sources of a folder.
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        if path.is_dir() {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
-        }
-    }
+/// The sources below a folder.
+fn sources(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let is_source = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "rs");
+    files_below(folder).into_iter().filter(is_source)
 }
 
 #[test]
 fn no_source_reads_a_sentence_of_a_finding() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut paths = vec![];
+    let mut paths: Vec<PathBuf> = sources(&root.join("xtask/src")).collect();
     for entry in fs::read_dir(root.join("crates")).unwrap().flatten() {
-        sources(&entry.path().join("src"), &mut paths);
+        paths.extend(sources(&entry.path().join("src")));
     }
-    sources(&root.join("xtask/src"), &mut paths);
     assert!(paths.len() > 200, "{}", paths.len());
     let mut found = vec![];
     for path in paths {

@@ -1,4 +1,6 @@
-//! Programs under test: started, interrupted, and waited for with a limit.
+//! Programs under test: started, interrupted, and waited for with a limit; files of the source tree.
+
+pub mod files;
 
 use std::fs;
 use std::process::{Child, Command, Output, Stdio};

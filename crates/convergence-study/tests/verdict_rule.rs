@@ -5,21 +5,7 @@ use convergence_study::judge::verdict::{
     Aside, Judge, RateVerdict, Reason, SetAside, Verdict, judge, judge_pairs,
 };
 
-/// Levels with step ratio 2 and exactly these pairwise rates.
-fn with_rates(rates: &[f64]) -> Vec<Level> {
-    let mut levels = vec![Level {
-        step: 0.125,
-        error: 0.1,
-    }];
-    for rate in rates {
-        let last = levels[levels.len() - 1];
-        levels.push(Level {
-            step: last.step / 2.0,
-            error: last.error * 2.0_f64.powf(-rate),
-        });
-    }
-    levels
-}
+use super::verdict_laws::with_rates;
 
 fn with_error(levels: i32, ratio: f64, error: impl Fn(f64) -> f64) -> Vec<Level> {
     (0..levels)

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use convergence_study::cli::command_line;
+use convergence_study_tests::files::files_below;
 use thermobeam_cli::{GROUPS, Thermobeam, project};
 
 /// The name of the program that exists only in a checkout.
@@ -65,21 +66,6 @@ fn naming(text: &str) -> Vec<String> {
         .collect()
 }
 
-fn sources(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    entries
-        .flat_map(|path| {
-            if path.is_dir() {
-                sources(&path)
-            } else {
-                vec![path]
-            }
-        })
-        .collect()
-}
-
 #[test]
 fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     let mut read = 0;
@@ -91,7 +77,7 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
         "thermobeam-study",
         "thermobeam-cli",
     ] {
-        for path in sources(
+        for path in files_below(
             &Path::new(env!("CARGO_MANIFEST_DIR"))
                 .join("..")
                 .join(name)

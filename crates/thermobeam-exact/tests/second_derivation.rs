@@ -13,7 +13,7 @@ use thermobeam_exact::expression::{Expression, Variable};
 use thermobeam_exact::solution::{Factors, Manufactured, Product};
 use thermobeam_exact::sources::Sources;
 
-use crate::loads::space;
+use crate::loads::{Random, space};
 
 const FILE: &str = include_str!("../../../studies/manufactured/beam.toml");
 
@@ -22,22 +22,7 @@ const CASES: u64 = 100;
 /// Agreement, relative to the largest load of an equation.
 const AGREEMENT: f64 = 1e-10;
 
-/// SplitMix64.
-struct Random(u64);
-
 impl Random {
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + self.share() * (high - low)
-    }
-
     /// A function of time.
     fn of_time(&mut self) -> String {
         let [a, b, c] = [(); 3].map(|()| self.between(-2.0, 2.0));
@@ -119,7 +104,7 @@ impl Case {
             file = with(&file, key, &format!("\"{text}\""));
         }
         let mut nodes = vec![0.0];
-        for _ in 0..4 + (random.share() * 4.0) as usize {
+        for _ in 0..random.count(4, 7) {
             nodes.push(nodes[nodes.len() - 1] + random.between(0.5, 1.5));
         }
         let end = nodes[nodes.len() - 1];

@@ -7,7 +7,7 @@ use convergence_study::judge::verdict::{
 };
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
-fn with_rates(rates: &[f64]) -> Vec<Level> {
+pub(crate) fn with_rates(rates: &[f64]) -> Vec<Level> {
     let mut levels = vec![Level {
         step: 0.125,
         error: 0.1,

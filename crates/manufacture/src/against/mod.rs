@@ -35,7 +35,7 @@ pub struct Comparison {
     pub sentence: String,
 }
 
-/// The points of a comparison, and what the other program is told about them.
+/// The points of a comparison, and the text that the other program reads about them.
 pub(crate) struct Questions {
     pub(crate) part: Part,
     pub(crate) points: Vec<Vec<f64>>,

@@ -512,16 +512,12 @@ pub fn summary(rates: &Rates) -> String {
         .iter()
         .filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
     let one = |(name, rate): &(String, RateVerdict)| {
-        let found = rate.fitted.map_or_else(
-            || rate.rate_in_words(RATE_PLACES),
-            |fitted| format!("{fitted:.4}"),
-        );
         let reason = if passes {
             String::new()
         } else {
             format!(": {}", rate.reason)
         };
-        format!("{name} {found} (order {}){reason}", rate.order)
+        format!("{name} {}{reason}", rate.beside_order(RATE_PLACES))
     };
     shown.map(one).collect::<Vec<_>>().join("; ")
 }

@@ -1,6 +1,6 @@
 use convergence_study::judge::verdict::{Verdict, judge_pairs};
-use convergence_study::report::{Findings, LONGEST, NotPassed, not_passed, sentence, tables};
-use convergence_study::run::Finished;
+use convergence_study::report::{Findings, LONGEST, sentence, tables};
+use convergence_study::run::{Finished, Item, not_passed};
 use convergence_study::store::{Baseline, Change, Movement, Record, junit};
 use convergence_study::study::levels;
 use convergence_study::study::outcome::{LevelErrors, Table};
@@ -355,7 +355,7 @@ fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
     let order = |studies: &[Finished]| {
         not_passed(studies)
             .into_iter()
-            .map(|study| study.id)
+            .map(|study| study.id().to_owned())
             .collect::<Vec<_>>()
     };
     studies[0].outcome.verdict = Verdict::Fail;
@@ -398,9 +398,10 @@ fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     let steps = (0..6).map(|level| 0.5_f64.powi(level + 3));
     finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
     finished.outcome.verdict = Verdict::Fail;
-    let NotPassed {
-        reasons, advice, ..
-    } = not_passed(&[finished]).remove(0);
+    let studies = [finished];
+    let failing = not_passed(&studies).remove(0);
+    let advice = failing.advice();
+    let reasons: Vec<String> = failing.items.iter().map(Item::to_string).collect();
     assert_eq!(
         reasons[0],
         "L2: no rate, claimed 0.6667 ± 0.02: an error is NaN or infinite (non-finite)"

@@ -287,11 +287,7 @@ fn exercised(header: &Header, subject: &Subject, group: Group, method: ItemMetho
     let settings = settings
         .into_iter()
         .map(|(key, value)| (key.to_owned(), value.to_owned()));
-    // A study on its own: its kind tells where to look.
-    let (key, alone) = study(header);
-    std::iter::once((key, format!("{alone} ({})", group.name())))
-        .chain(settings)
-        .collect()
+    std::iter::once(study(header)).chain(settings).collect()
 }
 
 /// The dotted path of the item's case, such as `case[2].`; empty without a case.

@@ -1,7 +1,6 @@
 //! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline
 //! guards.
 
-use convergence_study::judge::fit::Level;
 use convergence_study::text::number::rate_text;
 
 use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
@@ -34,7 +33,7 @@ struct Compliance<'r> {
     impact: Option<&'r ShownImpact>,
     /// Largest distance over time between the free ends of the bouncing beam and of the beam with
     /// rigid obstacles.
-    distance: f64,
+    distance: Option<f64>,
 }
 
 /// A number of a run; NaN if missing.
@@ -42,8 +41,18 @@ fn number(run: Option<&ShownImpact>, of: fn(&ShownImpact) -> Option<f64>) -> f64
     run.and_then(of).unwrap_or(f64::NAN)
 }
 
-fn penetration(run: Option<&ShownImpact>) -> f64 {
-    number(run, |run| run.penetration)
+fn penetration(run: Option<&ShownImpact>) -> Option<f64> {
+    run?.penetration
+}
+
+/// `None` if the runs do not have the same levels.
+fn distance(one: &ShownImpact, other: &ShownImpact) -> Option<f64> {
+    let differences = one
+        .tip
+        .iter()
+        .zip(&other.tip)
+        .map(|(a, b)| (a.1 - b.1).abs());
+    (one.tip.len() == other.tip.len()).then(|| differences.fold(0.0, max_or_nan))
 }
 
 impl<'r> Compliance<'r> {
@@ -52,29 +61,40 @@ impl<'r> Compliance<'r> {
         ran: &'r [Ran<(f64, RunOf), ShownImpact>],
         limit: Option<&ShownImpact>,
     ) -> Self {
-        let of = |run: RunOf| found(ran, &(epsilon, run));
-        let bouncing = of(RunOf::Bouncing);
-        let distance = match (bouncing, limit) {
-            (Some(ShownImpact { tip, .. }), Some(limit)) if tip.len() == limit.tip.len() => tip
-                .iter()
-                .zip(&limit.tip)
-                .map(|(a, b)| (a.1 - b.1).abs())
-                .fold(0.0, max_or_nan),
-            _ => f64::NAN,
-        };
-        let [fixed_point, rest, impact] = [RunOf::FixedPoint, RunOf::Rest, RunOf::Impact].map(of);
+        let [bouncing, fixed_point, rest, impact] = [
+            RunOf::Bouncing,
+            RunOf::FixedPoint,
+            RunOf::Rest,
+            RunOf::Impact,
+        ]
+        .map(|run| found(ran, &(epsilon, run)));
         Self {
             epsilon,
             bouncing,
             fixed_point,
             rest,
             impact,
-            distance,
+            distance: bouncing
+                .zip(limit)
+                .and_then(|(bouncing, limit)| distance(bouncing, limit)),
         }
     }
 
+    fn label(&self) -> String {
+        format!("ε = {:.1e}", self.epsilon)
+    }
+
     fn alpha(&self) -> f64 {
-        number(self.fixed_point, |found| found.alpha)
+        number(self.fixed_point, |run| run.alpha)
+    }
+
+    fn contraction(&self) -> f64 {
+        number(self.fixed_point, |run| run.contraction)
+    }
+
+    /// Whether the fixed point fails at a step.
+    fn fails(&self) -> bool {
+        self.fixed_point.is_some_and(|run| run.failed_at.is_some())
     }
 
     /// Whether a time step averages over the impact. The predicted α tells; if the case failed it
@@ -99,27 +119,26 @@ impl<'r> Compliance<'r> {
 
     /// Penetrations and forces.
     fn forces(&self) -> Vec<Reading> {
-        let guarded = |head: &str, run: Option<&ShownImpact>, name: &str| {
-            let epsilon = format!("ε = {:.1e}", self.epsilon);
+        let penetration = |head: &str, run: Option<&ShownImpact>, name: &str| {
             Reading::new(head, penetration(run))
                 .scientific(4)
-                .guarded(format!("{name}, {epsilon}"), 1e-6)
-                .about(Subject::of(name).at(epsilon))
+                .guarded(format!("{name}, {}", self.label()), 1e-6)
+                .about(Subject::of(name).at(self.label()))
         };
-        let shown = |head: &str, value: f64| Reading::new(head, value).scientific(4);
-        let force =
-            |head: &str, run: Option<&ShownImpact>| shown(head, number(run, |run| run.force));
+        let force = |head: &str, run: Option<&ShownImpact>| {
+            Reading::new(head, run.and_then(|run| run.force)).scientific(4)
+        };
         vec![
-            guarded(
+            penetration(
                 "bouncing: largest penetration",
                 self.bouncing,
                 "largest penetration",
             ),
             force("largest force", self.bouncing),
-            shown("distance to the rigid limit", self.distance),
-            guarded("at rest: penetration", self.rest, "penetration at rest"),
+            Reading::new("distance to the rigid limit", self.distance).scientific(4),
+            penetration("at rest: penetration", self.rest, "penetration at rest"),
             force("force", self.rest),
-            guarded(
+            penetration(
                 "impact, resolved: peak penetration",
                 self.impact,
                 "peak penetration",
@@ -129,53 +148,38 @@ impl<'r> Compliance<'r> {
     }
 
     fn solvers(&self) -> Vec<Reading> {
-        let (newton, fixed_point) = (self.bouncing, self.fixed_point);
-        let ended = |run: &ShownImpact| {
-            run.failed_at
-                .map_or("converges".into(), |t| format!("fails at t = {t:.3}"))
+        let newton = |head: &str, of: fn(&ShownImpact) -> Option<f64>| {
+            Reading::new(head, self.bouncing.and_then(of))
         };
+        let fixed_point = |head: &str, of: fn(&ShownImpact) -> Option<f64>| {
+            Reading::new(head, self.fixed_point.and_then(of))
+        };
+        let ended = self.fixed_point.map_or("-".to_owned(), |run| {
+            run.failed_at
+                .map_or("converges".to_owned(), |t| format!("fails at t = {t:.3}"))
+        });
         vec![
-            Reading::new(
-                "Newton's iterations",
-                newton.and_then(|found| found.mean_iterations),
-            )
-            .fixed(3),
-            Reading::new(
-                "most in a step",
-                newton.map(|found| found.most_iterations as f64),
-            )
-            .fixed(0),
-            Reading::new(
-                "fixed point's iterations",
-                fixed_point.and_then(|found| found.mean_iterations),
-            )
-            .fixed(2),
-            Reading::new("α", fixed_point.and_then(|found| found.alpha)).fixed(4),
-            Reading::new(
-                "contraction",
-                fixed_point.and_then(|found| found.contraction),
-            )
-            .fixed(4),
-            Reading::text("fixed point", fixed_point.map_or("-".to_owned(), ended)),
+            newton("Newton's iterations", |run| run.mean_iterations).fixed(3),
+            newton("most in a step", |run| Some(run.most_iterations as f64)).fixed(0),
+            fixed_point("fixed point's iterations", |run| run.mean_iterations).fixed(2),
+            fixed_point("α", |run| run.alpha).fixed(4),
+            fixed_point("contraction", |run| run.contraction).fixed(4),
+            Reading::text("fixed point", ended),
         ]
     }
 }
 
-fn numbers_not_finite(found: &ShownImpact) -> Vec<String> {
-    let tip = found
-        .tip
-        .iter()
-        .map(|(t, u)| t.abs() + u.abs())
-        .fold(0.0, max_or_nan);
+fn numbers_not_finite(run: &ShownImpact) -> Vec<String> {
+    let tip = run.tip.iter().map(|(t, u)| t.abs() + u.abs());
     not_finite([
-        ("velocity", found.velocity),
-        ("force", found.force),
-        ("penetration", found.penetration),
-        ("alpha", found.alpha),
-        ("contraction", found.contraction),
-        ("iterations", found.mean_iterations),
-        ("tip", Some(tip)),
-        ("time of failure", found.failed_at),
+        ("velocity", run.velocity),
+        ("force", run.force),
+        ("penetration", run.penetration),
+        ("alpha", run.alpha),
+        ("contraction", run.contraction),
+        ("iterations", run.mean_iterations),
+        ("tip", largest_of(tip)),
+        ("time of failure", run.failed_at),
     ])
 }
 
@@ -198,23 +202,19 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
         fixed_point_fails_at_one(&all),
         contraction_as_predicted(&all),
     ];
-    let rows = |readings: fn(&Compliance<'_>) -> Vec<Reading>| -> Vec<(Vec<String>, Vec<Reading>)> {
-        all.iter()
-            .map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of)))
-            .collect()
-    };
-    let forces = rows(|of| of.forces());
+    let forces = rows(&all, Compliance::forces);
+    let solvers = rows(&all, Compliance::solvers);
     let title = "Penetrations and forces as the obstacles become rigid";
     Outcome {
         tables: vec![
             readings::table(title, &["ε"], &forces),
-            readings::table(
-                "Solvers of the bouncing beam",
-                &["ε"],
-                &rows(|of| of.solvers()),
-            ),
+            readings::table("Solvers of the bouncing beam", &["ε"], &solvers),
         ],
-        figures: figures(study, &all, limit),
+        figures: vec![
+            penetrations(&all),
+            tip(study, &all, limit),
+            contractions(&all),
+        ],
         quantities: readings::guarded(forces.iter().flat_map(|(_, readings)| readings)),
         coverage: coverage(&all),
         ..Outcome::new(
@@ -225,50 +225,57 @@ pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) 
     }
 }
 
+/// The rows of a table, one for each compliance.
+fn rows<'r>(
+    all: &[Compliance<'r>],
+    readings: fn(&Compliance<'r>) -> Vec<Reading>,
+) -> Vec<(Vec<String>, Vec<Reading>)> {
+    all.iter()
+        .map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of)))
+        .collect()
+}
+
 /// The four orders in ε.
 fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
-    let averaged = |of: &Compliance<'_>| of.is_averaged();
-    let stiff = |of: &Compliance<'_>| of.is_stiff();
-    let rate = |name: &str,
-                order,
-                belongs: &dyn Fn(&Compliance<'_>) -> bool,
-                error: fn(&Compliance<'_>) -> f64| {
-        let level = |of: &Compliance<'_>| Level {
-            step: of.epsilon,
-            error: error(of),
-        };
-        let levels: Vec<Level> = all.iter().filter(|of| belongs(of)).map(level).collect();
-        (name.to_owned(), study.judge.judge(&levels, order))
-    };
-    vec![
-        rate(LARGEST, 1.0, &averaged, |of| penetration(of.bouncing)),
-        rate(
-            "distance to the rigid limit, fixed h and dt",
-            1.0,
-            &averaged,
-            |of| of.distance,
-        ),
-        rate("penetration at rest", 1.0, &stiff, |of| {
+    let averaged: Vec<_> = all.iter().filter(|of| of.is_averaged()).collect();
+    let stiff: Vec<_> = all.iter().filter(|of| of.is_stiff()).collect();
+    let distance = "distance to the rigid limit, fixed h and dt";
+    let peak = "peak penetration of an impact, resolved";
+    let claim = |order| Claim::new(order, study.tolerance);
+    [
+        judged(&averaged, LARGEST, claim(1.0), |of| {
+            penetration(of.bouncing)
+        }),
+        judged(&averaged, distance, claim(1.0), |of| of.distance),
+        judged(&stiff, "penetration at rest", claim(1.0), |of| {
             penetration(of.rest)
         }),
-        rate(
-            "peak penetration of an impact, resolved",
-            2.0 / 3.0,
-            &stiff,
-            |of| penetration(of.impact),
-        ),
+        judged(&stiff, peak, claim(2.0 / 3.0), |of| penetration(of.impact)),
     ]
+    .concat()
+}
+
+/// The rate of an error over these compliances.
+fn judged(
+    range: &[&Compliance<'_>],
+    name: &str,
+    claim: Claim,
+    error: fn(&Compliance<'_>) -> Option<f64>,
+) -> Vec<(String, RateVerdict)> {
+    let levels = range
+        .iter()
+        .map(|of| Refinement::new(of.label(), &[], of.epsilon));
+    let column = ErrorColumn::new(name, claim, range.iter().map(|of| error(of)));
+    // The axis is that of a figure which this study does not draw.
+    Levels::new(Axis::Both, levels, [column]).judge()
 }
 
 fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check {
     let exact = peak_penetration();
-    let (epsilon, impact) = last.map_or((f64::NAN, None), |of| (of.epsilon, of.impact));
-    let time = Obstacles {
-        epsilon,
-        ..Obstacles::default()
-    }
-    .impact_time(study.impact.beam.zeta);
-    let measured = penetration(impact) / (number(impact, |found| found.velocity) * time);
+    let epsilon = last.map_or(f64::NAN, |of| of.epsilon);
+    let impact = last.and_then(|of| of.impact);
+    let velocity = number(impact, |run| run.velocity);
+    let measured = number(impact, |run| run.penetration) / (velocity * study.impact_time(epsilon));
     Check::that(
         (measured / exact - 1.0).abs() <= 5e-3,
         "the peak penetration of an impact is 0.858 v (ε √ζ)^(2/3), to half a per cent",
@@ -292,20 +299,18 @@ fn newton_does_not_depend_on_epsilon(
     let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
         return Check::that(false, claim, "no bouncing beam was run to its end").about(subject);
     };
-    let mean = |found: &ShownImpact| number(Some(found), |found| found.mean_iterations);
-    let holds = |found: &&ShownImpact| {
-        mean(found) <= 1.1 * mean(softest) && found.most_iterations <= softest.most_iterations + 2
+    let mean = |run: &ShownImpact| run.mean_iterations.unwrap_or(f64::NAN);
+    let holds = |run: &&ShownImpact| {
+        mean(run) <= 1.1 * mean(softest) && run.most_iterations <= softest.most_iterations + 2
     };
-    let (first, last, epsilon) = (mean(softest), mean(limit), study.limit);
-    let means = format!(
-        "mean from {first:.3} at the softest to {last:.3} at the stiffest, ε = {epsilon:.0e}"
+    let most = bouncing.iter().map(|run| run.most_iterations).max();
+    let evidence = format!(
+        "mean from {:.3} at the softest to {:.3} at the stiffest, ε = {:.0e}; most in a step: {}",
+        mean(softest),
+        mean(limit),
+        study.limit,
+        most.unwrap_or(0)
     );
-    let most = bouncing
-        .iter()
-        .map(|found| found.most_iterations)
-        .max()
-        .unwrap_or(0);
-    let evidence = format!("{means}; most in a step: {most}");
     Check::that(
         bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds),
         claim,
@@ -315,30 +320,25 @@ fn newton_does_not_depend_on_epsilon(
 }
 
 fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
-    let runs = || {
-        all.iter()
-            .filter_map(|of| Some((of, of.fixed_point?.failed_at)))
-    };
-    let as_predicted = |(of, failed_at): (&Compliance<'_>, Option<f64>)| match of.alpha() {
-        alpha if alpha < SLOW => failed_at.is_none(),
-        alpha if alpha > 1.0 => failed_at.is_some(),
-        // In between, either is allowed; NaN is neither.
-        alpha => alpha.is_finite(),
-    };
-    let last = runs().rfind(|(_, failed_at)| failed_at.is_none());
-    let first = runs().find(|(_, failed_at)| failed_at.is_some());
-    let name = |run: Option<(&Compliance<'_>, _)>| {
-        run.map_or("none".to_owned(), |(of, _)| {
-            format!("ε = {:.1e} (α = {:.3})", of.epsilon, of.alpha())
+    let (failed, converged): (Vec<_>, Vec<_>) = all
+        .iter()
+        .filter(|of| of.fixed_point.is_some())
+        .partition(|of| of.fails());
+    // Between SLOW and 1 either is allowed; NaN is neither.
+    let holds =
+        converged.iter().all(|of| of.alpha() <= 1.0) && failed.iter().all(|of| of.alpha() >= SLOW);
+    let name = |run: Option<&&Compliance<'_>>| {
+        run.map_or("none".to_owned(), |of| {
+            format!("{} (α = {:.3})", of.label(), of.alpha())
         })
     };
     Check::that(
-        runs().all(as_predicted) && last.is_some() && first.is_some(),
+        holds && !converged.is_empty() && !failed.is_empty(),
         "the fixed point converges while α < 1 and fails beyond; Newton's method does every step",
         format!(
             "last that converges: {}, first that fails: {}",
-            name(last),
-            name(first)
+            name(converged.last()),
+            name(failed.first())
         ),
     )
     .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
@@ -346,10 +346,10 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
 
 fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
     let judged = all.iter().filter(|of| of.factor_left_out().is_none());
-    let ratios: Vec<f64> = judged
-        .map(|of| number(of.fixed_point, |run| run.contraction) / of.alpha())
+    let deviations: Vec<f64> = judged
+        .map(|of| (of.contraction() / of.alpha() - 1.0).abs())
         .collect();
-    let worst = largest_of(ratios.iter().map(|ratio| (ratio - 1.0).abs()));
+    let worst = largest_of(deviations.iter().copied());
     let farthest = worst.map_or("no ratio".to_owned(), |worst| {
         format!("the farthest ratio {worst:.1e} from 1")
     });
@@ -358,7 +358,7 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
         "in contact the fixed point contracts by α = (dt/ε) [A_u⁻¹]_nn, to a tenth",
         format!(
             "{} compliances with α between {MEASURABLE} and {SLOW}, {farthest}",
-            ratios.len()
+            deviations.len()
         ),
     )
     .about(Subject::of("contraction").by(ItemMethod::FixedPoint))
@@ -388,86 +388,81 @@ fn coverage(all: &[Compliance<'_>]) -> Vec<Coverage> {
     ]
 }
 
-/// The first figure omits the distance to the rigid limit: on its scale it coincides with the
-/// largest penetration.
-fn figures(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Vec<Figure> {
-    let of_fixed_point = |label: &str, converges: bool| {
-        let runs = all.iter().filter(|of| {
-            of.fixed_point
-                .is_some_and(|run| run.failed_at.is_none() == converges)
-        });
-        plots::Series::new(
-            label,
-            runs.map(|of| (of.alpha(), number(of.fixed_point, |run| run.contraction))),
-        )
+fn contractions(all: &[Compliance<'_>]) -> Figure {
+    let runs = |label: &str, fails: bool| {
+        let runs = all
+            .iter()
+            .filter(|of| of.fixed_point.is_some() && of.fails() == fails);
+        plots::Series::new(label, runs.map(|of| (of.alpha(), of.contraction())))
     };
-    let factors = ContractionFactors {
+    let svg = contraction(&ContractionFactors {
         title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
-        measured: vec![
-            of_fixed_point("converges", true),
-            of_fixed_point("fails", false),
-        ],
+        measured: vec![runs("converges", false), runs("fails", true)],
         predicted: "predicted factor α".to_owned(),
         estimates: plots::Series::default(),
-    };
-    let orders = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
-                  order 2/3 where it is resolved.";
-    let contracts = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
-    vec![
-        Figure::new("penetration", orders, penetrations(all)),
-        Figure::new(
-            "tip",
-            "Displacement of the free end as the obstacles become rigid.",
-            tip(study, all, limit),
-        ),
-        Figure::new("contraction", contracts, contraction(&factors)),
-    ]
+    });
+    let caption = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
+    Figure::new("contraction", caption, svg)
 }
 
-fn penetrations(all: &[Compliance<'_>]) -> String {
-    let over_epsilon = |label: &str, number: fn(&Compliance<'_>) -> f64| plots::ErrorSeries {
+/// Without the distance to the rigid limit: on the scale of the figure it coincides with the
+/// largest penetration.
+fn penetrations(all: &[Compliance<'_>]) -> Figure {
+    let over_epsilon = |label: &str, run: fn(&Compliance<'_>) -> Option<f64>| plots::ErrorSeries {
         label: label.into(),
-        points: all.iter().map(|of| (of.epsilon, number(of))).collect(),
+        points: all
+            .iter()
+            .map(|of| (of.epsilon, run(of).unwrap_or(f64::NAN)))
+            .collect(),
         ..plots::ErrorSeries::default()
     };
-    let resolved = all.first().map(|of| of.alpha() * of.epsilon);
     let series = [
         over_epsilon(LARGEST, |of| penetration(of.bouncing)),
         over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
         over_epsilon("at rest", |of| penetration(of.rest)),
     ];
+    let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
+    let resolved = all.first().map(|of| of.alpha() * of.epsilon);
     let xy = Xy {
-        title: Some(
-            "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact".to_owned(),
-        ),
+        title: Some(title.to_owned()),
         x: plots::Axis::log("compliance of the obstacles ε"),
         y: plots::Axis::log("penetration (dimensionless)"),
         beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
         ..Xy::default()
     };
-    plots::convergence(xy, &series, &[1.0, 2.0 / 3.0])
+    let caption = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
+                   order 2/3 where it is resolved.";
+    let svg = plots::convergence(xy, &series, &[1.0, 2.0 / 3.0]);
+    Figure::new("penetration", caption, svg)
 }
 
-/// Only the first decades, so that the curves stay distinct.
-fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> String {
-    let decades = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
-    let label = |epsilon: f64| {
-        decades
+/// The decades of ε whose curves are distinct.
+const DECADES: [(f64, &str); 3] = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
+
+fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Figure {
+    let mut series = vec![];
+    for of in all {
+        let decade = DECADES
             .iter()
-            .find(|(decade, _)| (epsilon / decade - 1.0).abs() < 1e-6)
-    };
-    let series = |label: &str, of: &ShownImpact| plots::Series::new(label, of.tip.clone());
-    let curve = |of: &Compliance<'_>| Some(series(label(of.epsilon)?.1, of.bouncing?));
-    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
-    let series: Vec<_> = all
-        .iter()
-        .filter_map(curve)
-        .chain(limit.map(|limit| series("rigid", limit)))
+            .find(|(decade, _)| (of.epsilon / decade - 1.0).abs() < 1e-6);
+        series.extend(
+            decade
+                .zip(of.bouncing)
+                .map(|((_, label), run)| (*label, run)),
+        );
+    }
+    series.extend(limit.map(|run| ("rigid", run)));
+    let curves: Vec<_> = series
+        .into_iter()
+        .map(|(label, run)| plots::Series::new(label, run.tip.clone()))
         .collect();
-    Xy {
+    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
+    let svg = Xy {
         guides: obstacle_lines(study.moving.obstacles),
-        ..plots::history(y, &series)
+        ..plots::history(y, &curves)
     }
     .titled("The motion tends to that between rigid obstacles")
-    .draw()
+    .draw();
+    let caption = "Displacement of the free end as the obstacles become rigid.";
+    Figure::new("tip", caption, svg)
 }

@@ -5,7 +5,7 @@ use convergence_study::plots::{Axis, Series, Surface};
 use super::FixedPointStep;
 use super::map::{Boundary, Map, NewtonSteps, Parameter, Point, spaced};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::of_allowed;
+use crate::kinds::runs::watch::of_allowed;
 
 /// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
 /// known in advance.

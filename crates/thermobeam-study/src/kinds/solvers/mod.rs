@@ -39,7 +39,7 @@ mod spectrum;
 use super::prelude::*;
 use crate::kinds::settings;
 
-pub use super::side_by_side::SolverComparison;
+pub use super::runs::side_by_side::SolverComparison;
 pub use map::{Boundary, NewtonSteps, Point};
 pub use parts::{Agreement, Contraction};
 

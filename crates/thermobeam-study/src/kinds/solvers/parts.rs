@@ -4,7 +4,7 @@
 use super::spectrum::spectral_radius;
 use super::{SolverTask, factors, positive_numbers};
 use crate::kinds::prelude::*;
-use crate::kinds::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
+use crate::kinds::runs::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
 
 /// Smallest and largest number of iterations between the start and the last increment but one of a
 /// measurement.

@@ -9,22 +9,19 @@ pub mod bifurcation;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
-pub mod equilibrium;
 pub mod exact_experiments;
 pub mod experiment;
 pub mod frequencies;
 mod prelude;
 pub mod random_errors;
 pub mod rigid;
+pub mod runs;
 pub mod scenes;
 pub mod self_convergence;
 pub mod settings;
-mod side_by_side;
 pub mod solvers;
-mod steady;
 pub mod tables;
 pub mod vibration;
-mod watch;
 pub mod work_precision;
 
 pub use settings::PLACES;
@@ -48,7 +45,7 @@ pub const KINDS: [KindRow; 17] = [
     self_convergence::ROW,
     experiment::ROW,
     exact_experiments::ROW,
-    equilibrium::ROW,
+    runs::equilibrium::ROW,
     bifurcation::ROW,
     random_errors::ROW,
     rigid::ROW,

@@ -31,10 +31,10 @@ use std::ops::ControlFlow;
 
 use super::energy::{End, named_cases};
 use super::prelude::*;
+use super::runs::steady::exact_states;
+use super::runs::watch::SOLVED;
 use super::settings;
-use super::steady::exact_states;
 use super::tables::cost_of_run;
-use super::watch::SOLVED;
 use crate::error::reference::distance;
 use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};

@@ -13,8 +13,8 @@ use std::cmp::Ordering;
 use thermobeam::tridiagonal::TridiagonalFactor;
 
 use super::prelude::*;
-pub use super::steady::AtRest;
-use super::steady::{ToRest, exact_states, listed_scenes, meshes, tolerance};
+pub use super::runs::steady::AtRest;
+use super::runs::steady::{ToRest, exact_states, listed_scenes, meshes, tolerance};
 use crate::kinds::settings;
 
 /// The row of the table of kinds.

@@ -47,14 +47,14 @@ mod runs;
 mod trace;
 
 use super::prelude::*;
+use super::runs::side_by_side::SideBySide;
+use super::runs::steady::{ToRest, compared, listed_scene};
 use super::settings;
-use super::side_by_side::SideBySide;
-use super::steady::{ToRest, compared, listed_scene};
 use super::tables::{Discretisation, discretisations};
 use trace::{Observed, Recorder};
 
-pub use super::side_by_side::SolverComparison;
-pub use super::steady::{AtRest, Nearest};
+pub use super::runs::side_by_side::SolverComparison;
+pub use super::runs::steady::{AtRest, Nearest};
 pub use trace::Trace;
 
 /// The row of the table of kinds.

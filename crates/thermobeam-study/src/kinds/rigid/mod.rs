@@ -27,7 +27,7 @@
 mod judge;
 
 use super::prelude::*;
-use super::steady::{listed_scene, settle, tolerance};
+use super::runs::steady::{listed_scene, settle, tolerance};
 use crate::kinds::settings;
 
 /// The row of the table of kinds.

@@ -5,7 +5,7 @@ use convergence_study::plots::{Phases, Series};
 
 use super::{Found, SolverTask, positive_numbers, results};
 use crate::kinds::prelude::*;
-use crate::kinds::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
+use crate::kinds::runs::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
 
 /// The table `[comparison]`.
 #[derive(Debug, Clone, PartialEq)]

@@ -20,7 +20,7 @@
 
 use super::{FixedPointStep, SolverTask, factors};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::{Watched, Worst, watched};
+use crate::kinds::runs::watch::{Watched, Worst, watched};
 
 /// The obstacles, close enough that the heat presses the beam against them for every β on the maps.
 const GAP: f64 = 0.01;

@@ -4,7 +4,7 @@ use super::FixedPointStep;
 use super::map::{Boundary, Map, MapRow, NewtonSteps, Point};
 use super::{Found, SolverTask, results};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::of_allowed;
+use crate::kinds::runs::watch::of_allowed;
 
 /// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
 /// known in advance.

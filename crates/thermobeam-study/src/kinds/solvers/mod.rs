@@ -46,7 +46,7 @@ use contraction::Grid;
 use map::Map;
 use step::factors;
 
-pub use super::side_by_side::SolverComparison;
+pub use super::runs::side_by_side::SolverComparison;
 pub use comparison::Agreement;
 pub use contraction::Contraction;
 pub use map::{Boundary, MapRow, NewtonSteps, Point};

@@ -5,7 +5,6 @@
 //! numbers that the baseline guards.
 
 pub mod any_order;
-pub mod bifurcation;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
@@ -14,7 +13,6 @@ pub mod experiment;
 pub mod frequencies;
 mod prelude;
 pub mod random_errors;
-pub mod rigid;
 pub mod runs;
 pub mod scenes;
 pub mod self_convergence;
@@ -46,9 +44,9 @@ pub const KINDS: [KindRow; 17] = [
     experiment::ROW,
     exact_experiments::ROW,
     runs::equilibrium::ROW,
-    bifurcation::ROW,
+    runs::bifurcation::ROW,
     random_errors::ROW,
-    rigid::ROW,
+    runs::rigid::ROW,
     work_precision::ROW,
     KindRow {
         settings: settings::of_harness,

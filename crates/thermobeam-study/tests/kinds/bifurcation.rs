@@ -1,6 +1,6 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::bifurcation::{AtRest, BifurcationStudy, Diagram, Found, ROW};
+use thermobeam_study::kinds::runs::bifurcation::{AtRest, BifurcationStudy, Diagram, Found, ROW};
 
 use super::file;
 use super::planted::verdict_with;

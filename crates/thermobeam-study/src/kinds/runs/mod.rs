@@ -4,9 +4,11 @@
 //! [`Reading`]s: these give completion, table and guarded numbers. It judges by the checks of
 //! [`checks`]. [`RunStudy`] does for all of them what does not depend on the kind.
 
+pub mod bifurcation;
 pub mod checks;
 pub mod end;
 pub mod equilibrium;
+pub mod rigid;
 pub(crate) mod side_by_side;
 pub(crate) mod steady;
 pub(crate) mod watch;

@@ -5,6 +5,7 @@ use convergence_study::plots::{Phases, Series};
 
 use super::{Found, SolverTask, positive_numbers, results};
 use crate::kinds::prelude::*;
+use crate::kinds::runs::checks::agree;
 use crate::kinds::runs::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
 
 /// The table `[comparison]`.
@@ -126,17 +127,15 @@ impl Agreement {
     /// A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the
     /// rest.
     fn check(&self) -> Check {
-        let distance = self.solvers.distance;
-        let share = distance / self.tolerance;
         let subject = Subject::of("distance to Newton's method")
             .in_case(format!("eta* = {:e}", self.tolerance))
             .by(ItemMethod::FixedPoint);
-        Check::that(
-            distance <= self.tolerance,
-            "the error is below eta*",
-            format!("{distance:.2e}, {share:.3} of the tolerance"),
+        agree(
+            "both solvers",
+            subject,
+            self.solvers.distance,
+            self.tolerance,
         )
-        .about(subject)
     }
 }
 

@@ -4,7 +4,8 @@ use super::FixedPointStep;
 use super::map::{Boundary, Map, MapRow, NewtonSteps, Point};
 use super::{Found, SolverTask, results};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::watch::of_allowed;
+use crate::kinds::runs::checks::energy_and_balance;
+use crate::kinds::runs::watch::Worst;
 
 /// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
 /// known in advance.
@@ -46,17 +47,11 @@ impl MapResults<'_> {
             self.as_predicted(),
             self.newton_completes(),
             self.newton_is_quick(),
-            self.energy(
-                "energy",
-                "the energy never rises beyond rounding errors",
-                |steps| [steps.worst.rise, steps.worst.risen],
-            ),
-            self.energy(
-                "balance",
-                "the balance closes to 1e-12 of the energy, or to what rounding errors explain",
-                |steps| [steps.worst.residual, steps.worst.open],
-            ),
         ];
+        checks.extend(energy_and_balance(
+            &self.worst(),
+            self.every_row_has_a_step(),
+        ));
         checks.extend(self.lines.iter().map(|line| line.check(self.map.agreement)));
         let converged = self.points().filter(|point| point.step.converged).count();
         let completes = self.points().filter(|point| point.newton_completes).count();
@@ -107,12 +102,6 @@ impl MapResults<'_> {
         self.points().filter_map(|point| point.newton.as_ref())
     }
 
-    fn largest(&self, number: impl Fn(&NewtonSteps) -> f64) -> f64 {
-        self.newton()
-            .map(number)
-            .fold(f64::NEG_INFINITY, max_or_nan)
-    }
-
     /// The points and boundaries that each statement judges.
     fn coverage(&self) -> Vec<Coverage> {
         let count = |items: &str, reasons: Vec<Option<&'static str>>, asked: usize| {
@@ -159,9 +148,10 @@ impl MapResults<'_> {
     }
 
     fn in_contact(&self) -> Check {
-        let least = -self.largest(|steps| -steps.contact_force);
+        let forces = self.newton().map(|steps| steps.contact_force);
+        let least = forces.reduce(min_or_nan).unwrap_or(f64::NAN);
         Check::that(
-            least > 0.0 && self.newton().next().is_some(),
+            least > 0.0,
             "the first step ends in contact",
             format!("least contact force {least:.2e}"),
         )
@@ -230,21 +220,18 @@ impl MapResults<'_> {
         .about(Subject::of("iterations of Newton's method"))
     }
 
-    /// * `number`: in units of the energy, and of what is allowed.
-    fn energy(&self, quantity: &str, claim: &str, number: fn(&NewtonSteps) -> [f64; 2]) -> Check {
-        // A row without a single Newton step shows nothing.
-        let every_row = self
-            .rows
+    /// Over all steps of Newton's method.
+    fn worst(&self) -> Worst {
+        self.newton()
+            .map(|steps| steps.worst)
+            .fold(Worst::default(), Worst::max)
+    }
+
+    /// A row without a single step of Newton's method shows nothing.
+    fn every_row_has_a_step(&self) -> bool {
+        self.rows
             .iter()
-            .all(|row| row.points.iter().any(|point| point.newton.is_some()));
-        let of_energy = self.largest(|steps| number(steps)[0]);
-        let share = self.largest(|steps| number(steps)[1]);
-        Check::that(
-            every_row && share <= 1.0,
-            claim,
-            format!("{of_energy:.1e} of the energy, {}", of_allowed(share)),
-        )
-        .about(Subject::of(quantity))
+            .all(|row| row.points.iter().any(|point| point.newton.is_some()))
     }
 }
 

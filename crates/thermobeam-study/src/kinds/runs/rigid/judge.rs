@@ -3,9 +3,11 @@
 
 use convergence_study::text::number::rate_text;
 
-use super::{RigidStudy, RunOf, ShownImpact, peak_penetration};
+use super::{RigidObstacles, RunOf, ShownImpact, peak_penetration};
 use crate::figures::{ContractionFactors, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
+use crate::kinds::runs::checks::{Condition, all, at_most, largest_difference, within};
+use crate::kinds::runs::{Findings, Listing, Results, Row};
 
 /// Contraction above which a time step averages over the whole impact, so that the penetration is
 /// of order 1.
@@ -45,38 +47,29 @@ fn penetration(run: Option<&ShownImpact>) -> Option<f64> {
     run?.penetration
 }
 
-/// `None` if the runs do not have the same levels.
-fn distance(one: &ShownImpact, other: &ShownImpact) -> Option<f64> {
-    let differences = one
-        .tip
-        .iter()
-        .zip(&other.tip)
-        .map(|(a, b)| (a.1 - b.1).abs());
-    (one.tip.len() == other.tip.len()).then(|| differences.fold(0.0, max_or_nan))
+/// The largest distance between the free ends over time; NaN for different levels.
+fn distance(one: &ShownImpact, other: &ShownImpact) -> f64 {
+    let [one, other] =
+        [one, other].map(|run| run.tip.iter().map(|(_, u)| *u).collect::<Vec<f64>>());
+    largest_difference(&one, &other)
 }
 
 impl<'r> Compliance<'r> {
     fn new(
         epsilon: f64,
-        ran: &'r [Ran<(f64, RunOf), ShownImpact>],
+        results: &Results<'r, RigidObstacles>,
         limit: Option<&ShownImpact>,
     ) -> Self {
-        let [bouncing, fixed_point, rest, impact] = [
-            RunOf::Bouncing,
-            RunOf::FixedPoint,
-            RunOf::Rest,
-            RunOf::Impact,
-        ]
-        .map(|run| found(ran, &(epsilon, run)));
+        let [bouncing, fixed_point, rest, impact] =
+            RunOf::OF_EACH_COMPLIANCE.map(|run| results.of(&(epsilon, run)));
+        let both = bouncing.zip(limit);
         Self {
             epsilon,
             bouncing,
             fixed_point,
             rest,
             impact,
-            distance: bouncing
-                .zip(limit)
-                .and_then(|(bouncing, limit)| distance(bouncing, limit)),
+            distance: both.map(|(one, other)| distance(one, other)),
         }
     }
 
@@ -169,76 +162,59 @@ impl<'r> Compliance<'r> {
     }
 }
 
-fn numbers_not_finite(run: &ShownImpact) -> Vec<String> {
-    let tip = run.tip.iter().map(|(t, u)| t.abs() + u.abs());
-    not_finite([
-        ("velocity", run.velocity),
-        ("force", run.force),
-        ("penetration", run.penetration),
-        ("alpha", run.alpha),
-        ("contraction", run.contraction),
-        ("iterations", run.mean_iterations),
-        ("tip", largest_of(tip)),
-        ("time of failure", run.failed_at),
-    ])
-}
-
-pub(super) fn judge(study: &RigidStudy, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
-    let limit = found(ran, &(study.limit, RunOf::RigidLimit));
-    let all: Vec<Compliance<'_>> = study
+pub(super) fn judge(study: &RigidObstacles, results: &Results<'_, RigidObstacles>) -> Findings {
+    let limit = results.of(&(study.limit, RunOf::RigidLimit));
+    let compliances: Vec<Compliance<'_>> = study
         .epsilons
         .iter()
-        .map(|&epsilon| Compliance::new(epsilon, ran, limit))
+        .map(|&epsilon| Compliance::new(epsilon, results, limit))
         .collect();
-    let rates = rates(study, &all);
+    let rates = rates(study, &compliances);
     let observed: Vec<String> = rates
         .iter()
         .map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted)))
         .collect();
-    let checks = vec![
-        completion(ran, numbers_not_finite),
-        peak_as_predicted(study, all.last()),
-        newton_does_not_depend_on_epsilon(study, &all, limit),
-        fixed_point_fails_at_one(&all),
-        contraction_as_predicted(&all),
-    ];
-    let forces = rows(&all, Compliance::forces);
-    let solvers = rows(&all, Compliance::solvers);
+    let forces = rows(&compliances, Compliance::forces);
+    let solvers = rows(&compliances, Compliance::solvers);
     let title = "Penetrations and forces as the obstacles become rigid";
-    Outcome {
-        tables: vec![
-            readings::table(title, &["ε"], &forces),
-            readings::table("Solvers of the bouncing beam", &["ε"], &solvers),
+    Findings {
+        summary: format!("orders in ε: {}", observed.join("; ")),
+        rates,
+        checks: vec![
+            peak_as_predicted(study, compliances.last()),
+            newton_does_not_depend_on_epsilon(study, &compliances, limit),
+            fixed_point_fails_at_one(&compliances),
+            contraction_as_predicted(&compliances),
+        ],
+        listings: vec![
+            Listing::of(title, &["ε"], &forces),
+            Listing::of("Solvers of the bouncing beam", &["ε"], &solvers),
         ],
         figures: vec![
-            penetrations(&all),
-            tip(study, &all, limit),
-            contractions(&all),
+            penetrations(&compliances),
+            tip(study, &compliances, limit),
+            contractions(&compliances),
         ],
-        quantities: readings::guarded(forces.iter().flat_map(|(_, readings)| readings)),
-        coverage: coverage(&all),
-        ..Outcome::new(
-            format!("orders in ε: {}", observed.join("; ")),
-            rates,
-            checks,
-        )
+        coverage: coverage(&compliances),
+        ..Findings::default()
     }
 }
 
 /// The rows of a table, one for each compliance.
 fn rows<'r>(
-    all: &[Compliance<'r>],
+    compliances: &[Compliance<'r>],
     readings: fn(&Compliance<'r>) -> Vec<Reading>,
-) -> Vec<(Vec<String>, Vec<Reading>)> {
-    all.iter()
+) -> Vec<Row> {
+    compliances
+        .iter()
         .map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of)))
         .collect()
 }
 
 /// The four orders in ε.
-fn rates(study: &RigidStudy, all: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
-    let averaged: Vec<_> = all.iter().filter(|of| of.is_averaged()).collect();
-    let stiff: Vec<_> = all.iter().filter(|of| of.is_stiff()).collect();
+fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
+    let averaged: Vec<_> = compliances.iter().filter(|of| of.is_averaged()).collect();
+    let stiff: Vec<_> = compliances.iter().filter(|of| of.is_stiff()).collect();
     let distance = "distance to the rigid limit, fixed h and dt";
     let peak = "peak penetration of an impact, resolved";
     let claim = |order| Claim::new(order, study.tolerance);
@@ -270,57 +246,62 @@ fn judged(
     Levels::new(Axis::Both, levels, [column]).judge()
 }
 
-fn peak_as_predicted(study: &RigidStudy, last: Option<&Compliance<'_>>) -> Check {
+fn peak_as_predicted(study: &RigidObstacles, last: Option<&Compliance<'_>>) -> Check {
     let exact = peak_penetration();
     let epsilon = last.map_or(f64::NAN, |of| of.epsilon);
     let impact = last.and_then(|of| of.impact);
     let velocity = number(impact, |run| run.velocity);
     let measured = number(impact, |run| run.penetration) / (velocity * study.impact_time(epsilon));
-    Check::that(
-        (measured / exact - 1.0).abs() <= 5e-3,
+    let evidence = format!("{measured:.5} for {exact:.5} at ε = {epsilon:.0e}");
+    all(
         "the peak penetration of an impact is 0.858 v (ε √ζ)^(2/3), to half a per cent",
-        format!("{measured:.5} for {exact:.5} at ε = {epsilon:.0e}"),
+        Subject::of("peak penetration"),
+        [within(measured / exact, 1.0, 5e-3, evidence)],
     )
-    .about(Subject::of("peak penetration"))
 }
 
 fn newton_does_not_depend_on_epsilon(
-    study: &RigidStudy,
-    all: &[Compliance<'_>],
+    study: &RigidObstacles,
+    compliances: &[Compliance<'_>],
     limit: Option<&ShownImpact>,
 ) -> Check {
-    let claim = "Newton's iterations do not grow as the obstacles become rigid";
-    let subject = Subject::of("Newton's iterations");
-    let bouncing: Vec<&ShownImpact> = all
+    let bouncing: Vec<&ShownImpact> = compliances
         .iter()
         .filter_map(|of| of.bouncing)
         .chain(limit)
         .collect();
-    let (Some(softest), Some(limit)) = (bouncing.first(), limit) else {
-        return Check::that(false, claim, "no bouncing beam was run to its end").about(subject);
-    };
-    let mean = |run: &ShownImpact| run.mean_iterations.unwrap_or(f64::NAN);
-    let holds = |run: &&ShownImpact| {
-        mean(run) <= 1.1 * mean(softest) && run.most_iterations <= softest.most_iterations + 2
-    };
-    let most = bouncing.iter().map(|run| run.most_iterations).max();
+    let means = bouncing
+        .iter()
+        .map(|run| run.mean_iterations.unwrap_or(f64::NAN));
+    let softest = means.clone().next().unwrap_or(f64::NAN);
+    let most = bouncing.iter().map(|run| run.most_iterations);
+    let allowed = most.clone().next().unwrap_or(0) + 2;
+    let most = most.max().unwrap_or(0);
     let evidence = format!(
-        "mean from {:.3} at the softest to {:.3} at the stiffest, ε = {:.0e}; most in a step: {}",
-        mean(softest),
-        mean(limit),
-        study.limit,
-        most.unwrap_or(0)
+        "mean from {softest:.3} at the softest to {:.3} at the stiffest, ε = {:.0e}",
+        number(limit, |run| run.mean_iterations),
+        study.limit
     );
-    Check::that(
-        bouncing.len() == study.epsilons.len() + 1 && bouncing.iter().all(holds),
-        claim,
-        evidence,
+    all(
+        "Newton's iterations do not grow as the obstacles become rigid",
+        Subject::of("Newton's iterations"),
+        [
+            at_most(
+                means.fold(f64::NEG_INFINITY, max_or_nan),
+                1.1 * softest,
+                evidence,
+            ),
+            Condition::that(most <= allowed, format!("most in a step: {most}")),
+            Condition::or(
+                bouncing.len() == compliances.len() + 1,
+                "a bouncing beam was not run to its end",
+            ),
+        ],
     )
-    .about(subject)
 }
 
-fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
-    let (failed, converged): (Vec<_>, Vec<_>) = all
+fn fixed_point_fails_at_one(compliances: &[Compliance<'_>]) -> Check {
+    let (failed, converged): (Vec<_>, Vec<_>) = compliances
         .iter()
         .filter(|of| of.fixed_point.is_some())
         .partition(|of| of.fails());
@@ -344,8 +325,10 @@ fn fixed_point_fails_at_one(all: &[Compliance<'_>]) -> Check {
     .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
 }
 
-fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
-    let judged = all.iter().filter(|of| of.factor_left_out().is_none());
+fn contraction_as_predicted(compliances: &[Compliance<'_>]) -> Check {
+    let judged = compliances
+        .iter()
+        .filter(|of| of.factor_left_out().is_none());
     let deviations: Vec<f64> = judged
         .map(|of| (of.contraction() / of.alpha() - 1.0).abs())
         .collect();
@@ -365,9 +348,9 @@ fn contraction_as_predicted(all: &[Compliance<'_>]) -> Check {
 }
 
 /// The compliances that each statement judges; the orders have ranges of their own.
-fn coverage(all: &[Compliance<'_>]) -> Vec<Coverage> {
+fn coverage(compliances: &[Compliance<'_>]) -> Vec<Coverage> {
     let count = |items: &str, reason: fn(&Compliance<'_>) -> Option<&'static str>| {
-        Coverage::of(items, all.iter().map(reason))
+        Coverage::of(items, compliances.iter().map(reason))
     };
     vec![
         count("compliances on a fixed grid for an order", |of| {
@@ -388,9 +371,9 @@ fn coverage(all: &[Compliance<'_>]) -> Vec<Coverage> {
     ]
 }
 
-fn contractions(all: &[Compliance<'_>]) -> Figure {
+fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     let runs = |label: &str, fails: bool| {
-        let runs = all
+        let runs = compliances
             .iter()
             .filter(|of| of.fixed_point.is_some() && of.fails() == fails);
         plots::Series::new(label, runs.map(|of| (of.alpha(), of.contraction())))
@@ -407,10 +390,10 @@ fn contractions(all: &[Compliance<'_>]) -> Figure {
 
 /// Without the distance to the rigid limit: on the scale of the figure it coincides with the
 /// largest penetration.
-fn penetrations(all: &[Compliance<'_>]) -> Figure {
+fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
     let over_epsilon = |label: &str, run: fn(&Compliance<'_>) -> Option<f64>| plots::ErrorSeries {
         label: label.into(),
-        points: all
+        points: compliances
             .iter()
             .map(|of| (of.epsilon, run(of).unwrap_or(f64::NAN)))
             .collect(),
@@ -422,7 +405,7 @@ fn penetrations(all: &[Compliance<'_>]) -> Figure {
         over_epsilon("at rest", |of| penetration(of.rest)),
     ];
     let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
-    let resolved = all.first().map(|of| of.alpha() * of.epsilon);
+    let resolved = compliances.first().map(|of| of.alpha() * of.epsilon);
     let xy = Xy {
         title: Some(title.to_owned()),
         x: plots::Axis::log("compliance of the obstacles ε"),
@@ -439,9 +422,13 @@ fn penetrations(all: &[Compliance<'_>]) -> Figure {
 /// The decades of ε whose curves are distinct.
 const DECADES: [(f64, &str); 3] = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
 
-fn tip(study: &RigidStudy, all: &[Compliance<'_>], limit: Option<&ShownImpact>) -> Figure {
+fn tip(
+    study: &RigidObstacles,
+    compliances: &[Compliance<'_>],
+    limit: Option<&ShownImpact>,
+) -> Figure {
     let mut series = vec![];
-    for of in all {
+    for of in compliances {
         let decade = DECADES
             .iter()
             .find(|(decade, _)| (of.epsilon / decade - 1.0).abs() < 1e-6);

@@ -12,9 +12,9 @@ use std::cmp::Ordering;
 
 use thermobeam::tridiagonal::TridiagonalFactor;
 
-use super::prelude::*;
-pub use super::runs::steady::AtRest;
-use super::runs::steady::{ToRest, exact_states, listed_scenes, meshes, tolerance};
+pub use super::steady::AtRest;
+use super::steady::{ToRest, exact_states, listed_scenes, meshes, tolerance};
+use crate::kinds::prelude::*;
 use crate::kinds::settings;
 
 /// The row of the table of kinds.

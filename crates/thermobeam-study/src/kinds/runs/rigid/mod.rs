@@ -26,14 +26,15 @@
 
 mod judge;
 
-use super::prelude::*;
-use super::runs::steady::{listed_scene, settle, tolerance};
+use super::steady::{listed_scene, settle, tolerance};
+use super::{Findings, Results, RunStudy, Runs};
+use crate::kinds::prelude::*;
 use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/rigid",
-    read: reader::<RigidStudy>,
+    read: reader::<RunStudy<RigidObstacles>>,
     why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
@@ -43,7 +44,7 @@ pub const ROW: KindRow = KindRow {
 
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RigidStudy {
+pub struct RigidObstacles {
     /// Compliances, descending.
     epsilons: Vec<f64>,
     /// The compliance that represents a rigid obstacle.
@@ -80,6 +81,16 @@ pub enum RunOf {
     Impact,
 }
 
+impl RunOf {
+    /// All but the rigid limit.
+    const OF_EACH_COMPLIANCE: [RunOf; 4] = [
+        RunOf::Bouncing,
+        RunOf::FixedPoint,
+        RunOf::Rest,
+        RunOf::Impact,
+    ];
+}
+
 /// The results of a run; a number that its computation lacks is `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShownImpact {
@@ -102,37 +113,6 @@ pub struct ShownImpact {
     pub contraction: Option<f64>,
     /// Time of the step at which the fixed point fails, if any.
     pub failed_at: Option<f64>,
-}
-
-impl FromFile for RigidStudy {
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
-        let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
-        let moving = root.table(
-            "moving",
-            &["scene", "elements", "dt", "t_end", "max_iterations"],
-        )?;
-        let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
-        let impact = root.table("impact", &["scene", "steps"])?;
-        let t_end = moving.positive("t_end")?;
-        let allowed = "a list of at least three positive numbers, descending";
-        // Descending, so that the last is the smallest.
-        let fits = |list: &[f64]| {
-            list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0
-        };
-        Ok(Self {
-            epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
-            limit: obstacles.positive("limit")?,
-            tolerance: tolerance(&obstacles)?,
-            moving: scene(&moving, folder, Some(t_end))?,
-            max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
-            resting: scene(&rest, folder, None)?,
-            speed: rest.positive("speed")?,
-            t_max: rest.positive("t_max")?,
-            impact: impact_scene(&impact, folder)?,
-            steps: impact.count("steps", 1..=1_000_000)?,
-        })
-    }
 }
 
 /// The scene of a table, at the table's resolution.
@@ -171,26 +151,50 @@ fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
     Err(field.refuse_as_written("a scene with u(1) = g2 and u_t(1) > 0"))
 }
 
-impl Kind for RigidStudy {
+impl Runs for RigidObstacles {
     /// Compliance of the obstacles, and the computation.
-    type Data = (f64, RunOf);
-    type Found = ShownImpact;
+    type Run = (f64, RunOf);
+    type Shown = ShownImpact;
 
-    /// The rigid limit, then each compliance in four scenes.
-    fn cases(&self) -> Vec<Case<Self::Data>> {
-        let mut cases = vec![self.case(RunOf::RigidLimit, self.limit)];
-        for run in [
-            RunOf::Bouncing,
-            RunOf::FixedPoint,
-            RunOf::Rest,
-            RunOf::Impact,
-        ] {
-            cases.extend(self.epsilons.iter().map(|&epsilon| self.case(run, epsilon)));
-        }
-        cases
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
+        let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
+        let moving = root.table(
+            "moving",
+            &["scene", "elements", "dt", "t_end", "max_iterations"],
+        )?;
+        let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
+        let impact = root.table("impact", &["scene", "steps"])?;
+        let t_end = moving.positive("t_end")?;
+        let allowed = "a list of at least three positive numbers, descending";
+        // Descending, so that the last is the smallest.
+        let fits = |list: &[f64]| {
+            list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0
+        };
+        Ok(Self {
+            epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
+            limit: obstacles.positive("limit")?,
+            tolerance: tolerance(&obstacles)?,
+            moving: scene(&moving, folder, Some(t_end))?,
+            max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
+            resting: scene(&rest, folder, None)?,
+            speed: rest.positive("speed")?,
+            t_max: rest.positive("t_max")?,
+            impact: impact_scene(&impact, folder)?,
+            steps: impact.count("steps", 1..=1_000_000)?,
+        })
     }
 
-    fn run(&self, &(epsilon, run): &Self::Data) -> Result<ShownImpact, CaseFailure> {
+    /// The rigid limit, then each compliance in four scenes.
+    fn runs(&self) -> Vec<Case<Self::Run>> {
+        let mut runs = vec![self.case(RunOf::RigidLimit, self.limit)];
+        for run in RunOf::OF_EACH_COMPLIANCE {
+            runs.extend(self.epsilons.iter().map(|&epsilon| self.case(run, epsilon)));
+        }
+        runs
+    }
+
+    fn run(&self, &(epsilon, run): &Self::Run) -> Result<ShownImpact, CaseFailure> {
         let mut scene = self.scene(run).clone();
         scene.obstacles = scene.obstacles.map(|obstacles| Obstacles {
             epsilon,
@@ -213,12 +217,26 @@ impl Kind for RigidStudy {
         }
     }
 
-    fn judge(&self, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
-        judge::judge(self, ran)
+    fn numbers(&self, _: &Self::Run, run: &ShownImpact) -> Vec<Reading> {
+        let tip = run.tip.iter().map(|(t, u)| t.abs() + u.abs());
+        vec![
+            Reading::new("velocity", run.velocity),
+            Reading::new("force", run.force),
+            Reading::new("penetration", run.penetration),
+            Reading::new("alpha", run.alpha),
+            Reading::new("contraction", run.contraction),
+            Reading::new("iterations", run.mean_iterations),
+            Reading::new("tip", largest_of(tip)),
+            Reading::new("time of failure", run.failed_at),
+        ]
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        judge::judge(self, results)
     }
 }
 
-impl RigidStudy {
+impl RigidObstacles {
     fn scene(&self, run: RunOf) -> &Scene {
         match run {
             RunOf::RigidLimit | RunOf::Bouncing | RunOf::FixedPoint => &self.moving,

@@ -9,7 +9,6 @@ pub mod bifurcation;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
-pub mod exact_experiments;
 pub mod experiment;
 pub mod frequencies;
 mod prelude;
@@ -44,7 +43,7 @@ pub const KINDS: [KindRow; 17] = [
     frequencies::ROW,
     self_convergence::ROW,
     experiment::ROW,
-    exact_experiments::ROW,
+    runs::exact_experiments::ROW,
     runs::equilibrium::ROW,
     bifurcation::ROW,
     random_errors::ROW,

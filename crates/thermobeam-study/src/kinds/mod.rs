@@ -8,7 +8,6 @@ pub mod any_order;
 pub mod controls;
 pub mod convergence;
 pub mod energy;
-pub mod exact_experiments;
 pub mod experiment;
 pub mod frequencies;
 mod prelude;
@@ -42,7 +41,7 @@ pub const KINDS: [KindRow; 17] = [
     frequencies::ROW,
     self_convergence::ROW,
     experiment::ROW,
-    exact_experiments::ROW,
+    runs::exact_experiments::ROW,
     runs::equilibrium::ROW,
     runs::bifurcation::ROW,
     random_errors::ROW,

@@ -189,10 +189,9 @@ impl Runs for EndStates {
             "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
         let title = Some("Steady states".to_owned());
         let figure = bent.figure("errors", title, caption.to_owned(), &rates);
-        let rows: Vec<_> = scenes
+        let rows = scenes
             .iter()
-            .map(|ends| (vec![ends.scene.name.clone()], ends.readings()))
-            .collect();
+            .map(|ends| (vec![ends.scene.name.clone()], ends.readings()));
         let elements = self.elements.last().unwrap_or(&0);
         let title = format!(
             "Ends of long runs ({elements} elements, and extrapolated) and exact steady states"
@@ -216,7 +215,7 @@ impl Runs for EndStates {
                 "ends for the order",
                 scenes.iter().map(straight),
             )],
-            listings: vec![Listing::of(title, &["scene"], &rows)],
+            listings: vec![Listing::of(title, &["scene"], rows)],
             figures: vec![figure],
             ..Findings::default()
         };

@@ -8,6 +8,7 @@ pub mod bifurcation;
 pub mod checks;
 pub mod end;
 pub mod equilibrium;
+pub mod exact_experiments;
 pub mod rigid;
 pub(crate) mod side_by_side;
 pub(crate) mod steady;
@@ -109,9 +110,14 @@ impl Listing {
     /// Readings in rows.
     ///
     /// * `first`: heads of the leading cells, which are not readings.
-    pub(crate) fn of(title: impl Into<String>, first: &[&str], rows: &[Row]) -> Self {
+    pub(crate) fn of(
+        title: impl Into<String>,
+        first: &[&str],
+        rows: impl IntoIterator<Item = Row>,
+    ) -> Self {
+        let rows: Vec<Row> = rows.into_iter().collect();
         Self {
-            table: readings::table(title, first, rows),
+            table: readings::table(title, first, &rows),
             guarded: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
         }
     }
@@ -236,10 +242,9 @@ impl<R: Runs> RunStudy<R> {
 
     fn table_of_runs(&self, numbers: Vec<Ran<(), Vec<Reading>>>) -> Option<Listing> {
         let [title, first] = self.0.table()?;
-        let rows: Vec<Row> = numbers
+        let rows = numbers
             .into_iter()
-            .filter_map(|ran| Some((vec![ran.case.label], ran.found.ok()?)))
-            .collect();
-        Some(Listing::of(title, &[first], &rows))
+            .filter_map(|ran| Some((vec![ran.case.label], ran.found.ok()?)));
+        Some(Listing::of(title, &[first], rows))
     }
 }

@@ -187,8 +187,8 @@ pub(super) fn judge(study: &RigidObstacles, results: &Results<'_, RigidObstacles
             contraction_as_predicted(&compliances),
         ],
         listings: vec![
-            Listing::of(title, &["ε"], &forces),
-            Listing::of("Solvers of the bouncing beam", &["ε"], &solvers),
+            Listing::of(title, &["ε"], forces),
+            Listing::of("Solvers of the bouncing beam", &["ε"], solvers),
         ],
         figures: vec![
             penetrations(&compliances),

@@ -281,8 +281,7 @@ fn factors_judged(points: &[&Contraction], all: usize) -> Coverage {
     let reasons = points
         .iter()
         .map(|point| (!point.is_settled()).then_some(&unsettled[..]));
-    let missing = std::iter::repeat_n(Some(NO_RESULT), all - points.len());
-    Coverage::of("factors", reasons.chain(missing))
+    Coverage::among("factors", all, reasons)
 }
 
 impl Contraction {

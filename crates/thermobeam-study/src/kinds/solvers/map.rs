@@ -269,33 +269,28 @@ pub struct NewtonSteps {
 }
 
 impl Point {
-    pub(super) fn not_finite(&self) -> Vec<String> {
-        let FixedPointStep {
-            alpha,
-            gamma,
-            converged,
-            contraction,
-            ..
-        } = self.step;
-        let contraction = contraction.filter(|_| converged).unwrap_or(0.0);
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let step = self.step;
         // A predicted factor may be infinite.
-        let [alpha, gamma] =
-            [alpha, gamma].map(|factor| if factor.is_infinite() { 0.0 } else { factor });
-        let mut numbers = vec![
-            ("alpha", alpha),
-            ("gamma", gamma),
-            ("the contraction", contraction),
+        let factor = |name: &str, factor: f64| {
+            Reading::new(name, Some(factor).filter(|factor| !factor.is_infinite()))
+        };
+        let contraction = step.contraction.filter(|_| step.converged);
+        let mut readings = vec![
+            factor("alpha", step.alpha),
+            factor("gamma", step.gamma),
+            Reading::new("contraction", contraction),
         ];
-        if let Some(NewtonSteps {
-            contact_force,
-            worst,
-            ..
-        }) = self.newton
-        {
-            numbers.push(("the contact force", contact_force));
-            numbers.extend(worst.named());
+        if let Some(steps) = self.newton {
+            readings.push(Reading::new("contact force", steps.contact_force));
+            readings.extend(
+                steps
+                    .worst
+                    .named()
+                    .map(|(name, value)| Reading::new(name, value)),
+            );
         }
-        not_finite(numbers)
+        readings
     }
 }
 

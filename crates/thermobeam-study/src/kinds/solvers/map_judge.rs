@@ -104,34 +104,23 @@ impl MapResults<'_> {
 
     /// The points and boundaries that each statement judges.
     fn coverage(&self) -> Vec<Coverage> {
-        let count = |items: &str, reasons: Vec<Option<&'static str>>, asked: usize| {
-            let missing = asked.saturating_sub(reasons.len());
-            let missing = std::iter::repeat_n(Some(NO_RESULT), missing);
-            Coverage::of(items, reasons.into_iter().chain(missing))
-        };
-        let unpredicted = |point: &Point| {
+        let asked = self.asked();
+        let convergence = self.points().map(|point| {
             let between = prediction(&point.step).is_none();
             between.then_some("factors near 1, which predict nothing")
-        };
-        let unbalanced = |point: &Point| {
+        });
+        let balance = self.points().map(|point| {
             let failed = point.newton.is_none();
             failed.then_some("no step by Newton's method")
-        };
+        });
+        let boundaries = self.lines.iter().map(|line| line.not_alone());
         vec![
-            count(
-                "points for convergence",
-                self.points().map(unpredicted).collect(),
-                self.asked(),
-            ),
-            count(
-                "points for the balance",
-                self.points().map(unbalanced).collect(),
-                self.asked(),
-            ),
-            count(
+            Coverage::among("points for convergence", asked, convergence),
+            Coverage::among("points for the balance", asked, balance),
+            Coverage::among(
                 "boundaries for alpha = 1 alone",
-                self.lines.iter().map(|line| line.not_alone()).collect(),
                 self.map.lines.len(),
+                boundaries,
             ),
         ]
     }

@@ -103,13 +103,13 @@ pub enum Found {
 }
 
 impl Found {
-    /// Names of the numbers that are NaN, or infinite although only a finite value makes sense.
-    fn not_finite(&self) -> Vec<String> {
+    /// Its numbers, which must be finite.
+    fn readings(&self) -> Vec<Reading> {
         match self {
-            Found::Contraction(point) => readings::not_finite(&point.readings()),
-            Found::Comparison(agreement) => readings::not_finite(&agreement.readings()),
-            Found::Row(row) => row.points.iter().flat_map(Point::not_finite).collect(),
-            Found::Boundary(boundary) => readings::not_finite(&boundary.readings()),
+            Found::Contraction(point) => point.readings(),
+            Found::Comparison(agreement) => agreement.readings(),
+            Found::Row(row) => row.points.iter().flat_map(Point::readings).collect(),
+            Found::Boundary(boundary) => boundary.readings(),
         }
     }
 }
@@ -192,6 +192,7 @@ impl Kind for Solvers {
         let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
         let map = self.map.iter().map(|map| map.judge(ran));
         let parts = contraction.chain(comparison).chain(map);
-        Outcome::of_parts(completion(ran, Found::not_finite), parts)
+        let completion = completion(ran, |found| readings::not_finite(&found.readings()));
+        Outcome::of_parts(completion, parts)
     }
 }

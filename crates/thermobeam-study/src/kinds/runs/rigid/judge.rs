@@ -215,35 +215,27 @@ fn rows<'r>(
 fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
     let averaged: Vec<_> = compliances.iter().filter(|of| of.is_averaged()).collect();
     let stiff: Vec<_> = compliances.iter().filter(|of| of.is_stiff()).collect();
+    let judged =
+        |range: &[&Compliance<'_>], name, order, error: fn(&Compliance<'_>) -> Option<f64>| {
+            let levels = range
+                .iter()
+                .map(|of| Refinement::new(of.label(), &[], of.epsilon));
+            let claim = Claim::new(order, study.tolerance);
+            let column = ErrorColumn::new(name, claim, range.iter().map(|of| error(of)));
+            // The axis is that of a figure which this study does not draw.
+            Levels::new(Axis::Both, levels, [column]).judge()
+        };
     let distance = "distance to the rigid limit, fixed h and dt";
     let peak = "peak penetration of an impact, resolved";
-    let claim = |order| Claim::new(order, study.tolerance);
     [
-        judged(&averaged, LARGEST, claim(1.0), |of| {
-            penetration(of.bouncing)
-        }),
-        judged(&averaged, distance, claim(1.0), |of| of.distance),
-        judged(&stiff, "penetration at rest", claim(1.0), |of| {
+        judged(&averaged, LARGEST, 1.0, |of| penetration(of.bouncing)),
+        judged(&averaged, distance, 1.0, |of| of.distance),
+        judged(&stiff, "penetration at rest", 1.0, |of| {
             penetration(of.rest)
         }),
-        judged(&stiff, peak, claim(2.0 / 3.0), |of| penetration(of.impact)),
+        judged(&stiff, peak, 2.0 / 3.0, |of| penetration(of.impact)),
     ]
     .concat()
-}
-
-/// The rate of an error over these compliances.
-fn judged(
-    range: &[&Compliance<'_>],
-    name: &str,
-    claim: Claim,
-    error: fn(&Compliance<'_>) -> Option<f64>,
-) -> Vec<(String, RateVerdict)> {
-    let levels = range
-        .iter()
-        .map(|of| Refinement::new(of.label(), &[], of.epsilon));
-    let column = ErrorColumn::new(name, claim, range.iter().map(|of| error(of)));
-    // The axis is that of a figure which this study does not draw.
-    Levels::new(Axis::Both, levels, [column]).judge()
 }
 
 fn peak_as_predicted(study: &RigidObstacles, last: Option<&Compliance<'_>>) -> Check {

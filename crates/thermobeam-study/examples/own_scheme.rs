@@ -18,7 +18,7 @@ use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 use thermobeam_exact::formulas::SchemeFormulas;
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 /// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new
 /// velocity, and contact by the discrete gradient. It damps half as much as the paper's and is

@@ -12,7 +12,7 @@ use thermobeam::solve::{Settings, Stopping};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::exact::solution::{Manufactured, Product};
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 use thermobeam_study::kinds::tables::{Layout, Refine};
 use thermobeam_study::scene::Coefficients;
 

@@ -18,7 +18,7 @@
 //! use convergence_study::judge::verdict::Verdict;
 //! use convergence_study::run::run_one;
 //! use convergence_study::study::FromFile;
-//! use thermobeam_study::kinds::convergence::Convergence;
+//! use thermobeam_study::kinds::orders::manufactured::Convergence;
 //!
 //! let study = Convergence::parse(
 //!     r#"

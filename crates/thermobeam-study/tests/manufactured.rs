@@ -7,7 +7,7 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here};
 use thermobeam_study::exact::norm::{Norm, Norms};
-use thermobeam_study::kinds::convergence::{Convergence, Defect, Prepared};
+use thermobeam_study::kinds::orders::manufactured::{Convergence, Defect, Prepared};
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

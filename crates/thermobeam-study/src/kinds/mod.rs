@@ -4,26 +4,22 @@
 //! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
 //! numbers that the baseline guards.
 
-pub mod any_order;
 pub mod bifurcation;
 pub mod controls;
-pub mod convergence;
 pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
 pub mod experiment;
-pub mod frequencies;
+pub mod orders;
 mod prelude;
 pub mod random_errors;
 pub mod rigid;
 pub mod scenes;
-pub mod self_convergence;
 pub mod settings;
 mod side_by_side;
 pub mod solvers;
 mod steady;
 pub mod tables;
-pub mod vibration;
 mod watch;
 pub mod work_precision;
 
@@ -37,15 +33,15 @@ use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
 pub const KINDS: [KindRow; 17] = [
-    convergence::ROW,
-    any_order::ROW,
+    orders::manufactured::ROW,
+    orders::any_order::ROW,
     controls::ROW,
     energy::ROW,
     scenes::ROW,
     solvers::ROW,
-    vibration::ROW,
-    frequencies::ROW,
-    self_convergence::ROW,
+    orders::vibration::ROW,
+    orders::frequencies::ROW,
+    orders::self_convergence::ROW,
     experiment::ROW,
     exact_experiments::ROW,
     equilibrium::ROW,

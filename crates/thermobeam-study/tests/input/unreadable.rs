@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::study::FromFile as _;
 use thermobeam_study::kinds;
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 use thermobeam_study::scene::Scene;
 
 use proptest::prelude::*;

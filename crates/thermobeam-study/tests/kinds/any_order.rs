@@ -4,7 +4,7 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::any_order::{AnyOrder, Errors, ROW};
+use thermobeam_study::kinds::orders::any_order::{AnyOrder, Errors, ROW};
 
 use super::planted::verdict_with;
 use super::refused::refusal;

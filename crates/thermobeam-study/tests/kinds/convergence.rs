@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Outcome};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 /// The study of Theorem 3.4 in h.
 fn file() -> PathBuf {

@@ -1,7 +1,7 @@
 //! Laws about what a manufactured solution does not test.
 
 use convergence_study::study::{FromFile, Kind, Untested};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 use super::{file, text};
 

@@ -16,7 +16,7 @@
 use convergence_study::study::run_cases_here;
 
 use super::{Defect, Fault, Matrix, RELATIVE, relative};
-use crate::kinds::any_order::AnyOrder;
+use crate::kinds::orders::any_order::AnyOrder;
 use crate::kinds::prelude::*;
 
 /// Relative change of an error that the baseline tolerates.

@@ -24,8 +24,8 @@
 pub mod any_order;
 pub mod sensitivity;
 
-use super::convergence::design::verdicts;
-use super::convergence::{Convergence, Defect, Prepared};
+use super::orders::manufactured::design::verdicts;
+use super::orders::manufactured::{Convergence, Defect, Prepared};
 use super::prelude::*;
 use crate::kinds::settings;
 

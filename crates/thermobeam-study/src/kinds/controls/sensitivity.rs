@@ -9,8 +9,8 @@
 //! ```
 
 use super::{RELATIVE, named_studies, relative};
-use crate::kinds::convergence::Convergence;
-use crate::kinds::convergence::design::Detector;
+use crate::kinds::orders::manufactured::Convergence;
+use crate::kinds::orders::manufactured::design::Detector;
 use crate::kinds::prelude::*;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.

@@ -6,7 +6,7 @@ use convergence_study::study::Tier;
 
 use super::method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial};
 use super::{ROW, Target, WorkPrecision};
-use crate::kinds::convergence::Convergence;
+use crate::kinds::orders::manufactured::Convergence;
 use crate::kinds::prelude::*;
 
 /// The keys of the problem, which is a solution, a scene or a vibration.

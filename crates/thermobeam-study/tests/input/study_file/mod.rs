@@ -7,7 +7,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver, Stopping};
 use thermobeam_study::exact::norm::Norm;
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 use thermobeam_study::scene::Coefficients;
 
 const STUDY: &str = "[study]\nid = \"a-1.2\"\nclaim = \"first order\"\ntier = \"quick\"\n";

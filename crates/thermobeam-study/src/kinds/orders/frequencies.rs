@@ -16,9 +16,9 @@
 
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
-use super::prelude::*;
-use super::settings;
-use super::tables::Layout;
+use crate::kinds::prelude::*;
+use crate::kinds::settings;
+use crate::kinds::tables::Layout;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

@@ -30,16 +30,18 @@
 //! tolerance = 0.05
 //! ```
 
-pub(super) mod design;
+pub(in crate::kinds) mod design;
 
 use convergence_study::study::grid::{Grid, GridColumn};
 use convergence_study::study::until_decided::{self, Next};
 
-use super::prelude::*;
-use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::prelude::*;
 use crate::kinds::settings;
+use crate::kinds::tables::{
+    Refine, TERMS, control, expectations, manufactured, norm_levels, refine,
+};
 pub use design::Prepared;
 
 /// The row of the table of kinds.

@@ -28,11 +28,11 @@
 use convergence_study::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::Stepping;
 
-use super::prelude::*;
-use super::settings;
-use super::tables::{Layout, control, manufactured};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
+use crate::kinds::prelude::*;
+use crate::kinds::settings;
+use crate::kinds::tables::{Layout, control, manufactured};
 use crate::run::dg::DgMotion;
 
 /// The row of the table of kinds.
@@ -115,11 +115,11 @@ struct RunsOfDegree {
 #[derive(Clone)]
 pub struct AnyOrder {
     /// Coefficients from which the loads are derived.
-    pub(super) theory: Coefficients,
+    pub(crate) theory: Coefficients,
     /// The solver's own coefficients; if they differ, the study must fail.
-    pub(super) solver: Coefficients,
+    pub(crate) solver: Coefficients,
     /// A mistake in the loads; only a study of planted faults has one.
-    pub(super) defect: Option<Defect>,
+    pub(crate) defect: Option<Defect>,
     exact: Manufactured,
     /// Whether loads keep the exact solution in place; a free vibration needs none.
     loaded: bool,

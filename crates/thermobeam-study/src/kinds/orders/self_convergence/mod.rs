@@ -48,11 +48,11 @@
 
 mod judge;
 
-use super::prelude::*;
-use super::tables::{Discretisation, Refine, claims, discretisations};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
+use crate::kinds::prelude::*;
 use crate::kinds::settings;
+use crate::kinds::tables::{Discretisation, Refine, claims, discretisations};
 use judge::Observable;
 
 /// The row of the table of kinds.

@@ -6,11 +6,11 @@
 
 mod modes;
 
-use super::convergence::design::formulas_of;
-use super::prelude::*;
-use super::tables::{Refine, control, expectations, norm_levels, refine};
+use super::manufactured::design::formulas_of;
 use crate::exact::sources::Nodal;
+use crate::kinds::prelude::*;
 use crate::kinds::settings;
+use crate::kinds::tables::{Refine, control, expectations, norm_levels, refine};
 use modes::Modes;
 
 /// The row of the table of kinds.

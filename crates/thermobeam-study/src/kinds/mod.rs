@@ -29,6 +29,9 @@ pub use tables::TERMS;
 use convergence_study::input::InputError;
 use convergence_study::program;
 use convergence_study::study::{KindRow, Study, StudyFile};
+use orders::Source;
+use orders::frequencies::Frequencies;
+use orders::self_convergence::SelfConvergence;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
@@ -40,8 +43,8 @@ pub const KINDS: [KindRow; 17] = [
     scenes::ROW,
     solvers::ROW,
     orders::vibration::ROW,
-    orders::frequencies::ROW,
-    orders::self_convergence::ROW,
+    Frequencies::ROW,
+    SelfConvergence::ROW,
     experiment::ROW,
     exact_experiments::ROW,
     equilibrium::ROW,

@@ -9,8 +9,8 @@ use thermobeam::dg::Stepping as DgStepping;
 use super::prelude::*;
 use crate::exact::function::Factor;
 
-pub(crate) use refine::refine;
 pub use refine::{Layout, Perturbation, Refine};
+pub(crate) use refine::{increasing, nested, refine};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;

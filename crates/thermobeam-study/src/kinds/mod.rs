@@ -31,18 +31,20 @@ use convergence_study::program;
 use convergence_study::study::{KindRow, Study, StudyFile};
 use orders::Source;
 use orders::frequencies::Frequencies;
+use orders::manufactured::Convergence;
 use orders::self_convergence::SelfConvergence;
+use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
 pub const KINDS: [KindRow; 17] = [
-    orders::manufactured::ROW,
+    Convergence::ROW,
     orders::any_order::ROW,
     controls::ROW,
     energy::ROW,
     scenes::ROW,
     solvers::ROW,
-    orders::vibration::ROW,
+    Vibration::ROW,
     Frequencies::ROW,
     SelfConvergence::ROW,
     experiment::ROW,

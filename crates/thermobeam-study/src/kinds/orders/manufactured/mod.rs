@@ -33,31 +33,15 @@
 pub(in crate::kinds) mod design;
 
 use convergence_study::study::grid::{Grid, GridColumn};
-use convergence_study::study::until_decided::{self, Next};
 
+use super::one_step::{levels, not_finite_norms};
+use super::{Drawn, Finer, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::prelude::*;
 use crate::kinds::settings;
-use crate::kinds::tables::{
-    Refine, TERMS, control, expectations, manufactured, norm_levels, refine,
-};
+use crate::kinds::tables::{Refine, TERMS, control, expectations, manufactured, refine};
 pub use design::Prepared;
-
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "orders/manufactured",
-    read: reader::<Convergence>,
-    why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
-          the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
-          it by c (h + dt).",
-    judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
-             which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
-             within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
-    failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
-              wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
-    settings: settings::of_solution,
-};
 
 /// Preparing the space vectors of a mesh costs as much as this many steps.
 const PREPARATION: f64 = 50.0;
@@ -79,14 +63,27 @@ pub struct Convergence {
     pub formulas: Option<SchemeFormulas>,
 }
 
-impl FromFile for Convergence {
-    fn from_document(header: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        // Studies of other kinds name files of this kind.
-        if header.kind != ROW.name {
-            let study = root.require("study", "a table")?.section()?;
-            let found = format!("\"{}\"", header.kind);
-            return Err(study.refuse("kind", found, format!("\"{}\" for this reader", ROW.name)));
-        }
+impl Source for Convergence {
+    const ROW: KindRow = KindRow {
+        name: "orders/manufactured",
+        read: reader::<Orders<Self>>,
+        why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
+              the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
+              it by c (h + dt).",
+        judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
+                 which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
+                 within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
+        failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
+                  wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
+        settings: settings::of_solution,
+    };
+
+    /// Elements and steps.
+    type Data = (usize, usize);
+    /// The error in each norm, the maximum over the time levels.
+    type Found = Norms;
+
+    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&[
             "study",
             "beam",
@@ -118,68 +115,70 @@ impl FromFile for Convergence {
             formulas: None,
         })
     }
-}
-
-impl Kind for Convergence {
-    /// Elements and steps.
-    type Data = (usize, usize);
-    /// The error in each norm, the maximum over the time levels.
-    type Found = Norms;
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        self.refine.cases().into_iter().map(Self::case).collect()
-    }
-
-    fn more(&self, ran: &[Ran<(usize, usize), Norms>]) -> Option<Case<(usize, usize)>> {
-        let next = self.next(ran, &self.levels(ran))?;
-        let data =
-            (next == Next::Another).then(|| self.refine.finer(ran[ran.len() - 1].case.data))?;
-        Some(Self::case(data))
+        self.refine.cases().into_iter().map(case).collect()
     }
 
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
         Prepared::new(self, elements)?.run(steps, self.solver, None)
     }
 
-    fn judge(&self, ran: &[Ran<(usize, usize), Norms>]) -> Outcome {
-        let levels = self.levels(ran);
-        let completion = completion(ran, |errors| {
-            not_finite(errors.iter().map(|(norm, error)| (norm.name(), error)))
-        });
-        if self.refine.grid {
-            return self.judge_grid(ran, &levels, completion);
-        }
+    fn not_finite(&self, errors: &Norms) -> Vec<String> {
+        not_finite_norms(errors)
+    }
+
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
         let what = match self.refine.axis {
             Axis::Space => "the mesh width 1/n",
             Axis::Time => "the time step",
             Axis::Both => "the mesh width 1/n, refined together with the time step",
         };
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
-        let outcome = levels.outcome("rates", None, &caption, vec![completion]);
-        match self.next(ran, &levels).zip(self.refine.budget) {
-            Some((next, budget)) => {
-                until_decided::ended(outcome, next, &levels, budget, "node-steps")
-            }
-            None => outcome,
-        }
+        let step = |elements, steps| self.step_size(elements, steps);
+        let errors = runs.iter().map(|run| (run.case.data, run.ok()));
+        let levels = levels(&self.refine, &self.expect, step, errors);
+        vec![Series {
+            grid: self.refine.grid.then(|| self.grid(runs)),
+            ..Series::new(levels, Drawn::new("rates", None, caption))
+        }]
+    }
+
+    fn finer(&self, runs: &Runs<Self>) -> Option<Finer<(usize, usize)>> {
+        let budget = self.refine.budget?;
+        let data = self.refine.finer(runs.last()?.case.data);
+        Some(Finer {
+            case: case(data),
+            cost: node_steps(data),
+            spent: runs.iter().map(|run| node_steps(run.case.data)).sum(),
+            budget,
+            unit: "node-steps",
+        })
     }
 
     fn details(&self) -> Vec<(String, String)> {
-        let orders = self.expect.iter().map(|&(norm, claim)| {
-            (
-                format!("{}, order {claim}", norm.name()),
-                format!("{}.", TERMS[norm as usize].text),
-            )
-        });
-        [("what is done".to_owned(), self.design())]
-            .into_iter()
-            .chain(orders)
-            .collect()
+        let mut details = vec![("what is done".to_owned(), self.design())];
+        for &(norm, claim) in &self.expect {
+            let title = format!("{}, order {claim}", norm.name());
+            details.push((title, format!("{}.", TERMS[norm as usize].text)));
+        }
+        details
     }
 
     fn untested(&self) -> Vec<Untested> {
         design::untested(self)
     }
+}
+
+fn case(data: (usize, usize)) -> Case<(usize, usize)> {
+    let (elements, steps) = data;
+    // A step takes as long as four elements in addition to its own.
+    let cost = (elements as f64 + 4.0) * steps as f64 + elements as f64 * PREPARATION;
+    Case::new(Refine::label(elements, steps), cost, data)
+}
+
+fn node_steps((elements, steps): (usize, usize)) -> f64 {
+    elements as f64 * steps as f64
 }
 
 impl Convergence {
@@ -191,81 +190,28 @@ impl Convergence {
         }
     }
 
-    fn case(data @ (elements, steps): (usize, usize)) -> Case<(usize, usize)> {
-        // A step takes as long as four elements in addition to its own.
-        let cost = (elements as f64 + 4.0) * steps as f64 + elements as f64 * PREPARATION;
-        Case::new(Refine::label(elements, steps), cost, data)
-    }
-
-    /// Errors of each level in each norm; NaN if the case failed, so that it cannot pass.
-    fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
-        let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
-        norm_levels(
-            &self.refine,
-            &self.expect,
-            |elements, steps| self.step_size(elements, steps),
-            errors,
-        )
-    }
-
-    /// The next action of a study that adds levels; `None` if the levels are listed or a case has
-    /// failed.
-    fn next(&self, ran: &[Ran<(usize, usize), Norms>], levels: &Levels) -> Option<Next> {
-        let budget = self
-            .refine
-            .budget
-            .filter(|_| ran.iter().all(|ran| ran.found.is_ok()))?;
-        let cost = |(elements, steps): (usize, usize)| elements as f64 * steps as f64;
-        let finer = cost(self.refine.finer(ran.last()?.case.data));
-        let spent = ran.iter().map(|ran| cost(ran.case.data)).sum();
-        Some(until_decided::next(
-            &levels.judge(),
-            ran.len(),
-            finer,
-            spent,
-            budget,
-        ))
-    }
-
-    /// The verdict over a grid of (h, dt): squares of space and time errors add, and each order is
-    /// judged by itself.
-    fn judge_grid(
-        &self,
-        ran: &[Ran<(usize, usize), Norms>],
-        levels: &Levels,
-        completion: Check,
-    ) -> Outcome {
-        // The same order is expected in h and in dt.
-        let column = |&(norm, claim): &(Norm, Claim)| GridColumn {
-            name: norm.name().to_owned(),
-            space: claim,
-            time: claim.order,
-            errors: ran
-                .iter()
-                .map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm]))
-                .collect(),
-        };
-        let grid = Grid {
-            points: ran
-                .iter()
-                .map(|run| {
-                    [
-                        1.0 / run.case.data.0 as f64,
-                        self.refine.dt(run.case.data.1),
-                    ]
-                })
-                .collect(),
+    /// The errors on a grid of mesh widths 1/n and time steps.
+    fn grid(&self, runs: &Runs<Self>) -> Grid {
+        let mut points = vec![];
+        for run in runs {
+            let (elements, steps) = run.case.data;
+            points.push([1.0 / elements as f64, self.refine.dt(steps)]);
+        }
+        let mut columns = vec![];
+        for &(norm, claim) in &self.expect {
+            let error = |run: &Ran<_, Norms>| run.ok().map_or(f64::NAN, |errors| errors[norm]);
+            columns.push(GridColumn {
+                name: norm.name().to_owned(),
+                space: claim,
+                time: claim.order,
+                errors: runs.iter().map(error).collect(),
+            });
+        }
+        Grid {
+            points,
             times: self.refine.steps.len(),
-            columns: self.expect.iter().map(column).collect(),
+            columns,
             squares_add: true,
-        };
-        let mut outcome = grid.judge();
-        outcome.extend(Outcome::new("", vec![], vec![completion]));
-        Outcome {
-            levels: levels.errors(),
-            figures: grid.figures(label),
-            quantities: levels.quantities(&outcome.rates),
-            ..outcome
         }
     }
 
@@ -298,27 +244,13 @@ impl Convergence {
             refine.cases().len(),
             refine.scheme.name
         );
-        match self
-            .solver
-            .differing(self.theory)
-            .collect::<Vec<_>>()
-            .join(", ")
-        {
-            same if same.is_empty() => text,
-            changed => {
-                format!(
-                    "{text} The solver differs from the sources in {changed}: a negative control, which must fail."
-                )
-            }
+        let changed: Vec<_> = self.solver.differing(self.theory).collect();
+        if changed.is_empty() {
+            return text;
         }
+        format!(
+            "{text} The solver differs from the sources in {}: a negative control, which must fail.",
+            changed.join(", ")
+        )
     }
-}
-
-/// The axis of a norm, in the notation of the paper.
-fn label(norm: &str) -> String {
-    let known = Norm::ALL.into_iter().find(|known| known.name() == norm);
-    format!(
-        "error, {}",
-        known.map_or_else(|| norm.to_owned(), |known| known.symbol().to_owned())
-    )
 }

@@ -6,25 +6,13 @@
 
 mod modes;
 
-use super::manufactured::design::formulas_of;
+use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms, start};
+use super::{Drawn, Orders, Runs, Series, Shown, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
 use crate::kinds::settings;
-use crate::kinds::tables::{Refine, control, expectations, norm_levels, refine};
+use crate::kinds::tables::{Refine, control, expectations, refine};
 use modes::Modes;
-
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "orders/vibration",
-    read: reader::<Vibration>,
-    why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
-          in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
-          leave the time error alone.",
-    judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
-    failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
-              can be to blame.",
-    settings: settings::of_vibrations,
-};
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of
 /// the motion in the norm of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a
@@ -59,15 +47,32 @@ pub struct Vibrated {
     pub tip: Vec<(f64, f64)>,
 }
 
-impl FromFile for Vibration {
-    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+impl Source for Vibration {
+    const ROW: KindRow = KindRow {
+        name: "orders/vibration",
+        read: reader::<Orders<Self>>,
+        why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
+              in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
+              leave the time error alone.",
+        judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
+        failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
+                  can be to blame.",
+        settings: settings::of_vibrations,
+    };
+
+    /// Elements and steps.
+    type Data = (usize, usize);
+    type Found = Vibrated;
+
+    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&[
             "study", "beam", "mode", "heat", "refine", "control", "expect",
         ])?;
         let theory = linear_beam(root)?;
         let refine = refine(root)?;
         bounded(root, &refine)?;
-        let (modes, heat) = (modes(root, &refine)?, heat(root, &refine)?);
+        let modes = modes(root, &refine)?;
+        let heat = heat(root, &refine)?;
         let solver = control(root, theory)?;
         Ok(Self {
             theory,
@@ -77,6 +82,119 @@ impl FromFile for Vibration {
             refine,
             expect: expectations(root)?,
         })
+    }
+
+    fn cases(&self) -> Vec<Case<(usize, usize)>> {
+        let mut cases = vec![];
+        for (elements, steps) in self.refine.cases() {
+            let cost = elements as f64 * steps as f64;
+            let label = Refine::label(elements, steps);
+            cases.push(Case::new(label, cost, (elements, steps)));
+        }
+        cases
+    }
+
+    /// Compares the solver with the exact motion.
+    fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
+        let mesh = self.refine.layout.mesh(elements)?;
+        let dt = self.refine.dt(steps);
+        let formulas = formulas_of(self.refine.scheme)?;
+        let is_of_mesh = self.refine.isolates(Axis::Time);
+        let modes = if is_of_mesh {
+            Modes::of_mesh(self, &mesh)?
+        } else {
+            Modes::of_beam(self)?
+        };
+        let scheme = self.refine.isolates(Axis::Space).then_some(formulas);
+        let mut reference = modes.moved(scheme, dt);
+        let mut closed = is_of_mesh.then(|| modes.moved(Some(formulas), dt));
+        let mut factors = Factors::default();
+        reference(0, &mut factors);
+        let theta_a = [self.theory, self.solver].map(|beam| beam.beam.theta_a);
+        let nodal = Nodal::of(&modes.exact, &mesh);
+        let initial = nodal.initial(&mesh, &factors, theta_a[0], theta_a[1]);
+        let mut meter = ErrorMeter::new(&modes.exact, &mesh, is_of_mesh);
+        let mut driver = start(
+            &self.refine,
+            dt,
+            false,
+            self.solver,
+            &mesh,
+            initial,
+            &mut meter,
+        )?;
+        let zero = Level::new(elements + 1);
+        let mut deviation = 0.0;
+        let mut size = 0.0;
+        let mut tip = vec![(0.0, driver.level().u[elements])];
+        let errors = largest_errors(&mut driver, steps as f64 * dt, |driver| {
+            let level = driver.level();
+            let n = driver.work().steps;
+            if let Some(closed) = &mut closed {
+                closed(n, &mut factors);
+                let distance = meter.measure(level, &factors)[Norm::Theorem34];
+                deviation = max_or_nan(deviation, distance);
+                size = max_or_nan(size, meter.measure(&zero, &factors)[Norm::Theorem34]);
+            }
+            reference(n, &mut factors);
+            tip.push((n as f64 * dt, level.u[elements]));
+            meter.measure(level, &factors)
+        })?;
+        Ok(Vibrated {
+            errors,
+            closed_form: is_of_mesh.then_some(deviation / size),
+            tip,
+        })
+    }
+
+    fn not_finite(&self, found: &Vibrated) -> Vec<String> {
+        let mut broken = not_finite_norms(&found.errors);
+        broken.extend(not_finite([("closed form", found.closed_form)]));
+        broken
+    }
+
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+        let step = |elements: usize, steps: usize| match self.refine.axis {
+            Axis::Time => self.refine.dt(steps),
+            Axis::Space | Axis::Both => self.refine.layout.size(elements),
+        };
+        let errors = runs
+            .iter()
+            .map(|run| (run.case.data, run.ok().map(|found| &found.errors)));
+        let levels = levels(&self.refine, &self.expect, step, errors);
+        let caption = "Errors against exact damped modes, with the orders that theory gives.";
+        let figure = Drawn::new("errors", Some("Damped vibration"), caption);
+        vec![Series::new(levels, figure)]
+    }
+
+    /// If time is isolated, the exact result of the solver is known.
+    fn checks(&self, runs: &Runs<Self>, _: &[Series]) -> Vec<Check> {
+        if !self.refine.isolates(Axis::Time) {
+            return vec![];
+        }
+        let deviations = runs
+            .iter()
+            .map(|run| run.ok().and_then(|found| found.closed_form));
+        let worst = largest_of(deviations.map(|deviation| deviation.unwrap_or(f64::NAN)));
+        let worst = worst.unwrap_or(f64::NAN);
+        let check = Check::that(
+            worst <= CLOSED_FORM,
+            "each step is the scheme's own step of each mode of the mesh, to round-off",
+            format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
+        );
+        vec![check.about(Subject::of("closed form"))]
+    }
+
+    fn shown(&self, runs: &Runs<Self>, _: &[Series], _: &Outcome) -> Shown {
+        let tip = match self.refine.axis {
+            Axis::Both => self.tip_figure(runs),
+            Axis::Space | Axis::Time => None,
+        };
+        Shown {
+            tables: vec![self.modes_table()],
+            figures: tip.into_iter().collect(),
+            ..Shown::default()
+        }
     }
 }
 
@@ -106,10 +224,8 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
 /// the modes of a mesh.
 fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
     let section = root.require("refine", "a table")?.section()?;
-    let (steps, elements) = (
-        section.require("steps", "a number")?,
-        section.require("elements", "a number")?,
-    );
+    let steps = section.require("steps", "a number")?;
+    let elements = section.require("elements", "a number")?;
     if refine.budget.is_some() {
         let auto = if refine.axis == Axis::Time {
             &steps
@@ -177,158 +293,8 @@ fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputE
         .map_or(Ok(vec![]), |_| root.list("heat", allowed, read, |_| true))
 }
 
-impl Kind for Vibration {
-    /// Elements and steps.
-    type Data = (usize, usize);
-    type Found = Vibrated;
-
-    fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        let case =
-            |(n, steps)| Case::new(Refine::label(n, steps), n as f64 * steps as f64, (n, steps));
-        self.refine.cases().into_iter().map(case).collect()
-    }
-
-    /// Compares the solver with the exact motion.
-    fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Vibrated, CaseFailure> {
-        let Refine {
-            scheme, settings, ..
-        } = self.refine;
-        let (dt, mesh) = (self.refine.dt(steps), self.refine.layout.mesh(elements)?);
-        let of_mesh = self.refine.isolates(Axis::Time);
-        let modes = if of_mesh {
-            Modes::of_mesh(self, &mesh)?
-        } else {
-            Modes::of_beam(self)?
-        };
-        let formulas = formulas_of(scheme)?;
-        let by = self.refine.isolates(Axis::Space).then_some(formulas);
-        let (mut reference, mut closed) = (
-            modes.moved(by, dt),
-            of_mesh.then(|| modes.moved(Some(formulas), dt)),
-        );
-        let mut factors = Factors::default();
-        reference(0, &mut factors);
-        let Coefficients { beam, obstacles } = self.solver;
-        let nodal = Nodal::of(&modes.exact, &mesh);
-        let initial = nodal.initial(&mesh, &factors, self.theory.beam.theta_a, beam.theta_a);
-        let mut meter = ErrorMeter::new(&modes.exact, &mesh, of_mesh);
-        meter.lift(&mesh, beam.theta_a);
-        let problem = Problem {
-            beam,
-            obstacles,
-            mesh: Mesh::clone(&mesh),
-            initial,
-        };
-        let mut driver = Driver::new(
-            problem,
-            Stepping {
-                scheme,
-                settings,
-                dt,
-                loaded: false,
-            },
-        )?;
-        let zero = Level::new(elements + 1);
-        let (mut errors, mut deviation, mut size) = (Norms::ZERO, 0.0, 0.0);
-        let mut tip = vec![(0.0, driver.level().u[elements])];
-        run_to(&mut driver, steps as f64 * dt, |driver, _| {
-            let (n, new) = (driver.work().steps, driver.level());
-            if let Some(closed) = &mut closed {
-                closed(n, &mut factors);
-                let mut distance = |level: &Level| meter.measure(level, &factors)[Norm::Theorem34];
-                deviation = max_or_nan(deviation, distance(new));
-                size = max_or_nan(size, distance(&zero));
-            }
-            reference(n, &mut factors);
-            errors = errors.max(&meter.measure(new, &factors));
-            tip.push((n as f64 * dt, new.u[elements]));
-        })?;
-        Ok(Vibrated {
-            errors,
-            closed_form: closed.map(|_| deviation / size),
-            tip,
-        })
-    }
-
-    fn judge(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Outcome {
-        let mut checks = vec![completion(
-            ran,
-            |Vibrated {
-                 errors,
-                 closed_form,
-                 ..
-             }| {
-                let norms = errors
-                    .iter()
-                    .map(|(norm, error)| (norm.name(), Some(error)));
-                not_finite(norms.chain([("closed form", *closed_form)]))
-            },
-        )];
-        if self.refine.isolates(Axis::Time) {
-            checks.push(closed_form(ran));
-        }
-        // Over dt if only time is refined, otherwise over h.
-        let step = |elements: usize, steps: usize| match self.refine.axis {
-            Axis::Time => self.refine.dt(steps),
-            Axis::Space | Axis::Both => self
-                .refine
-                .layout
-                .mesh(elements)
-                .map_or(f64::NAN, |mesh| mesh.size()),
-        };
-        let errors = ran
-            .iter()
-            .map(|ran| (ran.case.data, ran.ok().map(|found| &found.errors)));
-        let levels = norm_levels(&self.refine, &self.expect, step, errors);
-        let caption = "Errors against exact damped modes, with the orders that theory gives.";
-        let subject = Some("Damped vibration");
-        let mut outcome = levels.outcome("errors", subject, caption, checks);
-        if self.refine.axis == Axis::Both {
-            outcome.figures.extend(self.tip_figure(ran));
-        }
-        Outcome {
-            tables: vec![self.modes_table()],
-            ..outcome
-        }
-    }
-}
-
-/// If time is isolated, the exact result of the solver is known.
-fn closed_form(ran: &[Ran<(usize, usize), Vibrated>]) -> Check {
-    let deviation = |ran: &Ran<_, Vibrated>| {
-        ran.ok()
-            .and_then(|found| found.closed_form)
-            .unwrap_or(f64::NAN)
-    };
-    let worst = ran.iter().map(deviation).fold(0.0, max_or_nan);
-    Check::that(
-        worst <= CLOSED_FORM && !ran.is_empty(),
-        "each step is the scheme's own step of each mode of the mesh, to round-off",
-        format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
-    )
-    .about(Subject::of("closed form"))
-}
-
 impl Vibration {
     fn modes_table(&self) -> Table {
-        let row = |&(index, start): &(usize, [f64; 2])| {
-            let omega = Mode::new(index).omega();
-            let damping = 0.5 * self.theory.beam.zeta * omega;
-            let motion = if damping < 1.0 {
-                "underdamped"
-            } else {
-                "overdamped"
-            };
-            let mode = [
-                (index + 1).to_string(),
-                format!("{omega:.11}"),
-                format!("{damping:.4}"),
-                motion.to_owned(),
-            ];
-            mode.into_iter()
-                .chain(start.map(|value| value.to_string()))
-                .collect()
-        };
         let head = [
             "mode",
             "ω",
@@ -337,25 +303,42 @@ impl Vibration {
             "u(1) at t = 0",
             "u_t(1) at t = 0",
         ];
-        Table::new("Modes superposed", head, self.modes.iter().map(row))
+        let mut rows = vec![];
+        for &(index, [amplitude, velocity]) in &self.modes {
+            let omega = Mode::new(index).omega();
+            let damping = 0.5 * self.theory.beam.zeta * omega;
+            let motion = if damping < 1.0 {
+                "underdamped"
+            } else {
+                "overdamped"
+            };
+            rows.push(vec![
+                (index + 1).to_string(),
+                format!("{omega:.11}"),
+                format!("{damping:.4}"),
+                motion.to_owned(),
+                amplitude.to_string(),
+                velocity.to_string(),
+            ]);
+        }
+        Table::new("Modes superposed", head, rows)
     }
 
     /// The tip's displacement on the coarsest and the finest level, and the exact one.
-    fn tip_figure(&self, ran: &[Ran<(usize, usize), Vibrated>]) -> Option<Figure> {
-        let (first, last) = (ran.first()?, ran.last()?);
-        let (coarsest, finest, modes) = (first.ok()?, last.ok()?, Modes::of_beam(self).ok()?);
-        let exact = plots::Series::new(
-            "exact",
-            finest.tip.iter().map(|(t, _)| (*t, modes.exact.tip(*t))),
-        );
-        let of_level = |level: &Ran<_, _>, found: &Vibrated| {
-            plots::Series::new(&level.case.label, found.tip.clone())
-        };
-        let [coarsest, finest] = [of_level(first, coarsest), of_level(last, finest)];
+    fn tip_figure(&self, runs: &Runs<Self>) -> Option<Figure> {
+        let modes = Modes::of_beam(self).ok()?;
+        let mut curves = vec![];
+        for run in [runs.first()?, runs.last()?] {
+            let tip = run.ok()?.tip.clone();
+            curves.push(plots::Series::new(&run.case.label, tip));
+        }
+        let times = runs.last()?.ok()?.tip.iter().map(|(t, _)| *t);
+        let exact = times.map(|t| (t, modes.exact.tip(t)));
+        curves.insert(0, plots::Series::new("exact", exact));
         let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
         let caption =
             "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        let figure = plots::history(y, &[exact, coarsest, finest])
+        let figure = plots::history(y, &curves)
             .titled("The tip of the fine beam moves as the exact one does");
         Some(Figure::new("tip", caption, figure.draw()))
     }

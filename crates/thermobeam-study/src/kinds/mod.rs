@@ -30,6 +30,7 @@ use convergence_study::input::InputError;
 use convergence_study::program;
 use convergence_study::study::{KindRow, Study, StudyFile};
 use orders::Source;
+use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;
 use orders::manufactured::Convergence;
 use orders::self_convergence::SelfConvergence;
@@ -39,7 +40,7 @@ use std::path::Path;
 /// One row for each kind; the first is the default, for a file without `kind`.
 pub const KINDS: [KindRow; 17] = [
     Convergence::ROW,
-    orders::any_order::ROW,
+    AnyOrder::ROW,
     controls::ROW,
     energy::ROW,
     scenes::ROW,

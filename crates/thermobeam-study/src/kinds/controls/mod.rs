@@ -24,8 +24,9 @@
 pub mod any_order;
 pub mod sensitivity;
 
-use super::convergence::design::verdicts;
-use super::convergence::{Convergence, Defect, Prepared};
+use super::orders::Orders;
+use super::orders::manufactured::design::verdicts;
+use super::orders::manufactured::{Convergence, Defect, Prepared};
 use super::prelude::*;
 use crate::kinds::settings;
 
@@ -109,8 +110,8 @@ fn relative(field: &Field<'_>) -> Result<f64, InputError> {
 fn named_studies(
     section: &Section<'_>,
     folder: &Path,
-) -> Result<Vec<Described<Convergence>>, InputError> {
-    let file = |item: &Field<'_>| Described::<Convergence>::read(item.file(folder)?);
+) -> Result<Vec<Described<Orders<Convergence>>>, InputError> {
+    let file = |item: &Field<'_>| Described::<Orders<Convergence>>::read(item.file(folder)?);
     let allowed = "a list of at least one study file beside this one";
     let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
     if section.get("elements").is_some() {
@@ -238,7 +239,7 @@ impl<'s> Matrix<'s> {
 /// A study of planted faults.
 pub struct Controls {
     relative: f64,
-    studies: Vec<Described<Convergence>>,
+    studies: Vec<Described<Orders<Convergence>>>,
 }
 
 /// A level of a study, with and without faults.

@@ -31,7 +31,7 @@ pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam_exact::vibration::Mode;
 
-pub(crate) use super::settings::ItemMethod;
+pub(crate) use super::settings::{ItemMethod, Topic};
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};

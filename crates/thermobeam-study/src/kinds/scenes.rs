@@ -33,7 +33,6 @@ use super::energy::{End, named_cases};
 use super::prelude::*;
 use super::runs::steady::exact_states;
 use super::runs::watch::SOLVED;
-use super::settings;
 use super::tables::cost_of_run;
 use crate::error::reference::distance;
 use crate::predict::Work;
@@ -55,7 +54,11 @@ pub const ROW: KindRow = KindRow {
              run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
-    settings: settings::of_scenes,
+    settings: |header, item| {
+        Topic::new("whole scenes", ItemMethod::OneStep)
+            .of_file()
+            .settings(header, item)
+    },
 };
 
 /// Times of a history.

@@ -28,7 +28,7 @@ use super::orders::Orders;
 use super::orders::manufactured::design::verdicts;
 use super::orders::manufactured::{Convergence, Defect, Prepared};
 use super::prelude::*;
-use crate::kinds::settings;
+use crate::kinds::settings::has_table;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -41,7 +41,15 @@ pub const ROW: KindRow = KindRow {
              coefficient some study must detect a relative error as small as the file says.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
-    settings: settings::of_controls,
+    settings: |header, item| {
+        let is_any_order = has_table(header, "any-order.");
+        let method = if is_any_order {
+            ItemMethod::AnyOrder
+        } else {
+            ItemMethod::OneStep
+        };
+        Topic::of_solution(header, method).settings(header, item)
+    },
 };
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in

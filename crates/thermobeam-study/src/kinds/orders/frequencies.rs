@@ -18,7 +18,6 @@ use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Drawn, Orders, Runs, Series, Shown, Source};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Layout, increasing};
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
@@ -52,7 +51,7 @@ impl Source for Frequencies {
         judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
                  below the first must be met on the finest mesh.",
         failure: "Mass, stiffness or coupling of the discretisation is wrong.",
-        settings: settings::of_frequencies,
+        settings: |header, item| Topic::vibrations(ItemMethod::Exact).settings(header, item),
     };
 
     /// Number of elements.

@@ -40,7 +40,6 @@ mod spectrum;
 mod step;
 
 use super::prelude::*;
-use crate::kinds::settings;
 use comparison::Comparison;
 use contraction::Grid;
 use map::Map;
@@ -64,7 +63,9 @@ pub const ROW: KindRow = KindRow {
              and for Newton's method convergence, energy and balance at every point.",
     failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
-    settings: settings::of_solvers,
+    settings: |header, item| {
+        Topic::new("maps of the solvers", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// A study of the two solvers; it has at least one part.
@@ -118,7 +119,7 @@ impl Found {
 /// of completion.
 ///
 /// * `part`: the result if it belongs to that part.
-fn results<'r, R>(ran: &'r [Ran<SolverTask, Found>], part: fn(&Found) -> Option<&R>) -> Vec<&'r R> {
+fn results<R>(ran: &[Ran<SolverTask, Found>], part: fn(&Found) -> Option<&R>) -> Vec<&R> {
     ran.iter().filter_map(|ran| part(ran.ok()?)).collect()
 }
 

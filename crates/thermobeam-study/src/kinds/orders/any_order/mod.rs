@@ -34,7 +34,6 @@ use super::{Drawn, Orders, Runs, Series, Shown, Source};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Layout, control, manufactured};
 use crate::run::dg::DgMotion;
 pub use runs::Resolution;
@@ -95,7 +94,9 @@ impl Source for AnyOrder {
                  must fall by the factor claimed for each degree until it reaches round-off.",
         failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \
                   is stopped too early: look at the highest degree that still passes.",
-        settings: settings::of_any_order,
+        settings: |header, item| {
+            Topic::of_solution(header, ItemMethod::AnyOrder).settings(header, item)
+        },
     };
 
     type Data = Resolution;

@@ -39,7 +39,6 @@ use super::{Drawn, Finer, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Refine, TERMS, control, expectations, manufactured, refine};
 pub use design::Prepared;
 
@@ -75,7 +74,9 @@ impl Source for Convergence {
                  within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
         failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
-        settings: settings::of_solution,
+        settings: |header, item| {
+            Topic::of_solution(header, ItemMethod::OneStep).settings(header, item)
+        },
     };
 
     /// Elements and steps.

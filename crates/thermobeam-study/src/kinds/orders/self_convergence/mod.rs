@@ -53,7 +53,6 @@ use super::{Orders, Runs, Series, Shown, Source};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Discretisation, Refine, claims, discretisations, nested};
 use observable::Observable;
 
@@ -87,7 +86,9 @@ impl Source for SelfConvergence {
         judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
         failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
                   reference fail, scheme and reference solve different equations.",
-        settings: settings::of_experiments,
+        settings: |header, item| {
+            Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+        },
     };
 
     /// Number of the run: the levels, then the two references.

@@ -10,7 +10,6 @@ use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms, sta
 use super::{Drawn, Orders, Runs, Series, Shown, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Refine, control, expectations, refine};
 use modes::Modes;
 
@@ -57,7 +56,7 @@ impl Source for Vibration {
         judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
         failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
                   can be to blame.",
-        settings: settings::of_vibrations,
+        settings: |header, item| Topic::vibrations(ItemMethod::OneStep).settings(header, item),
     };
 
     /// Elements and steps.

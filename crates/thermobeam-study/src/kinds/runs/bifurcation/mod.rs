@@ -14,7 +14,6 @@ pub use super::steady::AtRest;
 use super::steady::{ToRest, listed_scenes, meshes, tolerance};
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 pub use branches::Diagram;
 use buckling::discrete_buckling_force;
 
@@ -26,7 +25,7 @@ pub const ROW: KindRow = KindRow {
           followed over beta, and stability is an exact count.",
     judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
     failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
-    settings: settings::of_branches,
+    settings: |header, item| Topic::new("steady states", ItemMethod::Exact).settings(header, item),
 };
 
 /// The study.

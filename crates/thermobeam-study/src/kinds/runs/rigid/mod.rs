@@ -29,7 +29,6 @@ mod judge;
 use super::steady::{listed_scene, settle, tolerance};
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -39,7 +38,9 @@ pub const ROW: KindRow = KindRow {
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
     failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
-    settings: settings::of_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// The study.

@@ -67,6 +67,23 @@ pub struct ErrorColumn {
 }
 
 impl ErrorColumn {
+    /// An error with a claim, called by its name in figures.
+    ///
+    /// * `errors`: coarse to fine; `None` without a result.
+    pub fn new(
+        name: impl Into<String>,
+        claim: Claim,
+        errors: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            symbol: None,
+            errors: errors.into_iter().collect(),
+            claim: Some(claim),
+            look: 0,
+        }
+    }
+
     /// A column for every error claimed or found: claimed ones first, then the others in order of
     /// occurrence.
     ///

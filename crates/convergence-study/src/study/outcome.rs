@@ -258,6 +258,19 @@ impl Outcome {
         }
     }
 
+    /// The outcome of a study of several parts: their summaries and headlines one after the other.
+    ///
+    /// * `completion`: the check that all cases of all parts have completed.
+    pub fn of_parts(completion: Check, parts: impl IntoIterator<Item = Self>) -> Self {
+        let mut all = Self::new("", vec![], vec![completion]);
+        for part in parts {
+            all.summary = joined(&all.summary, &part.summary);
+            all.headline = joined(&all.headline, &part.headline);
+            all.extend(part);
+        }
+        all
+    }
+
     /// Adds the findings of another part of the study, except for summary and headline.
     pub fn extend(&mut self, part: Self) {
         self.verdict = Verdict::worst([self.verdict, part.verdict]);

@@ -4,16 +4,16 @@ use std::ops::ControlFlow;
 
 use thermobeam::energy::{Balance, Rounding};
 
-use super::prelude::*;
+use crate::kinds::prelude::*;
 use crate::run::together::EnsembleDriver;
 
 /// Increment at which a step counts as solved: only the exact solution of a step satisfies the
 /// balance.
-pub(super) const SOLVED: f64 = 1e-14;
+pub(crate) const SOLVED: f64 = 1e-14;
 
 /// Share of the energy within which the balance of a step closes, unless rounding errors explain
 /// more.
-pub(super) const CLOSED: f64 = 1e-12;
+pub(crate) const CLOSED: f64 = 1e-12;
 
 /// Largest rise of the energy and largest residual of its balance, over the steps of one run or of
 /// several; NaN stays.
@@ -54,7 +54,7 @@ impl Worst {
     }
 
     /// The numbers and their names.
-    pub(super) fn named(&self) -> [(&'static str, f64); 4] {
+    pub(crate) fn named(&self) -> [(&'static str, f64); 4] {
         let Self {
             residual,
             rise,
@@ -71,7 +71,7 @@ impl Worst {
 }
 
 /// A fraction of the allowed value, in words.
-pub(super) fn of_allowed(share: f64) -> String {
+pub(crate) fn of_allowed(share: f64) -> String {
     if share > 1.0 {
         return format!("{} times what is allowed", short_text(share));
     }
@@ -85,12 +85,12 @@ pub(super) fn of_allowed(share: f64) -> String {
 
 /// What a run has recorded so far; NaN stays.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct EnergyWatch {
+pub(crate) struct EnergyWatch {
     /// The largest size of the energy.
     scale: f64,
-    pub(super) worst: Worst,
+    pub(crate) worst: Worst,
     /// Sum of all residuals, with their signs, in units of the energy.
-    pub(super) drift: f64,
+    pub(crate) drift: f64,
     /// Over the steps Σ r², and for each of [`TERMS`] Σ r T and Σ T².
     squares: f64,
     products: [[f64; 2]; TERMS.len()],
@@ -110,7 +110,7 @@ const ALIKE: f64 = 0.99;
 
 impl EnergyWatch {
     /// Starts from a level whose energy has the given size.
-    pub(super) fn new(scale: f64) -> Self {
+    pub(crate) fn new(scale: f64) -> Self {
         Self {
             scale,
             worst: Worst::default(),
@@ -121,7 +121,7 @@ impl EnergyWatch {
     }
 
     /// Adds a step; `rounding` is evaluated only if needed.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         balance: &Balance,
         scale: f64,
@@ -165,7 +165,7 @@ impl EnergyWatch {
     ///
     /// A term T with a wrong factor 1 + c leaves r = c T in every step: the cosine of the angle
     /// between r and T is then 1, and c = Σ r T / Σ T².
-    pub(super) fn open_term(&self) -> Option<(&'static str, f64)> {
+    pub(crate) fn open_term(&self) -> Option<(&'static str, f64)> {
         let cosine = |[product, square]: [f64; 2]| (product / (self.squares * square).sqrt()).abs();
         let named = TERMS
             .into_iter()
@@ -177,11 +177,11 @@ impl EnergyWatch {
 }
 
 /// The results of a problem that was run in a group.
-pub(super) struct Watched {
+pub(crate) struct Watched {
     /// Rise of the energy and residual of its balance, over the completed steps.
-    pub(super) worst: Worst,
+    pub(crate) worst: Worst,
     /// Why it ended early, if it did.
-    pub(super) failure: Option<StepError>,
+    pub(crate) failure: Option<StepError>,
 }
 
 /// Runs problems with the same number of elements in lanes by Newton's method, each to its last or
@@ -189,7 +189,7 @@ pub(super) struct Watched {
 ///
 /// * `see`: receives each completed step: index of the problem, iterations of the step, and the new
 ///   level.
-pub(super) fn watched(
+pub(crate) fn watched(
     problems: Vec<Problem>,
     dts: &[f64],
     scheme: Scheme,

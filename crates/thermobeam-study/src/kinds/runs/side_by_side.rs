@@ -4,16 +4,16 @@
 //! most η*. Newton's method solves the same equations (3.7)-(3.8) to round-off, so the distance of
 //! both is the error that η* leaves.
 
-use super::prelude::*;
 use crate::exact::norm::TheoremSquares;
+use crate::kinds::prelude::*;
 
 /// Tolerance of Newton's method.
 const SOLVED: f64 = 1e-14;
 
 /// Two runs of one scene.
-pub(super) struct SideBySide {
+pub(crate) struct SideBySide {
     /// The paper's algorithm.
-    pub(super) fixed_point: Driver<'static>,
+    pub(crate) fixed_point: Driver<'static>,
     newton: Driver<'static>,
     lengths: Vec<f64>,
     /// The difference of both levels.
@@ -21,7 +21,7 @@ pub(super) struct SideBySide {
     steps: usize,
     iterations: usize,
     /// What both runs show so far.
-    pub(super) comparison: SolverComparison,
+    pub(crate) comparison: SolverComparison,
 }
 
 /// How the fixed point compares with Newton's method.
@@ -36,9 +36,9 @@ pub struct SolverComparison {
 }
 
 /// A step by both.
-pub(super) struct StepOfBoth {
-    pub(super) fixed_point: Report,
-    pub(super) newton: Report,
+pub(crate) struct StepOfBoth {
+    pub(crate) fixed_point: Report,
+    pub(crate) newton: Report,
 }
 
 impl SideBySide {
@@ -48,7 +48,7 @@ impl SideBySide {
     ///
     /// # Errors
     /// The solver refuses the scene.
-    pub(super) fn new(scene: &Scene, tolerance: f64) -> Result<Self, CaseFailure> {
+    pub(crate) fn new(scene: &Scene, tolerance: f64) -> Result<Self, CaseFailure> {
         let driver = |solver: Solver, tolerance: f64| {
             let settings = Settings {
                 solver,
@@ -76,7 +76,7 @@ impl SideBySide {
     ///
     /// # Errors
     /// A step that fails.
-    pub(super) fn step(&mut self) -> Result<StepOfBoth, CaseFailure> {
+    pub(crate) fn step(&mut self) -> Result<StepOfBoth, CaseFailure> {
         let stepped = StepOfBoth {
             fixed_point: one_step(&mut self.fixed_point)?,
             newton: one_step(&mut self.newton)?,

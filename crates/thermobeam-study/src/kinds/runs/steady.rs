@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 
 use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
 
-use super::prelude::*;
-use super::tables::Discretisation;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::Discretisation;
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
-pub(super) fn listed_scenes(
+pub(crate) fn listed_scenes(
     section: &Section<'_>,
     folder: &Path,
 ) -> Result<Vec<Scene>, InputError> {
@@ -23,7 +23,7 @@ pub(super) fn listed_scenes(
 }
 
 /// Reads the scene of a file name; it must have obstacles.
-pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
+pub(crate) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
     let scene = Scene::read_one_step(field, folder)?;
     if scene.obstacles.is_none() {
         return Err(field.refuse(
@@ -36,8 +36,8 @@ pub(super) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
 
 /// Settings of the runs to rest: with these β, until the beam is slow.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct ToRest {
-    pub(super) betas: Vec<f64>,
+pub(crate) struct ToRest {
+    pub(crate) betas: Vec<f64>,
     method: MethodToRest,
     /// Largest velocity that counts as rest.
     speed: f64,
@@ -60,20 +60,20 @@ const COMPARED: usize = 32;
 
 impl ToRest {
     /// The keys of a table.
-    pub(super) const KEYS: [&str; 5] = ["beta", "elements", "dt", "speed", "t_max"];
+    pub(crate) const KEYS: [&str; 5] = ["beta", "elements", "dt", "speed", "t_max"];
 
     /// Reads a table that has [`ToRest::KEYS`], and possibly others.
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let (dt, t_max) = steps_to_rest(section)?;
         let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
         Self::with(section, MethodToRest::OneStep { elements, dt }, t_max)
     }
 
     /// The keys of a table for runs by dG.
-    pub(super) const ANY_ORDER_KEYS: [&str; 3] = ["beta", "speed", "t_max"];
+    pub(crate) const ANY_ORDER_KEYS: [&str; 3] = ["beta", "speed", "t_max"];
 
     /// Reads a table with [`ToRest::ANY_ORDER_KEYS`].
-    pub(super) fn read_any_order(
+    pub(crate) fn read_any_order(
         section: &Section<'_>,
         discretisation: Discretisation,
     ) -> Result<Self, InputError> {
@@ -94,7 +94,7 @@ impl ToRest {
     }
 
     /// What a run costs.
-    pub(super) fn cost(&self) -> f64 {
+    pub(crate) fn cost(&self) -> f64 {
         match &self.method {
             MethodToRest::OneStep { elements, dt } => cost_to_rest(*elements, *dt),
             MethodToRest::AnyOrder(discretisation) => discretisation.cost(RESTS),
@@ -105,7 +105,7 @@ impl ToRest {
     ///
     /// # Errors
     /// As [`settle`], and if the steady states cannot be found.
-    pub(super) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
+    pub(crate) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
         let beta = self.betas[place];
         let mut scene = match &self.method {
             MethodToRest::OneStep { elements, dt } => scene.at(Mesh::uniform(*elements)?, *dt),
@@ -122,7 +122,7 @@ impl ToRest {
 ///
 /// # Errors
 /// The mesh has elements that are too small.
-pub(super) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
+pub(crate) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
     Ok(match scene.method {
         Method::OneStep(_) => scene.mesh.clone(),
         Method::Dg(_) => resampled(&scene.mesh, COMPARED)?,
@@ -130,7 +130,7 @@ pub(super) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
 }
 
 /// The keys dt and t_max of a run to rest.
-pub(super) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputError> {
+pub(crate) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputError> {
     let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
     limits::steps_until(
         &section.require("t_max", "a number")?,
@@ -142,7 +142,7 @@ pub(super) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputEr
 }
 
 /// The key `elements`: the meshes over which the rate is observed.
-pub(super) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
+pub(crate) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least three numbers of elements, ascending";
     section.list("elements", allowed, tables::elements, |list| {
         list.len() >= 3 && increases(list)
@@ -150,7 +150,7 @@ pub(super) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
 }
 
 /// The key `tolerance`: the allowed deviation of a rate from its order.
-pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
+pub(crate) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
     let allowed = "a number > 0 and < 0.5";
     section
         .require("tolerance", allowed)?
@@ -161,7 +161,7 @@ pub(super) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
 const RESTS: f64 = 200.0;
 
 /// The cost until a beam has come to rest.
-pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
+pub(crate) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
     RESTS / dt * elements as f64
 }
 
@@ -189,7 +189,7 @@ impl AtRest {
     ///
     /// # Errors
     /// The steady states cannot be found.
-    pub(super) fn of(
+    pub(crate) fn of(
         scene: &Scene,
         mesh: &Mesh,
         t: f64,
@@ -209,7 +209,7 @@ impl AtRest {
     }
 
     /// The number of steady states, in words: a list that may lack some gives only a least number.
-    pub(super) fn count(&self) -> String {
+    pub(crate) fn count(&self) -> String {
         if self.is_complete {
             self.states.to_string()
         } else {
@@ -218,29 +218,29 @@ impl AtRest {
     }
 
     /// u(1) and φ(1) of the nearest exact steady state; NaN if there is none.
-    pub(super) fn exact_tip(&self) -> [f64; 2] {
+    pub(crate) fn exact_tip(&self) -> [f64; 2] {
         self.nearest.map_or([f64::NAN; 2], |Nearest { state, .. }| {
             [state.u_tip, state.phi_tip]
         })
     }
 
     /// Its distances in u and in φ; NaN if there is none.
-    pub(super) fn errors(&self) -> [f64; 2] {
+    pub(crate) fn errors(&self) -> [f64; 2] {
         self.nearest.map_or([f64::NAN; 2], |nearest| nearest.errors)
     }
 
     /// Its state of contact.
-    pub(super) fn contact(&self) -> Option<Phase> {
+    pub(crate) fn contact(&self) -> Option<Phase> {
         self.nearest.map(|nearest| nearest.state.contact)
     }
 
     /// Distance to the nearest exact steady state; NaN if there is none.
-    pub(super) fn distance(&self) -> f64 {
+    pub(crate) fn distance(&self) -> f64 {
         self.nearest.map_or(f64::NAN, |nearest| nearest.distance)
     }
 
     /// Whether the nearest state is stable.
-    pub(super) fn is_stable(&self) -> bool {
+    pub(crate) fn is_stable(&self) -> bool {
         self.nearest.is_some_and(|nearest| nearest.state.stable)
     }
 }
@@ -257,7 +257,7 @@ const QUIET: f64 = 5.0;
 ///
 /// # Errors
 /// A step that fails, or motion beyond `t_max`.
-pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
+pub(crate) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     match scene.method {
         Method::OneStep(_) => {
             let level = |driver: &Driver<'_>| driver.level().clone();
@@ -304,7 +304,7 @@ fn quiet<M: Motion + ?Sized>(
 }
 
 /// All exact steady states of the scene.
-pub(super) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, EquilibriumError> {
+pub(crate) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, EquilibriumError> {
     equilibria(&scene.beam, scene.obstacles.as_ref())
 }
 
@@ -346,7 +346,7 @@ impl Nearest {
 }
 
 /// A contact state in words.
-pub(super) fn name_of(contact: Phase) -> &'static str {
+pub(crate) fn name_of(contact: Phase) -> &'static str {
     match contact {
         Phase::Free => "free",
         Phase::Upper => "on the upper obstacle",

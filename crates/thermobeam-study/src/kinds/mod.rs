@@ -15,7 +15,6 @@ mod prelude;
 pub mod random_errors;
 pub mod rigid;
 pub mod runs;
-pub mod scenes;
 pub mod self_convergence;
 pub mod settings;
 pub mod solvers;
@@ -37,7 +36,7 @@ pub const KINDS: [KindRow; 17] = [
     any_order::ROW,
     controls::ROW,
     energy::ROW,
-    scenes::ROW,
+    runs::scenes::ROW,
     solvers::ROW,
     vibration::ROW,
     frequencies::ROW,

@@ -28,7 +28,7 @@ pub mod runs;
 use std::f64::consts::PI;
 
 use super::prelude::*;
-pub use super::runs::end::End;
+pub use super::runs::cases::End;
 pub use super::runs::watch::Worst;
 use crate::kinds::settings;
 
@@ -56,26 +56,6 @@ fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Stu
         "random" => reader::<random::RandomScenes>(header, root, folder),
         _ => reader::<runs::EnergyRuns>(header, root, folder),
     }
-}
-
-/// The tables `[[case]]`, each with a unique name.
-pub(in crate::kinds) fn named_cases<C>(
-    root: &Section<'_>,
-    read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
-) -> Result<Vec<C>, InputError> {
-    let mut names = std::collections::BTreeSet::new();
-    root.tables("case", "", |section| {
-        let name = section.require("name", "a text")?.text()?.to_owned();
-        let case = read(section, name.clone())?;
-        if names.insert(name.clone()) {
-            return Ok(case);
-        }
-        Err(section.refuse(
-            "name",
-            format!("a second \"{name}\""),
-            "a name that no other case has",
-        ))
-    })
 }
 
 /// Modes of the initial data.

@@ -29,8 +29,9 @@
 use thermobeam::energy::Energy;
 use thermobeam::norms::slope_squared;
 
-use super::{End, Worst, named_cases};
+use super::{End, Worst};
 use crate::kinds::prelude::*;
+use crate::kinds::runs::cases::named_cases;
 use crate::kinds::runs::watch::{EnergyWatch, SOLVED, of_allowed};
 use crate::kinds::tables::Layout;
 use crate::scene;

@@ -4,10 +4,12 @@
 //! [`Reading`]s: these give completion, table and guarded numbers. It judges by the checks of
 //! [`checks`]. [`RunStudy`] does for all of them what does not depend on the kind.
 
+pub mod cases;
 pub mod checks;
-pub mod end;
+
 pub mod equilibrium;
 pub mod exact_experiments;
+pub mod scenes;
 pub(crate) mod side_by_side;
 pub(crate) mod steady;
 pub(crate) mod watch;

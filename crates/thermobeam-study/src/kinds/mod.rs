@@ -8,7 +8,6 @@ pub mod any_order;
 pub mod bifurcation;
 pub mod controls;
 pub mod convergence;
-pub mod energy;
 pub mod experiment;
 pub mod frequencies;
 mod prelude;
@@ -35,7 +34,7 @@ pub const KINDS: [KindRow; 17] = [
     convergence::ROW,
     any_order::ROW,
     controls::ROW,
-    energy::ROW,
+    runs::energy::ROW,
     runs::scenes::ROW,
     solvers::ROW,
     vibration::ROW,

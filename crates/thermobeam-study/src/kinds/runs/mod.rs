@@ -7,6 +7,7 @@
 pub mod cases;
 pub mod checks;
 
+pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
 pub mod scenes;

@@ -8,7 +8,6 @@ pub mod any_order;
 pub mod bifurcation;
 pub mod controls;
 pub mod convergence;
-pub mod experiment;
 pub mod frequencies;
 mod prelude;
 pub mod random_errors;
@@ -40,7 +39,7 @@ pub const KINDS: [KindRow; 17] = [
     vibration::ROW,
     frequencies::ROW,
     self_convergence::ROW,
-    experiment::ROW,
+    runs::experiment::ROW,
     runs::exact_experiments::ROW,
     runs::equilibrium::ROW,
     bifurcation::ROW,

@@ -10,6 +10,7 @@ pub mod checks;
 pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
+pub mod experiment;
 pub mod scenes;
 pub(crate) mod side_by_side;
 pub(crate) mod steady;

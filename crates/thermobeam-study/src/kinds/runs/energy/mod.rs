@@ -24,7 +24,6 @@
 
 mod beams;
 mod bound;
-mod listed;
 pub mod one_by_one;
 pub mod random;
 

@@ -26,10 +26,11 @@
 //! t_end = 1000.0
 //! ```
 
+mod listed;
+
 use thermobeam::energy::Energy;
 
 use super::bound::{left_side, stability};
-use super::listed;
 use crate::kinds::prelude::*;
 use crate::kinds::runs::cases::{End, named_cases};
 use crate::kinds::runs::checks::{Condition, all, at_most, ended};
@@ -53,23 +54,23 @@ pub struct EnergyRuns {
 
 /// A run, and what is claimed of it.
 #[derive(Clone)]
-pub(super) struct EnergyRun {
-    pub(super) name: String,
+struct EnergyRun {
+    name: String,
     /// The scene's, or a beam with random coefficients and smooth random data.
-    pub(super) problem: Problem,
-    pub(super) stepping: Stepping,
-    pub(super) steps: usize,
+    problem: Problem,
+    stepping: Stepping,
+    steps: usize,
     /// In words.
-    pub(super) claim: String,
-    pub(super) end: End,
+    claim: String,
+    end: End,
     /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the
     /// bound on the rounding errors of the step.
-    pub(super) share: Option<f64>,
+    share: Option<f64>,
     /// Bound of the sum of all residuals, in units of the energy.
-    pub(super) drift: Option<f64>,
+    drift: Option<f64>,
     /// Whether every level must keep the bound of Corollary 3.2.
-    pub(super) is_bounded: bool,
-    pub(super) is_drawn: bool,
+    is_bounded: bool,
+    is_drawn: bool,
 }
 
 /// What a run finds.
@@ -171,15 +172,13 @@ impl Runs for EnergyRuns {
         let run = &self.runs[*place];
         let of_steps =
             |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value));
-        let text = |name: &str, text: String| Reading::text(name, text);
-        let bound = found.of_bound;
         let mut numbers = vec![
-            text("elements", run.problem.mesh.elements().to_string()),
-            text("dt", plain_text(run.stepping.dt)),
-            text("steps", found.steps.to_string()),
-            text("in contact", found.contact_steps.to_string()),
-            text("end", found.end.name().to_owned()),
-            text("most iterations", found.most_iterations.to_string()),
+            Reading::text("elements", run.problem.mesh.elements().to_string()),
+            Reading::text("dt", plain_text(run.stepping.dt)),
+            Reading::text("steps", found.steps.to_string()),
+            Reading::text("in contact", found.contact_steps.to_string()),
+            Reading::text("end", found.end.name()),
+            Reading::text("most iterations", found.most_iterations.to_string()),
             Reading::new("initial energy", found.initial_energy).scientific(4),
             of_steps("rise", found.worst.rise).scientific(1),
             of_steps("residual", found.worst.residual).scientific(1),
@@ -187,7 +186,9 @@ impl Runs for EnergyRuns {
             of_steps("rise over its bound", found.worst.risen),
             of_steps("residual over its bound", found.worst.open),
         ];
-        numbers.extend(bound.map(|share| Reading::new("of the bound (3.12)", share).fixed(3)));
+        if let Some(share) = found.of_bound {
+            numbers.push(Reading::new("of the bound (3.12)", share).fixed(3));
+        }
         numbers
     }
 

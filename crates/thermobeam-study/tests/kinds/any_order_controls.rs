@@ -71,7 +71,7 @@ fn files_with_errors_are_refused_with_the_field() {
         (
             "\"any-order-coefficients.toml\"",
             "\"theorem-3.4-space.toml\"",
-            "unknown key `refine`",
+            "study.kind: found \"orders/manufactured\"; expected \"orders/any-order\"",
         ),
         (
             "[\"any-order-coefficients.toml\"]",

@@ -16,7 +16,8 @@
 use convergence_study::study::run_cases_here;
 
 use super::{Defect, Fault, Matrix, RELATIVE, relative};
-use crate::kinds::any_order::AnyOrder;
+use crate::kinds::orders::Orders;
+use crate::kinds::orders::any_order::AnyOrder;
 use crate::kinds::prelude::*;
 
 /// Relative change of an error that the baseline tolerates.
@@ -25,7 +26,7 @@ const TOLERANCE: f64 = 1e-3;
 /// A study with perturbed coefficients.
 pub struct AnyOrderControls {
     relative: f64,
-    studies: Vec<Described<AnyOrder>>,
+    studies: Vec<Described<Orders<AnyOrder>>>,
     /// No fault at all, then each coefficient and each defect.
     faults: Vec<Fault>,
 }
@@ -47,7 +48,7 @@ impl FromFile for AnyOrderControls {
         )?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind any-order beside this one";
-        let read = |file: &Field<'_>| Described::<AnyOrder>::read(file.file(folder)?);
+        let read = |file: &Field<'_>| Described::<Orders<AnyOrder>>::read(file.file(folder)?);
         let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;
         let names: Vec<(&str, &'static str)> =
             Coefficients::names().map(|name| (name, name)).collect();

@@ -24,10 +24,11 @@
 pub mod any_order;
 pub mod sensitivity;
 
-use super::convergence::design::verdicts;
-use super::convergence::{Convergence, Defect, Prepared};
+use super::orders::Orders;
+use super::orders::manufactured::design::verdicts;
+use super::orders::manufactured::{Convergence, Defect, Prepared};
 use super::prelude::*;
-use crate::kinds::settings;
+use crate::kinds::settings::has_table;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -40,7 +41,15 @@ pub const ROW: KindRow = KindRow {
              coefficient some study must detect a relative error as small as the file says.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
-    settings: settings::of_controls,
+    settings: |header, item| {
+        let is_any_order = has_table(header, "any-order.");
+        let method = if is_any_order {
+            ItemMethod::AnyOrder
+        } else {
+            ItemMethod::OneStep
+        };
+        Topic::of_solution(header, method).settings(header, item)
+    },
 };
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
@@ -109,8 +118,8 @@ fn relative(field: &Field<'_>) -> Result<f64, InputError> {
 fn named_studies(
     section: &Section<'_>,
     folder: &Path,
-) -> Result<Vec<Described<Convergence>>, InputError> {
-    let file = |item: &Field<'_>| Described::<Convergence>::read(item.file(folder)?);
+) -> Result<Vec<Described<Orders<Convergence>>>, InputError> {
+    let file = |item: &Field<'_>| Described::<Orders<Convergence>>::read(item.file(folder)?);
     let allowed = "a list of at least one study file beside this one";
     let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
     if section.get("elements").is_some() {
@@ -238,7 +247,7 @@ impl<'s> Matrix<'s> {
 /// A study of planted faults.
 pub struct Controls {
     relative: f64,
-    studies: Vec<Described<Convergence>>,
+    studies: Vec<Described<Orders<Convergence>>>,
 }
 
 /// A level of a study, with and without faults.

@@ -9,8 +9,9 @@
 //! ```
 
 use super::{RELATIVE, named_studies, relative};
-use crate::kinds::convergence::Convergence;
-use crate::kinds::convergence::design::Detector;
+use crate::kinds::orders::Orders;
+use crate::kinds::orders::manufactured::Convergence;
+use crate::kinds::orders::manufactured::design::Detector;
 use crate::kinds::prelude::*;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
@@ -18,7 +19,7 @@ const BISECTIONS: usize = 9;
 
 /// A study of the smallest detected errors.
 pub struct Sensitivity {
-    studies: Vec<Described<Convergence>>,
+    studies: Vec<Described<Orders<Convergence>>>,
     range: [f64; 2],
     at_most: f64,
 }
@@ -48,7 +49,7 @@ impl Kind for Sensitivity {
     type Found = Option<f64>;
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
-        let cost = |spec: &Described<Convergence>| -> f64 {
+        let cost = |spec: &Described<Orders<Convergence>>| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
             spec.kind
                 .refine
@@ -57,7 +58,7 @@ impl Kind for Sensitivity {
                 .map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0))
                 .sum()
         };
-        let of_study = |(study, spec): (usize, &Described<Convergence>)| {
+        let of_study = |(study, spec): (usize, &Described<Orders<Convergence>>)| {
             let can_be_planted =
                 |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
             let case = |key| {

@@ -26,7 +26,6 @@ use thermobeam::simulation::Stepping as OneStep;
 use self::truth::{Trace, Truth, points};
 use super::prelude::*;
 use super::runs::cases::named_cases;
-use crate::kinds::settings;
 use crate::predict::choice::{self, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{MOST_WORK, Unreachable, Work};
@@ -42,7 +41,9 @@ pub const ROW: KindRow = KindRow {
     judged: "No error of any number exceeds 1.3 times its estimate, no run the error asked for, no search is refused unless its data \
              are rough, and the error of linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
-    settings: settings::of_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// An error may be this many times its estimate.

@@ -13,7 +13,6 @@ use super::steady::{
 use super::{Findings, Listing, Results, RunStudy, Runs};
 use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
 
 /// The row of the table of kinds.
@@ -24,7 +23,9 @@ pub const ROW: KindRow = KindRow {
     judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
              state; a run of any order ends in it.",
     failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
-    settings: settings::of_ends,
+    settings: |header, item| {
+        Topic::new("steady states", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// Order of the elements in u and φ.

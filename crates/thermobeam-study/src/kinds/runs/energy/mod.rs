@@ -30,7 +30,6 @@ pub mod random;
 
 use super::RunStudy;
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -43,7 +42,9 @@ pub const ROW: KindRow = KindRow {
              with its answer or, where the scene asks for it, with the failure that it names.",
     failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
               very step in which it happens. Run the scene named alone.",
-    settings: settings::of_energy,
+    settings: |header, item| {
+        Topic::new("the energy's laws", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.

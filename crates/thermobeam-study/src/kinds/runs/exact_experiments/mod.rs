@@ -27,7 +27,6 @@ use thermobeam::dg::ContactEvent;
 
 use super::{Findings, Listing, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Discretisation, discretisations};
 use judge::{OfScene, events};
 
@@ -40,7 +39,9 @@ pub const ROW: KindRow = KindRow {
     judged: "Both must agree at each time listed within the tolerance, in the state of the free end and the energy, and on every \
              contact event. The energy must fall, its balance close to round-off.",
     failure: "One of the two is not resolved: raise the degrees or lower the steps of both and see which one moves.",
-    settings: settings::of_exact_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::AnyOrder).settings(header, item)
+    },
 };
 
 /// Times at which the free end is compared over the whole time.

@@ -53,7 +53,6 @@ use super::side_by_side::SideBySide;
 use super::steady::{ToRest, compared, listed_scene};
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::{Discretisation, discretisations};
 use group::SectionFive;
 use trace::{Observed, Recorder};
@@ -70,7 +69,9 @@ pub const ROW: KindRow = KindRow {
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
              Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
-    settings: settings::of_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// One of the experiments.

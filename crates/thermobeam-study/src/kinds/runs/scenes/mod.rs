@@ -40,7 +40,6 @@ use super::checks::{Condition, all, at_most, ended};
 use super::steady::exact_states;
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use crate::kinds::tables::cost_of_run;
 use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};
@@ -62,7 +61,11 @@ pub const ROW: KindRow = KindRow {
              run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
-    settings: settings::of_scenes,
+    settings: |header, item| {
+        Topic::new("whole scenes", ItemMethod::OneStep)
+            .of_file()
+            .settings(header, item)
+    },
 };
 
 /// Times of a history.

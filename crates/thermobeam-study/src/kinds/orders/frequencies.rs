@@ -16,21 +16,9 @@
 
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
-use super::prelude::*;
-use super::settings;
-use super::tables::Layout;
-
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "orders/frequencies",
-    read: reader::<Frequencies>,
-    why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
-          a scalar equation.",
-    judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
-             below the first must be met on the finest mesh.",
-    failure: "Mass, stiffness or coupling of the discretisation is wrong.",
-    settings: settings::of_frequencies,
-};
+use super::{Drawn, Orders, Runs, Series, Shown, Source};
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Layout, increasing};
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
@@ -54,8 +42,24 @@ pub struct Frequencies {
     claim: Claim,
 }
 
-impl FromFile for Frequencies {
-    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+impl Source for Frequencies {
+    const ROW: KindRow = KindRow {
+        name: "orders/frequencies",
+        read: reader::<Orders<Self>>,
+        why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
+              a scalar equation.",
+        judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
+                 below the first must be met on the finest mesh.",
+        failure: "Mass, stiffness or coupling of the discretisation is wrong.",
+        settings: |header, item| Topic::vibrations(ItemMethod::Exact).settings(header, item),
+    };
+
+    /// Number of elements.
+    type Data = usize;
+    /// The first discrete frequencies, ascending.
+    type Found = Vec<f64>;
+
+    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "frequencies"])?;
         let keys = [
             "count",
@@ -68,11 +72,7 @@ impl FromFile for Frequencies {
         ];
         let section = root.table("frequencies", &keys)?;
         let allowed = "a list of increasing whole numbers >= 1";
-        let increasing = (
-            "a whole number >",
-            (|before, level| level > before) as fn(usize, usize) -> bool,
-        );
-        let elements = section.sequence(("elements", allowed, 1), tables::elements, increasing)?;
+        let elements = increasing(&section, "elements", allowed, 1, tables::elements)?;
         let degree = section
             .get("degree")
             .map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
@@ -93,13 +93,6 @@ impl FromFile for Frequencies {
             },
         })
     }
-}
-
-impl Kind for Frequencies {
-    /// Number of elements.
-    type Data = usize;
-    /// The first discrete frequencies, ascending.
-    type Found = Vec<f64>;
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Bisection to the last bit takes some 60 counts per frequency.
@@ -122,24 +115,37 @@ impl Kind for Frequencies {
         )??)
     }
 
-    fn judge(&self, ran: &[Ran<usize, Vec<f64>>]) -> Outcome {
-        let levels = self.levels(ran);
-        let not_finite = |found: &Vec<f64>| {
-            let complete = found.len() == self.count && found.iter().all(|omega| omega.is_finite());
-            if complete {
-                vec![]
-            } else {
-                vec!["a frequency".to_owned()]
-            }
-        };
-        let mut checks = vec![
-            completion(ran, not_finite),
-            self.equation_holds(),
-            self.lie_above(&levels),
-        ];
-        if self.first > 1 {
-            checks.push(self.met_below_first(ran.last().and_then(Ran::ok)));
+    fn not_finite(&self, found: &Vec<f64>) -> Vec<String> {
+        let is_complete = found.len() == self.count && found.iter().all(|omega| omega.is_finite());
+        if is_complete {
+            vec![]
+        } else {
+            vec!["a frequency".to_owned()]
         }
+    }
+
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+        let exact = frequencies(self.count);
+        let refinement = |run: &Ran<usize, Vec<f64>>| {
+            let n = run.case.data;
+            let label = run.case.label.clone();
+            Refinement::new(label, &[("elements", n)], self.layout.size(n))
+        };
+        let column = |mode: usize| ErrorColumn {
+            name: format!("omega-{}", mode + 1),
+            symbol: Some(format!("ω{}", subscript(mode + 1))),
+            errors: runs
+                .iter()
+                .map(|run| Some(run.ok()?.get(mode)? - exact[mode]))
+                .collect(),
+            claim: Some(self.claim),
+            look: mode,
+        };
+        let levels = Levels::new(
+            Axis::Space,
+            runs.iter().map(refinement),
+            (self.first - 1..self.count).map(column),
+        );
         let Self {
             first,
             count,
@@ -149,67 +155,36 @@ impl Kind for Frequencies {
         let caption = format!(
             "Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}."
         );
-        let subject = Some("Frequencies ωₕ − ω");
-        let outcome = levels.outcome("errors", subject, &caption, checks);
-        Outcome {
-            tables: vec![self.table(&levels, &outcome.rates)],
-            ..outcome
+        let figure = Drawn::new("errors", Some("Frequencies ωₕ − ω"), caption);
+        vec![Series::new(levels, figure)]
+    }
+
+    fn checks(&self, runs: &Runs<Self>, series: &[Series]) -> Vec<Check> {
+        let mut checks = vec![self.equation_holds(), self.lie_above(&series[0].levels)];
+        if self.first > 1 {
+            checks.push(self.met_below_first(runs.last().and_then(Ran::ok)));
+        }
+        checks
+    }
+
+    fn shown(&self, _: &Runs<Self>, series: &[Series], judged: &Outcome) -> Shown {
+        Shown {
+            tables: vec![self.table(&series[0].levels, &judged.rates)],
+            ..Shown::default()
         }
     }
 }
 
 impl Frequencies {
-    fn levels(&self, ran: &[Ran<usize, Vec<f64>>]) -> Levels {
-        let exact = frequencies(self.count);
-        let refinement = |level: &Ran<usize, Vec<f64>>| {
-            let (n, label) = (level.case.data, level.case.label.clone());
-            Refinement::new(
-                label,
-                &[("elements", n)],
-                self.layout.mesh(n).map_or(f64::NAN, |mesh| mesh.size()),
-            )
-        };
-        let column = |mode: usize| ErrorColumn {
-            name: format!("omega-{}", mode + 1),
-            symbol: Some(format!("ω{}", subscript(mode + 1))),
-            errors: ran
-                .iter()
-                .map(|level| Some(level.ok()?.get(mode)? - exact[mode]))
-                .collect(),
-            claim: Some(self.claim),
-            look: mode,
-        };
-        Levels::new(
-            Axis::Space,
-            ran.iter().map(refinement),
-            (self.first - 1..self.count).map(column),
-        )
-    }
-
+    /// Each judged frequency on the finest mesh, with its rate.
     fn table(&self, levels: &Levels, rates: &[(String, RateVerdict)]) -> Table {
         let finest = levels.refinements.last();
         let h = finest.map_or(f64::NAN, |level| level.step);
-        let row = |(mode, omega): (usize, f64)| {
-            let (column, rate) = (&levels.columns[mode], &rates[mode].1);
-            let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
-            // Known for linear elements only.
-            let leading = (self.degree == 1)
-                .then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
-            vec![
-                (mode + self.first).to_string(),
-                format!("{omega:.11}"),
-                format!("{:.11}", omega + error),
-                format!("{error:.3e}"),
-                leading.unwrap_or_else(|| "-".into()),
-                rate.fitted
-                    .map_or_else(|| "-".into(), |rate| format!("{rate:.4}")),
-                rate.interval.map_or_else(
-                    || "-".into(),
-                    |[low, high]| format!("{low:.4} to {high:.4}"),
-                ),
-                rate.verdict.to_string(),
-            ]
-        };
+        let mesh = finest.map_or("-", |level| level.label.as_str());
+        let title = format!(
+            "Frequencies {} to {}, exact and discrete ({mesh})",
+            self.first, self.count
+        );
         let head = [
             "mode",
             "ω exact",
@@ -220,20 +195,34 @@ impl Frequencies {
             "95 % interval",
             "verdict",
         ];
-        let mesh = finest.map_or("-", |level| level.label.as_str());
-        let title = format!(
-            "Frequencies {} to {}, exact and discrete ({mesh})",
-            self.first, self.count
-        );
-        Table::new(
-            title,
-            head,
-            frequencies(self.count)
-                .into_iter()
-                .skip(self.first - 1)
-                .enumerate()
-                .map(row),
-        )
+        let mut rows = vec![];
+        let exact = frequencies(self.count).into_iter().skip(self.first - 1);
+        for ((mode, omega), (column, (_, rate))) in (self.first..)
+            .zip(exact)
+            .zip(levels.columns.iter().zip(rates))
+        {
+            let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
+            // Known for linear elements only.
+            let leading = (self.degree == 1)
+                .then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
+            let fitted = rate.fitted.map(|rate| format!("{rate:.4}"));
+            let interval = rate
+                .interval
+                .map(|[low, high]| format!("{low:.4} to {high:.4}"));
+            let [leading, fitted, interval] =
+                [leading, fitted, interval].map(|cell| cell.unwrap_or_else(|| "-".into()));
+            rows.push(vec![
+                mode.to_string(),
+                format!("{omega:.11}"),
+                format!("{:.11}", omega + error),
+                format!("{error:.3e}"),
+                leading,
+                fitted,
+                interval,
+                rate.verdict.to_string(),
+            ]);
+        }
+        Table::new(title, head, rows)
     }
 
     fn equation_holds(&self) -> Check {
@@ -252,18 +241,13 @@ impl Frequencies {
 
     /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
     fn met_below_first(&self, found: Option<&Vec<f64>>) -> Check {
-        let error = |(mode, omega): (usize, f64)| {
-            let found = found
+        let mut worst = 0.0;
+        for (mode, omega) in frequencies(self.first - 1).into_iter().enumerate() {
+            let discrete = found
                 .and_then(|found| found.get(mode))
-                .copied()
-                .unwrap_or(f64::NAN);
-            (found - omega).abs() / omega
-        };
-        let worst = frequencies(self.first - 1)
-            .into_iter()
-            .enumerate()
-            .map(error)
-            .fold(0.0, max_or_nan);
+                .map_or(f64::NAN, |discrete| *discrete);
+            worst = max_or_nan(worst, (discrete - omega).abs() / omega);
+        }
         Check::that(
             worst <= MET,
             format!(

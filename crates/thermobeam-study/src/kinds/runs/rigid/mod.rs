@@ -26,29 +26,32 @@
 
 mod judge;
 
-use super::prelude::*;
-use super::runs::steady::{listed_scene, settle, tolerance};
-use crate::kinds::settings;
+use super::steady::{listed_scene, settle, tolerance};
+use super::{Findings, Results, RunStudy, Runs};
+use crate::kinds::prelude::*;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/rigid",
-    read: reader::<RigidStudy>,
+    read: reader::<RunStudy<RigidObstacles>>,
     why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
     failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
-    settings: settings::of_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// The study.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RigidStudy {
+pub struct RigidObstacles {
     /// Compliances, descending.
     epsilons: Vec<f64>,
     /// The compliance that represents a rigid obstacle.
     limit: f64,
-    judge: Judge,
+    /// Tolerance of the orders.
+    tolerance: f64,
     /// A beam that bounces, on a fixed mesh with a fixed dt.
     moving: Scene,
     /// Iterations after which the fixed point iteration is abandoned.
@@ -79,6 +82,16 @@ pub enum RunOf {
     Impact,
 }
 
+impl RunOf {
+    /// All but the rigid limit.
+    const OF_EACH_COMPLIANCE: [RunOf; 4] = [
+        RunOf::Bouncing,
+        RunOf::FixedPoint,
+        RunOf::Rest,
+        RunOf::Impact,
+    ];
+}
+
 /// The results of a run; a number that its computation lacks is `None`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShownImpact {
@@ -103,40 +116,6 @@ pub struct ShownImpact {
     pub failed_at: Option<f64>,
 }
 
-impl FromFile for RigidStudy {
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
-        let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
-        let judge = Judge::new(tolerance(&obstacles)?);
-        let judge = judge
-            .map_err(|error| obstacles.refuse("tolerance", error.to_string(), "a tolerance"))?;
-        let moving = root.table(
-            "moving",
-            &["scene", "elements", "dt", "t_end", "max_iterations"],
-        )?;
-        let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
-        let impact = root.table("impact", &["scene", "steps"])?;
-        let t_end = moving.positive("t_end")?;
-        let allowed = "a list of at least three positive numbers, descending";
-        // Descending, so that the last is the smallest.
-        let fits = |list: &[f64]| {
-            list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0
-        };
-        Ok(Self {
-            epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
-            limit: obstacles.positive("limit")?,
-            judge,
-            moving: scene(&moving, folder, Some(t_end))?,
-            max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
-            resting: scene(&rest, folder, None)?,
-            speed: rest.positive("speed")?,
-            t_max: rest.positive("t_max")?,
-            impact: impact_scene(&impact, folder)?,
-            steps: impact.count("steps", 1..=1_000_000)?,
-        })
-    }
-}
-
 /// The scene of a table, at the table's resolution.
 fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Scene, InputError> {
     let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
@@ -145,7 +124,8 @@ fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Sce
         t_end: t_end.unwrap_or(scene.t_end),
         ..scene
     };
-    let (dt, of_dt) = (section.positive("dt")?, section.require("dt", "a number")?);
+    let dt = section.positive("dt")?;
+    let of_dt = section.require("dt", "a number")?;
     // The tip of the moving beam is kept at every step.
     limits::steps_until(&of_dt, scene.t_end, dt, limits::RECORDED_STEPS)?;
     if section.get("t_max").is_some() {
@@ -172,89 +152,130 @@ fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
     Err(field.refuse_as_written("a scene with u(1) = g2 and u_t(1) > 0"))
 }
 
-impl Kind for RigidStudy {
+impl Runs for RigidObstacles {
     /// Compliance of the obstacles, and the computation.
-    type Data = (f64, RunOf);
-    type Found = ShownImpact;
+    type Run = (f64, RunOf);
+    type Shown = ShownImpact;
 
-    /// The rigid limit, then each compliance in four scenes.
-    fn cases(&self) -> Vec<Case<Self::Data>> {
-        let case = |run: RunOf, epsilon: f64| {
-            let (name, scene, steps) = match run {
-                RunOf::RigidLimit | RunOf::Bouncing => {
-                    ("bouncing", &self.moving, self.moving.steps() as f64)
-                }
-                RunOf::FixedPoint => (
-                    "fixed point",
-                    &self.moving,
-                    4.0 * self.moving.steps() as f64,
-                ),
-                RunOf::Rest => ("at rest", &self.resting, 200.0 / self.resting.dt()),
-                RunOf::Impact => ("impact", &self.impact, 3.0 * self.steps as f64),
-            };
-            let cost = steps * scene.mesh.elements() as f64;
-            Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, run))
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
+        let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
+        let moving = root.table(
+            "moving",
+            &["scene", "elements", "dt", "t_end", "max_iterations"],
+        )?;
+        let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
+        let impact = root.table("impact", &["scene", "steps"])?;
+        let t_end = moving.positive("t_end")?;
+        let allowed = "a list of at least three positive numbers, descending";
+        // Descending, so that the last is the smallest.
+        let fits = |list: &[f64]| {
+            list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0
         };
-        let runs = [
-            RunOf::Bouncing,
-            RunOf::FixedPoint,
-            RunOf::Rest,
-            RunOf::Impact,
-        ];
-        let all = runs
-            .iter()
-            .flat_map(|&run| self.epsilons.iter().map(move |&epsilon| case(run, epsilon)));
-        std::iter::once(case(RunOf::RigidLimit, self.limit))
-            .chain(all)
-            .collect()
+        Ok(Self {
+            epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
+            limit: obstacles.positive("limit")?,
+            tolerance: tolerance(&obstacles)?,
+            moving: scene(&moving, folder, Some(t_end))?,
+            max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
+            resting: scene(&rest, folder, None)?,
+            speed: rest.positive("speed")?,
+            t_max: rest.positive("t_max")?,
+            impact: impact_scene(&impact, folder)?,
+            steps: impact.count("steps", 1..=1_000_000)?,
+        })
     }
 
-    fn run(&self, &(epsilon, run): &Self::Data) -> Result<ShownImpact, CaseFailure> {
-        let with_compliance = |scene: &Scene| {
-            let obstacles = scene.obstacles.map(|obstacles| Obstacles {
-                epsilon,
-                ..obstacles
-            });
-            Scene {
-                obstacles,
-                ..scene.clone()
-            }
-        };
+    /// The rigid limit, then each compliance in four scenes.
+    fn runs(&self) -> Vec<Case<Self::Run>> {
+        let mut runs = vec![self.case(RunOf::RigidLimit, self.limit)];
+        for run in RunOf::OF_EACH_COMPLIANCE {
+            runs.extend(self.epsilons.iter().map(|&epsilon| self.case(run, epsilon)));
+        }
+        runs
+    }
+
+    fn run(&self, &(epsilon, run): &Self::Run) -> Result<ShownImpact, CaseFailure> {
+        let mut scene = self.scene(run).clone();
+        scene.obstacles = scene.obstacles.map(|obstacles| Obstacles {
+            epsilon,
+            ..obstacles
+        });
         match run {
-            RunOf::RigidLimit | RunOf::Bouncing => newton(&with_compliance(&self.moving), epsilon),
-            RunOf::FixedPoint => fixed_point(&with_compliance(&self.moving), self.max_iterations),
+            RunOf::RigidLimit | RunOf::Bouncing => newton(&scene, epsilon),
+            RunOf::FixedPoint => fixed_point(&scene, self.max_iterations),
             RunOf::Rest => {
-                let (_, level) = settle(&with_compliance(&self.resting), self.speed, self.t_max)?;
-                let force = level.contact_force.abs();
-                Ok(ShownImpact {
-                    force: Some(force),
-                    penetration: Some(epsilon * force),
-                    ..ShownImpact::default()
-                })
+                let (_, level) = settle(&scene, self.speed, self.t_max)?;
+                Ok(ShownImpact::by_force(level.contact_force.abs(), epsilon))
             }
             RunOf::Impact => {
-                let scene = with_compliance(&self.impact);
-                let time = Obstacles {
-                    epsilon,
-                    ..Obstacles::default()
-                }
-                .impact_time(scene.beam.zeta);
+                let time = self.impact_time(epsilon);
                 // The peak is at 1.65 t*.
-                let method = scene.method.with_dt(time / self.steps as f64);
-                newton(
-                    &Scene {
-                        t_end: 3.0 * time,
-                        method,
-                        ..scene
-                    },
-                    epsilon,
-                )
+                scene.t_end = 3.0 * time;
+                scene.method = scene.method.with_dt(time / self.steps as f64);
+                newton(&scene, epsilon)
             }
         }
     }
 
-    fn judge(&self, ran: &[Ran<(f64, RunOf), ShownImpact>]) -> Outcome {
-        judge::judge(self, ran)
+    fn numbers(&self, _: &Self::Run, run: &ShownImpact) -> Vec<Reading> {
+        let tip = run.tip.iter().map(|(t, u)| t.abs() + u.abs());
+        vec![
+            Reading::new("velocity", run.velocity),
+            Reading::new("force", run.force),
+            Reading::new("penetration", run.penetration),
+            Reading::new("alpha", run.alpha),
+            Reading::new("contraction", run.contraction),
+            Reading::new("iterations", run.mean_iterations),
+            Reading::new("tip", largest_of(tip)),
+            Reading::new("time of failure", run.failed_at),
+        ]
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        judge::judge(self, results)
+    }
+}
+
+impl RigidObstacles {
+    fn scene(&self, run: RunOf) -> &Scene {
+        match run {
+            RunOf::RigidLimit | RunOf::Bouncing | RunOf::FixedPoint => &self.moving,
+            RunOf::Rest => &self.resting,
+            RunOf::Impact => &self.impact,
+        }
+    }
+
+    fn case(&self, run: RunOf, epsilon: f64) -> Case<(f64, RunOf)> {
+        let moving = self.moving.steps() as f64;
+        let (name, steps) = match run {
+            RunOf::RigidLimit | RunOf::Bouncing => ("bouncing", moving),
+            RunOf::FixedPoint => ("fixed point", 4.0 * moving),
+            RunOf::Rest => ("at rest", 200.0 / self.resting.dt()),
+            RunOf::Impact => ("impact", 3.0 * self.steps as f64),
+        };
+        let cost = steps * self.scene(run).mesh.elements() as f64;
+        Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, run))
+    }
+
+    /// t*, the time scale of an impact.
+    fn impact_time(&self, epsilon: f64) -> f64 {
+        let obstacles = Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        };
+        obstacles.impact_time(self.impact.beam.zeta)
+    }
+}
+
+impl ShownImpact {
+    /// * `force`: in absolute value.
+    fn by_force(force: f64, epsilon: f64) -> Self {
+        Self {
+            force: Some(force),
+            penetration: Some(epsilon * force),
+            ..Self::default()
+        }
     }
 }
 
@@ -268,34 +289,28 @@ fn newton(scene: &Scene, epsilon: f64) -> Result<ShownImpact, CaseFailure> {
         .map(|row| row.sample.contact_force.abs())
         .fold(0.0, max_or_nan);
     Ok(ShownImpact {
-        force: Some(force),
-        penetration: Some(epsilon * force),
         velocity: Some(run.first.u_t_tip),
         mean_iterations: Some(run.iterations.total as f64 / run.steps as f64),
         most_iterations: run.iterations.max,
         tip: run.tip(),
-        ..ShownImpact::default()
+        ..ShownImpact::by_force(force, epsilon)
     })
 }
 
 /// The fixed point up to its last step or the one that fails.
 fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, CaseFailure> {
-    let stepping = scene.one_step()?;
-    let stopping = stepping.settings.stopping.with_limit(max_iterations);
-    let settings = Settings {
-        solver: Solver::FixedPoint,
-        stopping,
-        ..stepping.settings
-    };
-    let method = Method::OneStep(Stepping {
-        settings,
-        ..stepping
-    });
-    let mut driver = driver(&Scene {
-        method,
-        ..scene.clone()
-    })?;
-    let (mut contraction, mut iterations, mut failed_at) = (None, 0, None);
+    let mut stepping = scene.one_step()?;
+    let settings = &mut stepping.settings;
+    settings.solver = Solver::FixedPoint;
+    settings.stopping = settings.stopping.with_limit(max_iterations);
+    let problem = simulate::problem(scene);
+    // For the mean axial force β of a nearly straight beam.
+    let alpha = problem
+        .case(stepping.scheme, stepping.dt)
+        .contact_contraction(scene.beam.beta);
+    let mut driver = Driver::new(problem, stepping)?;
+    let mut contraction = None;
+    let mut iterations = 0;
     let ended = run_to(&mut driver, scene.t_end, |driver, report| {
         iterations += report.iterations;
         // While the tip enters or leaves contact the law is not linear, and two increments show
@@ -305,8 +320,8 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
             contraction = Some(contraction.map_or(measured, |most| max_or_nan(most, measured)));
         }
     });
-    match ended {
-        Ok(()) => {}
+    let failed_at = match ended {
+        Ok(()) => None,
         Err(RunError::Step(error)) => {
             contraction = match error.failure {
                 StepFailure::Diverged { contraction, .. }
@@ -315,27 +330,18 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
                 }
                 _ => None,
             };
-            failed_at = Some(error.step as f64 * error.dt);
+            Some(error.step as f64 * error.dt)
         }
         Err(other) => return Err(other.into()),
-    }
+    };
     let mean_iterations = Some(iterations as f64 / driver.work().steps.max(1) as f64);
     Ok(ShownImpact {
-        alpha: Some(alpha(scene, &stepping)),
+        alpha: Some(alpha),
         contraction,
         mean_iterations,
         failed_at,
         ..ShownImpact::default()
     })
-}
-
-/// The factor for the mean axial force β of a nearly straight beam; infinite if the operator is not
-/// definite.
-fn alpha(scene: &Scene, by: &Stepping) -> f64 {
-    let case = simulate::problem(scene).case(by.scheme, by.dt);
-    scene
-        .obstacles
-        .map_or(f64::NAN, |_| case.contact_contraction(scene.beam.beta))
 }
 
 /// Peak penetration of an impact, in units of velocity times [`Obstacles::impact_time`]: 0.8581.
@@ -349,19 +355,25 @@ fn peak_penetration() -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// C(ξ) for 0 <= ξ <= 4, where the terms vanish long before the last.
+/// C(ξ) for ξ >= 0: the terms with even n, less those with odd n.
 fn penetration(tau: f64) -> f64 {
-    const TERMS: usize = 40;
-    // Γ(2 + 3k/2) from Γ(x + 3) = x (x + 1) (x + 2) Γ(x), starting from Γ(2) = 1 and Γ(7/2) = 15 √π
-    // / 8.
-    let mut gamma = [1.0, 1.875 * std::f64::consts::PI.sqrt()];
+    // Γ(2) = 1, and Γ(7/2) = 15 √π / 8.
+    let odd = tau.powf(2.5) / (1.875 * std::f64::consts::PI.sqrt());
+    every_second_term(tau, tau, 2.0) - every_second_term(tau, odd, 3.5)
+}
+
+/// `Σ ξ^(x + 3m - 1) / Γ(x + 3m)`, m = 0, 1, ..., by Γ(x + 3) = x (x + 1) (x + 2) Γ(x); for ξ <= 5
+/// the terms vanish long before the last.
+///
+/// * `first`: the term with m = 0.
+fn every_second_term(tau: f64, first: f64, x: f64) -> f64 {
+    const TERMS: u32 = 20;
+    let mut term = first;
     let mut sum = 0.0;
-    for k in 0..TERMS {
-        let half = 1.5 * k as f64;
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        sum += sign * tau.powf(1.0 + half) / gamma[k % 2];
-        let x = 2.0 + half;
-        gamma[k % 2] *= x * (x + 1.0) * (x + 2.0);
+    for m in 0..TERMS {
+        sum += term;
+        let x = x + 3.0 * f64::from(m);
+        term *= tau.powi(3) / (x * (x + 1.0) * (x + 2.0));
     }
     sum
 }

@@ -16,8 +16,8 @@ use convergence_study::judge::verdict::{Level as Error, judge};
 
 use super::Convergence;
 use crate::exact::defect::Defect;
-use crate::exact::formulas::SchemeFormulas;
 use crate::exact::sources::{Nodal, Sources};
+use crate::kinds::orders::one_step::{self, formulas_of, largest_errors};
 use crate::kinds::prelude::*;
 
 /// Space vectors and error meter of one mesh, shared by several runs.
@@ -113,71 +113,39 @@ impl<'a> Prepared<'a> {
             sources.fill(&source, forces, defect, load);
         };
         let meter = &mut self.meter;
-        let mut worst = Norms::ZERO;
-        run_to(&mut driver.loaded(fill), steps as f64 * dt, |driver, _| {
-            worst = worst.max(&meter.measure(driver.level(), &reached.borrow()));
-        })?;
-        Ok(worst)
+        Ok(largest_errors(
+            &mut driver.loaded(fill),
+            steps as f64 * dt,
+            |driver| meter.measure(driver.level(), &reached.borrow()),
+        )?)
     }
 
-    /// The solver at t = 0, and the lifting of its temperature in the error meter.
+    /// The solver at t = 0.
     ///
     /// * `factors`: those of the exact solution at t = 0; the rest as in [`Self::run`].
     fn start<'l>(
         &mut self,
         factors: &Factors,
         dt: f64,
-        Coefficients { beam, obstacles }: Coefficients,
+        solver: Coefficients,
         defect: Option<Defect>,
     ) -> Result<Driver<'l>, CaseFailure> {
-        let Convergence { theory, refine, .. } = self.study;
-        let exact_theta_a = theory.beam.theta_a;
+        let (mesh, meter) = (&self.mesh, &mut self.meter);
+        let exact_theta_a = self.study.theory.beam.theta_a;
         let mut initial = self
             .nodal
-            .initial(&self.mesh, factors, exact_theta_a, beam.theta_a);
+            .initial(mesh, factors, exact_theta_a, solver.beam.theta_a);
         if defect == Some(Defect::StartNotLifted) {
             // Without the ends: the solver refuses initial data that contradict the boundary
             // conditions.
-            let inner = 1..self.mesh.elements();
-            for (theta, x) in initial.theta[inner.clone()]
-                .iter_mut()
-                .zip(&self.mesh.nodes()[inner])
-            {
+            let inner = 1..mesh.elements();
+            let temperatures = initial.theta[inner.clone()].iter_mut();
+            for (theta, x) in temperatures.zip(&mesh.nodes()[inner]) {
                 *theta -= exact_theta_a * (1.0 - x);
             }
         }
-        let stepping = Stepping {
-            scheme: refine.scheme,
-            settings: refine.settings,
-            dt,
-            loaded: true,
-        };
-        let driver = Driver::new(
-            Problem {
-                beam,
-                obstacles,
-                mesh: self.mesh.clone(),
-                initial,
-            },
-            stepping,
-        )?;
-        self.meter.lift(&self.mesh, beam.theta_a);
-        Ok(driver)
+        one_step::start(&self.study.refine, dt, true, solver, mesh, initial, meter)
     }
-}
-
-/// The formulas of a scheme on the side of the exact solutions.
-///
-/// # Errors
-/// [`CaseFailure`] if it has none there.
-pub(in crate::kinds) fn formulas_of(scheme: Scheme) -> Result<SchemeFormulas, CaseFailure> {
-    let none = || {
-        CaseFailure::new(format!(
-            "no formulas of the scheme {} to compare with",
-            scheme.name
-        ))
-    };
-    SchemeFormulas::of(scheme.name).ok_or_else(none)
 }
 
 /// All levels of a study, prepared once for runs with many faults.

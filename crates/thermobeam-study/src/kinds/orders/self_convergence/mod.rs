@@ -47,25 +47,14 @@
 //! ```
 
 mod judge;
+mod observable;
 
-use super::prelude::*;
-use super::tables::{Discretisation, Refine, claims, discretisations};
+use super::{Orders, Runs, Series, Shown, Source};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
-use crate::kinds::settings;
-use judge::Observable;
-
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "orders/self-convergence",
-    read: reader::<SelfConvergence>,
-    why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
-          the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
-    judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
-    failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
-              reference fail, scheme and reference solve different equations.",
-    settings: settings::of_experiments,
-};
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Discretisation, Refine, claims, discretisations, nested};
+use observable::Observable;
 
 /// A study of rates without an exact solution.
 #[derive(Debug)]
@@ -88,13 +77,30 @@ pub struct SelfConvergence {
     claims: Vec<(&'static Observable, Claim)>,
 }
 
-impl FromFile for SelfConvergence {
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+impl Source for SelfConvergence {
+    const ROW: KindRow = KindRow {
+        name: "orders/self-convergence",
+        read: reader::<Orders<Self>>,
+        why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
+              the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
+        judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
+        failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
+                  reference fail, scheme and reference solve different equations.",
+        settings: |header, item| {
+            Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+        },
+    };
+
+    /// Number of the run: the levels, then the two references.
+    type Data = usize;
+    type Found = Traced;
+
+    fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "scene", "refine", "reference", "expect"])?;
         let named = root.table("scene", &["file"])?;
         let file = named.require("file", "the path of a scene, from this file's folder")?;
         let scene = Scene::read(file.file(folder)?)?;
-        let mut stepping = scene
+        let one_step = scene
             .one_step()
             .map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
         let keys = ["axis", "elements", "steps", "t_end", "samples", "contact"];
@@ -108,17 +114,8 @@ impl FromFile for SelfConvergence {
         let t_end = section
             .get("t_end")
             .map_or(Ok(scene.t_end), |field| field.positive())?;
-        if section.get("scheme").is_some() {
-            stepping.scheme = tables::scheme(&section)?;
-        }
-        if ["solver", "tolerance", "max_iterations", "iterations"]
-            .iter()
-            .any(|key| section.get(key).is_some())
-        {
-            stepping.settings = tables::settings(&section)?;
-        }
-        let observables = Observable::all(axis, stepping.settings.stopping);
-        let observables: Vec<_> = observables
+        let stepping = stepping(&section, one_step)?;
+        let observables: Vec<_> = Observable::all(axis, stepping.settings.stopping)
             .map(|observable| (observable.name, observable))
             .collect();
         let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
@@ -137,90 +134,21 @@ impl FromFile for SelfConvergence {
             },
         })
     }
-}
-
-fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
-    match section
-        .get("contact")
-        .map_or(Ok(false), |field| field.boolean())?
-    {
-        true if scene.obstacles.is_none() => Err(section.refuse(
-            "contact",
-            "true, of a scene without obstacles",
-            "false, or a scene with obstacles",
-        )),
-        contact => Ok(contact),
-    }
-}
-
-/// The levels, coarse to fine, and the power of h that dt is proportional to if both are refined.
-fn levels(
-    section: &Section<'_>,
-    axis: Axis,
-    samples: usize,
-) -> Result<(Vec<(usize, usize)>, f64), InputError> {
-    let steps = nested_list(section, "steps", |item| item.count(1..=limits::STEPS))?;
-    let (elements, power) = if axis == Axis::Time {
-        let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
-        (vec![one; steps.len()], 1.0)
-    } else {
-        let elements = nested_list(section, "elements", tables::elements)?;
-        let ratios = |list: &[usize]| {
-            list.windows(2)
-                .map(|pair| pair[1] / pair[0])
-                .collect::<Vec<usize>>()
-        };
-        let (finer, shorter) = (ratios(&elements), ratios(&steps));
-        let is = |power: &u32| {
-            finer
-                .iter()
-                .map(|ratio| ratio.pow(*power))
-                .eq(shorter.iter().copied())
-        };
-        let Some(power) = [1, 2].into_iter().find(is) else {
-            let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
-            return Err(section
-                .require("steps", allowed)?
-                .refuse_as_written(allowed));
-        };
-        (elements, f64::from(power))
-    };
-    if !steps[0].is_multiple_of(samples) {
-        let found = format!("{} steps", steps[0]);
-        return Err(section.refuse("steps", found, format!("a multiple of samples = {samples}")));
-    }
-    Ok((elements.into_iter().zip(steps).collect(), power))
-}
-
-/// A list of levels, each a multiple of its predecessor.
-fn nested_list(
-    section: &Section<'_>,
-    key: &str,
-    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
-) -> Result<Vec<usize>, InputError> {
-    let allowed = "a list of at least two whole numbers, each a multiple of the one before";
-    let follows = |before: usize, level: usize| level > before && level.is_multiple_of(before);
-    section.sequence((key, allowed, 2), read, ("a multiple of", follows))
-}
-
-impl Kind for SelfConvergence {
-    /// Number of the run: the levels, then the two references.
-    type Data = usize;
-    type Found = Traced;
 
     fn cases(&self) -> Vec<Case<usize>> {
-        let level =
-            |&(n, steps): &(usize, usize)| (Refine::label(n, steps), n as f64 * steps as f64);
-        let reference =
-            |how: &Discretisation| (format!("reference, {}", how.label()), how.cost(self.t_end));
-        let runs = self
-            .levels
-            .iter()
-            .map(level)
-            .chain(self.references.iter().map(reference));
-        runs.enumerate()
-            .map(|(data, (label, cost))| Case::new(label, cost, data))
-            .collect()
+        let mut cases = vec![];
+        for (run, &(n, steps)) in self.levels.iter().enumerate() {
+            cases.push(Case::new(
+                Refine::label(n, steps),
+                n as f64 * steps as f64,
+                run,
+            ));
+        }
+        for reference in &self.references {
+            let label = format!("reference, {}", reference.label());
+            cases.push(Case::new(label, reference.cost(self.t_end), cases.len()));
+        }
+        cases
     }
 
     fn run(&self, &run: &usize) -> Result<Traced, CaseFailure> {
@@ -237,9 +165,113 @@ impl Kind for SelfConvergence {
         Traced::compute(&scene, mesh, self.samples)
     }
 
-    fn judge(&self, ran: &[Ran<usize, Traced>]) -> Outcome {
-        judge::judge(self, ran)
+    fn not_finite(&self, found: &Traced) -> Vec<String> {
+        let mut broken = vec![];
+        if found.tip_range.iter().any(|tip| !tip.is_finite()) {
+            broken.push("the range of u(1)".to_owned());
+        }
+        let mut samples = found.levels.iter().zip(&found.energies);
+        if let Some(k) =
+            samples.position(|(level, energy)| !energy.is_finite() || !is_finite(level))
+        {
+            broken.push(format!("sample {}", k + 1));
+        }
+        broken
     }
+
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+        let mut series = vec![];
+        for reading in judge::READINGS {
+            for is_claimed in [true, false] {
+                series.push(Series {
+                    levels: self.differences(runs, reading, |claim| claim.is_some() == is_claimed),
+                    is_claimed,
+                    figure: None,
+                    grid: None,
+                });
+            }
+        }
+        series
+    }
+
+    fn checks(&self, runs: &Runs<Self>, _: &[Series]) -> Vec<Check> {
+        let mut checks = vec![self.reference_known(runs)];
+        checks.extend(self.meets_obstacle(runs));
+        checks
+    }
+
+    fn shown(&self, runs: &Runs<Self>, _: &[Series], _: &Outcome) -> Shown {
+        Shown {
+            tables: vec![self.values(runs)],
+            figures: vec![self.to_reference(runs), self.tip(runs)],
+            quantities: self.values_guarded(runs),
+            ..Shown::default()
+        }
+    }
+}
+
+/// The method of the scene, with what `[refine]` says of it.
+fn stepping(section: &Section<'_>, of_scene: Stepping) -> Result<Stepping, InputError> {
+    let mut stepping = of_scene;
+    if section.get("scheme").is_some() {
+        stepping.scheme = tables::scheme(section)?;
+    }
+    let keys = ["solver", "tolerance", "max_iterations", "iterations"];
+    if keys.iter().any(|key| section.get(key).is_some()) {
+        stepping.settings = tables::settings(section)?;
+    }
+    Ok(stepping)
+}
+
+fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
+    let contact = section
+        .get("contact")
+        .map_or(Ok(false), |field| field.boolean())?;
+    if contact && scene.obstacles.is_none() {
+        return Err(section.refuse(
+            "contact",
+            "true, of a scene without obstacles",
+            "false, or a scene with obstacles",
+        ));
+    }
+    Ok(contact)
+}
+
+/// The levels, coarse to fine, and the power of h that dt is proportional to if both are refined.
+fn levels(
+    section: &Section<'_>,
+    axis: Axis,
+    samples: usize,
+) -> Result<(Vec<(usize, usize)>, f64), InputError> {
+    let steps = nested(section, "steps", |item| item.count(1..=limits::STEPS))?;
+    let (elements, power) = if axis == Axis::Time {
+        let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
+        (vec![one; steps.len()], 1)
+    } else {
+        let elements = nested(section, "elements", tables::elements)?;
+        let finer = ratios(&elements);
+        let is_power = |power: &u32| {
+            let shorter = finer.iter().map(|ratio| ratio.pow(*power));
+            shorter.eq(ratios(&steps))
+        };
+        let Some(power) = [1, 2].into_iter().find(is_power) else {
+            let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
+            return Err(section
+                .require("steps", allowed)?
+                .refuse_as_written(allowed));
+        };
+        (elements, power)
+    };
+    if !steps[0].is_multiple_of(samples) {
+        let found = format!("{} steps", steps[0]);
+        return Err(section.refuse("steps", found, format!("a multiple of samples = {samples}")));
+    }
+    Ok((elements.into_iter().zip(steps).collect(), f64::from(power)))
+}
+
+/// By how much each level is finer than its predecessor.
+fn ratios(levels: &[usize]) -> Vec<usize> {
+    levels.windows(2).map(|pair| pair[1] / pair[0]).collect()
 }
 
 impl SelfConvergence {

@@ -1,12 +1,17 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind, Outcome, run_cases_here};
-use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
-use thermobeam_study::kinds::energy::runs::{EnergyRuns, Found};
-use thermobeam_study::kinds::energy::{End, ROW};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::cases::End;
+use thermobeam_study::kinds::runs::energy::ROW;
+use thermobeam_study::kinds::runs::energy::one_by_one::{self, Found};
+use thermobeam_study::kinds::runs::energy::random::{self, Batch};
 
 use super::file;
 use super::refused::refusal;
 use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
+
+type EnergyRuns = RunStudy<one_by_one::EnergyRuns>;
+type RandomScenes = RunStudy<random::RandomScenes>;
 
 fn runs(name: &str) -> EnergyRuns {
     EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))

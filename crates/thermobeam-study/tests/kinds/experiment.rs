@@ -2,14 +2,17 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::kind::run_cases_here;
 use convergence_study::study::{Case, FromFile, Kind, Origin};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
-use thermobeam_study::kinds::experiment::{
-    AtRest, Experiments, Found, Measured, Nearest, PaperRun, ROW, Task,
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::experiment::{
+    self, AtRest, Found, Measured, Nearest, PaperRun, ROW, Task,
 };
 
 use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{changed, passes_but_not_without_each_case};
 use super::{file, text};
+
+type Experiments = RunStudy<experiment::Experiments>;
 
 fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))

@@ -24,8 +24,8 @@ use thermobeam::dg::Stepping;
 use thermobeam::simulation::Stepping as OneStep;
 
 use self::truth::{Trace, Truth, points};
-use super::energy::named_cases;
 use super::prelude::*;
+use super::runs::cases::named_cases;
 use crate::predict::choice::{self, choose};
 use crate::predict::estimate::estimate;
 use crate::predict::{MOST_WORK, Unreachable, Work};

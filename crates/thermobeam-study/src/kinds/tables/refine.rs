@@ -147,6 +147,16 @@ impl Refine {
         )
     }
 
+    /// How a run with this number of steps is stepped.
+    pub(crate) fn stepping(&self, steps: usize, loaded: bool) -> Stepping {
+        Stepping {
+            scheme: self.scheme,
+            settings: self.settings,
+            dt: self.dt(steps),
+            loaded,
+        }
+    }
+
     /// The length of a step.
     pub fn dt(&self, steps: usize) -> f64 {
         self.t_end / steps as f64

@@ -6,7 +6,7 @@
 
 mod modes;
 
-use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms, start};
+use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms};
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
@@ -110,19 +110,18 @@ impl Source for Vibration {
         let mut closed = is_of_mesh.then(|| modes.moved(Some(formulas), dt));
         let mut factors = Factors::default();
         reference(0, &mut factors);
-        let theta_a = [self.theory, self.solver].map(|beam| beam.beam.theta_a);
+        let Coefficients { beam, obstacles } = self.solver;
         let nodal = Nodal::of(&modes.exact, &mesh);
-        let initial = nodal.initial(&mesh, &factors, theta_a[0], theta_a[1]);
+        let initial = nodal.initial(&mesh, &factors, self.theory.beam.theta_a, beam.theta_a);
         let mut meter = ErrorMeter::new(&modes.exact, &mesh, is_of_mesh);
-        let mut driver = start(
-            &self.refine,
-            dt,
-            false,
-            self.solver,
-            &mesh,
+        meter.lift(&mesh, beam.theta_a);
+        let problem = Problem {
+            beam,
+            obstacles,
+            mesh,
             initial,
-            &mut meter,
-        )?;
+        };
+        let mut driver = Driver::new(problem, self.refine.stepping(steps, false))?;
         let zero = Level::new(elements + 1);
         let mut deviation = 0.0;
         let mut size = 0.0;

@@ -7,6 +7,7 @@ use super::subject::Subject;
 const ORDERS: &str = "orders";
 
 /// The kind of a study whose file has no `kind`.
+#[cfg(feature = "files")]
 pub(super) const DEFAULT_KIND: &str = "orders/manufactured";
 
 /// Longest id: it becomes part of file names, which some systems limit to 255 bytes.
@@ -82,6 +83,7 @@ pub const NAME: &str =
     "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
 
 /// Whether a text can be the name of a kind: parts as in an id, with a `/` between them.
+#[cfg(feature = "files")]
 pub(super) fn is_kind(text: &str) -> bool {
     text.split('/').all(is_name)
 }

@@ -205,9 +205,7 @@ pub fn of_harness(header: &Header, subject: &Subject) -> Vec<Setting> {
 
 /// Study, topic and field.
 fn general(header: &Header, subject: &Subject, topic: &str) -> Vec<Setting> {
-    // A study on its own: its kind tells where to look.
-    let (key, alone) = study(header);
-    let mut settings = vec![(key, format!("{alone} ({topic})")), setting("kind", topic)];
+    let mut settings = vec![study(header), setting("kind", topic)];
     let quantity = subject.quantity.as_str();
     if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
         settings.push(setting("field", quantity));

@@ -4,7 +4,8 @@
 //! An exactly solved step without loads satisfies, with the energy E of (3.9),
 //!
 //! ```text
-//! E^n - E^{n-1} + dt ζ (‖v_x - w‖² + ‖w_x‖²) + dt ‖θ_x‖² (at n-½) + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
+//! E^n - E^{n-1} + dt ζ (‖v_x - w‖² + ‖w_x‖²) + dt ‖θ_x‖² (at n-½)
+//!     + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
 //! ```
 //!
 //! where gap >= 0 comes from the contact term. Only the first difference can be negative, so E
@@ -13,18 +14,17 @@
 //!
 //! A study file selects its scenes by one of three tables:
 //!
-//! | table | scenes |
-//! | --- | --- |
-//! | `[energy]` | scene files and smooth random beams, by every scheme listed: a fixed bound on rise and residual |
-//! | `[[case]]` | single scenes at the limits of the allowed range, each with its own claim and the way its run must end |
-//! | `[random]` | batches of random scenes, in lanes |
+//! * `[energy]`: scene files and smooth random beams, by every scheme listed: a fixed bound on rise
+//!   and residual
+//! * `[[case]]`: single scenes at the limits of the allowed range, each with its own claim and the
+//!   way its run must end
+//! * `[random]`: batches of random scenes, in lanes
 //!
 //! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, if that is
 //! larger, by a bound on the rounding errors of the step.
 
 mod beams;
 mod bound;
-mod listed;
 pub mod one_by_one;
 pub mod random;
 

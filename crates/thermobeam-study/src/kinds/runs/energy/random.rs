@@ -10,7 +10,8 @@
 //!
 //! ```toml
 //! [random]
-//! batches = 64       # of 256 scenes, with 1 to 32 elements; the scheme changes from batch to batch
+//! # of 256 scenes, with 1 to 32 elements; the scheme changes from batch to batch
+//! batches = 64
 //! steps = 20
 //! seed = 1
 //! ```

@@ -3,26 +3,27 @@
 //!
 //! # Which method shows what
 //!
-//! | run | until | for |
-//! | --- | --- | --- |
-//! | dG, by the first of `[[discretisations]]` | steady | statements about rest, and the figures |
-//! | dG, by the second | steady | the error of the first: the two share neither mesh nor degrees nor steps |
-//! | with a table `[fixed_point]`: the paper's algorithm (4.1)-(4.5) with η*, at the scene's own h and dt, and Newton's method beside it | t_end | statements about the motion, in place of dG; iterations per step; distance to Newton's solution |
-//! | dG, for each β of `[steady]` | rest | the number of steady states |
+//! * dG by the first of `[[discretisations]]`, until steady: statements about rest, and figures.
+//! * dG by the second, until steady: the error of the first. The two share neither mesh nor degrees
+//!   nor steps.
+//! * With a table `[fixed_point]`: the paper's algorithm (4.1)-(4.5) with η*, at the scene's own h
+//!   and dt, and Newton's method side by side, until t_end: statements about the motion, in place
+//!   of dG; iterations per step; distance to Newton's solution.
+//! * dG for each β of `[steady]`, until rest: the number of steady states.
 //!
 //! The paper leaves open in which "appropriate norm" the increments fall below η*. Here it is that
 //! of (3.14), for the reasons in THEORY.md, "The norm of the stopping test".
 //!
 //! # What is measured, and how
 //!
-//! | quantity | measured as |
-//! | --- | --- |
-//! | steady | the energy has fallen by at most `rate` per unit of time over the last `window` |
-//! | frequency of u(1) | upward crossings of zero on [0, t_end]: (their number - 1) / (last - first), each interpolated |
-//! | amplitude of φ(1) | largest minus smallest value on [0, t_end] |
-//! | first contact | when the tip first passes the obstacle: a contact event of dG, or interpolated between time levels |
-//! | rests on | the contact force at the end, and the tip's position |
-//! | error of a figure | largest difference of the two discretisations, over the width of the line |
+//! * Steady: the energy has fallen by at most `rate` per unit of time over the last `window`.
+//! * Frequency of u(1): upward crossings of zero on [0, t_end], each interpolated: (their number -
+//!   1) / (last - first).
+//! * Amplitude of φ(1): largest minus smallest value on [0, t_end].
+//! * First contact: when the tip first passes the obstacle: a contact event of dG, or interpolated
+//!   between time levels.
+//! * Rests on: the contact force at the end, and the tip's position.
+//! * Error of a figure: largest difference of the two discretisations, over the width of the line.
 //!
 //! t_end is that of the scene, 10 in the paper: the span of its figures.
 //!

@@ -10,17 +10,22 @@
 //! name = "listed-nodes"
 //! claim = "..."                # in words
 //! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
-//! [case.answer]                # with `ends = "answer"` only: numbers as `run --format json` calls them
+//! # with `ends = "answer"` only: numbers as `run --format json` calls them
+//! [case.answer]
 //! within = 1e-9                # bound on the distance to each
 //! u_tip = -0.0408657198986
 //! history = [[0.5, 0.012]]     # t and u(1, t), at times k t_end/200
 //! contact = [[0.0, 0.2]]       # beginning and end of each contact
-//! steady = [[-0.01, 0]]        # u(1) and the number of unstable directions of each steady state, in the order of u(1)
+//! # u(1) and the number of unstable directions of each steady state, in the order of u(1)
+//! steady = [[-0.01, 0]]
 //! estimated_error = 1e-3       # what `--estimate-error` says of u(1) at the end
-//! chosen_u_tip = -0.040865     # u(1) at the end of the run that `--target-error` chooses for an error of `within`
-//! [case.most]                  # with `ends = "answer"`, beside an answer or in place of it: bounds
+//! # u(1) at the end of the run that `--target-error` chooses for an error of `within`
+//! chosen_u_tip = -0.040865
+//! # with `ends = "answer"`, in addition to an answer or in place of it: bounds
+//! [case.most]
 //! iterations_per_step = 5.0    # mean number of iterations
-//! unsolved = 1.0               # distance of a step to the same step solved to round-off, over the tolerance; one-step schemes
+//! # distance of a step to the same step solved to round-off, over the tolerance; one-step schemes
+//! unsolved = 1.0
 //! # and the tables of a scene, by any scheme
 //! [case.time]
 //! dt = 0.005

@@ -8,7 +8,8 @@ use crate::kinds::runs::cases::End;
 use crate::kinds::runs::watch::SOLVED;
 use crate::run::tally::Extremes;
 
-/// Numbers by their names: some of [`NUMBERS`] and of [`super::PREDICTED`], and those of lists of pairs.
+/// Numbers by their names: some of [`NUMBERS`] and of [`super::PREDICTED`], and those of lists of
+/// pairs.
 pub(super) type NamedNumbers = Vec<(String, f64)>;
 
 /// Keys of an answer whose values are lists of pairs.

@@ -1,10 +1,10 @@
 //! The tables `[energy]` and `[[case]]`.
 
-use super::beams::smooth;
-use super::bound::stability;
-use super::one_by_one::EnergyRun;
+use super::EnergyRun;
 use crate::kinds::prelude::*;
 use crate::kinds::runs::cases::{ClaimedScene, End};
+use crate::kinds::runs::energy::beams::smooth;
+use crate::kinds::runs::energy::bound::stability;
 use crate::kinds::runs::watch::SOLVED;
 use crate::kinds::tables::Layout;
 

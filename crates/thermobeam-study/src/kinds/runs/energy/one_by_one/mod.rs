@@ -8,7 +8,7 @@
 //! map = "s"                                     # optional
 //! dt = 1e-3
 //! steps = 1000
-//! random = 16                                   # beams with random coefficients and random smooth data
+//! random = 16                                   # beams with random coefficients and smooth data
 //! seed = 1
 //! tolerance = 1e-12                             # of rise and residual, in units of the energy
 //! ```
@@ -18,18 +18,22 @@
 //! name = "long-steps"
 //! claim = "..."                # in words
 //! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
-//! drift = 1e-10                # optional: bound of the sum of all residuals, in units of the energy
-//! stability = true             # optional: every level keeps the bound of Corollary 3.2; needs theta_a = 0
+//! # optional: bound of the sum of all residuals, in units of the energy
+//! drift = 1e-10
+//! # optional: every level keeps the bound of Corollary 3.2; needs theta_a = 0
+//! stability = true
 //! # and the tables of a scene
 //! [case.time]
 //! dt = 10.0
 //! t_end = 1000.0
 //! ```
 
+mod drawn;
+mod listed;
+
 use thermobeam::energy::Energy;
 
 use super::bound::{left_side, stability};
-use super::listed;
 use crate::kinds::prelude::*;
 use crate::kinds::runs::cases::{End, named_cases};
 use crate::kinds::runs::checks::{Condition, all, at_most, ended};
@@ -53,23 +57,23 @@ pub struct EnergyRuns {
 
 /// A run, and what is claimed of it.
 #[derive(Clone)]
-pub(super) struct EnergyRun {
-    pub(super) name: String,
+struct EnergyRun {
+    name: String,
     /// The scene's, or a beam with random coefficients and smooth random data.
-    pub(super) problem: Problem,
-    pub(super) stepping: Stepping,
-    pub(super) steps: usize,
+    problem: Problem,
+    stepping: Stepping,
+    steps: usize,
     /// In words.
-    pub(super) claim: String,
-    pub(super) end: End,
+    claim: String,
+    end: End,
     /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the
     /// bound on the rounding errors of the step.
-    pub(super) share: Option<f64>,
+    share: Option<f64>,
     /// Bound of the sum of all residuals, in units of the energy.
-    pub(super) drift: Option<f64>,
+    drift: Option<f64>,
     /// Whether every level must keep the bound of Corollary 3.2.
-    pub(super) is_bounded: bool,
-    pub(super) is_drawn: bool,
+    is_bounded: bool,
+    is_drawn: bool,
 }
 
 /// What a run finds.
@@ -171,15 +175,13 @@ impl Runs for EnergyRuns {
         let run = &self.runs[*place];
         let of_steps =
             |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value));
-        let text = |name: &str, text: String| Reading::text(name, text);
-        let bound = found.of_bound;
         let mut numbers = vec![
-            text("elements", run.problem.mesh.elements().to_string()),
-            text("dt", plain_text(run.stepping.dt)),
-            text("steps", found.steps.to_string()),
-            text("in contact", found.contact_steps.to_string()),
-            text("end", found.end.name().to_owned()),
-            text("most iterations", found.most_iterations.to_string()),
+            Reading::text("elements", run.problem.mesh.elements().to_string()),
+            Reading::text("dt", plain_text(run.stepping.dt)),
+            Reading::text("steps", found.steps.to_string()),
+            Reading::text("in contact", found.contact_steps.to_string()),
+            Reading::text("end", found.end.name()),
+            Reading::text("most iterations", found.most_iterations.to_string()),
             Reading::new("initial energy", found.initial_energy).scientific(4),
             of_steps("rise", found.worst.rise).scientific(1),
             of_steps("residual", found.worst.residual).scientific(1),
@@ -187,7 +189,9 @@ impl Runs for EnergyRuns {
             of_steps("rise over its bound", found.worst.risen),
             of_steps("residual over its bound", found.worst.open),
         ];
-        numbers.extend(bound.map(|share| Reading::new("of the bound (3.12)", share).fixed(3)));
+        if let Some(share) = found.of_bound {
+            numbers.push(Reading::new("of the bound (3.12)", share).fixed(3));
+        }
         numbers
     }
 
@@ -421,79 +425,4 @@ impl EnergyRun {
     fn scene(&self) -> &str {
         self.name.split(',').next().unwrap_or_default()
     }
-}
-
-/// Curves of all runs drawn.
-fn curves(
-    drawn: &[(&EnergyRun, &Found)],
-    point: fn(&Found, &EnergyAt) -> (f64, f64),
-) -> Vec<plots::Series> {
-    let mut curves = vec![];
-    for (run, found) in drawn {
-        let points = found.samples.iter().map(|sample| point(found, sample));
-        curves.push(plots::Series::new(run.scene(), points));
-    }
-    curves
-}
-
-impl EnergyRuns {
-    fn figure(&self, drawn: &[(&EnergyRun, &Found)]) -> Option<Figure> {
-        if drawn.is_empty() {
-            None
-        } else if self.histories {
-            Some(energies(drawn))
-        } else {
-            Some(drifts(drawn))
-        }
-    }
-
-    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve
-    /// shows no more.
-    fn balance(&self, drawn: &[(&EnergyRun, &Found)]) -> Option<Table> {
-        let rows = drawn.iter().map(|(run, found)| {
-            vec![
-                run.scene().to_owned(),
-                format!("{:.1e}", found.worst.residual),
-                run.share.map_or_else(String::new, plain_text),
-            ]
-        });
-        let title = "Largest residual of the energy balance in a step, over the initial energy";
-        let head = ["scene", "residual", "allowed"];
-        (self.histories && !drawn.is_empty()).then(|| Table::new(title, head, rows))
-    }
-}
-
-fn energies(drawn: &[(&EnergyRun, &Found)]) -> Figure {
-    let energies = curves(drawn, |found, sample| {
-        (sample.t, sample.energy / found.initial_energy)
-    });
-    let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies)
-        .with_looks(&looks(drawn.iter().map(|(run, _)| run.scene())))
-        .titled("The energy never rises");
-    let caption = "The energy, in units of its initial size: it never rises.";
-    Figure::new("energy", caption, energy.draw())
-}
-
-/// With a line for each bound that the runs drawn must keep.
-fn drifts(drawn: &[(&EnergyRun, &Found)]) -> Figure {
-    let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| run.drift).collect();
-    bounds.sort_by(f64::total_cmp);
-    bounds.dedup();
-    let allowed = |value: f64| plots::Guide {
-        label: "allowed".to_owned(),
-        value,
-    };
-    let mut drifts = curves(drawn, |_, sample| (sample.step as f64, sample.drift.abs()));
-    // Exactly zero, such as at the start, has no place on a logarithmic axis.
-    for series in &mut drifts {
-        series.points.retain(|(_, value)| *value != 0.0);
-    }
-    let drift = Xy {
-        x: plots::Axis::linear("steps"),
-        guides: bounds.into_iter().map(allowed).collect(),
-        ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
-    };
-    let caption = "Sum of the signed residuals of the energy balance up to each step.";
-    let title = "The residuals of the balance do not add up";
-    Figure::new("drift", caption, drift.titled(title).draw())
 }

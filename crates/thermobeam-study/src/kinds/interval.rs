@@ -53,3 +53,23 @@ impl Interval {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Interval;
+
+    #[test]
+    fn values_are_equally_spaced_on_the_scale_of_the_interval() {
+        let [linear, logarithmic] = [false, true].map(|is_logarithmic| {
+            let [low, high] = [1.0, 100.0];
+            let interval = Interval {
+                low,
+                high,
+                is_logarithmic,
+            };
+            interval.values(3)
+        });
+        assert_eq!(linear, [1.0, 50.5, 100.0]);
+        assert_eq!(logarithmic, [1.0, 10.0, 100.0]);
+    }
+}

@@ -5,6 +5,7 @@
 //! numbers that the baseline guards.
 
 pub mod controls;
+mod interval;
 pub mod orders;
 mod prelude;
 pub mod random_errors;

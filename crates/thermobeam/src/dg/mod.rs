@@ -53,6 +53,7 @@ mod contact_event;
 pub mod element;
 mod factor;
 mod forms;
+mod iteration;
 mod legendre;
 mod lengths;
 mod observe;

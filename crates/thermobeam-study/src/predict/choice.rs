@@ -20,7 +20,9 @@
 use thermobeam::solve::Stopping;
 
 use super::curves::{Apart, Curves, Rows, Wanted, curves};
-use super::reference::{Reference, finer, impact, reference};
+use super::first::impact;
+use super::reference::{Reference, reference};
+use super::refine::finer;
 use super::{Cost, Reason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 

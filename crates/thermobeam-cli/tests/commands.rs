@@ -59,6 +59,23 @@ fn an_unknown_kind_is_refused_with_its_line() {
 }
 
 #[test]
+fn a_source_in_place_of_a_kind_is_refused_with_the_name_of_the_kind() {
+    for (source, kind) in [
+        ("vibration", "orders/vibration"),
+        ("equilibrium", "runs/equilibrium"),
+    ] {
+        let root = workspace(&[("a.toml", &study("a", source))]);
+        unusable(
+            &root,
+            &["verify"],
+            &format!(
+                "error: studies/a.toml:5:8: study.kind: found \"{source}\"; expected \"{kind}\"\n"
+            ),
+        );
+    }
+}
+
+#[test]
 fn a_study_file_that_is_none_is_refused_with_its_line() {
     let root = workspace(&[("a.toml", "[study]\nid = \"A b\"\n")]);
     unusable(
@@ -104,7 +121,7 @@ fn without_a_folder_of_studies_there_is_nothing_to_verify() {
 #[test]
 fn the_list_tells_the_last_verdict_whichever_record_has_it() {
     let body = "[frequencies]\ncount = 1\nelements = [4, 8, 16]\norder = 2.0\ntolerance = 0.1\n";
-    let [a, b] = ["a", "b"].map(|id| study(id, "frequencies") + body);
+    let [a, b] = ["a", "b"].map(|id| study(id, "orders/frequencies") + body);
     let root = workspace(&[("a.toml", a.as_str()), ("b.toml", b.as_str())]);
     let list = |arguments: &[&str]| {
         let output = thermobeam(root.path(), &[&["list"], arguments].concat());
@@ -136,7 +153,7 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
         let path = root.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         let study = format!(
-            r#"{{"id": "{id}", "claim": "c", "tier": "quick", "kind": "frequencies", "verdict": "{verdict}", "summary": "s",
+            r#"{{"id": "{id}", "claim": "c", "tier": "quick", "kind": "orders/frequencies", "verdict": "{verdict}", "summary": "s",
             "levels": [], "rates": [], "checks": [], "quantities": [], "failed_cases": [], "not_finite": []}}"#
         );
         let head = r#""schema": 1, "crate_version": "0", "scope": "quick", "verdict": "pass", "baseline_changes": []"#;
@@ -172,7 +189,7 @@ fn a_thousand_million_steps_need_consent_or_a_limit() {
     let refine =
         "[refine]\naxis = \"space\"\nelements = [1, 2, 4]\nsteps = 1000000000\nt_end = 1.0\n";
     let expect = "[[expect]]\nnorm = \"velocity\"\norder = 2.0\ntolerance = 0.1\n";
-    let long = study("long", "convergence") + exact + refine + expect;
+    let long = study("long", "orders/manufactured") + exact + refine + expect;
     let root = workspace(&[
         ("scenes/s.toml", &(beam.to_owned() + STEPS)),
         ("long.toml", &long),

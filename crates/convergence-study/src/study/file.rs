@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::header::{DEFAULT_KIND, Exercised, Header, NAME, Tier, is_name};
+use super::header::{DEFAULT_KIND, Exercised, Header, NAME, Tier, is_kind, is_name};
 use super::kind::{Described, Kind, Study, erased};
 use super::levels::Claim;
 use crate::input::{self, Field, InputError, Section};
@@ -28,7 +28,8 @@ pub fn reader<K: FromFile + 'static>(
 /// A kind of study: its name, its reader, and what it means in words.
 #[derive(Debug, Clone, Copy)]
 pub struct KindRow {
-    /// The value of `[study] kind`.
+    /// The value of `[study] kind`. Kinds that differ in the source of their numbers alone have the
+    /// same word before a `/`: `orders/vibration`.
     pub name: &'static str,
     /// Its reader.
     pub read: Reader,
@@ -113,7 +114,15 @@ fn row<'k>(
     let study = root.require("study", "a table")?.section()?;
     // A file without kind has the default kind, which not every project knows.
     study.require("kind", &names.join(", "))?;
-    Err(study.refuse("kind", format!("\"{}\"", header.kind), names.join(", ")))
+    let last_part_is_found = |row: &&KindRow| {
+        let parts = row.name.split_once('/');
+        parts.is_some_and(|(_, source)| source == header.kind)
+    };
+    let expected = kinds
+        .iter()
+        .find(last_part_is_found)
+        .map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
+    Err(study.refuse("kind", format!("\"{}\"", header.kind), expected))
 }
 
 /// A kind of study that a file describes.
@@ -171,12 +180,12 @@ impl Header {
         study.allow(&["id", "claim", "tier", "kind", "group"])?;
         let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
         let kind = if study.get("kind").is_some() {
-            name(&study, "kind")?
+            name(&study, "kind", is_kind)?
         } else {
             DEFAULT_KIND.to_owned()
         };
         Ok(Self {
-            id: name(&study, "id")?,
+            id: name(&study, "id", is_name)?,
             claim: line(&study, "claim")?,
             tier: study
                 .require("tier", "\"quick\" or \"full\"")?
@@ -192,10 +201,14 @@ impl Header {
     }
 }
 
-fn name(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+fn name(
+    study: &Section<'_>,
+    key: &str,
+    is_allowed: fn(&str) -> bool,
+) -> Result<String, InputError> {
     let field = study.require(key, NAME)?;
     let text = field.text()?;
-    if is_name(text) {
+    if is_allowed(text) {
         Ok(text.to_owned())
     } else {
         Err(field.refuse_as_written(NAME))

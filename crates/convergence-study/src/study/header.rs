@@ -3,8 +3,12 @@
 
 use super::subject::Subject;
 
+/// The kind of a study without a file: orders over levels that the caller computes.
+const ORDERS: &str = "orders";
+
 /// The kind of a study whose file has no `kind`.
-pub(super) const DEFAULT_KIND: &str = "convergence";
+#[cfg(feature = "files")]
+pub(super) const DEFAULT_KIND: &str = "orders/manufactured";
 
 /// Longest id: it becomes part of file names, which some systems limit to 255 bytes.
 const LONGEST_NAME: usize = 100;
@@ -43,7 +47,8 @@ pub struct Header {
     pub claim: String,
     /// When it is run.
     pub tier: Tier,
-    /// The kind, which selects the reader of the rest of the file.
+    /// The kind, which selects the reader of the rest of the file. A kind that can take its numbers
+    /// from several sources is followed by one: `orders/vibration`.
     pub kind: String,
     /// The group under which reports list the study, by the property claimed; by default the kind.
     #[serde(default)]
@@ -56,7 +61,7 @@ pub struct Header {
 }
 
 impl Header {
-    /// The header of a study without a file: of the quick tier, of the kind `convergence`.
+    /// The header of a study without a file: of the quick tier, of the kind `orders`.
     ///
     /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part
     ///   of file names.
@@ -66,8 +71,8 @@ impl Header {
             id: id.into(),
             claim: claim.into(),
             tier: Tier::Quick,
-            kind: DEFAULT_KIND.to_owned(),
-            group: DEFAULT_KIND.to_owned(),
+            kind: ORDERS.to_owned(),
+            group: ORDERS.to_owned(),
             settings: Vec::new(),
         }
     }
@@ -76,6 +81,12 @@ impl Header {
 /// What [`is_name`] requires.
 pub const NAME: &str =
     "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
+
+/// Whether a text can be the name of a kind: parts as in an id, with a `/` between them.
+#[cfg(feature = "files")]
+pub(super) fn is_kind(text: &str) -> bool {
+    text.split('/').all(is_name)
+}
 
 /// Whether a text can be a study's id, for file names and command lines.
 pub fn is_name(text: &str) -> bool {

@@ -37,7 +37,7 @@ use crate::run::dg::DgMotion;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "any-order",
+    name: "orders/any-order",
     read: reader::<AnyOrder>,
     why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
           error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \

@@ -16,7 +16,7 @@ use crate::error::reference::Traced;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "equilibrium",
+    name: "runs/equilibrium",
     read: reader::<EndStates>,
     why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
     judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \

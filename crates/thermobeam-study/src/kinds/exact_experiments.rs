@@ -30,7 +30,7 @@ use crate::run::object::phase_name;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "exact-experiments",
+    name: "runs/exact-experiments",
     read: reader::<ExactExperiments>,
     why: "Elements of high degree and dG(q), with contact located to round-off, converge so fast that some hundred steps give ten \
           digits. Two discretisations that share neither mesh nor degrees nor steps make different errors.",

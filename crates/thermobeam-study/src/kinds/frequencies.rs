@@ -22,7 +22,7 @@ use super::tables::Layout;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "frequencies",
+    name: "orders/frequencies",
     read: reader::<Frequencies>,
     why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
           a scalar equation.",

@@ -45,7 +45,7 @@ use crate::scene;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "scenes",
+    name: "runs/scenes",
     read: reader::<Scenes>,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \

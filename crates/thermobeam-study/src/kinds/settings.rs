@@ -518,7 +518,7 @@ mod tests {
             ("refine.map", "\"s\""),
         ];
         let found = values(of_solution(
-            &header("convergence", &file),
+            &header("orders/manufactured", &file),
             &Subject::of("temperature"),
         ));
         for expected in [

@@ -19,7 +19,7 @@ use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "bifurcation",
+    name: "runs/bifurcation",
     read: reader::<BifurcationStudy>,
     why: "Below the buckling force -(pi^2/4)/(1 + pi^2/4) the straight beam is unstable and bent states appear; the branches are \
           followed over beta, and stability is an exact count.",

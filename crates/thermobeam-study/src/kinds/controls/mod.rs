@@ -31,7 +31,7 @@ use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "controls",
+    name: "detects",
     read,
     why: "A check that cannot fail proves nothing. Each coefficient of the solver in turn is put off a little from that of the \
           sources, and each defect in turn is planted in the sources. A study that guards a coefficient detects an error in it \

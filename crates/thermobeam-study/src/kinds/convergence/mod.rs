@@ -44,7 +44,7 @@ pub use design::Prepared;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "convergence",
+    name: "orders/manufactured",
     read: reader::<Convergence>,
     why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
           the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \

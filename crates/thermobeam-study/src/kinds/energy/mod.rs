@@ -33,7 +33,7 @@ use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "energy",
+    name: "runs/energy",
     read,
     why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
           Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \

@@ -59,7 +59,7 @@ pub use trace::Trace;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "experiment",
+    name: "runs/experiment",
     read: reader::<Experiments>,
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \

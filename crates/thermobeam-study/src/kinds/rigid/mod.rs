@@ -32,7 +32,7 @@ use crate::kinds::settings;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "rigid",
+    name: "runs/rigid",
     read: reader::<RigidStudy>,
     why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
           epsilon^(2/3) in an impact that the grid resolves.",

@@ -57,7 +57,7 @@ use judge::Observable;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "self-convergence",
+    name: "orders/self-convergence",
     read: reader::<SelfConvergence>,
     why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
           the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",

@@ -15,7 +15,7 @@ use modes::Modes;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
-    name: "vibration",
+    name: "orders/vibration",
     read: reader::<Vibration>,
     why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
           in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \

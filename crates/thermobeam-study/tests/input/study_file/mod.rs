@@ -266,21 +266,21 @@ fn a_random_mesh_is_displaced_before_it_is_mapped() {
 
 #[test]
 fn the_header_of_any_kind_is_read_without_the_rest() {
-    let text = [STUDY, "kind = \"energy\"\n[anything]\nelse = 1"].concat();
+    let text = [STUDY, "kind = \"runs/energy\"\n[anything]\nelse = 1"].concat();
     let found = input::parse(&text, "s.toml", Header::from_document).expect("a header");
     assert_eq!(
         (found.id.as_str(), found.kind.as_str(), found.tier),
-        ("a-1.2", "energy", Tier::Quick)
+        ("a-1.2", "runs/energy", Tier::Quick)
     );
     says(
         &refusal(&[&text]),
-        &["5:8: study.kind: found \"energy\"; expected \"convergence\""],
+        &["5:8: study.kind: found \"runs/energy\"; expected \"orders/manufactured\""],
     );
     assert_eq!(
         input::parse(STUDY, "s.toml", Header::from_document)
             .expect("a header")
             .kind,
-        "convergence"
+        "orders/manufactured"
     );
 }
 

@@ -6,8 +6,8 @@
 
 pub mod any_order;
 pub mod bifurcation;
-pub mod controls;
 pub mod convergence;
+pub mod detects;
 pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
@@ -39,7 +39,7 @@ use std::path::Path;
 pub const KINDS: [KindRow; 17] = [
     convergence::ROW,
     any_order::ROW,
-    controls::ROW,
+    detects::ROW,
     energy::ROW,
     scenes::ROW,
     solvers::ROW,

@@ -39,6 +39,7 @@ use super::prelude::*;
 use super::tables::{Refine, TERMS, control, expectations, manufactured, norm_levels, refine};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::detects::untested::untested;
 use crate::kinds::settings;
 pub use design::Prepared;
 
@@ -176,7 +177,11 @@ impl Kind for Convergence {
     }
 
     fn untested(&self) -> Vec<Untested> {
-        design::untested(self)
+        let is_wrong_on_purpose = self.solver != self.theory;
+        if is_wrong_on_purpose || self.refine.grid {
+            return vec![];
+        }
+        untested(self, || design::range_of_the_tip(self))
     }
 }
 
@@ -196,7 +201,7 @@ impl Convergence {
     }
 
     /// Errors of each level in each norm; NaN if the case failed, so that it cannot pass.
-    fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
+    pub(super) fn levels(&self, ran: &[Ran<(usize, usize), Norms>]) -> Levels {
         let errors = ran.iter().map(|ran| (ran.case.data, ran.ok()));
         norm_levels(
             &self.refine,

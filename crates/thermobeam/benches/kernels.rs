@@ -138,7 +138,7 @@ fn set_up(bencher: Bencher<'_, '_>, elements: usize) {
 
 #[divan::bench(args = SIZES)]
 fn observe(bencher: Bencher<'_, '_>, elements: usize) {
-    let (mut simulation, _, mut level) = moved(elements);
+    let (simulation, _, mut level) = moved(elements);
     bencher
         .counter(ItemsCount::new(elements))
         .bench_local(|| simulation.observe(black_box(&mut level)));

@@ -157,7 +157,6 @@ impl Ensemble {
         Work {
             passes: sum(|work| work.passes),
             factorizations: sum(|work| work.factorizations),
-            ..Work::default()
         }
     }
 

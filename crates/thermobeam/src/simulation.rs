@@ -100,8 +100,6 @@ pub struct Simulation {
     heated: bool,
     stepper: Box<dyn Stepper<f64>>,
     step: usize,
-    loads: usize,
-    observations: usize,
 }
 
 impl Simulation {
@@ -125,8 +123,6 @@ impl Simulation {
             heated,
             stepper,
             step: 0,
-            loads: 0,
-            observations: 0,
         })
     }
 
@@ -150,11 +146,7 @@ impl Simulation {
     ///
     /// `None` unless [`Stepping::loaded`]. Entries at nodes with a prescribed value are not used.
     pub fn load_mut(&mut self) -> Option<&mut [[f64; 3]]> {
-        if !self.loaded {
-            return None;
-        }
-        self.loads += 1;
-        Some(self.stepper.load_mut())
+        self.loaded.then(|| self.stepper.load_mut())
     }
 
     /// Does one step, by (3.7)-(3.8) or by `midpoint`, without allocating memory.
@@ -180,13 +172,12 @@ impl Simulation {
     }
 
     /// Copies the current level into `level`, which must have n + 1 nodes.
-    pub fn observe(&mut self, level: &mut Level) {
-        self.observations += 1;
+    pub fn observe(&self, level: &mut Level) {
         self.stepper.read(0, level);
     }
 
     /// A copy of the current level.
-    pub fn level(&mut self) -> Level {
+    pub fn level(&self) -> Level {
         let mut level = Level::new(self.case.lengths.len() + 1);
         self.observe(&mut level);
         level
@@ -232,11 +223,7 @@ impl Simulation {
 
     /// Counts of the work done so far.
     pub fn work(&self) -> Work {
-        Work {
-            loads: self.loads,
-            observations: self.observations,
-            ..self.stepper.work()
-        }
+        self.stepper.work()
     }
 
     /// Whether the temperature is computed. Newton's method omits it if nothing heats the beam and

@@ -290,7 +290,7 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
         settings,
     )
     .unwrap();
-    let mut before = Simulation::new(
+    let before = Simulation::new(
         buckled(2),
         Stepping {
             scheme: EULER_CRANK_NICOLSON,

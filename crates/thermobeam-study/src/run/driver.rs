@@ -53,7 +53,7 @@ impl<'l> Driver<'l> {
     pub(crate) fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let is_solved = stepping.settings.stopping.tolerance().is_some();
         let is_loaded = stepping.loaded;
-        let mut simulation = Simulation::new(problem, stepping)?;
+        let simulation = Simulation::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
         let (initial, size) = (

@@ -147,10 +147,6 @@ pub struct Work {
     pub passes: usize,
     /// Factorisations of that system; for the fixed point, of the equation of u.
     pub factorizations: usize,
-    /// Evaluations of the loads.
-    pub loads: usize,
-    /// Levels copied for an observer.
-    pub observations: usize,
 }
 
 /// The discrete solution at one time level: n + 1 nodal values of each field.

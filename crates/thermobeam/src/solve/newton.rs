@@ -408,7 +408,6 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
         Work {
             passes: self.passes,
             factorizations,
-            ..Work::default()
         }
     }
 }

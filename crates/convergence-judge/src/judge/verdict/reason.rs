@@ -2,20 +2,9 @@
 
 use super::words::Verdict;
 
-/// The reason for a verdict; each reason has one verdict, and they are in the order pass, fail,
-/// inconclusive.
+/// The reason for a verdict; each reason has one verdict.
 #[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    Hash,
-    Default,
-    serde::Serialize,
-    serde::Deserialize,
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize,
 )]
 #[serde(into = "&'static str", try_from = "String")]
 pub enum Reason {
@@ -127,13 +116,34 @@ impl Reason {
         Self::AtTheEdge,
     ];
 
-    /// The verdict that goes with this reason: first the one that passes, then those that fail,
-    /// then the others.
+    /// The verdict that goes with this reason.
     pub fn verdict(self) -> Verdict {
         match self {
             Self::Agrees => Verdict::Pass,
-            failing if failing <= Self::ConstantOff => Verdict::Fail,
-            _ => Verdict::Inconclusive,
+            Self::NoResult
+            | Self::NonFiniteError
+            | Self::NegativeError
+            | Self::ErrorGrows
+            | Self::FallsAway
+            | Self::WrongLimit
+            | Self::TooLow
+            | Self::TooHigh
+            | Self::ConstantOff => Verdict::Fail,
+            Self::ZeroError
+            | Self::StepsNotDecreasing
+            | Self::ClaimUnusable
+            | Self::ToleranceTooWide
+            | Self::TooFewLevels
+            | Self::NotAsymptotic
+            | Self::Departs
+            | Self::RoundOffFloor
+            | Self::Digits
+            | Self::ConstantUnsure
+            | Self::Value
+            | Self::LeftOver
+            | Self::LevelsTooClose
+            | Self::IntervalTooWide
+            | Self::AtTheEdge => Verdict::Inconclusive,
         }
     }
 

@@ -361,6 +361,7 @@ impl EnergyRun {
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
     fn run(&self) -> Result<Found, CaseFailure> {
         let mut driver = Driver::new(self.problem.clone(), self.stepping)?;
+        driver.refuse_loads("a study of the energy")?;
         let (simulation, level) = (driver.simulation(), driver.level());
         let mut watch = EnergyWatch::new(simulation.energy_scale(level));
         let energy = simulation.energy(level);
@@ -651,4 +652,36 @@ fn not_zero(mut series: Vec<plots::Series>) -> Vec<plots::Series> {
         .iter_mut()
         .for_each(|series| series.points.retain(|(_, value)| *value != 0.0));
     series
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_with_loads_is_refused() {
+        let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 1.0\n";
+        let scene = Scene::parse(text, "s.toml").expect("a scene");
+        let stepping = scene.one_step().expect("a one-step scheme");
+        let run = |loaded: bool| EnergyRun {
+            name: "s".to_owned(),
+            problem: simulate::problem(&scene),
+            stepping: Stepping { loaded, ..stepping },
+            steps: 10,
+            claim: String::new(),
+            end: End::default(),
+            share: None,
+            drift: None,
+            is_bounded: false,
+            is_drawn: false,
+        };
+        assert!(run(false).run().is_ok());
+        let refused = run(true).run().expect_err("a refusal");
+        assert!(
+            refused
+                .reason
+                .starts_with("a study of the energy: found a beam with loads"),
+            "{refused:?}"
+        );
+    }
 }

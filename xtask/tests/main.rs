@@ -7,5 +7,6 @@ mod links;
 mod map;
 mod quick_tier;
 mod readme;
+mod reworded;
 mod texts;
 mod workflow;

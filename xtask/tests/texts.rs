@@ -94,16 +94,33 @@ fn sources(folder: &Path) -> impl Iterator<Item = PathBuf> {
     files_below(folder).into_iter().filter(is_source)
 }
 
-#[test]
-fn no_source_reads_a_sentence_of_a_finding() {
+/// The sources of all crates.
+fn all_sources() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut paths: Vec<PathBuf> = sources(&root.join("xtask/src")).collect();
     for entry in fs::read_dir(root.join("crates")).unwrap().flatten() {
         paths.extend(sources(&entry.path().join("src")));
     }
     assert!(paths.len() > 200, "{}", paths.len());
+    paths
+}
+
+/// A rate is put in words beside its claim in one place.
+#[test]
+fn one_source_writes_a_rate_with_its_claim() {
+    let writes = |path: &PathBuf| {
+        let code = code(&fs::read_to_string(path).unwrap());
+        code.contains(", claimed {") || code.contains("(order {")
+    };
+    let writers: Vec<PathBuf> = all_sources().into_iter().filter(writes).collect();
+    assert_eq!(writers.len(), 1, "{writers:?}");
+    assert!(writers[0].ends_with("convergence-judge/src/judge/verdict/outcome.rs"));
+}
+
+#[test]
+fn no_source_reads_a_sentence_of_a_finding() {
     let mut found = vec![];
-    for path in paths {
+    for path in all_sources() {
         let text = fs::read_to_string(&path).unwrap();
         let shown = path.display();
         found.extend(reads(&text).iter().map(|read| format!("{shown}: {read}")));

@@ -20,16 +20,20 @@
 //! has is named, and changes nothing. Errors below the floor of the comparison count as that floor;
 //! levels that a study has set aside at its own are not compared.
 
+mod both;
+mod sequence;
+
+use std::fmt;
+
 use serde::Serialize;
 
-use crate::judge::fit::Level;
-use crate::judge::verdict::{Aside, Judge, JudgeError, RateVerdict, Verdict};
+use crate::judge::verdict::{Judge, JudgeError, Verdict};
 use crate::run::Finished;
 use crate::store::Record;
-use crate::study::LevelErrors;
 use crate::study::outcome::Outcome;
 use crate::text::lists::distinct;
-use crate::text::number::plain_text;
+use both::{Answer, Both};
+use sequence::ErrorSequence;
 
 /// Rates closer than this are the same order.
 const ORDER_SHIFT: f64 = 0.05;
@@ -107,6 +111,13 @@ pub struct Order {
     pub order: f64,
     /// Its interval.
     pub interval: [f64; 2],
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [low, high] = self.interval;
+        write!(f, "{:.3} ({low:.3} to {high:.3})", self.order)
+    }
 }
 
 /// Two records side by side.
@@ -193,13 +204,13 @@ impl Comparison {
         for name in known {
             let [old, new] = [was, is].map(|study| ErrorSequence::new(&study.outcome, name, rule));
             let orders = [old.order, new.order];
-            let (change, reason) = Both {
+            let both = Both {
                 old,
                 new,
                 floor: rule.floor(),
                 within: self.within,
-            }
-            .judged();
+            };
+            let Answer { change, reason } = both.judged();
             self.findings.push(Finding {
                 study: id.clone(),
                 norm: Some(name.clone()),
@@ -233,349 +244,4 @@ fn names(outcome: &Outcome) -> Vec<&String> {
         .iter()
         .flat_map(|level| level.errors.iter().map(|(name, _)| name));
     distinct(errors.chain(outcome.rates.iter().map(|(name, _)| name)))
-}
-
-/// One error on the levels of one record that have it, and its rate.
-struct ErrorSequence<'r> {
-    points: Vec<(&'r LevelErrors, Level)>,
-    /// Whether the steps fall from level to level; a grid of parameters has no single step.
-    is_sequence: bool,
-    rate: Option<&'r RateVerdict>,
-    /// The rate that was judged, or one computed from the errors.
-    order: Option<Order>,
-}
-
-impl<'r> ErrorSequence<'r> {
-    fn new(outcome: &'r Outcome, name: &str, rule: &Judge) -> Self {
-        let rate = outcome
-            .rates
-            .iter()
-            .find(|(known, _)| known == name)
-            .map(|(_, rate)| rate);
-        let point = |level: &'r LevelErrors| {
-            let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
-            Some((
-                level,
-                Level {
-                    step: level.step.unwrap_or(f64::NAN),
-                    error: *error,
-                },
-            ))
-        };
-        let points: Vec<(&LevelErrors, Level)> = outcome.levels.iter().filter_map(point).collect();
-        let levels: Vec<Level> = points.iter().map(|(_, level)| *level).collect();
-        let is_sequence = levels.iter().all(|level| level.step > 0.0)
-            && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
-        let read = || {
-            is_sequence
-                .then(|| rule.judge(&levels, 1.0))
-                .and_then(|rate| order_of(&rate))
-        };
-        Self {
-            points,
-            is_sequence,
-            rate,
-            order: rate.and_then(order_of).or_else(read),
-        }
-    }
-
-    /// Whether the study's own floor sets the level with these parameters aside.
-    fn is_at_floor(&self, level: &LevelErrors) -> bool {
-        let place = self
-            .points
-            .iter()
-            .position(|(known, _)| known.parameters == level.parameters);
-        let mut set_aside = self.rate.into_iter().flat_map(|rate| &rate.set_aside);
-        set_aside.any(|aside| Some(aside.level) == place && aside.because == Aside::AtFloor)
-    }
-
-    /// The error at the level with these parameters.
-    fn at(&self, level: &LevelErrors) -> Option<f64> {
-        self.points
-            .iter()
-            .find(|(known, _)| known.parameters == level.parameters)
-            .map(|(_, level)| level.error)
-    }
-
-    /// Interpolates linearly in logarithms: y over x, and its uncertainty.
-    fn interpolated(
-        &self,
-        place: impl Fn(&LevelErrors, &Level) -> Option<[f64; 2]>,
-        x: f64,
-    ) -> Option<[f64; 2]> {
-        let place = |(level, at): &(&LevelErrors, Level)| Some(place(level, at)?.map(f64::ln));
-        between(
-            &self.points.iter().map(place).collect::<Option<Vec<_>>>()?,
-            x.ln(),
-        )
-    }
-
-    /// The logarithm of the work that an error takes, and its uncertainty.
-    fn work_at(&self, error: f64) -> Option<[f64; 2]> {
-        self.interpolated(|level, at| Some([at.error, work(level)?]), error)
-    }
-}
-
-fn order_of(rate: &RateVerdict) -> Option<Order> {
-    let (order, interval) = (rate.fitted?, rate.interval?);
-    order.is_finite().then_some(Order { order, interval })
-}
-
-fn work(level: &LevelErrors) -> Option<f64> {
-    level.work.filter(|work| *work > 0.0)
-}
-
-fn label(level: &LevelErrors) -> String {
-    level
-        .parameters
-        .iter()
-        .map(|(name, value)| format!("{name} = {value}"))
-        .collect::<Vec<_>>()
-        .join(", ")
-}
-
-/// Linear interpolation between points with decreasing x, and its uncertainty.
-fn between(points: &[[f64; 2]], x: f64) -> Option<[f64; 2]> {
-    if let Some([_, y]) = points
-        .iter()
-        .find(|[known, _]| (known - x).abs() <= SAME_STEP)
-    {
-        return Some([*y, 0.0]);
-    }
-    let k = points
-        .windows(2)
-        .position(|pair| pair[0][0] > x && x > pair[1][0])?;
-    let slope = |k: usize| {
-        points
-            .get(k + 1)
-            .map(|next| (next[1] - points[k][1]) / (next[0] - points[k][0]))
-    };
-    let here = slope(k)?;
-    let neighbours = [k.checked_sub(1).and_then(slope), slope(k + 1)];
-    let change = neighbours
-        .into_iter()
-        .flatten()
-        .map(|slope| (slope - here).abs())
-        .fold(0.0, f64::max);
-    Some([
-        points[k][1] + here * (x - points[k][0]),
-        0.25 * change * (points[k][0] - points[k + 1][0]),
-    ])
-}
-
-/// One error in both records.
-struct Both<'r> {
-    old: ErrorSequence<'r>,
-    new: ErrorSequence<'r>,
-    /// Smaller errors count as this.
-    floor: f64,
-    /// As for [`compare`].
-    within: f64,
-}
-
-impl Both<'_> {
-    /// What became of it, and why.
-    fn judged(&self) -> (Shift, String) {
-        let worse = |reason| (Shift::Worse, reason);
-        let lost = self.lost().map(|reason| (Shift::Lost, reason));
-        let order = self.order();
-        let lower = order.clone().filter(|(change, _)| *change == Shift::Worse);
-        let found = lost
-            .or(lower)
-            .or_else(|| self.broken().map(worse))
-            .or_else(|| self.larger().map(worse))
-            .or(order);
-        found.unwrap_or_else(|| self.cost())
-    }
-
-    /// What the new record lacks.
-    fn lost(&self) -> Option<String> {
-        let Self { old, new, .. } = self;
-        if new.points.is_empty() && !old.points.is_empty() {
-            return Some("the new record does not have the error".to_owned());
-        }
-        if old.rate.is_some() && new.rate.is_none() {
-            return Some("the new record does not judge its rate".to_owned());
-        }
-        let ((level, finest), (_, reached)) = (old.points.last()?, new.points.last()?);
-        let is_lost = if old.is_sequence && new.is_sequence {
-            (reached.step / finest.step).ln() > SAME_STEP
-        } else {
-            new.at(level).is_none()
-        };
-        is_lost.then(|| {
-            format!(
-                "the new record does not have the finest level, {}",
-                label(level)
-            )
-        })
-    }
-
-    fn order(&self) -> Option<(Shift, String)> {
-        let Self { old, new, .. } = self;
-        if let (Some(old), Some(new)) = (old.order, new.order) {
-            let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
-            if apart && (new.order - old.order).abs() > ORDER_SHIFT {
-                let change = if new.order < old.order {
-                    Shift::Worse
-                } else {
-                    Shift::Better
-                };
-                let words =
-                    |Order {
-                         order,
-                         interval: [low, high],
-                     }| format!("{order:.3} ({low:.3} to {high:.3})");
-                return Some((change, format!("order {} → {}", words(old), words(new))));
-            }
-        }
-        let (old, new) = (old.rate?, new.rate?);
-        let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
-        failed.then(|| {
-            (
-                Shift::Worse,
-                format!(
-                    "the claimed order was pass, is {}: {}",
-                    new.verdict, new.reason
-                ),
-            )
-        })
-    }
-
-    /// Levels whose error has become negative, infinite or NaN.
-    fn broken(&self) -> Option<String> {
-        let is_error = |error: f64| error >= 0.0 && error.is_finite();
-        let broken =
-            self.new.points.iter().filter(|(level, at)| {
-                !is_error(at.error) && self.old.at(level).is_some_and(is_error)
-            });
-        let broken: Vec<String> = broken.map(|(level, _)| label(level)).collect();
-        (!broken.is_empty())
-            .then(|| format!("no longer a finite number >= 0 at {}", broken.join("; ")))
-    }
-
-    /// For each level of the new record: the logarithm of the new error over the old one at the
-    /// same place, and its uncertainty.
-    fn ratios(&self) -> Vec<(&LevelErrors, [f64; 2])> {
-        let floor = self.floor;
-        let ratio = |(level, at): &(&'_ LevelErrors, Level)| {
-            let same = self.old.at(level).map(|error| [error.max(floor).ln(), 0.0]);
-            let over_step = || {
-                self.old
-                    .interpolated(|_, at| Some([at.step, at.error.max(floor)]), at.step)
-            };
-            let [before, doubt] = same.or_else(over_step)?;
-            let ratio = at.error.max(floor).ln() - before;
-            // Two zeros without a floor are the same.
-            Some([if ratio.is_nan() { 0.0 } else { ratio }, doubt])
-        };
-        let is_known = |level: &LevelErrors| {
-            ![&self.old, &self.new]
-                .iter()
-                .any(|sequence| sequence.is_at_floor(level))
-        };
-        let sound = self
-            .new
-            .points
-            .iter()
-            .filter(|(level, at)| at.error >= 0.0 && is_known(level));
-        sound
-            .filter_map(|point| Some((point.0, ratio(point)?)))
-            .collect()
-    }
-
-    fn larger(&self) -> Option<String> {
-        let (ratios, limit) = (self.ratios(), self.within.ln_1p());
-        let larger: Vec<_> = ratios
-            .iter()
-            .filter(|(_, [ratio, doubt])| ratio - doubt > limit)
-            .collect();
-        let (level, [ratio, _]) = larger.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
-        let levels = format!("{} of {} levels that both have", larger.len(), ratios.len());
-        Some(format!(
-            "errors larger at {levels}: {}: {} times",
-            label(level),
-            plain_text(ratio.exp())
-        ))
-    }
-
-    fn cost(&self) -> (Shift, String) {
-        let (ratios, limit) = (self.ratios(), self.within.ln_1p());
-        let count = ratios.len();
-        if count == 0 {
-            let is_empty = self.old.points.is_empty() && self.new.points.is_empty();
-            let why = if is_empty {
-                "no errors are recorded, only rates"
-            } else {
-                "no level is at a step that both have reached"
-            };
-            return (
-                Shift::NotProven,
-                format!("no difference of orders is proven; {why}"),
-            );
-        }
-        if ratios
-            .iter()
-            .all(|(_, [ratio, doubt])| ratio + doubt < -limit)
-        {
-            let most = ratios
-                .iter()
-                .map(|(_, [ratio, _])| *ratio)
-                .fold(f64::NEG_INFINITY, f64::max);
-            let times = plain_text(most.exp());
-            return (
-                Shift::Better,
-                format!("errors smaller: {times} times or less at {count} levels"),
-            );
-        }
-        if !ratios
-            .iter()
-            .all(|(_, [ratio, doubt])| ratio.abs() + doubt <= limit)
-        {
-            return (
-                Shift::NotProven,
-                format!("no difference of errors is proven at {count} levels"),
-            );
-        }
-        let work = self
-            .work()
-            .filter(|[ratio, doubt]| ratio.abs() - doubt > WORK_WITHIN.ln_1p());
-        let Some([ratio, _]) = work else {
-            return (Shift::Same, format!("errors the same at {count} levels"));
-        };
-        let change = if ratio > 0.0 {
-            Shift::Worse
-        } else {
-            Shift::Better
-        };
-        (
-            change,
-            format!("the same error takes {:.3} times the work", ratio.exp()),
-        )
-    }
-
-    /// The logarithm of the new work over the old one for the smallest error that both have
-    /// reached, and its uncertainty: errors within the limit count as equal, so the work is
-    /// uncertain by its growth over that share of the error.
-    fn work(&self) -> Option<[f64; 2]> {
-        let error = self
-            .old
-            .points
-            .last()?
-            .1
-            .error
-            .max(self.new.points.last()?.1.error);
-        if !(error > self.floor) {
-            return None;
-        }
-        let [before, after] = [self.old.work_at(error)?, self.new.work_at(error)?];
-        let [.., (coarse, large), (fine, small)] = self.new.points.as_slice() else {
-            return None;
-        };
-        let growth = (work(fine)? / work(coarse)?).ln() / (large.error / small.error).ln();
-        Some([
-            after[0] - before[0],
-            before[1] + after[1] + self.within.ln_1p() * growth.abs(),
-        ])
-    }
 }

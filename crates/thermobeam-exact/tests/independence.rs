@@ -26,9 +26,9 @@ const OF_A_MESH: (&str, [&str; 2]) = ("vibration/discrete.rs", ["dg::MAX_DEGREE"
 /// The files of the studies that evaluate exact solutions by a scheme, or errors against a
 /// reference.
 const STUDIES: [&str; 4] = [
-    "kinds/convergence/design.rs",
+    "kinds/orders/manufactured/design.rs",
     "run/family.rs",
-    "kinds/vibration/modes.rs",
+    "kinds/orders/vibration/modes.rs",
     "error/reference.rs",
 ];
 

@@ -18,7 +18,8 @@ use thermobeam::scheme::{ContactRule, Scheme};
 use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 use thermobeam_exact::formulas::SchemeFormulas;
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 /// Between the paper's scheme (V = v) and midpoint (V the mean): three quarters of the new
 /// velocity, and contact by the discrete gradient. It damps half as much as the paper's and is
@@ -47,7 +48,7 @@ const STUDY: &str = r#"
 
 /// The verdict on an order in dt.
 fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error>> {
-    let mut study = Convergence::parse(STUDY, "my-scheme.toml".as_ref())?;
+    let mut study = Orders::<Convergence>::parse(STUDY, "my-scheme.toml".as_ref())?;
     study.refine.scheme = scheme;
     study.formulas = Some(FORMULAS);
     study.expect[0].1.order = order;

@@ -12,7 +12,8 @@ use thermobeam::solve::{Settings, Stopping};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::exact::solution::{Manufactured, Product};
 use thermobeam_study::expression::{Expression, ExpressionError, Variable};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 use thermobeam_study::kinds::tables::{Layout, Refine};
 use thermobeam_study::scene::Coefficients;
 
@@ -35,7 +36,7 @@ fn product(x: &str, t: &str) -> Result<Vec<Product>, ExpressionError> {
     }])
 }
 
-fn in_rust() -> Result<Convergence, ExpressionError> {
+fn in_rust() -> Result<Orders<Convergence>, ExpressionError> {
     let exact = Manufactured {
         u: product("sin(2*x)", "cos(t)")?,
         phi: product("x^2", "exp(-t)")?,
@@ -60,20 +61,20 @@ fn in_rust() -> Result<Convergence, ExpressionError> {
         beam: Beam::default(),
         obstacles: None,
     };
-    Ok(Convergence {
+    Ok(Orders(Convergence {
         theory,
         solver: theory,
         exact,
         refine,
         expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))],
         formulas: None,
-    })
+    }))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (rust, toml) = (
         in_rust()?,
-        Convergence::parse(TOML, "my-own.toml".as_ref())?,
+        Orders::<Convergence>::parse(TOML, "my-own.toml".as_ref())?,
     );
     // Cases are pure: they may run in any order, on any thread.
     let (rust, toml) = (run_one(&rust), run_one(&toml));

@@ -18,9 +18,10 @@
 //! use convergence_study::judge::verdict::Verdict;
 //! use convergence_study::run::run_one;
 //! use convergence_study::study::FromFile;
-//! use thermobeam_study::kinds::convergence::Convergence;
+//! use thermobeam_study::kinds::orders::Orders;
+//! use thermobeam_study::kinds::orders::manufactured::Convergence;
 //!
-//! let study = Convergence::parse(
+//! let study = Orders::<Convergence>::parse(
 //!     r#"
 //!     study = { id = "my-own", claim = "Second order to the interpolant", tier = "quick" }
 //!     exact.u = [{ x = "sin(2*x)", t = "cos(t)" }]

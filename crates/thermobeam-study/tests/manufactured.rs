@@ -7,7 +7,8 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile as _, Kind as _, run_cases_here};
 use thermobeam_study::exact::norm::{Norm, Norms};
-use thermobeam_study::kinds::convergence::{Convergence, Defect, Prepared};
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::{Convergence, Defect, Prepared};
 
 fn file(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -15,8 +16,8 @@ fn file(name: &str) -> std::path::PathBuf {
         .join(name)
 }
 
-fn convergence(name: &str) -> Convergence {
-    Convergence::read(file(name)).unwrap()
+fn convergence(name: &str) -> Orders<Convergence> {
+    Orders::read(file(name)).unwrap()
 }
 
 fn errors(study: &Convergence, elements: usize, steps: usize, defect: Option<Defect>) -> Norms {
@@ -113,7 +114,7 @@ fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
     assert_eq!(run_one(&study).verdict, Verdict::Pass);
     let text = std::fs::read_to_string(file("theorem-3.4-space.toml")).unwrap()
         + "\n[control]\nzeta = 0.10001\n";
-    study.solver = Convergence::parse(&text, "wrong.toml".as_ref())
+    study.solver = Orders::<Convergence>::parse(&text, "wrong.toml".as_ref())
         .unwrap()
         .solver;
     let outcome = run_one(&study);

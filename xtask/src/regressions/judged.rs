@@ -6,9 +6,7 @@ use std::path::Path;
 
 use convergence_study::cli::exit::Unusable;
 use convergence_study::cli::workspace;
-use convergence_study::store::diagnosis::{
-    Diagnosis, Fingerprint, Fingerprints, Known, diagnose, names,
-};
+use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose};
 use convergence_study::study::header::Setting;
 
 use super::list::Regression;
@@ -119,15 +117,12 @@ fn threshold(all: &[Judged<'_>]) -> f64 {
 }
 
 fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
-    let settings = diagnosis
-        .contrast
-        .settings
-        .iter()
-        .chain(&diagnosis.contrast.shared);
-    let values: Vec<&str> = settings.map(|(_, value)| value.as_str()).collect();
+    let shared = diagnosis.contrast.shared.iter();
+    let shared = shared.map(|(_, value)| value.as_str());
+    let values: Vec<&str> = diagnosis.contrast.values().chain(shared).collect();
     let named = |word: &String| match word.as_str() {
         "both" => !values.iter().any(|value| METHODS.contains(value)),
-        word => values.iter().any(|value| names(value, word)),
+        word => values.contains(&word),
     };
     let field = diagnosis.first.first().map(|field| field.name.as_str());
     let about = |word: &String| named(word) || field == Some(word.as_str());

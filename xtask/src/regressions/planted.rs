@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use convergence_study::cli::exit::Unusable;
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::report::not_passed;
+use convergence_study::run::not_passed;
 use convergence_study::store::{Record, atomic, content_hash, json};
 use serde::{Deserialize, Serialize};
 
@@ -250,12 +250,14 @@ impl Found {
     /// The output, with a line for each reason of a study and each changed number; the study comes
     /// before a colon. The line of the test comes first.
     pub(super) fn said(&self) -> Vec<String> {
-        let reasons = not_passed(&self.record.studies)
-            .into_iter()
-            .flat_map(|study| {
-                let line = move |reason: String| format!("{}: {reason}", study.id);
-                study.reasons.into_iter().map(line).collect::<Vec<_>>()
-            });
+        let mut reasons = vec![];
+        for study in not_passed(&self.record.studies) {
+            let lines = study
+                .items
+                .iter()
+                .map(|item| format!("{}: {item}", study.id()));
+            reasons.extend(lines);
+        }
         self.failed_test
             .iter()
             .cloned()

@@ -7,7 +7,7 @@
 use std::fmt;
 
 use super::fit::Level;
-use super::verdict::{Judge, RateVerdict, Reason};
+use super::verdict::{Judge, RateVerdict, Reason, against_claim};
 
 /// What theory claims about an error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -139,13 +139,9 @@ pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2
     } else {
         return rate;
     };
-    rate.with_reason(
-        kind,
-        &format!(
-            "{} ({low:.4} to {high:.4}, claimed {least} to {most})",
-            kind.text()
-        ),
-    )
+    let found = format!("{low:.4} to {high:.4}");
+    let numbers = against_claim(&found, &format!("{least} to {most}"));
+    rate.with_reason(kind, &format!("{} ({numbers})", kind.text()))
 }
 
 /// The largest error, and whether all errors are at most `bound`, for results that are exact up to

@@ -22,20 +22,6 @@ pub struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    /// Rate and claim, with the reason unless it is a pass.
-    pub fn found(&self) -> String {
-        if self.rate.order.is_nan() {
-            let rate = self.rate.rate_in_words(MOST_PLACES);
-            return format!("{rate}: no order is claimed");
-        }
-        let why = if self.rate.verdict.is_pass() {
-            self.rate.excludes()
-        } else {
-            self.rate.because.clone()
-        };
-        format!("{}: {why}", self.rate.against(MOST_PLACES))
-    }
-
     fn because(&self, level: usize) -> Option<Aside> {
         self.rate
             .set_aside
@@ -148,7 +134,7 @@ pub fn explained(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
             "{}: {}: {}\n",
             shown.name,
             shown.rate.verdict,
-            shown.found()
+            shown.rate.answer(MOST_PLACES)
         );
         if let (true, Some(advice)) = (shown.rate.verdict != Verdict::Pass, shown.rate.advice()) {
             text += &format!("  {}: {advice}\n", shown.rate.kind.code());

@@ -14,7 +14,7 @@ mod trend;
 mod words;
 
 pub use cause::Cause;
-pub use outcome::{PowerLaw, RateVerdict, against_claim};
+pub use outcome::{PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away};

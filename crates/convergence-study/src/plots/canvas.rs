@@ -4,21 +4,11 @@
 //! the page is drawn on a grid of tenths of a pixel, in layers: each layer is a fragment drawn by
 //! plotters, nested in a group that gives it the dash pattern, the clip rectangle or the halo,
 //! which its children inherit in SVG.
-//!
-//! The picture contains names and values for a page that reads them; a viewer alone does not show
-//! them.
-//!
-//! | attribute | on | holds |
-//! | --- | --- | --- |
-//! | `data-plot` | the picture | left, top, right, bottom of the plot on the page's grid |
-//! | `data-x`, `data-y` | the picture | `linear` or `log`, and the ends of the range, decimal logarithms for `log` |
-//! | `data-x-label`, `data-y-label` | the picture | what the axes measure |
-//! | `data-series` | the marks of a series | its name |
-//! | `data-points` | likewise, for data | `x,y` of each point; empty for long series, whose lines give as much detail |
-//! | `data-entry` | an entry of the legend | the name of the series |
 
-use super::Scale;
-use super::ruler::Ruler;
+pub use super::attributes::escape_attribute;
+use super::attributes::{escape, printable};
+pub use super::geometry::{Point, Rect, grid};
+use super::geometry::{keep_inside, on_grid};
 use super::style::{self, Dash};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
@@ -29,101 +19,8 @@ use plotters::style::text_anchor::{Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor};
 use std::fmt::Write;
 
-/// A position in px, `y` downwards.
-pub type Point = (f64, f64);
-
-/// A rectangle in px.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rect {
-    /// Left edge.
-    pub left: f64,
-    /// Upper edge; less than `bottom`.
-    pub top: f64,
-    /// Right edge.
-    pub right: f64,
-    /// Lower edge.
-    pub bottom: f64,
-}
-
-impl Rect {
-    /// Horizontal extent.
-    pub fn width(&self) -> f64 {
-        self.right - self.left
-    }
-
-    /// Vertical extent.
-    pub fn height(&self) -> f64 {
-        self.bottom - self.top
-    }
-
-    /// The point in the middle.
-    pub fn centre(&self) -> Point {
-        (
-            0.5 * (self.left + self.right),
-            0.5 * (self.top + self.bottom),
-        )
-    }
-}
-
-/// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and
-/// Barsky).
-fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    let directions = [
-        (a.0, b.0 - a.0, r.left, r.right),
-        (a.1, b.1 - a.1, r.top, r.bottom),
-    ];
-    for (start, step, low, high) in directions {
-        if step == 0.0 {
-            if start < low || start > high {
-                return None;
-            }
-            continue;
-        }
-        let (s, t) = ((low - start) / step, (high - start) / step);
-        enter = enter.max(s.min(t));
-        leave = leave.min(s.max(t));
-    }
-    (enter <= leave).then_some((enter, leave))
-}
-
-fn along(a: Point, b: Point, s: f64) -> Point {
-    (a.0 + s * (b.0 - a.0), a.1 + s * (b.1 - a.1))
-}
-
-/// The parts of a line inside a rectangle.
-fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
-    let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
-    if line.iter().all(holds) {
-        return vec![line.to_vec()];
-    }
-    let mut kept: Vec<Vec<Point>> = Vec::new();
-    for pair in line.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        let Some((enter, leave)) = inside(a, b, r) else {
-            continue;
-        };
-        match kept.last_mut() {
-            Some(last) if enter == 0.0 && last.last() == Some(&a) => last.push(along(a, b, leave)),
-            _ => kept.push(vec![along(a, b, enter), along(a, b, leave)]),
-        }
-    }
-    kept
-}
-
-/// Grid lines per px.
-const RESOLUTION: f64 = 10.0;
 /// Plotters divides font sizes by this before it writes them.
 const PLOTTERS_FONT_FACTOR: f64 = 1.24;
-
-/// From px to the page's grid. Far-away values are cut: plotters computes with `i32`.
-pub fn grid(v: f64) -> i32 {
-    (v * RESOLUTION).round().clamp(-1e6, 1e6) as i32
-}
-
-fn on_grid(points: &[Point]) -> Vec<(i32, i32)> {
-    points.iter().map(|&(x, y)| (grid(x), grid(y))).collect()
-}
 
 /// The common properties of everything in one layer: clip rectangle, dash pattern, halo.
 #[derive(Clone, Copy, Debug, Default)]
@@ -278,31 +175,6 @@ fn without_ballast(fragment: &str) -> String {
     )
 }
 
-/// Text that XML accepts: markup escaped, control characters blanked.
-pub(super) fn escape(text: &str) -> String {
-    printable(text)
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-}
-
-/// Text for an attribute in double quotes.
-pub fn escape_attribute(text: &str) -> String {
-    escape(text).replace('"', "&quot;")
-}
-
-fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| {
-            if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') {
-                ' '
-            } else {
-                c
-            }
-        })
-        .collect()
-}
-
 /// Draws shapes and text, in px.
 pub struct Pen<'a> {
     page: Rect,
@@ -418,87 +290,5 @@ impl Pen<'_> {
             .color(&colour)
             .pos(Pos::new(anchor, VPos::Center));
         self.put(&Text::new(printable(text), (grid(at.0), grid(at.1)), font));
-    }
-}
-
-/// A series with more points than this is read off its line, to the tenth of a pixel: its values
-/// would cost too many bytes.
-const MOST_POINTS: usize = 200;
-
-/// The attributes of a picture with axes.
-pub(super) fn axes(plot: &Rect, axes: [(&str, &Ruler); 2]) -> String {
-    let [left, top, right, bottom] = [plot.left, plot.top, plot.right, plot.bottom].map(grid);
-    let mut attributes = format!(" data-plot=\"{left} {top} {right} {bottom}\"");
-    for (name, (label, ruler)) in ["x", "y"].into_iter().zip(axes) {
-        let scale = if ruler.scale == Scale::Log {
-            "log"
-        } else {
-            "linear"
-        };
-        let _ = write!(
-            attributes,
-            " data-{name}=\"{scale} {} {}\"",
-            ruler.lo, ruler.hi
-        );
-        let _ = write!(
-            attributes,
-            " data-{name}-label=\"{}\"",
-            escape_attribute(label)
-        );
-    }
-    attributes
-}
-
-/// The attributes of the marks of a series; `points` if they are data.
-pub(super) fn series(name: &str, points: Option<&[(f64, f64)]>) -> String {
-    let mut attributes = format!(" data-series=\"{}\"", escape_attribute(name));
-    if let Some(points) = points {
-        let finite = || {
-            points
-                .iter()
-                .filter(|(x, y)| x.is_finite() && y.is_finite())
-        };
-        let listed = if finite().nth(MOST_POINTS).is_some() {
-            0
-        } else {
-            MOST_POINTS
-        };
-        let pairs: Vec<String> = finite()
-            .take(listed)
-            .map(|&(x, y)| format!("{:e},{:e}", rounded(x), rounded(y)))
-            .collect();
-        let _ = write!(attributes, " data-points=\"{}\"", pairs.join(" "));
-    }
-    attributes
-}
-
-/// The attributes of a legend's entry.
-pub(super) fn entry(name: &str) -> String {
-    format!(" data-entry=\"{}\"", escape_attribute(name))
-}
-
-/// To five digits, so that the last bits of a result, which vary between machines, do not show.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const UNIT: Rect = Rect {
-        left: 0.0,
-        top: 0.0,
-        right: 1.0,
-        bottom: 1.0,
-    };
-
-    #[test]
-    fn a_line_that_leaves_is_cut_on_the_rim() {
-        assert_eq!(
-            keep_inside(&[(0.5, 0.5), (2.5, 0.5), (2.5, 0.9), (0.5, 0.9)], &UNIT),
-            [vec![(0.5, 0.5), (1.0, 0.5)], vec![(1.0, 0.9), (0.5, 0.9)]]
-        );
-        assert!(keep_inside(&[(-1.0, 2.0), (2.0, 2.0)], &UNIT).is_empty());
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Cells are written compactly: one path per colour, one piece per run of equal neighbours.
 
-use super::canvas::{self, Canvas, Layer, Pen, Point, Rect, grid};
+use super::attributes;
+use super::canvas::{Canvas, Layer, Pen, Point, Rect, grid};
 use super::colour::ColourScale;
 use super::legend::{Entry, Swatch};
 use super::look::{Look, Marks, look};
@@ -302,7 +303,7 @@ fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
             let data = (!rim).then_some(series.points.as_slice());
             sheet
                 .canvas
-                .group(&canvas::series(&series.label, data), |canvas| {
+                .group(&attributes::series(&series.label, data), |canvas| {
                     if is_sparse(series) {
                         // Open markers have their own rim.
                         let at = || positions.iter().flatten().filter(|_| !rim);

@@ -17,7 +17,7 @@
 //! | [`forest`] | judged rates with their intervals, relative to their claims |
 //! | [`work_precision`] | error against run time |
 //!
-//! The drawing can be read back: `canvas` writes names and values into the picture, for a page that
+//! The drawing can be read back: `attributes` writes names and values into the picture, for a page that
 //! shows them.
 //!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a
@@ -33,6 +33,7 @@
 //! assert!(svg.starts_with("<svg"));
 //! ```
 
+mod attributes;
 pub mod canvas;
 mod coinciding;
 mod colour;
@@ -40,6 +41,7 @@ mod convergence;
 mod curve;
 mod envelope;
 mod forest;
+mod geometry;
 mod heat;
 mod history;
 mod legend;

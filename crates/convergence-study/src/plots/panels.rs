@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::canvas::escape;
+use super::attributes::escape;
 use super::style;
 use super::xy::Xy;
 

@@ -2,7 +2,8 @@
 //! columns, never on the data.
 
 use super::Guide;
-use super::canvas::{self, Anchor, Canvas, Layer, Pen, Point, Rect};
+use super::attributes;
+use super::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect};
 use super::legend::{COLUMN_GAP, Entry, arranged, draw_entry};
 use super::ruler::{Ruler, Ticks, power_of_ten};
 use super::style::{self, EDGE, LABEL_SIZE, NOTE_SIZE, TICK_SIZE, TITLE_SIZE, elide, text_width};
@@ -238,7 +239,7 @@ impl Page {
         self.draw_foot();
         let plan = self.plan;
         let axes = [(&*plan.x_label, &self.x), (&*plan.y_label, &self.y)];
-        let attributes = canvas::axes(&self.plot, axes);
+        let attributes = attributes::axes(&self.plot, axes);
         self.canvas.finish(&plan.title(), &attributes)
     }
 
@@ -253,7 +254,7 @@ impl Page {
         for (k, entry) in plan.legend.iter().enumerate() {
             let x = left + (k % columns) as f64 * column_width;
             let y = top + ((k / columns) as f64 + 0.5) * ROW_HEIGHT;
-            canvas.group(&canvas::entry(&entry.label), |canvas| {
+            canvas.group(&attributes::entry(&entry.label), |canvas| {
                 draw_entry(canvas, entry, (x, y), column_width);
             });
         }

@@ -2,7 +2,8 @@
 
 pub mod inset;
 
-use super::canvas::{self, Anchor, Layer, Point, Rect};
+use super::attributes;
+use super::canvas::{Anchor, Layer, Point, Rect};
 use super::coinciding;
 pub use super::curve::Curve;
 use super::envelope::lines;
@@ -257,7 +258,8 @@ impl Xy {
                     .into_iter()
                     .partition(|line| line.len() == 1),
             };
-            let attributes = canvas::series(&curve.name, curve.is_data.then_some(&curve.points));
+            let attributes =
+                attributes::series(&curve.name, curve.is_data.then_some(&curve.points));
             let line_layer = Layer::clipped(sheet.plot).dashed(curve.look.dash);
             sheet.canvas.group(&attributes, |canvas| {
                 canvas.draw(line_layer, |pen| {

@@ -1,6 +1,6 @@
 //! The picture of the rates nearest to a failure at the head of a report.
 
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
 use crate::plots::{ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
@@ -75,7 +75,7 @@ fn row((study, name, rate): (&str, &str, &RateVerdict)) -> ForestRow {
     };
     ForestRow {
         label: format!("{study}: {name}"),
-        numbers: format!("{numbers}, claimed {}", rate.claim()).replace('-', "\u{2212}"),
+        numbers: against_claim(&numbers, &rate.claim()).replace('-', "\u{2212}"),
         rate: rate.clone(),
     }
 }

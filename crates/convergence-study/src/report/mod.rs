@@ -4,6 +4,7 @@
 //! The same outcomes give the same bytes, except for the page: it names its commit, day and
 //! machine, if given, and should not be committed.
 
+mod changes;
 mod failures;
 mod forest;
 mod html;
@@ -24,7 +25,7 @@ use crate::text::lists::distinct;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
-pub use failures::{NotPassed, not_passed, text_of_diagnosis, text_of_failures};
+pub use failures::{text_of_diagnosis, text_of_failures};
 pub use section::markdown;
 pub use tables::tables;
 pub use words::{blessing, can_be_blessed, key_numbers, sentence, summary};
@@ -113,7 +114,7 @@ impl Findings<'_> {
             "\n\n{}{}{}",
             self.diagnosis(),
             failures::markdown(self.record, true),
-            failures::changes(self, &link).concat()
+            changes::changes(self, &link).concat()
         );
         page += &section::front(self, &link).0;
         page += &self
@@ -171,7 +172,7 @@ impl Findings<'_> {
         let failures = failures::markdown(self.record, false);
         let parts = [
             vec![self.diagnosis(), failures],
-            failures::changes(self, &cell),
+            changes::changes(self, &cell),
             vec![folded],
         ]
         .concat();

@@ -5,9 +5,9 @@
 
 use super::html::{badge, escape, html, phrase};
 use super::words::key_numbers;
-use super::{Findings, failures, forest, section};
+use super::{Findings, changes, failures, forest, section};
 use crate::judge::verdict::Verdict;
-use crate::run::Finished;
+use crate::run::{Finished, not_passed};
 
 /// Most failing studies that are unfolded; more would fill screens.
 const OPEN: usize = 3;
@@ -60,7 +60,7 @@ fn head(findings: &Findings<'_>) -> String {
 /// What did not pass, what changed, the origin of the report, and the widest intervals in one
 /// picture.
 fn front(findings: &Findings<'_>) -> String {
-    let changes = failures::changes(findings, &|id| findings.linked(id, id)).concat();
+    let changes = changes::changes(findings, &|id| findings.linked(id, id)).concat();
     let picture = findings
         .rates()
         .map(|figure| html(&section::figure(&figure), &[figure]));
@@ -100,7 +100,9 @@ fn origin(findings: &Findings<'_>) -> String {
 /// Studies with their group, in the order of the page: those that did not pass, then the others by
 /// the property they claim.
 fn groups<'f>(findings: &Findings<'f>) -> Vec<(&'f str, Vec<&'f Finished>)> {
-    let mut groups = vec![("did not pass", failures::in_order(&findings.record.studies))];
+    let failing = not_passed(&findings.record.studies);
+    let failing = failing.iter().map(|failing| failing.study).collect();
+    let mut groups = vec![("did not pass", failing)];
     for (label, mut studies) in forest::grouped(findings.project, &findings.record.studies) {
         studies.retain(|study| study.outcome.verdict == Verdict::Pass);
         groups.push((label, studies));

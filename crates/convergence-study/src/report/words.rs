@@ -1,15 +1,13 @@
 //! Verdicts in words, the same ones for report and terminal.
 
-use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
 use crate::study::coverage::incomplete;
 use crate::study::outcome::{Outcome, joined};
 use crate::text::lists::{self, and_more};
-use crate::text::number::{
-    RATE_PLACES, committed_rate, decimals, interval_places, order_text, rate_text,
-};
+use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places};
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -196,10 +194,11 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
         }
         let (found, why) = (range(group.iter().map(|(_, rate)| rate)), kind.brief());
         let count = format!("{} of {} rates", group.len(), rates.len());
-        let rates = against_claim(&found, claim);
         match kind {
-            Reason::TooLow | Reason::TooHigh => format!("{count} {why}: {rates}"),
-            _ => format!("{count}: {rates}: {why}"),
+            Reason::TooLow | Reason::TooHigh => {
+                format!("{count} {why}: {}", against_claim(&found, claim))
+            }
+            _ => format!("{count}: {}", judged_in_words(&found, claim, why)),
         }
     };
     groups.iter().map(one).collect::<Vec<_>>().join("; ")
@@ -241,14 +240,7 @@ fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else {
         return vec![];
     };
-    let fitted = worst.fitted.map_or_else(
-        || worst.rate_in_words(RATE_PLACES),
-        |fitted| rate_text(Some(fitted)),
-    );
-    let mut parts = vec![format!(
-        "{name} {fitted} (order {})",
-        order_text(worst.order)
-    )];
+    let mut parts = vec![format!("{name} {}", worst.beside_order(RATE_PLACES - 1))];
     let distance =
         |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
     let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();

@@ -5,6 +5,8 @@
 //! threads. The time varies from run to run and is kept separately in [`Spent`].
 
 mod caught;
+mod failures;
+mod json;
 mod levels;
 mod queue;
 
@@ -27,11 +29,12 @@ use caught::caught;
 use queue::{Counter, Done, Job};
 
 pub use convergence_judge::time_limit;
+pub use failures::{Item, NotPassed, items, not_passed};
 pub use levels::assert_order;
 pub use queue::Progress;
 
 /// A study that has been run: one object of a record.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
 pub struct Finished {
     /// Its id, claim, tier and kind.
     #[serde(flatten)]
@@ -44,7 +47,7 @@ pub struct Finished {
     /// The meaning of every `null` that stands for a number.
     pub not_finite: Vec<NotFinite>,
     /// What the study fails to test although it passes; only `study` searches for it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub untested: Vec<Untested>,
     /// The time taken, which differs from run to run.
     #[serde(skip)]

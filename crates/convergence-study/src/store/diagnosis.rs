@@ -129,24 +129,13 @@ pub fn diagnose(
 
 /// Where to look: the places that belong to the settings of a contrast and to a field.
 fn places(project: &Project, contrast: &Contrast, first: Option<&Field>) -> Vec<String> {
-    let settings = contrast.settings.iter().map(|(_, value)| value);
-    let words = settings.chain(first.map(|field| &field.name));
-    let place = |word: &String| {
-        let mut places = project.places.iter();
-        places.find(|(of, _)| names(word, of))
-    };
+    let field = first.map(|field| field.name.as_str());
+    let words = contrast.values().chain(field);
+    let place = |word| project.places.iter().find(|(known, _)| *known == word);
     words
         .filter_map(place)
         .map(|(_, place)| (*place).to_owned())
         .collect()
-}
-
-/// Whether the words of a setting are `what`, alone or in brackets: `ID alone (SETTING)`.
-pub fn names(words: &str, what: &str) -> bool {
-    words == what
-        || words
-            .strip_suffix(')')
-            .is_some_and(|words| words.ends_with(&format!("({what}")))
 }
 
 /// Whether a number has moved or vanished: a new one has no cause.
@@ -414,11 +403,13 @@ impl Diagnosis {
             ..
         } = &self.contrast;
         let mut lines = vec![];
-        let values: Vec<&str> = settings.iter().map(|(_, value)| value.as_str()).collect();
-        let what = match values[..] {
-            [] if failed == all => "everything".to_owned(),
-            [] => "here and there: no setting separates it from what passes".to_owned(),
-            _ => values.join(", "),
+        let what = if !settings.is_empty() {
+            let settings = settings.iter().map(|named| self.contrast.words(named));
+            settings.collect::<Vec<_>>().join(", ")
+        } else if failed == all {
+            "everything".to_owned()
+        } else {
+            "here and there: no setting separates it from what passes".to_owned()
         };
         let shared: Vec<&str> = shared.iter().map(|(_, value)| value.as_str()).collect();
         let all_with = if shared.is_empty() {

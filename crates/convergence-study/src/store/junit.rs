@@ -7,7 +7,7 @@
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
 
 use crate::judge::verdict::Verdict;
-use crate::run::Finished;
+use crate::run::{Finished, Item, items};
 use crate::store::{Change, Record, diagnosis::Diagnosis};
 
 /// The document, for the project of this name.
@@ -40,46 +40,22 @@ pub fn junit_of(
     report.to_string()
 }
 
-fn suite(
-    Finished {
-        header,
-        outcome,
-        failed_cases,
-        ..
-    }: &Finished,
-) -> TestSuite {
-    let mut suite = TestSuite::new(header.id.as_str());
-    suite.add_property(("claim", header.claim.as_str()));
-    for (norm, rate) in &outcome.rates {
-        let name = format!("{norm}: order {}", rate.order);
-        let mut judged = case(&header.id, &name, rate.verdict, &rate.reason);
-        if let Some(advice) = rate.advice() {
-            judged
-                .status
-                .set_description(format!("{}: {advice}", rate.kind.code()));
+fn suite(study: &Finished) -> TestSuite {
+    let id = study.header.id.as_str();
+    let mut suite = TestSuite::new(id);
+    suite.add_property(("claim", study.header.claim.as_str()));
+    // Cases without a result are no test cases: they fail the check that all complete.
+    let is_judged = |item: &Item<'_>| !matches!(item, Item::Cases { .. });
+    for item in items(study).into_iter().filter(is_judged) {
+        let mut judged = case(id, &item.name(), item.verdict(), &item.why());
+        if let (Some(code), Some(advice)) = (item.code(), item.advice()) {
+            judged.status.set_description(format!("{code}: {advice}"));
         }
         suite.add_test_case(judged);
     }
-    for check in &outcome.checks {
-        suite.add_test_case(case(
-            &header.id,
-            &check.statement(),
-            check.verdict,
-            &check.evidence,
-        ));
-    }
-    // A study may fail although each rate and check passes, or may have none: then its verdict is a
-    // test case.
-    if outcome.verdict != Verdict::Pass && suite.failures == 0 {
-        suite.add_test_case(case(
-            &header.id,
-            "verdict",
-            outcome.verdict,
-            &outcome.summary,
-        ));
-    }
-    if !failed_cases.is_empty() {
-        let lines = failed_cases
+    if !study.failed_cases.is_empty() {
+        let lines = study
+            .failed_cases
             .iter()
             .map(|failed| format!("{}: {}\n", failed.label, failed.reason));
         suite.set_system_err(lines.collect::<String>());

@@ -64,6 +64,19 @@ impl Coverage {
         }
     }
 
+    /// Counts a known number of items, of which the last have no result.
+    ///
+    /// * `reasons`: as in [`Coverage::of`], for the items that have a result.
+    pub fn among<'r>(
+        items: impl Into<String>,
+        asked: usize,
+        reasons: impl Iterator<Item = Option<&'r str>>,
+    ) -> Self {
+        let mut reasons: Vec<_> = reasons.collect();
+        reasons.resize(asked.max(reasons.len()), Some(NO_RESULT));
+        Self::of(items, reasons)
+    }
+
     /// Whether every item was judged.
     pub fn is_complete(&self) -> bool {
         self.judged == self.asked

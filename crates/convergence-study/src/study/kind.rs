@@ -94,12 +94,17 @@ pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
 /// which counts them.
 ///
 /// * `failed`: label and reason of each.
-pub(crate) fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
+fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
     let reasons = grouped(failed.into_iter().map(|(label, reason)| (reason, label)));
-    let line = |(reason, labels): (&str, Vec<&str>)| {
-        format!("{}{}: {reason}", labels[0], and_more(labels.len(), 1))
-    };
+    let line =
+        |(reason, labels): (&str, Vec<&str>)| format!("{}: {reason}", cases_in_words(&labels));
     reasons.into_iter().map(line).collect()
+}
+
+/// The first of several cases, and how many more there are.
+pub(crate) fn cases_in_words(labels: &[&str]) -> String {
+    let first = labels.first().copied().unwrap_or_default();
+    format!("{first}{}", and_more(labels.len(), 1))
 }
 
 /// A study of one kind, read and validated: its cases, how to compute one, how to judge all.

@@ -2,32 +2,20 @@
 //! kinds of study.
 
 #[cfg(feature = "reports")]
-use std::ops::Range;
+mod figure;
+mod rates;
 
-#[cfg(feature = "reports")]
-use super::outcome::Figure;
-use super::outcome::{Check, LevelErrors, Outcome, Quantity, Table};
+use super::outcome::{Check, LevelErrors, Outcome, Quantity};
 use super::subject::{Sort, Subject};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
-use crate::judge::verdict::{self, Judge, RateVerdict, Reason, Verdict};
-#[cfg(feature = "reports")]
-use crate::plots::{self, ErrorSeries, xy::Xy};
+use crate::judge::verdict::{self, Judge, RateVerdict, Reason};
 use crate::text::lists::distinct;
-use crate::text::number::{
-    RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text,
-};
-
-/// The explanation of the lines in a caption.
-#[cfg(feature = "reports")]
-const LINES: &str = " Lines: the rates observed, each through the finest error that it uses.";
+pub use rates::{RATE_TOLERANCE, Rates, rate_quantities, rate_table, summary};
 
 /// Relative change of an error that the baseline tolerates: another processor or mathematical
 /// library changes it by at most 1e-8, a change of the computation by more.
 pub const ERROR_TOLERANCE: f64 = 1e-6;
-
-/// The same for an observed rate.
-pub const RATE_TOLERANCE: f64 = 1e-4;
 
 /// What is refined from level to level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -50,16 +38,6 @@ impl Axis {
             Axis::Space => "space",
             Axis::Time => "time",
             Axis::Both => "both",
-        }
-    }
-
-    /// The step that is refined, in a title.
-    #[cfg(feature = "reports")]
-    fn symbol(self) -> &'static str {
-        match self {
-            Axis::Space => "h",
-            Axis::Time => "dt",
-            Axis::Both => "h and dt",
         }
     }
 
@@ -89,6 +67,23 @@ pub struct ErrorColumn {
 }
 
 impl ErrorColumn {
+    /// An error with a claim, called by its name in figures.
+    ///
+    /// * `errors`: coarse to fine; `None` without a result.
+    pub fn new(
+        name: impl Into<String>,
+        claim: Claim,
+        errors: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            symbol: None,
+            errors: errors.into_iter().collect(),
+            claim: Some(claim),
+            look: 0,
+        }
+    }
+
     /// A column for every error claimed or found: claimed ones first, then the others in order of
     /// occurrence.
     ///
@@ -170,9 +165,6 @@ pub struct Levels {
     pub subjects: Vec<(String, Subject)>,
 }
 
-/// Rates that were judged, each with the name of its error.
-pub type Rates = [(String, RateVerdict)];
-
 impl Levels {
     /// * `refinements`: steps decreasing.
     pub fn new(
@@ -231,22 +223,6 @@ impl Levels {
             .collect()
     }
 
-    /// The labels of levels that lack a result for some claimed error.
-    #[cfg(feature = "reports")]
-    fn without_result(&self) -> Vec<&str> {
-        let lacks = |i: usize| {
-            self.columns
-                .iter()
-                .any(|column| column.claim.is_some() && at(&column.errors, i).is_none())
-        };
-        self.refinements
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| lacks(*i))
-            .map(|(_, level)| level.label.as_str())
-            .collect()
-    }
-
     /// One verdict for each error with a claimed order. A level without a result makes it fail; the
     /// rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
@@ -286,73 +262,6 @@ impl Levels {
             Some((column.name.clone(), judged))
         };
         self.columns.iter().filter_map(verdict).collect()
-    }
-
-    #[cfg(feature = "reports")]
-    /// The judged errors, each with the line of its rate if that is known, and triangles for the
-    /// orders claimed.
-    ///
-    /// * `subject`: what has these errors, for the title, which says what one should see.
-    /// * `caption`: the content, as a sentence; an explanation of the lines is appended if there
-    ///   are any.
-    pub fn figure(
-        &self,
-        what: &str,
-        subject: Option<String>,
-        caption: String,
-        rates: &Rates,
-    ) -> Figure {
-        let claimed = self
-            .columns
-            .iter()
-            .filter_map(|column| column.claim.map(|claim| (column, claim)));
-        let series = claimed.map(|(column, claim)| {
-            let points = self.points(column);
-            let rate = rates.iter().find(|(name, _)| *name == column.name);
-            ErrorSeries {
-                label: column.symbol.clone().unwrap_or(column.name.clone()),
-                fit: rate.and_then(|(_, rate)| rate.power_law()),
-                interval: rate.and_then(|(_, rate)| rate.interval),
-                points: points
-                    .iter()
-                    .map(|level| (level.step, level.error))
-                    .collect(),
-                order: Some(claim.order),
-                used: rate.map(|(_, rate)| drawn(&rate.used, &self.has_result(column))),
-                look: Some(column.look),
-            }
-        });
-        let series: Vec<ErrorSeries> = series.collect();
-        let has_line = series.iter().any(|series| series.line().is_some());
-        let caption = if has_line { caption + LINES } else { caption };
-        let without = self.without_result();
-        let notes: Vec<String> = without
-            .iter()
-            .map(|label| format!("{label}: no result"))
-            .collect();
-        let missing = if without.is_empty() {
-            String::new()
-        } else {
-            format!(" No result: {}.", without.join("; "))
-        };
-        let step = self.axis.symbol();
-        let seen = match subject {
-            Some(subject) => format!("{subject}: errors fall with {step} as the triangles do"),
-            None => format!("Errors fall with {step} as the triangles do"),
-        };
-        let has_triangle = series
-            .iter()
-            .any(|series| series.order.is_some_and(|order| order > 0.0));
-        let xy = Xy {
-            title: has_triangle.then_some(seen),
-            notes,
-            ..Xy::of_errors(self.axis.label())
-        };
-        Figure::new(
-            what,
-            caption + &missing,
-            plots::convergence(xy, &series, &[]),
-        )
     }
 
     /// The same with only the coarsest levels.
@@ -440,95 +349,10 @@ fn number(errors: &[Option<f64>], level: usize) -> f64 {
     at(errors, level).unwrap_or(f64::NAN)
 }
 
-/// A range of levels, counted among those with a result.
-#[cfg(feature = "reports")]
-fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
-    let before = |end: usize| has[..end.min(has.len())].iter().filter(|has| **has).count();
-    before(used.start)..before(used.end)
-}
-
-/// The observed rates, as numbers that the baseline guards.
-///
-/// * `subject`: what the rate of that name is about.
-pub fn rate_quantities(
-    rates: &Rates,
-    subject: impl Fn(&str) -> Subject,
-) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(move |(name, rate)| {
-        let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
-        Some(guarded.about(subject(name)).of_sort(Sort::Rate))
-    })
-}
-
-/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
-/// nothing.
-pub fn rate_table(title: &str, rates: &Rates) -> Table {
-    let row = |(name, rate): &(String, RateVerdict)| {
-        let pairwise: Vec<String> = rate
-            .pairwise
-            .iter()
-            .map(|rate| format!("{rate:.3}"))
-            .collect();
-        let interval = rate.interval.map_or_else(
-            || "-".to_owned(),
-            |interval| interval_text(interval, RATE_PLACES),
-        );
-        vec![
-            name.clone(),
-            rate.order.to_string(),
-            pairwise.join(" "),
-            rate_in(rate),
-            interval,
-            rate.verdict.to_string(),
-            rate.kind.text().to_owned(),
-        ]
-    };
-    let head = [
-        "error of",
-        "order",
-        "pairwise rates",
-        "rate",
-        "95 % interval",
-        "verdict",
-        "because",
-    ];
-    Table::new(title, head, rates.iter().map(row))
-}
-
-/// The rate with the digits that its interval justifies, in a table that also shows the interval.
-fn rate_in(rate: &RateVerdict) -> String {
-    match (rate.fitted, rate.interval) {
-        (Some(_), Some([low, high])) if high - low > WIDEST_INTERVAL => "no rate".to_owned(),
-        (Some(fitted), Some(interval)) => decimals(fitted, interval_places(interval, RATE_PLACES)),
-        (fitted, _) => rate_text(fitted),
-    }
-}
-
-/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with
-/// its reason.
-pub fn summary(rates: &Rates) -> String {
-    let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
-    let shown = rates
-        .iter()
-        .filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
-    let one = |(name, rate): &(String, RateVerdict)| {
-        let found = rate.fitted.map_or_else(
-            || rate.rate_in_words(RATE_PLACES),
-            |fitted| format!("{fitted:.4}"),
-        );
-        let reason = if passes {
-            String::new()
-        } else {
-            format!(": {}", rate.reason)
-        };
-        format!("{name} {found} (order {}){reason}", rate.order)
-    };
-    shown.map(one).collect::<Vec<_>>().join("; ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::verdict::Verdict;
 
     #[test]
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
@@ -622,7 +446,7 @@ mod tests {
             let rates = if rates { levels.judge() } else { vec![] };
             levels.figure("f", None, "Errors.".into(), &rates).caption
         };
-        assert_eq!(caption([1.0; 5], true), format!("Errors.{LINES}"));
+        assert_eq!(caption([1.0; 5], true), format!("Errors.{}", figure::LINES));
         assert_eq!(caption([1.0; 5], false), "Errors.");
         assert_eq!(caption(ZIGZAG, true), "Errors.");
     }

@@ -4,11 +4,13 @@
 mod baseline;
 mod browser;
 mod claims;
+mod failures;
 mod fake;
 mod file_set;
 mod page;
 mod record;
 mod report;
 mod runner;
+mod tables_of_errors;
 mod texts;
 mod whole;

@@ -2,8 +2,7 @@
 //! the data next to it.
 
 use convergence_study::judge::verdict::{Reason, Verdict};
-use convergence_study::report::not_passed;
-use convergence_study::run::Finished;
+use convergence_study::run::{Finished, not_passed};
 use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, diagnose};
 use convergence_study::store::{Baseline, Change};
 use convergence_study::study::outcome::settle;
@@ -93,7 +92,7 @@ fn conclusions(studies: &[Finished], baseline: &Baseline) -> Conclusions {
         verdicts: studies.iter().map(verdict).collect(),
         order: not_passed(studies)
             .into_iter()
-            .map(|study| (study.id, study.verdict))
+            .map(|study| (study.id().to_owned(), study.verdict()))
             .collect(),
         fingerprint: Fingerprint::of(studies, &changes),
         changes,

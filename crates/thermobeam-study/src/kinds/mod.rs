@@ -4,27 +4,17 @@
 //! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
 //! numbers that the baseline guards.
 
-pub mod any_order;
-pub mod bifurcation;
-pub mod convergence;
 pub mod detects;
 pub mod energy;
-pub mod equilibrium;
-pub mod exact_experiments;
 pub mod experiment;
-pub mod frequencies;
+pub mod orders;
 mod prelude;
 pub mod random_errors;
-pub mod rigid;
+pub mod runs;
 pub mod scenes;
-pub mod self_convergence;
 pub mod settings;
-mod side_by_side;
 pub mod solvers;
-mod steady;
 pub mod tables;
-pub mod vibration;
-mod watch;
 pub mod work_precision;
 
 pub use settings::PLACES;
@@ -33,25 +23,31 @@ pub use tables::TERMS;
 use convergence_study::input::InputError;
 use convergence_study::program;
 use convergence_study::study::{KindRow, Study, StudyFile};
+use orders::Source;
+use orders::any_order::AnyOrder;
+use orders::frequencies::Frequencies;
+use orders::manufactured::Convergence;
+use orders::self_convergence::SelfConvergence;
+use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
 pub const KINDS: [KindRow; 17] = [
-    convergence::ROW,
-    any_order::ROW,
+    Convergence::ROW,
+    AnyOrder::ROW,
     detects::ROW,
     energy::ROW,
     scenes::ROW,
     solvers::ROW,
-    vibration::ROW,
-    frequencies::ROW,
-    self_convergence::ROW,
+    Vibration::ROW,
+    Frequencies::ROW,
+    SelfConvergence::ROW,
     experiment::ROW,
-    exact_experiments::ROW,
-    equilibrium::ROW,
-    bifurcation::ROW,
+    runs::exact_experiments::ROW,
+    runs::equilibrium::ROW,
+    runs::bifurcation::ROW,
     random_errors::ROW,
-    rigid::ROW,
+    runs::rigid::ROW,
     work_precision::ROW,
     KindRow {
         settings: settings::of_harness,

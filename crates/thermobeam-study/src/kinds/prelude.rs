@@ -31,7 +31,7 @@ pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam_exact::vibration::Mode;
 
-pub(crate) use super::settings::ItemMethod;
+pub(crate) use super::settings::{ItemMethod, Topic};
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};
@@ -40,7 +40,7 @@ pub(crate) use crate::expression::{Expression, Variable};
 pub(crate) use crate::figures::{self, looks};
 pub(crate) use crate::run::driver::Driver;
 pub(crate) use crate::run::family::{Family, OnMesh};
-pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator, driver};
+pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator};
 pub(crate) use crate::run::{AnyMotion, Motion, Report, RunError, Sample, run, run_to};
 pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
 

@@ -31,10 +31,9 @@ use std::ops::ControlFlow;
 
 use super::energy::{End, named_cases};
 use super::prelude::*;
-use super::settings;
-use super::steady::exact_states;
+use super::runs::steady::exact_states;
+use super::runs::watch::SOLVED;
 use super::tables::cost_of_run;
-use super::watch::SOLVED;
 use crate::error::reference::distance;
 use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};
@@ -55,7 +54,11 @@ pub const ROW: KindRow = KindRow {
              run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
-    settings: settings::of_scenes,
+    settings: |header, item| {
+        Topic::new("whole scenes", ItemMethod::OneStep)
+            .of_file()
+            .settings(header, item)
+    },
 };
 
 /// Times of a history.

@@ -1,8 +1,8 @@
 //! The settings that an item of a study exercises; by these a diagnosis separates failing from
 //! passing items.
 //!
-//! Each kind of study says in its row what its items exercise: the group of statements, and the
-//! method that computes them. What an item is about is data of its [`Subject`].
+//! Each kind of study says in its row what its items exercise, as a [`Topic`]. What an item is
+//! about is data of its [`Subject`].
 
 use convergence_study::study::header::{Setting, study};
 use convergence_study::study::{Header, Subject};
@@ -72,46 +72,6 @@ pub const PLACES: [(&str, &str); 18] = [
     ("rotation-rate", "the second equation of (3.7)"),
 ];
 
-/// What a kind of study puts to the test.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Group {
-    Harness,
-    Manufactured,
-    Vibrations,
-    Energy,
-    Steady,
-    Scenes,
-    Maps,
-    Cost,
-    Experiments,
-}
-
-impl Group {
-    /// In words that can stand alone.
-    fn name(self) -> &'static str {
-        match self {
-            Group::Harness => "the harness",
-            Group::Manufactured => "manufactured solutions",
-            Group::Vibrations => "free vibrations",
-            Group::Energy => "the energy's laws",
-            Group::Steady => "steady states",
-            Group::Scenes => "whole scenes",
-            Group::Maps => "maps of the solvers",
-            Group::Cost => "cost",
-            Group::Experiments => "experiments with contact",
-        }
-    }
-
-    /// Whether its studies take the beam and the obstacles of the paper, from scenes in other
-    /// files.
-    fn has_the_papers_beam(self) -> bool {
-        matches!(
-            self,
-            Group::Experiments | Group::Maps | Group::Energy | Group::Steady
-        )
-    }
-}
-
 /// How an item is computed, where that is not the method of its study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ItemMethod {
@@ -159,139 +119,112 @@ impl From<ItemMethod> for String {
     }
 }
 
+/// What a kind of study puts to the test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Topic {
+    /// In words that can stand alone.
+    name: &'static str,
+    method: ItemMethod,
+    beam: BeamOf,
+}
+
+/// The beam of a study, where its file has no coefficients.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum BeamOf {
+    /// The default one; the file says what is refined, and whether there are obstacles.
+    File,
+    /// The default one without coupling and Kirchhoff's term; otherwise the same.
+    Vibration,
+    /// That of the paper, between obstacles, from scenes in other files.
+    Paper,
+}
+
+impl Topic {
+    /// A topic whose studies take the paper's beam and obstacles.
+    ///
+    /// * `method`: that of items which name no other.
+    pub(crate) const fn new(name: &'static str, method: ItemMethod) -> Self {
+        Self {
+            name,
+            method,
+            beam: BeamOf::Paper,
+        }
+    }
+
+    /// The same with the beam of the study's file.
+    pub(crate) const fn of_file(self) -> Self {
+        Self {
+            beam: BeamOf::File,
+            ..self
+        }
+    }
+
+    /// Vibrations of a linear beam.
+    pub(crate) const fn vibrations(method: ItemMethod) -> Self {
+        Self {
+            name: "free vibrations",
+            method,
+            beam: BeamOf::Vibration,
+        }
+    }
+
+    /// Errors against a manufactured solution, or a vibration where the file has one.
+    pub(crate) fn of_solution(header: &Header, method: ItemMethod) -> Self {
+        if has_table(header, "vibration.") {
+            Self::vibrations(method)
+        } else {
+            Self::new("manufactured solutions", method).of_file()
+        }
+    }
+
+    /// The settings of an item of the study with this header.
+    ///
+    /// * `subject`: what it is about; in a study with named cases, its case has settings of its
+    ///   own, and its method is that of the study unless the file or the subject names another.
+    pub(crate) fn settings(self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let item = Item {
+            header,
+            case: case(header, subject),
+        };
+        let mut settings = general(header, subject, self.name);
+        if self.beam != BeamOf::Paper {
+            settings.extend(item.axis());
+        }
+        let own = subject.method.as_deref().and_then(ItemMethod::named);
+        settings.extend(item.method(own, self.method));
+        settings.extend(item.beam(self.beam));
+        settings.push(setting("mesh", item.mesh()));
+        settings
+    }
+}
+
 /// Of the harness itself.
 pub fn of_harness(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Harness, ItemMethod::OneStep)
+    general(header, subject, "the harness")
 }
 
-/// Of errors against a manufactured solution, or a vibration where the file has one, by one-step
-/// schemes.
-pub(super) fn of_solution(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, solution(header), ItemMethod::OneStep)
-}
-
-/// The same by the scheme of any order.
-pub(super) fn of_any_order(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, solution(header), ItemMethod::AnyOrder)
-}
-
-/// Of planted faults: in studies by one-step schemes, or by the scheme of any order.
-pub(super) fn of_controls(header: &Header, subject: &Subject) -> Vec<Setting> {
-    if has_table(header, "any-order.") {
-        of_any_order(header, subject)
-    } else {
-        of_solution(header, subject)
+/// Study, topic and field.
+fn general(header: &Header, subject: &Subject, topic: &str) -> Vec<Setting> {
+    let mut settings = vec![study(header), setting("kind", topic)];
+    let quantity = subject.quantity.as_str();
+    if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
+        settings.push(setting("field", quantity));
     }
+    settings
 }
 
-/// Of vibrations.
-pub(super) fn of_vibrations(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Vibrations, ItemMethod::OneStep)
+fn setting(key: &str, value: &str) -> Setting {
+    (key.to_owned(), value.to_owned())
 }
 
-/// Of frequencies.
-pub(super) fn of_frequencies(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Vibrations, ItemMethod::Exact)
-}
-
-/// Of the energy and its balance.
-pub(super) fn of_energy(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Energy, ItemMethod::OneStep)
-}
-
-/// Of the ends of runs.
-pub(super) fn of_ends(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Steady, ItemMethod::OneStep)
-}
-
-/// Of steady states themselves.
-pub(super) fn of_branches(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Steady, ItemMethod::Exact)
-}
-
-/// Of whole scenes.
-pub(super) fn of_scenes(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Scenes, ItemMethod::OneStep)
-}
-
-/// Of the two solvers.
-pub(super) fn of_solvers(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Maps, ItemMethod::OneStep)
-}
-
-/// Of work against errors.
-pub(super) fn of_cost(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Cost, ItemMethod::OneStep)
-}
-
-/// Of experiments with contact by one-step schemes.
-pub(super) fn of_experiments(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Experiments, ItemMethod::OneStep)
-}
-
-/// The same by the scheme of any order.
-pub(super) fn of_exact_experiments(header: &Header, subject: &Subject) -> Vec<Setting> {
-    exercised(header, subject, Group::Experiments, ItemMethod::AnyOrder)
-}
-
-fn solution(header: &Header) -> Group {
-    if has_table(header, "vibration.") {
-        Group::Vibrations
-    } else {
-        Group::Manufactured
-    }
+fn either(key: &str, holds: bool, value: &str, otherwise: &str) -> Setting {
+    setting(key, if holds { value } else { otherwise })
 }
 
 /// Whether a study file has values in a table.
-fn has_table(header: &Header, table: &str) -> bool {
+pub(crate) fn has_table(header: &Header, table: &str) -> bool {
     let mut paths = header.settings.iter().map(|(path, _)| path);
     paths.any(|path| path.starts_with(table))
-}
-
-/// The settings of an item.
-///
-/// * `subject`: what it is about; in a study with named cases, its case has settings of its own.
-/// * `method`: that of the study, unless the file or the subject names another.
-fn exercised(header: &Header, subject: &Subject, group: Group, method: ItemMethod) -> Vec<Setting> {
-    let of = Of {
-        header,
-        case: case(header, subject),
-        group,
-    };
-    let axis = of
-        .text("refine.axis")
-        .or(of.text("run.over"))
-        .unwrap_or_default();
-    let refined = format!(
-        "refined in {}",
-        if axis == "both" {
-            "space and time"
-        } else {
-            axis
-        }
-    );
-    let mut settings = vec![("kind", group.name())];
-    let quantity = subject.quantity.as_str();
-    if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
-        settings.push(("field", quantity));
-    }
-    if !axis.is_empty() && matches!(group, Group::Manufactured | Group::Vibrations) {
-        settings.push(("axis", &refined));
-    }
-    if group != Group::Harness {
-        let own = subject.method.as_deref().and_then(ItemMethod::named);
-        settings.extend(of.method(own, method));
-        settings.extend(of.beam());
-        settings.push(("mesh", of.mesh()));
-    }
-    let settings = settings
-        .into_iter()
-        .map(|(key, value)| (key.to_owned(), value.to_owned()));
-    // A study on its own: its kind tells where to look.
-    let (key, alone) = study(header);
-    std::iter::once((key, format!("{alone} ({})", group.name())))
-        .chain(settings)
-        .collect()
 }
 
 /// The dotted path of the item's case, such as `case[2].`; empty without a case.
@@ -311,24 +244,29 @@ fn case(header: &Header, subject: &Subject) -> String {
 }
 
 /// An item of a study.
-struct Of<'s> {
+struct Item<'s> {
     header: &'s Header,
     case: String,
-    group: Group,
 }
 
-impl Of<'_> {
+impl Item<'_> {
+    /// The value of a key: of the item's case, or of the study.
     fn text(&self, path: &str) -> Option<&str> {
         let value = |path: &str| {
-            self.header
-                .settings
-                .iter()
-                .find(|(known, _)| known == path)
-                .map(|(_, value)| value)
+            let setting = self.header.settings.iter().find(|(known, _)| known == path);
+            setting.map(|(_, value)| value.trim_matches('"'))
         };
-        value(&(self.case.clone() + path))
-            .or_else(|| value(path))
-            .map(|value| value.trim_matches('"'))
+        value(&(self.case.clone() + path)).or_else(|| value(path))
+    }
+
+    fn axis(&self) -> Option<Setting> {
+        let axis = self.text("refine.axis").or(self.text("run.over"))?;
+        let axis = if axis == "both" {
+            "space and time"
+        } else {
+            axis
+        };
+        Some(setting("axis", &format!("refined in {axis}")))
     }
 
     fn has(&self, table: &str) -> bool {
@@ -337,7 +275,7 @@ impl Of<'_> {
 
     /// Whether the file names this scheme or solver.
     fn names(&self, word: &str) -> bool {
-        let time = [
+        let keys = [
             "time.scheme",
             "time.solver",
             "refine.scheme",
@@ -345,124 +283,91 @@ impl Of<'_> {
             "scheme",
             "solver",
         ];
-        time.iter().any(|key| self.text(key) == Some(word))
+        keys.iter().any(|key| self.text(key) == Some(word))
     }
 
+    /// Method, scheme and solver; a method without a choice of these is named instead.
+    ///
     /// * `own`: the method of the item, if it has one of its own; `of_study`: that of its study.
-    fn method(
-        &self,
-        own: Option<ItemMethod>,
-        of_study: ItemMethod,
-    ) -> [(&'static str, &'static str); 3] {
-        // A method without this choice is named instead.
-        let all = |method: &'static str| ["method", "scheme", "solver"].map(|key| (key, method));
-        match own.unwrap_or(of_study) {
-            ItemMethod::AnyOrder => return all("any order"),
-            ItemMethod::Exact => return all("no time steps"),
-            _ if self.names("dg") => return all("any order"),
-            _ => {}
+    fn method(&self, own: Option<ItemMethod>, of_study: ItemMethod) -> [Setting; 3] {
+        let whole = match own.unwrap_or(of_study) {
+            ItemMethod::Exact => Some("no time steps"),
+            ItemMethod::AnyOrder => Some("any order"),
+            _ => self.names("dg").then_some("any order"),
+        };
+        if let Some(method) = whole {
+            return ["method", "scheme", "solver"].map(|key| setting(key, method));
         }
         let is_midpoint = own == Some(ItemMethod::Midpoint) || self.names("midpoint");
         let is_fixed_point = own == Some(ItemMethod::FixedPoint) || self.names("fixed-point");
-        let scheme = if is_midpoint {
-            "the midpoint rule"
-        } else {
-            "the paper's scheme"
-        };
-        let solver = if is_fixed_point {
-            "the fixed point"
-        } else {
-            "Newton's method"
-        };
         [
-            ("method", "one-step schemes"),
-            ("scheme", scheme),
-            ("solver", solver),
+            setting("method", "one-step schemes"),
+            either(
+                "scheme",
+                is_midpoint,
+                "the midpoint rule",
+                "the paper's scheme",
+            ),
+            either(
+                "solver",
+                is_fixed_point,
+                "the fixed point",
+                "Newton's method",
+            ),
         ]
     }
 
-    /// The active terms of the equations; scenes in other files are those of the paper, whose beam
-    /// is the default.
-    fn beam(&self) -> [(&'static str, &'static str); 5] {
-        let free = self.group == Group::Vibrations;
-        let default = if free {
-            Beam {
-                a: 0.0,
-                rho: 0.0,
-                ..Beam::default()
-            }
-        } else {
-            Beam::default()
-        };
+    /// The active terms of the equations.
+    fn beam(&self, of: BeamOf) -> [Setting; 5] {
+        let Beam { a, rho, zeta, .. } = Beam::default();
+        let terms = if of == BeamOf::Vibration { 0.0 } else { 1.0 };
         let number = |name: &str, default: f64| {
-            self.text(&format!("beam.{name}"))
-                .map_or(default, |text| text.parse().unwrap_or(default))
+            let text = self.text(&format!("beam.{name}"));
+            text.and_then(|text| text.parse().ok()).unwrap_or(default)
         };
-        let on = |is_on: bool, on: &'static str, off: &'static str| if is_on { on } else { off };
-        let is_of_the_paper =
-            self.group.has_the_papers_beam() || self.text("refine.scene").is_some();
+        let is_coupled = number("a", terms * a) != 0.0;
+        let is_nonlinear = number("rho", terms * rho) != 0.0;
+        let is_hot = number("theta_a", 0.0) != 0.0;
+        let is_small = number("zeta", zeta) < SMALL_ZETA;
+        // A scene in another file is one of the paper.
+        let has_obstacles =
+            of == BeamOf::Paper || self.text("refine.scene").is_some() || self.has("obstacles.");
         [
-            (
-                "coupling",
-                on(
-                    number("a", default.a) != 0.0,
-                    "coupling a > 0",
-                    "no coupling",
-                ),
-            ),
-            (
+            either("coupling", is_coupled, "coupling a > 0", "no coupling"),
+            either(
                 "rho",
-                on(
-                    number("rho", default.rho) != 0.0,
-                    "Kirchhoff's term, rho > 0",
-                    "a linear beam",
-                ),
+                is_nonlinear,
+                "Kirchhoff's term, rho > 0",
+                "a linear beam",
             ),
-            (
-                "theta_a",
-                on(
-                    number("theta_a", 0.0) != 0.0,
-                    "a hot end, theta_A > 0",
-                    "a cold end",
-                ),
-            ),
-            (
-                "zeta",
-                on(
-                    number("zeta", default.zeta) < SMALL_ZETA,
-                    "small zeta",
-                    "zeta of order 0.1",
-                ),
-            ),
-            (
-                "obstacles",
-                on(
-                    is_of_the_paper || self.has("obstacles."),
-                    "obstacles",
-                    "a free end",
-                ),
-            ),
+            either("theta_a", is_hot, "a hot end, theta_A > 0", "a cold end"),
+            either("zeta", is_small, "small zeta", "zeta of order 0.1"),
+            either("obstacles", has_obstacles, "obstacles", "a free end"),
         ]
     }
 
     fn mesh(&self) -> &'static str {
+        let tables = ["mesh", "refine", "run", "energy"];
         let has = |key: &str| {
-            ["mesh", "refine", "run", "energy"]
+            tables
                 .iter()
                 .any(|table| self.text(&format!("{table}.{key}")).is_some())
         };
-        match (has("map"), has("nodes"), has("perturb")) {
-            (true, ..) => "a graded mesh",
-            (_, true, _) => "listed nodes",
-            (.., true) => "a perturbed mesh",
-            _ => "a uniform mesh",
+        if has("map") {
+            "a graded mesh"
+        } else if has("nodes") {
+            "listed nodes"
+        } else if has("perturb") {
+            "a perturbed mesh"
+        } else {
+            "a uniform mesh"
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ItemMethod, of_branches, of_scenes, of_solution};
+    use super::{ItemMethod, Topic};
     use convergence_study::study::header::Setting;
     use convergence_study::study::{Header, Subject};
 
@@ -484,7 +389,8 @@ mod tests {
 
     #[test]
     fn the_method_of_an_item_replaces_that_of_its_study() {
-        let of = |subject: Subject| values(of_branches(&header("bifurcation", &[]), &subject));
+        let topic = Topic::new("steady states", ItemMethod::Exact);
+        let of = |subject: Subject| values(topic.settings(&header("bifurcation", &[]), &subject));
         let state = Subject::of("steady state");
         assert!(of(state.clone()).contains(&"no time steps".to_owned()));
         let run = of(state.by(ItemMethod::OneStep));
@@ -504,7 +410,9 @@ mod tests {
                 ("case[1].time.scheme", "\"dg\""),
             ],
         );
-        let cold = values(of_scenes(&whole, &Subject::of("u_tip").in_case("cold")));
+        let subject = Subject::of("u_tip").in_case("cold");
+        let scenes = Topic::new("whole scenes", ItemMethod::OneStep).of_file();
+        let cold = values(scenes.settings(&whole, &subject));
         assert!(
             ["whole scenes", "any order", "no coupling"]
                 .iter()
@@ -517,10 +425,9 @@ mod tests {
             ("refine.scheme", "\"midpoint\""),
             ("refine.map", "\"s\""),
         ];
-        let found = values(of_solution(
-            &header("orders/manufactured", &file),
-            &Subject::of("temperature"),
-        ));
+        let header = header("orders/manufactured", &file);
+        let topic = Topic::of_solution(&header, ItemMethod::OneStep);
+        let found = values(topic.settings(&header, &Subject::of("temperature")));
         for expected in [
             "temperature",
             "refined in time",

@@ -46,6 +46,23 @@ pub struct Sample {
     pub energy: f64,
 }
 
+impl Sample {
+    /// The state of the free end, the temperature in the middle, and the energy, in the order of
+    /// the fields.
+    pub(crate) fn numbers(&self) -> [f64; 6] {
+        let Self {
+            u_tip,
+            phi_tip,
+            u_t_tip,
+            phi_t_tip,
+            theta_mid,
+            energy,
+            ..
+        } = *self;
+        [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy]
+    }
+}
+
 /// Counts of the solver's work, for any method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Solves {

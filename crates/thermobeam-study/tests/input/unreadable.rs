@@ -3,7 +3,8 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::study::FromFile as _;
 use thermobeam_study::kinds;
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 use thermobeam_study::scene::Scene;
 
 use proptest::prelude::*;
@@ -35,7 +36,7 @@ fn a_file_that_cannot_be_read_is_named_with_the_reason() {
         &[folder, ": cannot be read: "],
     );
     says(
-        &Convergence::read("no.toml")
+        &Orders::<Convergence>::read("no.toml")
             .expect_err("no such file")
             .to_string(),
         &["no.toml: cannot be read"],
@@ -145,6 +146,6 @@ proptest! {
         if let Err(error) = Scene::parse(&text, "f.toml") {
             prop_assert!(error.to_string().starts_with("f.toml:"), "{}", error);
         }
-        prop_assert!(Convergence::parse(&text, "f.toml".as_ref()).is_err());
+        prop_assert!(Orders::<Convergence>::parse(&text, "f.toml".as_ref()).is_err());
     }
 }

@@ -4,7 +4,10 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::any_order::{AnyOrder, Errors, ROW};
+use thermobeam_study::kinds::orders::any_order::{self, Errors};
+use thermobeam_study::kinds::orders::{Orders, Source};
+
+type AnyOrder = Orders<any_order::AnyOrder>;
 
 use super::planted::verdict_with;
 use super::refused::refusal;
@@ -258,7 +261,7 @@ fn files_with_errors_are_refused_with_the_field() {
             "control.epsilon",
         ),
     ] {
-        let error = refusal(&ROW, name, from, to);
+        let error = refusal(&any_order::AnyOrder::ROW, name, from, to);
         assert!(error.contains(message), "{to}: {error}");
     }
 }
@@ -283,7 +286,12 @@ fn free_vibrations_pass_and_a_wrong_viscosity_fails() {
         ("zeta = 0.1", "zeta = -0.1", "vibration.zeta"),
         ("[vibration]", "[beam]\na = 0.0\n[vibration]", "beam"),
     ] {
-        let error = refusal(&ROW, "any-order-vibration.toml", from, to);
+        let error = refusal(
+            &any_order::AnyOrder::ROW,
+            "any-order-vibration.toml",
+            from,
+            to,
+        );
         assert!(error.contains(message), "{to}: {error}");
     }
 }

@@ -1,11 +1,14 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::bifurcation::{AtRest, BifurcationStudy, Diagram, Found, ROW};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::bifurcation::{AtRest, Bifurcation, Diagram, Found, ROW};
 
 use super::file;
 use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{counted, passes_but_not_without_each_case};
+
+type BifurcationStudy = RunStudy<Bifurcation>;
 
 fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut Found)> {
     Box::new(move |found| match found {

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Outcome};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 /// The study of Theorem 3.4 in h.
 fn file() -> PathBuf {
@@ -23,7 +24,7 @@ fn outcome(elements: &str, tolerance: &str) -> Outcome {
     let text = text
         .replace(listed, elements)
         .replace("tolerance = 0.002", tolerance);
-    run_one(&Convergence::parse(&text, &file()).unwrap())
+    run_one(&Orders::<Convergence>::parse(&text, &file()).unwrap())
 }
 
 #[test]
@@ -115,7 +116,7 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
             "order = 1.0\ntolerance = 0.002",
             &format!("order = {order}\ntolerance = 0.2"),
         );
-        run_one(&Convergence::parse(&text, &file()).unwrap()).verdict
+        run_one(&Orders::<Convergence>::parse(&text, &file()).unwrap()).verdict
     };
     assert_eq!(
         (least("\">= 0.5\""), least("\">= 1.5\"")),
@@ -128,7 +129,7 @@ fn a_claim_that_is_no_order_is_refused() {
     let refused = |from: &str, to: &str| {
         let text = std::fs::read_to_string(file()).unwrap();
         assert!(text.contains(from));
-        Convergence::parse(&text.replacen(from, to, 1), &file())
+        Orders::<Convergence>::parse(&text.replacen(from, to, 1), &file())
             .expect_err("a refusal")
             .to_string()
     };

@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::convergence::Convergence;
 use thermobeam_study::kinds::detects::{Detects, Fault, ROW, Sensitivity};
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 use super::refused::refusal;
 use super::typed::{Runs, changed, counted, each_case_counts, leaves_one_out, report};

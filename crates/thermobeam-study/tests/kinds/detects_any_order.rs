@@ -3,8 +3,8 @@
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind};
-use thermobeam_study::kinds::any_order::AnyOrder;
 use thermobeam_study::kinds::detects::{Detects, Fault, ROW};
+use thermobeam_study::kinds::orders::any_order::AnyOrder;
 
 use super::file;
 use super::refused::refusal;
@@ -87,7 +87,7 @@ fn files_with_errors_are_refused_with_the_field() {
         (
             "\"any-order-coefficients.toml\"",
             "\"theorem-3.4-space.toml\"",
-            "unknown key `refine`",
+            "study.kind: found \"orders/manufactured\"; expected \"orders/any-order\"",
         ),
         (
             "[\"any-order-coefficients.toml\"]",

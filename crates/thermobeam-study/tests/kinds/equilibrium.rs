@@ -4,7 +4,10 @@ use super::{file, text};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, run_cases_here};
 use thermobeam_exact::equilibrium::Phase;
-use thermobeam_study::kinds::equilibrium::{AtRest, EndStates, Nearest};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::equilibrium::{self, AtRest, Nearest};
+
+type EndStates = RunStudy<equilibrium::EndStates>;
 
 fn study() -> EndStates {
     EndStates::read(file("equilibria.toml")).unwrap_or_else(|error| panic!("{error}"))

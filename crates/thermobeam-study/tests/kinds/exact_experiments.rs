@@ -3,12 +3,15 @@
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind};
-use thermobeam_study::kinds::exact_experiments::{ExactExperiments, ROW, ShownStates};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::exact_experiments::{self, ROW, ShownStates};
 
 use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{changed, counted, passes_but_not_without_each_case, report};
 use super::{file, text};
+
+type ExactExperiments = RunStudy<exact_experiments::ExactExperiments>;
 
 /// The first scene alone, over its first second: two contact events and the first moments of a
 /// third phase.
@@ -91,7 +94,7 @@ fn the_scenes_own_scheme_is_compared_where_asked_for() {
     let study =
         study(|text| text.replace("agreement = 1e-10", "agreement = 1e-10\ncompare = true"));
     let cases = study.cases();
-    assert!(cases.len() == 3 && cases[2].data.1.is_none());
+    assert!(cases.len() == 3 && cases[2].data.by.is_none());
     let mut sound: Vec<_> = convergence_study::study::run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));

@@ -4,7 +4,9 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::kind::run_cases_here;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::frequencies::Frequencies;
+use thermobeam_study::kinds::orders::{Orders, frequencies};
+
+type Frequencies = Orders<frequencies::Frequencies>;
 
 fn study() -> Frequencies {
     Frequencies::read(file("frequencies.toml")).unwrap_or_else(|error| panic!("{error}"))

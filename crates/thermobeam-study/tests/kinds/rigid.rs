@@ -5,7 +5,10 @@ use super::planted::verdict_with;
 use super::typed::{leaves_one_out, passes_but_not_without_each_case};
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{FromFile, Kind};
-use thermobeam_study::kinds::rigid::{RigidStudy, RunOf, ShownImpact};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::rigid::{RigidObstacles, RunOf, ShownImpact};
+
+type RigidStudy = RunStudy<RigidObstacles>;
 
 #[test]
 fn every_claim_about_rigid_obstacles_can_fail() {

@@ -4,7 +4,10 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{Described, FromFile, Kind, run_cases_here};
 use thermobeam::solve::Level;
-use thermobeam_study::kinds::self_convergence::{SelfConvergence, Traced};
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::self_convergence::{self, Traced};
+
+type SelfConvergence = Orders<self_convergence::SelfConvergence>;
 
 const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
 

@@ -20,7 +20,7 @@ fn fixed_point() -> Solvers {
 
 fn row(found: &mut Found) -> &mut Vec<Point> {
     if let Found::Row(row) = found {
-        row
+        &mut row.points
     } else {
         panic!("no row: {found:?}")
     }

@@ -1,12 +1,13 @@
 //! Laws about what a manufactured solution does not test.
 
 use convergence_study::study::{FromFile, Kind, Untested};
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 use super::{file, text};
 
 fn untested(text: &str) -> Vec<Untested> {
-    Convergence::parse(text, &file("own.toml"))
+    Orders::<Convergence>::parse(text, &file("own.toml"))
         .unwrap_or_else(|error| panic!("{error}"))
         .untested()
 }

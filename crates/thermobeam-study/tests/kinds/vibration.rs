@@ -4,7 +4,9 @@ use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Kind, run_cases_here};
 use thermobeam_study::exact::norm::Norm;
-use thermobeam_study::kinds::vibration::Vibration;
+use thermobeam_study::kinds::orders::{Orders, vibration};
+
+type Vibration = Orders<vibration::Vibration>;
 
 const FILES: [&str; 4] = [
     "vibration-space.toml",

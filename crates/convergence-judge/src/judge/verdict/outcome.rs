@@ -41,6 +41,11 @@ pub fn against_claim(rate: &str, claim: &str) -> String {
     format!("{rate}, claimed {claim}")
 }
 
+/// The same with why it passes or does not: `1.5 (1.4 to 1.6), claimed 2 ± 0.01: too low`.
+pub fn judged_in_words(rate: &str, claim: &str, why: &str) -> String {
+    format!("{}: {why}", against_claim(rate, claim))
+}
+
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RateVerdict {
@@ -153,7 +158,35 @@ impl RateVerdict {
 
     /// Rate, claim and reason on one line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        format!("{}: {}", self.against(RATE_PLACES), self.because)
+        let rate = self.rate_in_words(RATE_PLACES);
+        judged_in_words(&rate, &self.claim(), &self.because)
+    }
+
+    /// The same for whoever claims only this: a pass says what it excludes, and a rate without a
+    /// claim that there is none.
+    ///
+    /// * `most`: the largest number of decimals.
+    pub fn answer(&self, most: usize) -> String {
+        let rate = self.rate_in_words(most);
+        if self.order.is_nan() {
+            return format!("{rate}: no order is claimed");
+        }
+        if self.verdict.is_pass() {
+            judged_in_words(&rate, &self.claim(), &self.excludes())
+        } else {
+            judged_in_words(&rate, &self.claim(), &self.because)
+        }
+    }
+
+    /// The rate alone with its order: `1.001 (order 1)`.
+    ///
+    /// * `places`: the number of decimals of the rate.
+    pub fn beside_order(&self, places: usize) -> String {
+        let rate = match self.fitted {
+            Some(fitted) => decimals(fitted, places),
+            None => self.rate_in_words(RATE_PLACES),
+        };
+        format!("{rate} (order {})", order_text(self.order))
     }
 
     /// What the reason means, its cause if one is known, and what to do; `None` for a pass.

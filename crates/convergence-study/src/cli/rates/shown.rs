@@ -12,7 +12,7 @@ use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict, against_claim};
+use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict, judged_in_words};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::store::{atomic, junit_of};
@@ -47,9 +47,9 @@ impl JudgedColumn<'_> {
                     &self.rate.because
                 };
                 let rate = self.rate.rate_in_words(MOST_PLACES);
-                format!("{}: {why}", against_claim(&rate, &self.claim.to_string()))
+                judged_in_words(&rate, &self.claim.to_string(), why)
             }
-            _ => self.shown().found(),
+            _ => self.rate.answer(MOST_PLACES),
         };
         match self
             .estimate

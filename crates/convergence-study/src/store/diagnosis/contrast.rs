@@ -6,7 +6,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::names;
 use crate::study::header::{STUDY, Setting};
 
 /// Subtracted for a second setting: it must explain more than it costs to read.
@@ -17,6 +16,9 @@ const ALONE: f64 = 0.06;
 
 /// How much better a conjunction must be than no setting at all.
 const GAIN: f64 = 0.04;
+
+/// The key of a study's kind among its settings.
+const KIND: &str = "kind";
 
 /// How many of the best single settings are combined in pairs: long files have many settings.
 const COMBINED: usize = 80;
@@ -48,6 +50,10 @@ pub(super) struct Vote {
 pub struct Contrast {
     /// The settings; empty if none separates.
     pub settings: Vec<Setting>,
+    /// The kind of the study that is named, if one is, and others are of another kind: it says
+    /// where to look.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<String>,
     /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting, 0.06 less for a
     /// study.
     pub score: f64,
@@ -58,6 +64,22 @@ pub struct Contrast {
     pub shared: Vec<Setting>,
     /// Items without them, by their alternative settings: how many pass, and how many there are.
     pub passes: Vec<(String, [usize; 2])>,
+}
+
+impl Contrast {
+    /// The values of the settings, and the kind of the study that is named.
+    pub fn values(&self) -> impl Iterator<Item = &str> {
+        let settings = self.settings.iter().map(|(_, value)| value);
+        settings.chain(&self.kind).map(String::as_str)
+    }
+
+    /// A setting in words: `ID alone (KIND)`, or its value.
+    pub(super) fn words(&self, (key, value): &Setting) -> String {
+        match &self.kind {
+            Some(kind) if key == STUDY => format!("{value} ({kind})"),
+            _ => value.clone(),
+        }
+    }
 }
 
 /// A set of votes, and how well it agrees with the failing ones.
@@ -173,23 +195,36 @@ fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     } else {
         best.score
     };
-    Contrast {
-        shared: shared(votes, &settings),
+    let mut contrast = Contrast {
+        kind: kind_of_study(votes, &settings),
+        shared: vec![],
         settings,
         score,
         fails,
         passes,
-    }
+    };
+    contrast.shared = shared(votes, &contrast);
+    contrast
 }
 
-/// The settings of all failing votes, except those `named` and those that most passing votes share.
-fn shared(votes: &[Vote], named: &[Setting]) -> Vec<Setting> {
+/// The kind of the study among these settings, unless all studies are of that kind.
+fn kind_of_study(votes: &[Vote], settings: &[Setting]) -> Option<String> {
+    let study = settings.iter().find(|(key, _)| key == STUDY)?;
+    let vote = votes.iter().find(|vote| vote.settings.contains(study))?;
+    let kind = vote.settings.iter().find(|(key, _)| key == KIND)?;
+    let distinguishes = votes.iter().any(|vote| !vote.settings.contains(kind));
+    distinguishes.then(|| kind.1.clone())
+}
+
+/// The settings of all failing votes, except those that the contrast names and those that most
+/// passing votes share.
+fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
     let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
     // One item shares everything with itself.
     let (Some((first, others)), true) = (failing.split_first(), failing.len() > 1) else {
         return vec![];
     };
-    let is_named = |value: &str| named.iter().any(|(_, words)| names(words, value));
+    let is_named = |value: &str| contrast.values().any(|named| named == value);
     let is_new = |(key, value): &&Setting| key != STUDY && !is_named(value);
     let of_all = first
         .settings
@@ -284,16 +319,42 @@ mod tests {
                 [0, 9],
             ),
         ];
-        let values = |named: &[Setting]| -> Vec<String> {
-            shared(&votes, named)
-                .into_iter()
-                .map(|(_, value)| value)
-                .collect()
+        let values = |contrast: &Contrast| -> Vec<String> {
+            let shared = shared(&votes, contrast).into_iter();
+            shared.map(|(_, value)| value).collect()
         };
-        assert_eq!(values(&[]), ["any order", "graded"]);
-        let named = ("study".to_owned(), "a alone (any order)".to_owned());
-        assert_eq!(values(&[named]), ["graded"]);
-        assert!(shared(&votes[..2], &[]).is_empty() && shared(&[], &[]).is_empty());
+        let nothing = Contrast::default();
+        assert_eq!(values(&nothing), ["any order", "graded"]);
+        let named = Contrast {
+            settings: vec![("method".to_owned(), "any order".to_owned())],
+            ..Contrast::default()
+        };
+        assert_eq!(values(&named), ["graded"]);
+        let of_study = Contrast {
+            settings: vec![("study".to_owned(), "a alone".to_owned())],
+            kind: Some("any order".to_owned()),
+            ..Contrast::default()
+        };
+        assert_eq!(values(&of_study), ["graded"]);
+        assert!(shared(&votes[..2], &nothing).is_empty() && shared(&[], &nothing).is_empty());
+    }
+
+    #[test]
+    fn a_study_that_is_named_has_its_kind() {
+        let votes = [
+            vote(&[("study", "a alone"), ("kind", "energy")], [1, 1]),
+            vote(&[("study", "b alone"), ("kind", "energy")], [0, 1]),
+            vote(&[("study", "c alone"), ("kind", "space")], [0, 1]),
+        ];
+        let of_a = contrast(&votes);
+        assert_eq!(of_a.values().collect::<Vec<_>>(), ["a alone", "energy"]);
+        assert_eq!(of_a.words(&of_a.settings[0]), "a alone (energy)");
+        assert_eq!(contrast(&votes[..2]).kind, None, "all are of that kind");
+        let of_kind = contrast(&votes.map(|vote| Vote {
+            fails: vote.settings[1].1 == "energy",
+            ..vote
+        }));
+        assert_eq!(of_kind.values().collect::<Vec<_>>(), ["energy"]);
     }
 
     #[test]

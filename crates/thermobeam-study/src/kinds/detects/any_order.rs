@@ -13,7 +13,8 @@ use super::fault::{Fault, Planted, RELATIVE, relative};
 use super::matrix::{Detects, Needed};
 use super::plantable::Plantable;
 use crate::exact::defect::Defect;
-use crate::kinds::any_order::{AnyOrder, Errors, Resolution};
+use crate::kinds::orders::any_order::{AnyOrder, Errors, Resolution};
+use crate::kinds::orders::{Orders, Source};
 use crate::kinds::prelude::*;
 
 impl Plantable for AnyOrder {
@@ -51,7 +52,7 @@ impl FromFile for Detects<AnyOrder> {
         )?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind orders/any-order beside this one";
-        let read = |file: &Field<'_>| Described::<AnyOrder>::read(file.file(folder)?);
+        let read = |file: &Field<'_>| Described::<Orders<AnyOrder>>::read(file.file(folder)?);
         let studies = section.list("studies", allowed, read, |list| !list.is_empty())?;
         let names: Vec<(&str, &'static str)> =
             Coefficients::names().map(|name| (name, name)).collect();

@@ -3,7 +3,8 @@
 use super::fault::{Fault, Planted, RELATIVE, relative};
 use super::matrix::{Detects, Needed};
 use super::plantable::Plantable;
-use crate::kinds::convergence::{Convergence, Prepared};
+use crate::kinds::orders::Orders;
+use crate::kinds::orders::manufactured::{Convergence, Prepared};
 use crate::kinds::prelude::*;
 
 impl Plantable for Convergence {
@@ -32,12 +33,6 @@ impl Plantable for Convergence {
             .map(|(norm, error)| (norm.name(), error))
             .collect()
     }
-
-    /// By its rates alone, without tables and figures.
-    fn verdict(&self, ran: &[Ran<(usize, usize), Norms>]) -> Verdict {
-        let rates = self.levels(ran).judge();
-        Verdict::worst(rates.into_iter().map(|(_, rate)| rate.verdict))
-    }
 }
 
 impl FromFile for Detects<Convergence> {
@@ -56,8 +51,8 @@ impl FromFile for Detects<Convergence> {
 pub(super) fn named_studies(
     section: &Section<'_>,
     folder: &Path,
-) -> Result<Vec<Described<Convergence>>, InputError> {
-    let file = |item: &Field<'_>| Described::<Convergence>::read(item.file(folder)?);
+) -> Result<Vec<Described<Orders<Convergence>>>, InputError> {
+    let file = |item: &Field<'_>| Described::<Orders<Convergence>>::read(item.file(folder)?);
     let allowed = "a list of at least one study file beside this one";
     let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
     if section.get("elements").is_some() {

@@ -1,7 +1,8 @@
 //! Every study under every fault: runs, verdicts, and the rule that judges them.
 
 use super::fault::Fault;
-use super::plantable::Plantable;
+use super::plantable::{Plantable, verdict};
+use crate::kinds::orders::{Orders, Source};
 use crate::kinds::prelude::*;
 
 /// Relative change of an error that the baseline tolerates.
@@ -18,11 +19,11 @@ pub(super) enum Needed {
 
 /// A study of planted faults.
 ///
-/// * `K`: the kind of the studies that must notice them.
-pub struct Detects<K> {
+/// * `S`: the source of the errors of the studies that must notice them.
+pub struct Detects<S> {
     /// Relative error of a coefficient.
     pub(super) relative: f64,
-    pub(super) studies: Vec<Described<K>>,
+    pub(super) studies: Vec<Described<Orders<S>>>,
     /// No fault at all comes first.
     pub(super) faults: Vec<Fault>,
     pub(super) needed: Needed,
@@ -41,7 +42,7 @@ pub struct RunOf<D> {
 pub type UnderFaults<F> = Vec<(Fault, Result<F, CaseFailure>)>;
 
 /// The runs of a study of planted faults.
-type RanOf<K> = Ran<RunOf<<K as Kind>::Data>, UnderFaults<<K as Kind>::Found>>;
+type RanOf<S> = Ran<RunOf<<S as Source>::Data>, UnderFaults<<S as Source>::Found>>;
 
 /// Why a study is not judged under a fault.
 const LACKS_THE_TERM: &str = "the study lacks the term";
@@ -60,15 +61,15 @@ struct Row {
     judged: Vec<Result<Judged, &'static str>>,
 }
 
-impl<K: Plantable> Kind for Detects<K> {
-    type Data = RunOf<K::Data>;
-    type Found = UnderFaults<K::Found>;
+impl<S: Plantable> Kind for Detects<S> {
+    type Data = RunOf<S::Data>;
+    type Found = UnderFaults<S::Found>;
 
-    fn cases(&self) -> Vec<Case<RunOf<K::Data>>> {
-        let of_study = |(study, described): (usize, &Described<K>)| {
+    fn cases(&self) -> Vec<Case<RunOf<S::Data>>> {
+        let of_study = |(study, described): (usize, &Described<Orders<S>>)| {
             let id = described.header.id.clone();
             let faults = self.faults.len() as f64;
-            let case = move |Case { label, cost, data }: Case<K::Data>| {
+            let case = move |Case { label, cost, data }: Case<S::Data>| {
                 Case::new(
                     format!("{id}, {label}"),
                     cost * faults,
@@ -82,16 +83,16 @@ impl<K: Plantable> Kind for Detects<K> {
 
     fn run(
         &self,
-        RunOf { study, data }: &RunOf<K::Data>,
-    ) -> Result<UnderFaults<K::Found>, CaseFailure> {
-        let study = &self.studies[*study].kind;
+        RunOf { study, data }: &RunOf<S::Data>,
+    ) -> Result<UnderFaults<S::Found>, CaseFailure> {
+        let study = &self.studies[*study].kind.0;
         let mut shared = study.share(data)?;
         let mut results = vec![];
         for &fault in &self.faults {
             let Some(planted) = fault.plant(study.theory(), self.relative) else {
                 continue;
             };
-            let result = K::run_planted(&mut shared, data, planted);
+            let result = S::run_planted(&mut shared, data, planted);
             // A fault that breaks a run down is detected; only the run without a fault must finish.
             if let (Fault::None, Err(failure)) = (fault, &result) {
                 return Err(failure.clone());
@@ -101,13 +102,13 @@ impl<K: Plantable> Kind for Detects<K> {
         Ok(results)
     }
 
-    fn judge(&self, ran: &[RanOf<K>]) -> Outcome {
+    fn judge(&self, ran: &[RanOf<S>]) -> Outcome {
         let rows: Vec<Row> = self
             .faults
             .iter()
             .map(|&fault| self.row(fault, ran))
             .collect();
-        let mut checks = vec![completion(ran, not_finite_without_a_fault::<K>)];
+        let mut checks = vec![completion(ran, not_finite_without_a_fault::<S>)];
         checks.extend(rows.iter().map(|row| self.check(row)));
         let detected = rows.iter().filter(|row| self.is_detected(row)).count();
         let planted = rows.iter().filter(|row| row.fault != Fault::None).count();
@@ -131,8 +132,8 @@ impl<K: Plantable> Kind for Detects<K> {
     }
 }
 
-impl<K: Plantable> Detects<K> {
-    fn row(&self, fault: Fault, ran: &[RanOf<K>]) -> Row {
+impl<S: Plantable> Detects<S> {
+    fn row(&self, fault: Fault, ran: &[RanOf<S>]) -> Row {
         let studies = 0..self.studies.len();
         Row {
             fault,
@@ -143,8 +144,8 @@ impl<K: Plantable> Detects<K> {
     }
 
     /// The verdict of one study under one fault, or why there is none.
-    fn judged(&self, study: usize, fault: Fault, ran: &[RanOf<K>]) -> Result<Judged, &'static str> {
-        let of_study = &self.studies[study].kind;
+    fn judged(&self, study: usize, fault: Fault, ran: &[RanOf<S>]) -> Result<Judged, &'static str> {
+        let of_study = &self.studies[study].kind.0;
         fault
             .plant(of_study.theory(), self.relative)
             .ok_or(LACKS_THE_TERM)?;
@@ -153,12 +154,12 @@ impl<K: Plantable> Detects<K> {
         if own().count() == 0 || own().any(|ran| ran.found.is_err()) {
             return Err(NO_RESULT);
         }
-        let runs: Vec<Ran<K::Data, K::Found>> =
-            own().map(|ran| with_fault::<K>(ran, fault)).collect();
-        let errors = runs.last().and_then(Ran::ok).map(K::errors);
+        let runs: Vec<Ran<S::Data, S::Found>> =
+            own().map(|ran| with_fault::<S>(ran, fault)).collect();
+        let errors = runs.last().and_then(Ran::ok).map(S::errors);
         let first = errors.and_then(|errors| errors.first().map(|(_, error)| *error));
         Ok(Judged {
-            verdict: of_study.verdict(&runs),
+            verdict: verdict(of_study, &runs),
             error: first.unwrap_or(f64::NAN),
         })
     }
@@ -272,10 +273,10 @@ impl Row {
 }
 
 /// The run of a study with one fault.
-fn with_fault<K: Plantable>(ran: &RanOf<K>, fault: Fault) -> Ran<K::Data, K::Found> {
+fn with_fault<S: Plantable>(ran: &RanOf<S>, fault: Fault) -> Ran<S::Data, S::Found> {
     let Case { label, cost, data } = &ran.case;
     let not_run = || CaseFailure::new(format!("no run with the fault {}", fault.name()));
-    let planted = |results: &UnderFaults<K::Found>| {
+    let planted = |results: &UnderFaults<S::Found>| {
         let result = results.iter().find(|(planted, _)| *planted == fault);
         result.map_or_else(|| Err(not_run()), |(_, result)| result.clone())
     };
@@ -286,9 +287,9 @@ fn with_fault<K: Plantable>(ran: &RanOf<K>, fault: Fault) -> Ran<K::Data, K::Fou
 }
 
 /// Errors without a fault that are not finite; with a fault such an error is a detection.
-fn not_finite_without_a_fault<K: Plantable>(results: &UnderFaults<K::Found>) -> Vec<String> {
+fn not_finite_without_a_fault<S: Plantable>(results: &UnderFaults<S::Found>) -> Vec<String> {
     let honest = results.iter().find(|(fault, _)| *fault == Fault::None);
-    let is_finite = |found: &K::Found| K::errors(found).iter().all(|(_, error)| error.is_finite());
+    let is_finite = |found: &S::Found| S::errors(found).iter().all(|(_, error)| error.is_finite());
     match honest {
         Some((_, Ok(found))) if is_finite(found) => vec![],
         _ => vec!["an error without a fault".to_owned()],

@@ -37,10 +37,10 @@ pub use matrix::{Detects, RunOf, UnderFaults};
 pub use plantable::Plantable;
 pub use smallest::Sensitivity;
 
-use super::any_order::AnyOrder;
-use super::convergence::Convergence;
+use super::orders::any_order::AnyOrder;
+use super::orders::manufactured::Convergence;
 use super::prelude::*;
-use crate::kinds::settings;
+use crate::kinds::settings::has_table;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -53,7 +53,15 @@ pub const ROW: KindRow = KindRow {
              coefficient some study must detect a relative error as small as the file says.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
-    settings: settings::of_controls,
+    settings: |header, item| {
+        let is_any_order = has_table(header, "any-order.");
+        let method = if is_any_order {
+            ItemMethod::AnyOrder
+        } else {
+            ItemMethod::OneStep
+        };
+        Topic::of_solution(header, method).settings(header, item)
+    },
 };
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in

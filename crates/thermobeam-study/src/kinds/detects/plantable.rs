@@ -1,10 +1,11 @@
 //! Studies into which faults can be planted, and the runs of such a study with a fault.
 
 use super::fault::{Fault, Planted};
+use crate::kinds::orders::{Runs, Source};
 use crate::kinds::prelude::*;
 
 /// A study of orders whose solver or sources can be wrong on purpose.
-pub trait Plantable: Kind<Found: Clone> {
+pub trait Plantable: Source<Found: Clone> {
     /// What the runs of a case share, whatever is planted.
     type Shared<'a>
     where
@@ -31,30 +32,49 @@ pub trait Plantable: Kind<Found: Clone> {
 
     /// The errors of a run, each with its name.
     fn errors(found: &Self::Found) -> Vec<(&'static str, f64)>;
+}
 
-    /// What the study says of the results of its cases.
-    fn verdict(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Verdict {
-        self.judge(ran).verdict
+/// The verdict of a study on the results of its cases, without tables and figures.
+pub(super) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
+    let is_complete = |run: &Ran<S::Data, S::Found>| {
+        run.ok()
+            .is_some_and(|found| source.not_finite(found).is_empty())
+    };
+    if !runs.iter().all(is_complete) {
+        return Verdict::Fail;
     }
+    let series = source.series(runs);
+    let checks = source.checks(runs, &series);
+    let mut verdicts: Vec<Verdict> = checks.iter().map(|check| check.verdict).collect();
+    for series in series.iter().filter(|series| series.is_claimed) {
+        match &series.grid {
+            Some(grid) => verdicts.push(grid.judge().verdict),
+            None => {
+                let rates = series.levels.judge();
+                verdicts.extend(rates.into_iter().map(|(_, rate)| rate.verdict));
+            }
+        }
+    }
+    Verdict::worst(verdicts)
 }
 
 /// A case of a study, and what its runs share.
-struct Prepared<'a, K: Plantable + 'a> {
-    case: Case<K::Data>,
-    shared: K::Shared<'a>,
+struct Prepared<'a, S: Plantable + 'a> {
+    case: Case<S::Data>,
+    shared: S::Shared<'a>,
 }
 
 /// All cases of a study, prepared once for runs with many faults.
-pub(super) struct Detector<'a, K: Plantable> {
-    study: &'a K,
-    cases: Vec<Prepared<'a, K>>,
+pub(super) struct Detector<'a, S: Plantable> {
+    study: &'a S,
+    cases: Vec<Prepared<'a, S>>,
 }
 
-impl<'a, K: Plantable> Detector<'a, K> {
+impl<'a, S: Plantable> Detector<'a, S> {
     /// # Errors
     /// [`CaseFailure`]: a case cannot be set up.
-    pub(super) fn new(study: &'a K) -> Result<Self, CaseFailure> {
-        let prepare = |case: Case<K::Data>| {
+    pub(super) fn new(study: &'a S) -> Result<Self, CaseFailure> {
+        let prepare = |case: Case<S::Data>| {
             let shared = study.share(&case.data)?;
             Ok(Prepared { case, shared })
         };
@@ -66,7 +86,7 @@ impl<'a, K: Plantable> Detector<'a, K> {
     }
 
     /// The results of all cases without a fault.
-    pub(super) fn without_a_fault(&mut self) -> Vec<Ran<K::Data, K::Found>> {
+    pub(super) fn without_a_fault(&mut self) -> Vec<Ran<S::Data, S::Found>> {
         self.run(Planted {
             solver: self.study.theory(),
             defect: None,
@@ -74,10 +94,10 @@ impl<'a, K: Plantable> Detector<'a, K> {
     }
 
     /// The results of all cases with a fault.
-    fn run(&mut self, planted: Planted) -> Vec<Ran<K::Data, K::Found>> {
-        let run = |Prepared { case, shared }: &mut Prepared<'_, K>| Ran {
+    fn run(&mut self, planted: Planted) -> Vec<Ran<S::Data, S::Found>> {
+        let run = |Prepared { case, shared }: &mut Prepared<'_, S>| Ran {
             case: case.clone(),
-            found: K::run_planted(shared, &case.data, planted),
+            found: S::run_planted(shared, &case.data, planted),
         };
         self.cases.iter_mut().map(run).collect()
     }
@@ -87,6 +107,6 @@ impl<'a, K: Plantable> Detector<'a, K> {
     pub(super) fn detects(&mut self, key: &'static str, relative: f64) -> Option<bool> {
         let planted = Fault::Coefficient(key).plant(self.study.theory(), relative)?;
         let ran = self.run(planted);
-        Some(self.study.verdict(&ran) == Verdict::Fail)
+        Some(verdict(self.study, &ran) == Verdict::Fail)
     }
 }

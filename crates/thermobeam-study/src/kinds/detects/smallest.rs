@@ -11,7 +11,8 @@
 use super::fault::{RELATIVE, relative};
 use super::manufactured::named_studies;
 use super::plantable::Detector;
-use crate::kinds::convergence::Convergence;
+use crate::kinds::orders::Orders;
+use crate::kinds::orders::manufactured::Convergence;
 use crate::kinds::prelude::*;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
@@ -19,7 +20,7 @@ const BISECTIONS: usize = 9;
 
 /// A study of the smallest detected errors.
 pub struct Sensitivity {
-    studies: Vec<Described<Convergence>>,
+    studies: Vec<Described<Orders<Convergence>>>,
     range: [f64; 2],
     at_most: f64,
 }
@@ -49,12 +50,12 @@ impl Kind for Sensitivity {
     type Found = Option<f64>;
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
-        let cost = |spec: &Described<Convergence>| -> f64 {
+        let cost = |spec: &Described<Orders<Convergence>>| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
             let cases = spec.kind.cases();
             cases.iter().map(|case| runs * case.cost).sum()
         };
-        let of_study = |(study, spec): (usize, &Described<Convergence>)| {
+        let of_study = |(study, spec): (usize, &Described<Orders<Convergence>>)| {
             let can_be_planted =
                 |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
             let case = |key| {
@@ -73,7 +74,7 @@ impl Kind for Sensitivity {
     }
 
     fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
-        let mut detector = Detector::new(&self.studies[study].kind)?;
+        let mut detector = Detector::new(&self.studies[study].kind.0)?;
         let mut detects = |relative| detector.detects(key, relative) == Some(true);
         let [least, most] = self.range;
         if detects(least) || !detects(most) {

@@ -28,8 +28,8 @@ pub mod runs;
 use std::f64::consts::PI;
 
 use super::prelude::*;
-pub use super::watch::Worst;
-use crate::kinds::settings;
+pub use super::runs::end::End;
+pub use super::runs::watch::Worst;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -42,7 +42,9 @@ pub const ROW: KindRow = KindRow {
              with its answer or, where the scene asks for it, with the failure that it names.",
     failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
               very step in which it happens. Run the scene named alone.",
-    settings: settings::of_energy,
+    settings: |header, item| {
+        Topic::new("the energy's laws", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
@@ -75,56 +77,6 @@ pub(in crate::kinds) fn named_cases<C>(
             "a name that no other case has",
         ))
     })
-}
-
-/// How a run ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum End {
-    /// After its last step.
-    #[default]
-    Answer,
-    /// At a step whose operator is not definite.
-    Indefinite,
-    /// At a step whose iteration diverges or needs too many iterations.
-    IterationLimit,
-    /// At a step with numbers that are not finite.
-    NotFinite,
-}
-
-impl End {
-    /// All ends, with their names in study files and reports.
-    pub const ALL: [(&str, End); 4] = [
-        ("answer", End::Answer),
-        ("indefinite", End::Indefinite),
-        ("iteration-limit", End::IterationLimit),
-        ("not-finite", End::NotFinite),
-    ];
-
-    /// The end of a run.
-    ///
-    /// # Errors
-    /// The failure, if it is not a failed step of a one-step scheme.
-    pub(crate) fn of(failure: Option<&RunError>) -> Result<Self, RunError> {
-        let Some(run) = failure else {
-            return Ok(End::Answer);
-        };
-        let RunError::Step(StepError { failure, .. }) = run else {
-            return Err(run.clone());
-        };
-        match failure {
-            StepFailure::Indefinite { .. } => Ok(End::Indefinite),
-            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => {
-                Ok(End::IterationLimit)
-            }
-            StepFailure::NonFinite { .. } => Ok(End::NotFinite),
-            _ => Err(run.clone()),
-        }
-    }
-
-    /// Its name in study files and reports.
-    pub fn name(self) -> &'static str {
-        Self::ALL[self as usize].0
-    }
 }
 
 /// Modes of the initial data.

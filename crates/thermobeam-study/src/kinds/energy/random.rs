@@ -17,7 +17,8 @@
 
 use super::{End, Worst};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::{CLOSED, Watched, of_allowed, watched};
+use crate::kinds::runs::checks::energy_and_balance;
+use crate::kinds::runs::watch::{CLOSED, Watched, watched};
 
 /// Scenes in the lanes of one solver, all with the same number of elements.
 const LANES: usize = 8;
@@ -284,6 +285,7 @@ impl Batch {
             worst,
             ..
         } = self;
+        let [never_rises, closes] = energy_and_balance(worst, true);
         let (ended, [_, _, others]) = (ends.iter().sum::<usize>(), self.ended());
         [
             Check::that(
@@ -300,26 +302,8 @@ impl Batch {
                 format!("{refused} definite operators refused, {others} other failures"),
             )
             .about(Subject::of("refusals")),
-            Check::that(
-                worst.risen <= 1.0,
-                "the energy never rises by more than the bound on rounding errors",
-                format!(
-                    "largest rise {:.1e} of the energy, {}",
-                    worst.rise,
-                    of_allowed(worst.risen)
-                ),
-            )
-            .about(Subject::of("energy")),
-            Check::that(
-                worst.open <= 1.0,
-                "the balance closes to 1e-12 of the energy, or to the bound on rounding errors",
-                format!(
-                    "largest residual {:.1e} of the energy, {}",
-                    worst.residual,
-                    of_allowed(worst.open)
-                ),
-            )
-            .about(Subject::of("balance")),
+            never_rises,
+            closes,
             Check::that(
                 exceptions as f64 <= RARE * scenes as f64,
                 "at most 2 scenes in 1000 have a residual above 1e-12 of the energy",

@@ -31,8 +31,8 @@ use thermobeam::norms::slope_squared;
 
 use super::{End, Worst, named_cases};
 use crate::kinds::prelude::*;
+use crate::kinds::runs::watch::{EnergyWatch, SOLVED, of_allowed};
 use crate::kinds::tables::Layout;
-use crate::kinds::watch::{EnergyWatch, SOLVED, of_allowed};
 use crate::scene;
 
 /// Samples of a run, about.

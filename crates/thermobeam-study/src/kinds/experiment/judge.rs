@@ -6,7 +6,7 @@ use super::{
     AtRest, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace, straight_energy,
 };
 use crate::kinds::prelude::*;
-use crate::kinds::steady::name_of;
+use crate::kinds::runs::steady::name_of;
 
 /// A first contact within this share of the figures' span counts as "at the beginning".
 const BEGINNING: f64 = 0.1;

@@ -49,14 +49,13 @@ mod trace;
 use std::ops::ControlFlow;
 
 use super::prelude::*;
-use super::settings;
-use super::side_by_side::SideBySide;
-use super::steady::{ToRest, compared, listed_scene};
+use super::runs::side_by_side::SideBySide;
+use super::runs::steady::{ToRest, compared, listed_scene};
 use super::tables::{Discretisation, discretisations};
 use trace::{Observed, Recorder};
 
-pub use super::side_by_side::SolverComparison;
-pub use super::steady::{AtRest, Nearest};
+pub use super::runs::side_by_side::SolverComparison;
+pub use super::runs::steady::{AtRest, Nearest};
 pub use trace::Trace;
 
 /// The row of the table of kinds.
@@ -67,7 +66,9 @@ pub const ROW: KindRow = KindRow {
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
              Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
-    settings: settings::of_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// One of the experiments.

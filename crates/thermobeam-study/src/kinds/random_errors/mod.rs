@@ -28,7 +28,6 @@ pub use self::measure::{Found, Refusal};
 use self::judge::worst;
 use super::energy::named_cases;
 use super::prelude::*;
-use crate::kinds::settings;
 use crate::scene;
 
 /// The row of the table of kinds.
@@ -41,7 +40,9 @@ pub const ROW: KindRow = KindRow {
     judged: "No error of any number exceeds 1.3 times its estimate, no run the error asked for, no search is refused unless its data \
              are rough, and the error of linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
-    settings: settings::of_experiments,
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// Tolerance of the baseline on the work: one round more or less of a search.

@@ -20,7 +20,7 @@
 
 use super::{FixedPointStep, SolverTask, factors};
 use crate::kinds::prelude::*;
-use crate::kinds::watch::{Watched, Worst, watched};
+use crate::kinds::runs::watch::{Watched, Worst, watched};
 
 /// The obstacles, close enough that the heat presses the beam against them for every β on the maps.
 const GAP: f64 = 0.01;
@@ -30,9 +30,6 @@ const HEAT: f64 = 20.0;
 const SPEED: f64 = 0.1;
 /// Iterations after which the fixed point iteration is abandoned on the map.
 const ITERATIONS: usize = 150;
-/// Increment at which it counts as converged: large against round-off, so that the last ratio is a
-/// contraction.
-const TOLERANCE: f64 = 1e-10;
 /// Halvings of the logarithm of dt: seven decades to one part in ten thousand.
 const HALVINGS: usize = 20;
 /// Iterations after which the ratio of two increments equals the factor of the slowest mode.
@@ -171,13 +168,10 @@ impl Map {
             g2: GAP,
             ..Obstacles::default()
         };
-        let mut elements = self.elements;
-        match self.over {
-            Parameter::Epsilon => obstacles.epsilon = value,
-            Parameter::Width => elements = (1.0 / value).round().max(1.0) as usize,
-            Parameter::Beta | Parameter::Zeta => {}
+        if self.over == Parameter::Epsilon {
+            obstacles.epsilon = value;
         }
-        let mesh = Mesh::uniform(elements)?;
+        let mesh = Mesh::uniform(self.elements(value).round().max(1.0) as usize)?;
         let mut initial = Initial::at_rest(&mesh, HEAT);
         initial.u = mesh.nodes().iter().map(|x| GAP * x * (2.0 - x)).collect();
         initial.u_t = mesh.nodes().iter().map(|x| SPEED * x).collect();
@@ -191,33 +185,29 @@ impl Map {
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let name = self.over.name();
-        let elements = |value: f64| {
-            if self.over == Parameter::Width {
-                1.0 / value
-            } else {
-                self.elements as f64
-            }
-        };
-        let row = |value: f64| {
-            let cost = (self.points * (ITERATIONS + 4 * self.steps)) as f64 * elements(value);
-            Case::new(
-                format!("{name} = {value:.3e}"),
-                cost,
-                SolverTask::Row(value),
-            )
-        };
-        let line = |&value: &f64| {
-            let cost = (2 * HALVINGS * SETTLED) as f64 * elements(value);
-            Case::new(
-                format!("boundary at {name} = {}", plain_text(value)),
-                cost,
-                SolverTask::Boundary(value),
-            )
-        };
-        let rows = spaced(self.range, self.points, self.over.is_linear())
-            .into_iter()
-            .map(row);
-        rows.chain(self.lines.iter().map(line)).collect()
+        let row = (self.points * (ITERATIONS + 4 * self.steps)) as f64;
+        let boundary = (2 * HALVINGS * SETTLED) as f64;
+        let mut cases = vec![];
+        for value in spaced(self.range, self.points, self.over.is_linear()) {
+            let label = format!("{name} = {value:.3e}");
+            let cost = row * self.elements(value);
+            cases.push(Case::new(label, cost, SolverTask::Row(value)));
+        }
+        for &value in &self.lines {
+            let label = format!("boundary at {name} = {}", plain_text(value));
+            let cost = boundary * self.elements(value);
+            cases.push(Case::new(label, cost, SolverTask::Boundary(value)));
+        }
+        cases
+    }
+
+    /// The number of elements for the cost of a case; the mesh has the nearest whole number.
+    fn elements(&self, value: f64) -> f64 {
+        if self.over == Parameter::Width {
+            1.0 / value
+        } else {
+            self.elements as f64
+        }
     }
 }
 
@@ -279,46 +269,50 @@ pub struct NewtonSteps {
 }
 
 impl Point {
-    pub(super) fn not_finite(&self) -> Vec<String> {
-        let FixedPointStep {
-            alpha,
-            gamma,
-            converged,
-            contraction,
-            ..
-        } = self.step;
-        let contraction = contraction.filter(|_| converged).unwrap_or(0.0);
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let step = self.step;
         // A predicted factor may be infinite.
-        let [alpha, gamma] =
-            [alpha, gamma].map(|factor| if factor.is_infinite() { 0.0 } else { factor });
-        let mut numbers = vec![
-            ("alpha", alpha),
-            ("gamma", gamma),
-            ("the contraction", contraction),
+        let factor = |name: &str, factor: f64| {
+            Reading::new(name, Some(factor).filter(|factor| !factor.is_infinite()))
+        };
+        let contraction = step.contraction.filter(|_| step.converged);
+        let mut readings = vec![
+            factor("alpha", step.alpha),
+            factor("gamma", step.gamma),
+            Reading::new("contraction", contraction),
         ];
-        if let Some(NewtonSteps {
-            contact_force,
-            worst,
-            ..
-        }) = self.newton
-        {
-            numbers.push(("the contact force", contact_force));
-            numbers.extend(worst.named());
+        if let Some(steps) = self.newton {
+            readings.push(Reading::new("contact force", steps.contact_force));
+            readings.extend(
+                steps
+                    .worst
+                    .named()
+                    .map(|(name, value)| Reading::new(name, value)),
+            );
         }
-        not_finite(numbers)
+        readings
     }
 }
 
+/// A row of the map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapRow {
+    /// The second parameter.
+    pub(super) value: f64,
+    /// One point for each time step, ascending.
+    pub points: Vec<Point>,
+}
+
 impl Map {
-    pub(super) fn row(&self, value: f64) -> Result<Vec<Point>, CaseFailure> {
-        let (problem, dts) = (self.problem(value)?, self.time_steps());
+    pub(super) fn row(&self, value: f64) -> Result<MapRow, CaseFailure> {
+        let problem = self.problem(value)?;
+        let dts = self.time_steps();
         let n_value = axial_force(&problem);
         // By Newton's method the most iterations, and the contact force after the first step if it
         // succeeded.
         let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
-        let problems = vec![problem.clone(); dts.len()];
         let runs = watched(
-            problems,
+            vec![problem.clone(); dts.len()],
             &dts,
             EULER_CRANK_NICOLSON,
             self.steps,
@@ -332,25 +326,26 @@ impl Map {
         for ((Watched { worst, failure }, dt), (iterations, contact_force)) in
             runs.into_iter().zip(dts).zip(seen)
         {
-            let step = FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS)?;
-            let newton = contact_force.map(|contact_force| NewtonSteps {
-                iterations,
-                contact_force,
-                worst,
-            });
             points.push(Point {
-                step,
+                step: FixedPointStep::run(&problem, dt, n_value, ITERATIONS)?,
                 newton_completes: failure.is_none(),
-                newton,
+                newton: contact_force.map(|contact_force| NewtonSteps {
+                    iterations,
+                    contact_force,
+                    worst,
+                }),
             });
         }
-        Ok(points)
+        Ok(MapRow { value, points })
     }
 }
 
 /// Predicted and measured boundary on a line of constant second parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary {
+    pub(super) over: Parameter,
+    /// The second parameter.
+    pub(super) value: f64,
     /// The dt at which α = 1; `None` if α does not cross 1 within the map.
     pub predicted: Option<f64>,
     /// The step with the dt above which the fixed point fails; `None` if the outcome is the same at
@@ -358,25 +353,10 @@ pub struct Boundary {
     pub found: Option<FixedPointStep>,
 }
 
-impl Boundary {
-    pub(super) fn not_finite(&self) -> Vec<String> {
-        let at = |name, of: fn(&FixedPointStep) -> f64| (name, self.found.as_ref().map(of));
-        let found = [
-            at("boundary", |at| at.dt),
-            at("alpha", |at| at.alpha),
-            at("gamma", |at| at.gamma),
-        ];
-        not_finite(
-            [("predicted boundary", self.predicted)]
-                .into_iter()
-                .chain(found),
-        )
-    }
-}
-
 impl Map {
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
-        let (problem, [low, high]) = (self.problem(value)?, self.dt);
+        let problem = self.problem(value)?;
+        let [low, high] = self.dt;
         let n_value = axial_force(&problem);
         let alpha_is_below = |limit: f64| {
             bisect(
@@ -385,13 +365,16 @@ impl Map {
                 |dt| Ok(factors(&problem, dt, n_value)[0] < limit),
             )
         };
-        let predicted = alpha_is_below(1.0)?;
         let far = alpha_is_below(FAR)?.unwrap_or(high);
-        let step = |dt| FixedPointStep::run(&problem, dt, n_value, TOLERANCE, ITERATIONS);
         let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?
-            .map(step)
+            .map(|dt| FixedPointStep::run(&problem, dt, n_value, ITERATIONS))
             .transpose()?;
-        Ok(Boundary { predicted, found })
+        Ok(Boundary {
+            over: self.over,
+            value,
+            predicted: alpha_is_below(1.0)?,
+            found,
+        })
     }
 }
 
@@ -402,7 +385,7 @@ fn contracts(problem: &Problem, dt: f64, n_value: f64) -> Result<bool, CaseFailu
             converged,
             contraction,
             ..
-        } = FixedPointStep::run(problem, dt, n_value, TOLERANCE, iterations)?;
+        } = FixedPointStep::run(problem, dt, n_value, iterations)?;
         if converged || !contraction.is_some_and(|ratio| ratio < 1.0) {
             return Ok(converged);
         }

@@ -31,17 +31,25 @@
 //! agreement = 0.02           # of measured and predicted boundary, relative
 //! ```
 
-mod judge;
+mod comparison;
+mod contraction;
 mod map;
-mod parts;
+mod map_figures;
+mod map_judge;
 mod spectrum;
+mod step;
 
 use super::prelude::*;
-use crate::kinds::settings;
+use comparison::Comparison;
+use contraction::Grid;
+use map::Map;
+use step::factors;
 
-pub use super::side_by_side::SolverComparison;
-pub use map::{Boundary, NewtonSteps, Point};
-pub use parts::{Agreement, Contraction};
+pub use super::runs::side_by_side::SolverComparison;
+pub use comparison::Agreement;
+pub use contraction::Contraction;
+pub use map::{Boundary, MapRow, NewtonSteps, Point};
+pub use step::FixedPointStep;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -55,15 +63,17 @@ pub const ROW: KindRow = KindRow {
              and for Newton's method convergence, energy and balance at every point.",
     failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
-    settings: settings::of_solvers,
+    settings: |header, item| {
+        Topic::new("maps of the solvers", ItemMethod::OneStep).settings(header, item)
+    },
 };
 
 /// A study of the two solvers; it has at least one part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solvers {
-    contraction: Option<parts::Grid>,
-    comparison: Option<parts::Comparison>,
-    map: Option<map::Map>,
+    contraction: Option<Grid>,
+    comparison: Option<Comparison>,
+    map: Option<Map>,
 }
 
 /// What a case computes.
@@ -87,31 +97,30 @@ pub enum Found {
     Contraction(Contraction),
     /// Difference between the two solvers.
     Comparison(Agreement),
-    /// A row of the map, one point for each time step, ascending.
-    Row(Vec<Point>),
+    /// A row of the map.
+    Row(MapRow),
     /// The boundary on a line.
     Boundary(Boundary),
 }
 
 impl Found {
-    /// Names of the numbers that are NaN, or infinite although only a finite value makes sense.
-    fn not_finite(&self) -> Vec<String> {
+    /// Its numbers, which must be finite.
+    fn readings(&self) -> Vec<Reading> {
         match self {
-            Found::Contraction(found) => not_finite([
-                ("alpha", found.alpha),
-                ("gamma", found.gamma),
-                ("the spectral radius", found.radius),
-                ("the measured factor", found.measured),
-                ("the deviation", found.deviation),
-            ]),
-            Found::Comparison(Agreement { solvers, .. }) => not_finite([
-                ("the distance", solvers.distance),
-                ("the mean number of iterations", solvers.mean_iterations),
-            ]),
-            Found::Row(row) => row.iter().flat_map(Point::not_finite).collect(),
-            Found::Boundary(boundary) => boundary.not_finite(),
+            Found::Contraction(point) => point.readings(),
+            Found::Comparison(agreement) => agreement.readings(),
+            Found::Row(row) => row.points.iter().flat_map(Point::readings).collect(),
+            Found::Boundary(boundary) => boundary.readings(),
         }
     }
+}
+
+/// The results of one part, in the order of its cases; a failed case has none, and fails the check
+/// of completion.
+///
+/// * `part`: the result if it belongs to that part.
+fn results<R>(ran: &[Ran<SolverTask, Found>], part: fn(&Found) -> Option<&R>) -> Vec<&R> {
+    ran.iter().filter_map(|ran| part(ran.ok()?)).collect()
 }
 
 impl FromFile for Solvers {
@@ -126,19 +135,15 @@ impl FromFile for Solvers {
             );
             return Err(root.missing(parts[0], &allowed));
         }
+        let contraction = root.section(parts[0])?;
+        let comparison = root.section(parts[1])?;
+        let map = root.section(parts[2])?;
         Ok(Self {
-            contraction: root
-                .section(parts[0])?
-                .map(|section| parts::Grid::read(&section))
+            contraction: contraction.as_ref().map(Grid::read).transpose()?,
+            comparison: comparison
+                .map(|section| Comparison::read(&section, folder))
                 .transpose()?,
-            comparison: root
-                .section(parts[1])?
-                .map(|section| parts::Comparison::read(&section, folder))
-                .transpose()?,
-            map: root
-                .section(parts[2])?
-                .map(|section| map::Map::read(&section))
-                .transpose()?,
+            map: map.as_ref().map(Map::read).transpose()?,
         })
     }
 }
@@ -164,12 +169,10 @@ impl Kind for Solvers {
     type Found = Found;
 
     fn cases(&self) -> Vec<Case<SolverTask>> {
-        let contraction = self.contraction.iter().flat_map(parts::Grid::cases);
-        let comparison = self.comparison.iter().flat_map(parts::Comparison::cases);
-        contraction
-            .chain(comparison)
-            .chain(self.map.iter().flat_map(map::Map::cases))
-            .collect()
+        let mut cases: Vec<_> = self.contraction.iter().flat_map(Grid::cases).collect();
+        cases.extend(self.comparison.iter().flat_map(Comparison::cases));
+        cases.extend(self.map.iter().flat_map(Map::cases));
+        cases
     }
 
     fn run(&self, task: &SolverTask) -> Result<Found, CaseFailure> {
@@ -186,140 +189,11 @@ impl Kind for Solvers {
     }
 
     fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
-        // A failed case is omitted, and fails the check of completion.
-        let (mut factors, mut agreements, mut rows, mut lines) = (vec![], vec![], vec![], vec![]);
-        for (task, found) in ran
-            .iter()
-            .filter_map(|ran| Some((ran.case.data, ran.ok()?)))
-        {
-            match (task, found) {
-                (SolverTask::Contraction(at), Found::Contraction(of)) => factors.push((at, of)),
-                (SolverTask::Comparison(tolerance), Found::Comparison(of)) => {
-                    agreements.push((tolerance, of));
-                }
-                (SolverTask::Row(value), Found::Row(row)) => rows.push((value, &row[..])),
-                (SolverTask::Boundary(value), Found::Boundary(line)) => lines.push((value, line)),
-                _ => {}
-            }
-        }
-        let contraction = self
-            .contraction
-            .as_ref()
-            .map(|grid| parts::judge_contraction(&factors, grid.cases().len()));
-        let comparison = self
-            .comparison
-            .as_ref()
-            .map(|_| parts::judge_comparison(&agreements));
-        let map = self.map.as_ref().map(|map| map.judge(&rows, &lines));
-        let parts: Vec<Outcome> = [contraction, comparison, map]
-            .into_iter()
-            .flatten()
-            .collect();
-        let join =
-            |text: fn(&Outcome) -> &str| parts.iter().map(text).collect::<Vec<_>>().join("; ");
-        let (summary, headline) = (join(|part| &part.summary), join(|part| &part.headline));
-        let mut all = Outcome {
-            headline,
-            ..Outcome::new(summary, vec![], vec![completion(ran, Found::not_finite)])
-        };
-        parts.into_iter().for_each(|part| all.extend(part));
-        all
+        let contraction = self.contraction.iter().map(|grid| grid.judge(ran));
+        let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
+        let map = self.map.iter().map(|map| map.judge(ran));
+        let parts = contraction.chain(comparison).chain(map);
+        let completion = completion(ran, |found| readings::not_finite(&found.readings()));
+        Outcome::of_parts(completion, parts)
     }
-}
-
-/// A step by the fixed point: the prediction, and the result.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FixedPointStep {
-    /// The time step.
-    pub dt: f64,
-    /// Predicted factor of the contact; infinite if its operator is not definite.
-    pub alpha: f64,
-    /// Predicted factor of the coupling between rotation and displacement; infinite if its operator
-    /// is not definite.
-    pub gamma: f64,
-    /// Whether the increment fell below the tolerance.
-    pub converged: bool,
-    /// Iterations done.
-    pub iterations: usize,
-    /// Ratio of the last two increments, if there were two; infinite if the iterates overflowed or
-    /// the operator was not definite.
-    pub contraction: Option<f64>,
-}
-
-impl FixedPointStep {
-    /// The first step of the problem, with at most `iterations` iterations, to an increment below
-    /// `tolerance`.
-    ///
-    /// * `n_value`: mean axial force for the predicted factors.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] if the solver refuses the problem or the time is up; divergence of the
-    /// iteration is a result.
-    fn run(
-        problem: &Problem,
-        dt: f64,
-        n_value: f64,
-        tolerance: f64,
-        iterations: usize,
-    ) -> Result<Self, CaseFailure> {
-        let newton = Settings {
-            stopping: Stopping::Converged {
-                tolerance,
-                max_iterations: iterations,
-            },
-            ..Settings::default()
-        };
-        let settings = Settings {
-            solver: Solver::FixedPoint,
-            ..newton
-        };
-        let stepping = Stepping {
-            scheme: EULER_CRANK_NICOLSON,
-            settings,
-            dt,
-            loaded: false,
-        };
-        let mut driver = Driver::new(problem.clone(), stepping)?;
-        let mut reached = (0, None);
-        let outcome = run_to(&mut driver, dt, |_, report| {
-            reached = (report.iterations, report.contraction);
-        });
-        let (iterations, contraction) = match &outcome {
-            Ok(()) => reached,
-            Err(RunError::Step(error)) => match error.failure {
-                StepFailure::Diverged {
-                    iterations,
-                    contraction,
-                    ..
-                }
-                | StepFailure::IterationLimit {
-                    iterations,
-                    contraction,
-                    ..
-                } => (iterations, Some(contraction)),
-                StepFailure::NonFinite { iterations, .. } => (iterations, Some(f64::INFINITY)),
-                _ => (0, Some(f64::INFINITY)),
-            },
-            Err(other) => return Err(other.clone().into()),
-        };
-        let [alpha, gamma] = factors(problem, dt, n_value);
-        Ok(Self {
-            dt,
-            alpha,
-            gamma,
-            converged: outcome.is_ok(),
-            iterations,
-            contraction,
-        })
-    }
-}
-
-/// The factors α of the contact and γ of the coupling, for a step with the mean axial force
-/// `n_value`; infinite if the operator is not definite.
-fn factors(problem: &Problem, dt: f64, n_value: f64) -> [f64; 2] {
-    let case = problem.case(EULER_CRANK_NICOLSON, dt);
-    [
-        case.contact_contraction(n_value),
-        case.coupling_contraction(n_value),
-    ]
 }

@@ -9,8 +9,8 @@ use thermobeam::dg::Stepping as DgStepping;
 use super::prelude::*;
 use crate::exact::function::Factor;
 
-pub(crate) use refine::refine;
 pub use refine::{Layout, Perturbation, Refine};
+pub(crate) use refine::{increasing, nested, refine};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;
@@ -195,39 +195,6 @@ pub(crate) fn claims<T: Copy>(
                 },
             ))
         },
-    )
-}
-
-/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected
-/// order.
-///
-/// * `step`: the step, from elements and steps, against which errors are judged.
-/// * `ran`: elements and steps of each level, coarse to fine, with its errors; `None` if the case
-///   failed.
-pub(crate) fn norm_levels<'r>(
-    refine: &Refine,
-    expect: &[(Norm, Claim)],
-    step: impl Fn(usize, usize) -> f64,
-    ran: impl Iterator<Item = ((usize, usize), Option<&'r Norms>)> + Clone,
-) -> Levels {
-    let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
-    let column = |norm: Norm| ErrorColumn {
-        name: norm.name().to_owned(),
-        symbol: Some(norm.symbol().to_owned()),
-        errors: ran
-            .clone()
-            .map(|(_, errors)| errors.map(|errors| errors[norm]))
-            .collect(),
-        claim: expect
-            .iter()
-            .find(|(of, _)| *of == norm)
-            .map(|(_, claim)| *claim),
-        look: norm as usize,
-    };
-    Levels::new(
-        refine.axis,
-        ran.clone().map(refinement),
-        Norm::ALL.into_iter().map(column),
     )
 }
 

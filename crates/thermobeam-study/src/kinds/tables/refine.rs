@@ -70,6 +70,11 @@ impl Layout {
             self.map.as_ref().map_or(s, |map| map.eval(s))
         })
     }
+
+    /// The mesh width h of that mesh, its longest element; NaN if there is no such mesh.
+    pub(crate) fn size(&self, elements: usize) -> f64 {
+        self.mesh(elements).map_or(f64::NAN, |mesh| mesh.size())
+    }
 }
 
 /// What is refined, and how.
@@ -260,10 +265,39 @@ fn levels(
         };
         return Ok(vec![single?]);
     }
+    increasing(section, key, &allowed, 1, read)
+}
+
+/// A list of at least `least` increasing levels.
+pub(crate) fn increasing(
+    section: &Section<'_>,
+    key: &str,
+    allowed: &str,
+    least: usize,
+    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
+) -> Result<Vec<usize>, InputError> {
+    let relation = "a whole number >";
     section.sequence(
-        (key, &allowed, 1),
+        (key, allowed, least),
         read,
-        ("a whole number >", |before, level| level > before),
+        (relation, |before, level| level > before),
+    )
+}
+
+/// A list of at least two levels, each a multiple of its predecessor.
+pub(crate) fn nested(
+    section: &Section<'_>,
+    key: &str,
+    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
+) -> Result<Vec<usize>, InputError> {
+    let allowed = "a list of at least two whole numbers, each a multiple of the one before";
+    let relation = "a multiple of";
+    section.sequence(
+        (key, allowed, 2),
+        read,
+        (relation, |before, level| {
+            level > before && level.is_multiple_of(before)
+        }),
     )
 }
 

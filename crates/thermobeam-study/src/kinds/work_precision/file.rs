@@ -6,7 +6,8 @@ use convergence_study::study::Tier;
 
 use super::method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial};
 use super::{ROW, Target, WorkPrecision};
-use crate::kinds::convergence::Convergence;
+use crate::kinds::orders::Orders;
+use crate::kinds::orders::manufactured::Convergence;
 use crate::kinds::prelude::*;
 
 /// The keys of the problem, which is a solution, a scene or a vibration.
@@ -187,12 +188,12 @@ fn problem(section: &Section<'_>, folder: &Path) -> Result<Family, InputError> {
                     "no t_end: it is that of the solution",
                 ));
             }
-            let Convergence {
+            let Orders(Convergence {
                 exact,
                 theory,
                 refine,
                 ..
-            } = Convergence::read(file.file(folder)?)?;
+            }) = Orders::read(file.file(folder)?)?;
             Ok(Family::of_solution(
                 exact,
                 theory.beam,

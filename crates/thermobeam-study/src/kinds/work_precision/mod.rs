@@ -45,7 +45,6 @@ use std::sync::OnceLock;
 use crate::error::polynomials::Polynomials;
 use crate::error::{Errors, Evaluator};
 use crate::kinds::prelude::*;
-use crate::kinds::settings;
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
 
 /// The row of the table of kinds.
@@ -57,7 +56,11 @@ pub const ROW: KindRow = KindRow {
     judged: "Work is counted, not timed. The ratios must be at least those claimed, and every method that reaches a target must be \
              compared.",
     failure: "A method has become more expensive for the same error, or it does not reach an error any more.",
-    settings: settings::of_cost,
+    settings: |header, item| {
+        Topic::new("cost", ItemMethod::OneStep)
+            .of_file()
+            .settings(header, item)
+    },
 };
 
 /// A reference is so many times better than the smallest target.

@@ -7,7 +7,8 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver, Stopping};
 use thermobeam_study::exact::norm::Norm;
-use thermobeam_study::kinds::convergence::Convergence;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 use thermobeam_study::scene::Coefficients;
 
 const STUDY: &str = "[study]\nid = \"a-1.2\"\nclaim = \"first order\"\ntier = \"quick\"\n";
@@ -20,19 +21,19 @@ const REFINE: &str =
 const EXPECT: &str = "[[expect]]\nnorm = \"velocity\"\norder = 2\ntolerance = 0.05\n";
 
 #[track_caller]
-fn described(parts: &[&str]) -> Described<Convergence> {
+fn described(parts: &[&str]) -> Described<Orders<Convergence>> {
     Described::parse(&parts.concat(), "s.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[track_caller]
-fn spec(parts: &[&str]) -> Convergence {
+fn spec(parts: &[&str]) -> Orders<Convergence> {
     described(parts).kind
 }
 
 #[track_caller]
 fn refusal(parts: &[&str]) -> String {
     let text = parts.concat();
-    let message = Convergence::parse(&text, "s.toml".as_ref())
+    let message = Orders::<Convergence>::parse(&text, "s.toml".as_ref())
         .expect_err(&text)
         .to_string();
     assert!((1..=3).contains(&message.lines().count()), "{message}");

@@ -1,0 +1,241 @@
+//! One error in both records: the four questions, in their order.
+
+use super::sequence::{ErrorSequence, Estimate, Point, work};
+use super::{ORDER_SHIFT, SAME_STEP, Shift, WORK_WITHIN};
+use crate::judge::verdict::Verdict;
+use crate::study::LevelErrors;
+use crate::text::number::plain_text;
+
+/// One error in both records.
+pub(super) struct Both<'r> {
+    /// In the old record.
+    pub(super) old: ErrorSequence<'r>,
+    /// In the new record.
+    pub(super) new: ErrorSequence<'r>,
+    /// Smaller errors count as this.
+    pub(super) floor: f64,
+    /// As for [`compare`](super::compare).
+    pub(super) within: f64,
+}
+
+/// What became of an error, and why.
+pub(super) struct Answer {
+    /// What became of it.
+    pub(super) change: Shift,
+    /// Why.
+    pub(super) reason: String,
+}
+
+impl Answer {
+    fn new(change: Shift, reason: impl Into<String>) -> Self {
+        Self {
+            change,
+            reason: reason.into(),
+        }
+    }
+}
+
+/// The logarithm of the new error over the old one at a level of the new record.
+struct Ratio<'r> {
+    level: &'r LevelErrors,
+    log: Estimate,
+}
+
+impl Both<'_> {
+    /// The first question that finds a difference; a better order is a smaller matter than a
+    /// larger error.
+    pub(super) fn judged(&self) -> Answer {
+        if let Some(reason) = self.lost() {
+            return Answer::new(Shift::Lost, reason);
+        }
+        let order = self.order();
+        if let Some(order) = &order
+            && order.change == Shift::Worse
+        {
+            return Answer::new(Shift::Worse, &order.reason);
+        }
+        let ratios = self.ratios();
+        if let Some(reason) = self.broken() {
+            return Answer::new(Shift::Worse, reason);
+        }
+        if let Some(reason) = self.larger(&ratios) {
+            return Answer::new(Shift::Worse, reason);
+        }
+        order.unwrap_or_else(|| self.smaller_or_cheaper(&ratios))
+    }
+
+    /// What the new record lacks.
+    fn lost(&self) -> Option<String> {
+        let Self { old, new, .. } = self;
+        if new.points.is_empty() && !old.points.is_empty() {
+            return Some("the new record does not have the error".to_owned());
+        }
+        if old.rate.is_some() && new.rate.is_none() {
+            return Some("the new record does not judge its rate".to_owned());
+        }
+        let finest = old.points.last()?;
+        let is_lost = if old.is_sequence && new.is_sequence {
+            (new.points.last()?.step / finest.step).ln() > SAME_STEP
+        } else {
+            new.at(finest.level).is_none()
+        };
+        let lost = label(finest.level);
+        is_lost.then(|| format!("the new record does not have the finest level, {lost}"))
+    }
+
+    /// Another order, or a claim that no longer passes.
+    fn order(&self) -> Option<Answer> {
+        if let (Some(old), Some(new)) = (self.old.order, self.new.order) {
+            let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
+            if apart && (new.order - old.order).abs() > ORDER_SHIFT {
+                let is_lower = new.order < old.order;
+                let change = if is_lower {
+                    Shift::Worse
+                } else {
+                    Shift::Better
+                };
+                return Some(Answer::new(change, format!("order {old} → {new}")));
+            }
+        }
+        let (old, new) = (self.old.rate?, self.new.rate?);
+        let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
+        let reason = || {
+            format!(
+                "the claimed order was pass, is {}: {}",
+                new.verdict, new.reason
+            )
+        };
+        failed.then(|| Answer::new(Shift::Worse, reason()))
+    }
+
+    /// Levels whose error has become negative, infinite or NaN.
+    fn broken(&self) -> Option<String> {
+        let is_error = |error: f64| error >= 0.0 && error.is_finite();
+        let is_broken = |point: &&Point<'_>| {
+            !is_error(point.error) && self.old.at(point.level).is_some_and(is_error)
+        };
+        let broken = self.new.points.iter().filter(is_broken);
+        let broken: Vec<String> = broken.map(|point| label(point.level)).collect();
+        let list = broken.join("; ");
+        (!broken.is_empty()).then(|| format!("no longer a finite number >= 0 at {list}"))
+    }
+
+    /// For each level of the new record that can be compared.
+    fn ratios(&self) -> Vec<Ratio<'_>> {
+        let is_at_floor =
+            |level: &LevelErrors| self.old.is_at_floor(level) || self.new.is_at_floor(level);
+        let points = self.new.points.iter();
+        points
+            .filter(|point| point.error >= 0.0 && !is_at_floor(point.level))
+            .filter_map(|point| self.ratio(point))
+            .collect()
+    }
+
+    fn ratio<'p>(&self, point: &Point<'p>) -> Option<Ratio<'p>> {
+        let before = match self.old.at(point.level) {
+            Some(error) => Estimate {
+                value: error.max(self.floor).ln(),
+                doubt: 0.0,
+            },
+            None => self.old.error_at_step(point.step, self.floor)?,
+        };
+        let log = point.error.max(self.floor).ln() - before.value;
+        Some(Ratio {
+            level: point.level,
+            log: Estimate {
+                // Two zeros without a floor are the same.
+                value: if log.is_nan() { 0.0 } else { log },
+                doubt: before.doubt,
+            },
+        })
+    }
+
+    /// The largest difference of the logarithms of errors that are the same.
+    fn limit(&self) -> f64 {
+        self.within.ln_1p()
+    }
+
+    fn larger(&self, ratios: &[Ratio<'_>]) -> Option<String> {
+        let is_larger = |ratio: &&Ratio<'_>| ratio.log.value - ratio.log.doubt > self.limit();
+        let larger: Vec<&Ratio<'_>> = ratios.iter().filter(is_larger).collect();
+        let values = |ratio: &&&Ratio<'_>| ratio.log.value;
+        let worst = larger
+            .iter()
+            .max_by(|a, b| values(a).total_cmp(&values(b)))?;
+        Some(format!(
+            "errors larger at {} of {} levels that both have: {}: {} times",
+            larger.len(),
+            ratios.len(),
+            label(worst.level),
+            plain_text(worst.log.value.exp())
+        ))
+    }
+
+    /// What became of errors none of which is larger: smaller, unclear, or the same, for which the
+    /// work is compared.
+    fn smaller_or_cheaper(&self, ratios: &[Ratio<'_>]) -> Answer {
+        let count = ratios.len();
+        let limit = self.limit();
+        if count == 0 {
+            let is_empty = self.old.points.is_empty() && self.new.points.is_empty();
+            let why = if is_empty {
+                "no errors are recorded, only rates"
+            } else {
+                "no level is at a step that both have reached"
+            };
+            let reason = format!("no difference of orders is proven; {why}");
+            return Answer::new(Shift::NotProven, reason);
+        }
+        let mut logs = ratios.iter().map(|ratio| ratio.log);
+        if logs.clone().all(|log| log.value + log.doubt < -limit) {
+            let most = logs.fold(f64::NEG_INFINITY, |most, log| most.max(log.value));
+            let times = plain_text(most.exp());
+            let reason = format!("errors smaller: {times} times or less at {count} levels");
+            return Answer::new(Shift::Better, reason);
+        }
+        if !logs.all(|log| log.value.abs() + log.doubt <= limit) {
+            let reason = format!("no difference of errors is proven at {count} levels");
+            return Answer::new(Shift::NotProven, reason);
+        }
+        match self.work() {
+            Some(work) if work.value.abs() - work.doubt > WORK_WITHIN.ln_1p() => {
+                let is_more = work.value > 0.0;
+                let change = if is_more { Shift::Worse } else { Shift::Better };
+                let times = work.value.exp();
+                let reason = format!("the same error takes {times:.3} times the work");
+                Answer::new(change, reason)
+            }
+            _ => Answer::new(Shift::Same, format!("errors the same at {count} levels")),
+        }
+    }
+
+    /// The logarithm of the new work over the old one for the smallest error that both have
+    /// reached: errors within the limit count as equal, so the work is uncertain by its growth over
+    /// that share of the error.
+    fn work(&self) -> Option<Estimate> {
+        let [.., coarse, fine] = self.new.points.as_slice() else {
+            return None;
+        };
+        let error = self.old.points.last()?.error.max(fine.error);
+        if !(error > self.floor) {
+            return None;
+        }
+        let before = self.old.work_at_error(error)?;
+        let after = self.new.work_at_error(error)?;
+        let growth = (work(fine.level)? / work(coarse.level)?).ln();
+        let growth = growth / (coarse.error / fine.error).ln();
+        Some(Estimate {
+            value: after.value - before.value,
+            doubt: before.doubt + after.doubt + self.limit() * growth.abs(),
+        })
+    }
+}
+
+/// The parameters of a level.
+fn label(level: &LevelErrors) -> String {
+    let parameters = level.parameters.iter();
+    let parameters: Vec<String> = parameters
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    parameters.join(", ")
+}

@@ -1,0 +1,164 @@
+//! What differs from the baseline, in Markdown: claims first and in full, then the worst number of
+//! each study, then all numbers, folded.
+
+use super::Findings;
+use super::markdown::{cell, table, text};
+use super::section::folded;
+use super::words::{blessing, can_be_blessed};
+use crate::store::{Change, Movement, Record, diagnosis::Diagnosis};
+use crate::text::number::short_text;
+
+/// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may
+/// be empty, otherwise it ends with an empty line.
+///
+/// * `link`: a study's id in Markdown, with a link if the text can have one.
+pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Vec<String> {
+    let (claims, numbers): (Vec<&Change>, Vec<&Change>) = findings
+        .record
+        .moves()
+        .iter()
+        .partition(|change| change.movement.needs_a_reason());
+    // Numbers of studies that fail move for the same cause.
+    let fails = |id: &str| {
+        findings
+            .record
+            .studies
+            .iter()
+            .any(|study| study.header.id == id && !study.outcome.verdict.is_pass())
+    };
+    let numbers: Vec<&Change> = numbers
+        .into_iter()
+        .filter(|change| !fails(&change.study))
+        .collect();
+    vec![
+        of_claims(&claims, link),
+        worst(&numbers, link),
+        acceptance(findings),
+        all(&numbers),
+    ]
+}
+
+fn of_claims(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let line = |change: &&Change| {
+        let words = change.words();
+        let rest = words.strip_prefix(change.study.as_str()).unwrap_or(&words);
+        format!("- {}{}\n", link(&change.study), text(rest))
+    };
+    format!(
+        "## Claims changed\n\n{}\n",
+        changes.iter().map(line).collect::<String>()
+    )
+}
+
+/// One row for each study: its worst number.
+fn worst(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
+    if changes.is_empty() {
+        return String::new();
+    }
+    let mut studies: Vec<(&Change, usize)> = changes
+        .chunk_by(|one, next| one.study == next.study)
+        .filter_map(|of_study| Some((heaviest(of_study)?, of_study.len())))
+        .collect();
+    // The sort is stable: of equals the first ones win.
+    studies.sort_by(|(a, _), (b, _)| b.movement.weight().total_cmp(&a.movement.weight()));
+    let row = |(change, count): &(&Change, usize)| {
+        let Change {
+            study, movement, ..
+        } = change;
+        vec![
+            link(study),
+            count.to_string(),
+            cell(&change.subject()),
+            cell(&movement.to_string()),
+            times(movement),
+        ]
+    };
+    let head = [
+        "study",
+        "numbers",
+        "the worst of them",
+        "change",
+        "times its tolerance",
+    ];
+    let order = "The worst number of each study; first those that moved by the largest multiple of their tolerance.";
+    format!(
+        "## Moved from the baseline\n\n{order}\n\n{}\n",
+        table(&head, studies.iter().map(row).collect())
+    )
+}
+
+/// The first of the largest weight.
+fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
+    changes
+        .iter()
+        .rev()
+        .copied()
+        .max_by(|a, b| a.movement.weight().total_cmp(&b.movement.weight()))
+}
+
+/// By how many times its tolerance a number has moved, with two digits; a dash if that is
+/// undefined.
+fn times(movement: &Movement) -> String {
+    let weight = movement.weight();
+    if weight == 0.0 || !weight.is_finite() {
+        return "-".to_owned();
+    }
+    short_text(weight)
+}
+
+/// How to accept them, or why that is refused.
+fn acceptance(findings: &Findings<'_>) -> String {
+    let Findings {
+        project,
+        record:
+            Record {
+                command,
+                studies,
+                diagnosis,
+                ..
+            },
+        ..
+    } = findings;
+    match findings.record.moves() {
+        [] => String::new(),
+        moves if can_be_blessed(studies) => {
+            let alike = diagnosis
+                .as_ref()
+                .map(Diagnosis::alike)
+                .filter(|alike| !alike.is_empty());
+            let alike = alike.map_or(String::new(), |alike| {
+                format!("Planted mistakes that move them alike: {alike}.\n\n")
+            });
+            format!(
+                "{alike}If it is meant: `{}`.\n\n",
+                blessing(project, command, studies, moves)
+            )
+        }
+        _ => "`--bless` refuses until the studies that did not pass are mended.\n\n".to_owned(),
+    }
+}
+
+/// Every number, folded; empty if the table above has them all.
+fn all(changes: &[&Change]) -> String {
+    if changes
+        .chunk_by(|one, next| one.study == next.study)
+        .all(|of_study| of_study.len() == 1)
+    {
+        return String::new();
+    }
+    let row = |change: &&Change| {
+        vec![
+            cell(&change.study),
+            cell(&change.subject()),
+            cell(&change.movement.to_string()),
+        ]
+    };
+    let lines = table(
+        &["study", "what", "change"],
+        changes.iter().map(row).collect(),
+    );
+    folded(&format!("all {} numbers", changes.len()), &lines, false) + "\n"
+}

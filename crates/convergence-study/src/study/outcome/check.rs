@@ -1,0 +1,79 @@
+//! Judged statements.
+
+use crate::judge::verdict::Verdict;
+use crate::study::subject::Subject;
+
+/// Whose statement a check is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// That every case has run: no statement.
+    Completion,
+    /// A statement of the source, as printed there.
+    Source,
+    /// What holds in place of a statement of the source that does not.
+    Correction,
+    /// The study's own.
+    #[default]
+    Own,
+}
+
+/// Something judged.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Check {
+    /// The claim, without its case.
+    pub claim: String,
+    /// What it is about; unknown in older records, whose claims begin with the case.
+    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    pub subject: Subject,
+    /// The outcome.
+    pub verdict: Verdict,
+    /// The evidence, with numbers.
+    pub evidence: String,
+    /// Whose statement it is; [`Origin::Own`] in records that do not say.
+    #[serde(default)]
+    pub origin: Origin,
+    /// Ids of the other studies that do not pass, where it judges those.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_studies: Vec<String>,
+}
+
+impl Check {
+    /// Passes or fails on a condition; `holds` must be false for NaN.
+    pub fn that(holds: bool, claim: impl Into<String>, evidence: impl Into<String>) -> Self {
+        let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
+        Self {
+            claim: claim.into(),
+            verdict,
+            subject: Subject::default(),
+            evidence: evidence.into(),
+            origin: Origin::Own,
+            other_studies: vec![],
+        }
+    }
+
+    /// The same about a subject.
+    #[must_use]
+    pub fn about(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    /// The claim as it is printed: after its case, if it has one.
+    pub fn statement(&self) -> String {
+        match &self.subject.case {
+            Some(case) => format!("{case}: {}", self.claim),
+            None => self.claim.clone(),
+        }
+    }
+
+    /// What it is about; the claim stands in for a quantity that is not known.
+    pub fn quantity(&self) -> &str {
+        self.subject.quantity_or(&self.claim)
+    }
+
+    /// The same as somebody's statement.
+    #[must_use]
+    pub fn stated_by(self, origin: Origin) -> Self {
+        Self { origin, ..self }
+    }
+}

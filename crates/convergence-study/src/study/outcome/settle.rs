@@ -1,0 +1,269 @@
+//! What every outcome must meet, whatever the kind of study, and its verdict recomputed.
+
+use std::collections::HashSet;
+
+use super::{Check, Figure, Outcome};
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::study::coverage;
+use crate::study::subject::Subject;
+
+/// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
+/// failing check if it does not meet the requirements. Its summary says how many items were not
+/// judged, if any.
+pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
+    outcome
+        .figures
+        .iter_mut()
+        .for_each(|figure| figure.file = format!("{id}-{}", figure.file));
+    let defects = defects(id, &outcome);
+    if !defects.is_empty() {
+        outcome.checks.push(
+            Check::that(
+                false,
+                "the outcome of the study is sound",
+                defects.join("; "),
+            )
+            .about(Subject::of("outcome")),
+        );
+    }
+    let claimed = outcome.verdict;
+    let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
+    let parts = Verdict::worst(rates.chain(outcome.checks.iter().map(|check| check.verdict)));
+    outcome.verdict = parts.max(claimed);
+    if outcome.rates.is_empty() && outcome.checks.is_empty() {
+        outcome.add_to_summary("nothing was judged");
+    } else if outcome.verdict != claimed {
+        outcome.add_to_summary("but a rate or a check does not pass");
+    }
+    for left_out in coverage::incomplete(&outcome.coverage) {
+        outcome.add_to_summary(&left_out);
+    }
+    outcome
+}
+
+/// Two parts of a summary; either may be empty.
+pub(crate) fn joined(summary: &str, more: &str) -> String {
+    match (summary, more) {
+        ("", more) => more.to_owned(),
+        (summary, "") => summary.to_owned(),
+        (summary, more) => format!("{summary}; {more}"),
+    }
+}
+
+fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
+    let mut defects = Vec::new();
+    defects.extend(twice(
+        "the rate",
+        outcome.rates.iter().map(|(norm, _)| norm),
+    ));
+    defects.extend(twice(
+        "the quantity",
+        outcome.quantities.iter().map(|quantity| &quantity.name),
+    ));
+    defects.extend(twice(
+        "the figure",
+        outcome.figures.iter().map(|figure| &figure.file),
+    ));
+    for level in &outcome.levels {
+        defects.extend(twice(
+            "at one level the norm",
+            level.errors.iter().map(|(norm, _)| norm),
+        ));
+    }
+    for (norm, rate) in &outcome.rates {
+        if rate.verdict == Verdict::Pass && !rests_on_numbers(rate) {
+            defects.push(format!(
+                "`{norm}` passes without a finite rate in a finite interval"
+            ));
+        }
+    }
+    for figure in outcome
+        .figures
+        .iter()
+        .filter(|figure| !well_named(id, figure))
+    {
+        defects.push(format!(
+            "the figure `{}` is not called {id}-<what>.svg",
+            figure.file
+        ));
+    }
+    defects.extend(twice(
+        "the count of",
+        outcome.coverage.iter().map(|coverage| &coverage.items),
+    ));
+    for coverage in &outcome.coverage {
+        if !coverage.adds_up() {
+            defects.push(format!("the counts of `{}` do not add up", coverage.items));
+        }
+    }
+    for table in &outcome.tables {
+        if table.rows.iter().any(|row| row.len() != table.head.len()) {
+            defects.push(format!(
+                "the table `{}` has rows that do not match its head",
+                table.title
+            ));
+        }
+    }
+    defects
+}
+
+/// Whether a passing rate has the numbers to justify it.
+fn rests_on_numbers(rate: &RateVerdict) -> bool {
+    let interval = rate
+        .interval
+        .is_some_and(|[low, high]| low.is_finite() && high.is_finite());
+    interval && rate.fitted.is_some_and(f64::is_finite)
+}
+
+/// A plain file name that begins with the study's id: figures of all studies share one folder.
+fn well_named(id: &str, figure: &Figure) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
+    let what = figure
+        .file
+        .strip_prefix(id)
+        .and_then(|rest| rest.strip_prefix('-'));
+    what.and_then(|what| what.strip_suffix(".svg"))
+        .is_some_and(|what| !what.is_empty() && what.chars().all(plain))
+}
+
+fn twice<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<String> {
+    let mut seen = HashSet::new();
+    names
+        .filter(|name| !seen.insert(*name))
+        .map(|name| format!("{what} `{name}` occurs twice"))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::verdict;
+    use crate::study::coverage::Coverage;
+    use crate::study::outcome::{Quantity, Table};
+
+    fn passing() -> Outcome {
+        let levels = [(0.5, 0.5), (0.25, 0.25), (0.125, 0.125), (0.0625, 0.0625)];
+        let rates = vec![(
+            "velocity".to_owned(),
+            verdict::judge_pairs(levels, 1.0, 0.1),
+        )];
+        Outcome::new("fine", rates, vec![Check::that(true, "c", "e")])
+    }
+
+    #[track_caller]
+    fn refused(outcome: Outcome, evidence: &str) {
+        let settled = settle("id", outcome);
+        assert_eq!(settled.verdict, Verdict::Fail, "{settled:?}");
+        let last = &settled.checks.last().unwrap().evidence;
+        assert!(last.contains(evidence), "{last}");
+    }
+
+    #[test]
+    fn a_sound_outcome_is_left_alone() {
+        assert_eq!(passing().verdict, Verdict::Pass);
+        assert_eq!(settle("id", passing()), passing());
+    }
+
+    #[test]
+    fn figures_are_named_after_the_study() {
+        let drawn = Outcome {
+            figures: vec![Figure::new("errors", "", String::new())],
+            ..passing()
+        };
+        let settled = settle("id", drawn);
+        assert_eq!(
+            (settled.verdict, settled.figures[0].file.as_str()),
+            (Verdict::Pass, "id-errors.svg")
+        );
+    }
+
+    #[test]
+    fn nothing_judged_is_inconclusive_even_where_a_pass_is_claimed() {
+        let empty = Outcome {
+            verdict: Verdict::Pass,
+            ..Outcome::new("all well", vec![], vec![])
+        };
+        let settled = settle("id", empty);
+        assert_eq!(settled.verdict, Verdict::Inconclusive);
+        assert_eq!(settled.summary, "all well; nothing was judged");
+    }
+
+    #[test]
+    fn a_verdict_is_no_better_than_its_parts_and_no_better_than_claimed() {
+        let mut hidden = passing();
+        hidden.checks.push(Check::that(false, "c", "e"));
+        assert_eq!(settle("id", hidden).verdict, Verdict::Fail);
+        let strict = Outcome {
+            verdict: Verdict::Fail,
+            ..passing()
+        };
+        assert_eq!(settle("id", strict).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn a_summary_says_how_many_items_were_not_judged() {
+        let summary = |reasons: &[Option<&str>]| {
+            let coverage = vec![Coverage::of("points", reasons.iter().copied())];
+            let outcome = Outcome {
+                coverage,
+                ..passing()
+            };
+            settle("id", outcome).summary
+        };
+        assert_eq!(
+            summary(&[None, Some("short")]),
+            "fine; 1 of 2 points judged; 1 not: short"
+        );
+        assert_eq!(summary(&[None, None]), "fine");
+    }
+
+    #[test]
+    fn every_defect_of_an_outcome_fails_and_is_named() {
+        let quantity = |value| Quantity::new("q", value, 0.1);
+        refused(
+            Outcome {
+                quantities: vec![quantity(1.0), quantity(2.0)],
+                ..passing()
+            },
+            "the quantity `q` occurs twice",
+        );
+        for file in ["../x.svg", ".svg", "a/b.svg", "x.png"] {
+            let figure = Figure {
+                file: file.into(),
+                caption: String::new(),
+                svg: String::new(),
+            };
+            refused(
+                Outcome {
+                    figures: vec![figure],
+                    ..passing()
+                },
+                file,
+            );
+        }
+        let table = Table {
+            title: "ragged".into(),
+            head: vec!["a".into()],
+            rows: vec![vec![]],
+        };
+        refused(
+            Outcome {
+                tables: vec![table],
+                ..passing()
+            },
+            "ragged",
+        );
+        let mut twice_judged = Coverage::of("points", [None, Some("short")]);
+        twice_judged.judged = 2;
+        refused(
+            Outcome {
+                coverage: vec![twice_judged],
+                ..passing()
+            },
+            "the counts of `points` do not add up",
+        );
+        let mut nan = passing();
+        nan.rates[0].1.fitted = Some(f64::NAN);
+        refused(nan, "`velocity` passes without");
+    }
+}

@@ -1,0 +1,483 @@
+//! Orders of the scheme of any order: elements of degree p in space, dG(q) in time.
+//!
+//! Against a manufactured solution, contact included, or a free vibration without any load.
+//!
+//! ```toml
+//! [run]
+//! over = "space"        # "space", "time" or "degree"
+//! t_end = 0.3
+//! time_degree = 4       # but for "time"
+//! steps = 15            # but for "time"
+//! degree = 14           # for "time"
+//! elements = 1          # for "time" and "degree"
+//! map = "0.8*s + 0.2*s^2"
+//!
+//! [vibration]           # instead of [beam], [obstacles] and [exact]: modes that no load keeps in place
+//! zeta = 0.1
+//! modes = [1, 3]        # from 1, the lowest
+//!
+//! [control]             # optional: coefficients in which the solver differs from the loads; then the study must fail
+//! zeta = 0.101
+//!
+//! [[series]]
+//! degree = 2            # "space"; or time_degree = 1 for "time"
+//! elements = [4, 8, 16] # "space"; or steps = [...] for "time"; or degrees = [...] for "degree"
+//! tolerance = 0.1       # of the rate; or factor = 4.0 for "degree"
+//! ```
+
+mod runs;
+
+use convergence_study::judge::fit::FLOOR_MARGIN;
+use thermobeam::dg::Stepping;
+
+use super::{Drawn, Orders, Runs, Series, Shown, Source};
+use crate::exact::any_order::ErrorMeter;
+use crate::exact::defect::Defect;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Layout, control, manufactured};
+use crate::run::dg::DgMotion;
+pub use runs::Resolution;
+use runs::{Over, RunsOfDegree, series};
+
+/// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors
+/// are smaller.
+const INSIDE: [f64; 2] = [0.13, 0.61];
+
+/// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
+const ROUND_OFF: f64 = 2e-12;
+
+/// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities
+/// of order 1.
+const FLOOR: f64 = FLOOR_MARGIN * 1e-13;
+
+/// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the
+/// initial data divided by h: 4e-13 for 256 elements. A quadrature that is too coarse for the
+/// projection leaves 3e-7 and more.
+const PROJECTED: f64 = 1e-11;
+
+/// The judged errors of one run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// Each with its name; errors in the fields at the end come first.
+    pub named: Vec<(&'static str, f64)>,
+    /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the
+    /// projection (3.6).
+    pub start: f64,
+}
+
+/// A study of orders.
+#[derive(Clone)]
+pub struct AnyOrder {
+    /// Coefficients from which the loads are derived.
+    pub(crate) theory: Coefficients,
+    /// The solver's own coefficients; if they differ, the study must fail.
+    pub(crate) solver: Coefficients,
+    /// A mistake in the loads; only a study of planted faults has one.
+    pub(crate) defect: Option<Defect>,
+    exact: Manufactured,
+    /// Whether loads keep the exact solution in place; a free vibration needs none.
+    loaded: bool,
+    layout: Layout,
+    t_end: f64,
+    over: Over,
+    series: Vec<RunsOfDegree>,
+}
+
+impl Source for AnyOrder {
+    const ROW: KindRow = KindRow {
+        name: "orders/any-order",
+        read: reader::<Orders<Self>>,
+        why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
+              error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
+              polynomials of its degree: q + 2, but at most 2q + 1, for displacements, q + 1 for velocities (THEORY.md).",
+        judged: "For each degree the rate over h or dt by the rule of every rate, other errors being at round-off; over p the error \
+                 must fall by the factor claimed for each degree until it reaches round-off.",
+        failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \
+                  is stopped too early: look at the highest degree that still passes.",
+        settings: |header, item| {
+            Topic::of_solution(header, ItemMethod::AnyOrder).settings(header, item)
+        },
+    };
+
+    type Data = Resolution;
+    type Found = Errors;
+
+    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        let vibration = root.section("vibration")?;
+        let problem: &[&str] = if vibration.is_some() {
+            &["vibration"]
+        } else {
+            &["beam", "obstacles", "exact"]
+        };
+        root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
+        let run = root
+            .require("run", "a table with over, t_end, degrees and steps")?
+            .section()?;
+        let overs = [
+            ("space", Over::Space),
+            ("time", Over::Time),
+            ("degree", Over::Degree),
+        ];
+        let over = run
+            .require("over", "\"space\", \"time\" or \"degree\"")?
+            .choice(&overs)?;
+        run.allow(&[&["over", "t_end", "map"], over.keys().of_run].concat())?;
+        let t_end = run.positive("t_end")?;
+        let (theory, exact) = match &vibration {
+            Some(section) => free(section)?,
+            None => {
+                let theory = Coefficients::read(root)?;
+                (theory, manufactured(root, &theory.beam, t_end)?)
+            }
+        };
+        let series = root.tables("series", "", |section| series(&run, over, section))?;
+        let runs = series.iter().flat_map(|series| &series.runs);
+        let elements: Vec<usize> = runs.map(|run| run.elements).collect();
+        Ok(Self {
+            theory,
+            solver: control(root, theory)?,
+            defect: None,
+            exact,
+            loaded: vibration.is_none(),
+            layout: Layout::read(&run, &elements, None)?,
+            t_end,
+            over,
+            series,
+        })
+    }
+
+    fn cases(&self) -> Vec<Case<Resolution>> {
+        let mut cases = vec![];
+        for &resolution in self.series.iter().flat_map(|series| &series.runs) {
+            let Resolution {
+                degree,
+                elements,
+                time_degree,
+                steps,
+            } = resolution;
+            let label = match self.over {
+                Over::Space => format!("p = {degree}, n = {elements}"),
+                Over::Time => format!("q = {time_degree}, {steps} steps"),
+                Over::Degree => format!("p = {degree}"),
+            };
+            let cost = (elements * degree * (time_degree + 1) * (steps + 10)) as f64 * 10.0;
+            cases.push(Case::new(label, cost, resolution));
+        }
+        cases
+    }
+
+    /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their
+    /// slopes. A study over time has the largest L2 errors of u and u_t inside steps instead of the
+    /// slopes.
+    fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
+        let mut motion = self.motion(*resolution)?;
+        // The solver's temperature: its unknown is lifted by the solver's own θ_A.
+        let theta_a = self.solver.beam.theta_a;
+        let mut level = motion.simulation().level().clone();
+        let mut inside_u = 0.0;
+        let mut inside_u_t = 0.0;
+        let mut meter = ErrorMeter::new(&self.exact, theta_a, motion.simulation().space());
+        // The initial data have the θ_A of the loads, whatever the solver's is.
+        let start = meter.slope_moments(motion.simulation().level(), self.theory.beam.theta_a);
+        run_to(&mut motion, self.t_end, |motion, _| {
+            // Only a study over time judges these.
+            if self.over != Over::Time {
+                return;
+            }
+            let simulation = motion.simulation();
+            let (from, to) = (simulation.old_level().t, simulation.t());
+            for s in INSIDE {
+                if simulation.level_into(from + s * (to - from), &mut level) {
+                    let [[u, _, u_t, ..], _] = meter.errors(&level);
+                    inside_u = max_or_nan(inside_u, u);
+                    inside_u_t = max_or_nan(inside_u_t, u_t);
+                }
+            }
+        })?;
+        let [values, slopes] = meter
+            .errors(motion.simulation().level())
+            .map(root_of_squares);
+        let named = match self.over {
+            Over::Time => vec![
+                ("ends", values),
+                ("u inside", inside_u),
+                ("u_t inside", inside_u_t),
+            ],
+            Over::Space | Over::Degree => vec![("fields", values), ("slopes", slopes)],
+        };
+        Ok(Errors { named, start })
+    }
+
+    fn not_finite(&self, found: &Errors) -> Vec<String> {
+        not_finite(found.named.iter().copied())
+    }
+
+    /// Rates over h or dt; one figure shows each degree's errors together.
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+        if self.over == Over::Degree {
+            return vec![];
+        }
+        let mut series = vec![];
+        for (of_degree, runs) in self.by_degree(runs) {
+            let Resolution {
+                degree: p,
+                time_degree: q,
+                ..
+            } = of_degree.runs[0];
+            let (letter, degree) = match self.over {
+                Over::Time => ("q", q),
+                Over::Space | Over::Degree => ("p", p),
+            };
+            let subject = format!("{letter} = {degree}");
+            let caption = format!("Errors for {subject}, with the orders of theory (triangles).");
+            let levels = self.levels(&subject, of_degree, runs);
+            let file = format!("{letter}{degree}");
+            series.push(Series::new(
+                levels,
+                Drawn::new(&file, Some(&subject), caption),
+            ));
+        }
+        series
+    }
+
+    fn checks(&self, runs: &Runs<Self>, _: &[Series]) -> Vec<Check> {
+        let mut checks = vec![projected(runs)];
+        checks.extend(self.falls(runs));
+        checks
+    }
+
+    fn shown(&self, runs: &Runs<Self>, _: &[Series], _: &Outcome) -> Shown {
+        match self.over {
+            Over::Degree => self.over_degrees(runs),
+            Over::Space | Over::Time => Shown::default(),
+        }
+    }
+}
+
+/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement
+/// of 0.1.
+fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
+    const AMPLITUDE: f64 = 0.1;
+    section.allow(&["zeta", "modes"])?;
+    let zeta = section.positive("zeta")?;
+    let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
+    let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));
+    let modes = section.list("modes", &allowed, mode, |modes| !modes.is_empty())?;
+    let refused = |_| section.refuse("modes", "modes without a motion", allowed);
+    let theory = Coefficients {
+        beam: free_vibration::beam(zeta),
+        obstacles: None,
+    };
+    let exact = free_vibration::vibration(&modes, zeta).map_err(refused)?;
+    Ok((theory, exact))
+}
+
+fn root_of_squares(errors: [f64; 5]) -> f64 {
+    errors.iter().map(|error| error * error).sum::<f64>().sqrt()
+}
+
+impl AnyOrder {
+    fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
+        let dt = self.t_end / resolution.steps as f64;
+        let stepping = Stepping {
+            degree: resolution.time_degree,
+            dt,
+            restart_dt: dt,
+            growth: 1.0,
+            ..Stepping::default()
+        };
+        Ok(DgMotion::manufactured(
+            &self.exact,
+            self.loaded.then_some(&self.theory),
+            self.defect,
+            self.solver,
+            self.layout.mesh(resolution.elements)?,
+            resolution.degree,
+            stepping,
+        )?)
+    }
+
+    /// The results of each series; fewer if some are missing.
+    fn by_degree<'r>(&self, runs: &'r Runs<Self>) -> Vec<(&RunsOfDegree, &'r Runs<Self>)> {
+        let mut rest = runs;
+        let mut by_degree = vec![];
+        for series in &self.series {
+            let (own, others) = rest.split_at(series.runs.len().min(rest.len()));
+            rest = others;
+            by_degree.push((series, own));
+        }
+        by_degree
+    }
+
+    /// The errors of a series and the orders that theory gives them.
+    fn orders(&self, resolution: Resolution) -> Vec<(&'static str, usize)> {
+        let (p, q) = (resolution.degree, resolution.time_degree);
+        match self.over {
+            Over::Time => vec![
+                ("ends", 2 * q + 1),
+                ("u inside", (q + 2).min(2 * q + 1)),
+                ("u_t inside", q + 1),
+            ],
+            Over::Space | Over::Degree => vec![("fields", p + 1), ("slopes", p)],
+        }
+    }
+
+    /// * `degree`: in words, such as `p = 2`.
+    fn levels(&self, degree: &str, series: &RunsOfDegree, runs: &Runs<Self>) -> Levels {
+        let mut columns = vec![];
+        let mut subjects = vec![];
+        for (look, (error, order)) in self.orders(series.runs[0]).into_iter().enumerate() {
+            let name = format!("{degree}, {error}");
+            subjects.push((name.clone(), Subject::of(error).in_case(degree)));
+            columns.push(ErrorColumn {
+                name,
+                // The degree is in the title.
+                symbol: Some(error.replace("u_t", "uₜ")),
+                errors: runs.iter().map(|run| run.ok()?.of(error)).collect(),
+                claim: Some(Claim::new(order as f64, series.tolerance)),
+                look,
+            });
+        }
+        let axis = match self.over {
+            Over::Time => Axis::Time,
+            Over::Space | Over::Degree => Axis::Space,
+        };
+        let refinements = runs.iter().map(|run| self.refinement(run));
+        Levels::new(axis, refinements, columns)
+            .with_floor(FLOOR)
+            .with_subjects(subjects)
+    }
+
+    fn refinement(&self, run: &Ran<Resolution, Errors>) -> Refinement {
+        let Resolution {
+            degree,
+            elements,
+            time_degree,
+            steps,
+        } = run.case.data;
+        let numbers = [
+            ("degree", degree),
+            ("elements", elements),
+            ("time degree", time_degree),
+            ("steps", steps),
+        ];
+        let step = match self.over {
+            Over::Time => self.t_end / steps as f64,
+            Over::Space | Over::Degree => self.layout.size(elements),
+        };
+        Refinement::new(run.case.label.clone(), &numbers, step)
+    }
+
+    /// Over degrees the error must fall by the factor claimed, as a geometric mean, from the first
+    /// degree to the one that reaches round-off.
+    fn falls(&self, runs: &Runs<Self>) -> Vec<Check> {
+        let mut checks = vec![];
+        if self.over == Over::Degree {
+            for (series, runs) in self.by_degree(runs) {
+                checks.extend(exponential(&points(runs), series.tolerance));
+            }
+        }
+        checks
+    }
+
+    fn over_degrees(&self, runs: &Runs<Self>) -> Shown {
+        let mut curves = vec![];
+        let mut quantities = vec![];
+        let mut rows = vec![];
+        for (series, runs) in self.by_degree(runs) {
+            let points = points(runs);
+            let mesh = counted(series.runs[0].elements, "element");
+            for &(p, error) in &points {
+                rows.push(vec![mesh.clone(), p.to_string(), format!("{error:.2e}")]);
+                // Round-off is not guarded; NaN is.
+                if !(error <= ROUND_OFF) {
+                    quantities.push(
+                        Quantity::new(format!("error fields, p = {p}"), error, 1e-4)
+                            .about(Subject::of("fields").at(format!("p = {p}")))
+                            .of_sort(Sort::Error),
+                    );
+                }
+            }
+            curves.push(plots::Series::new(mesh, points));
+        }
+        let y = plots::Axis::log("L2 error of all fields (dimensionless)");
+        let drawing = Xy {
+            x: plots::Axis::linear("degree p"),
+            ..plots::history(y, &curves).marked()
+        };
+        let svg = drawing
+            .titled("The error falls exponentially with the degree, to round-off")
+            .draw();
+        let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
+        let title = "Error of all fields at the end over the degree";
+        let found: Vec<_> = self
+            .falls(runs)
+            .into_iter()
+            .map(|check| check.evidence)
+            .collect();
+        Shown {
+            tables: vec![Table::new(title, ["mesh", "degree p", "error"], rows)],
+            figures: vec![Figure::new("degrees", caption, svg)],
+            quantities,
+            summary: found.join("; "),
+        }
+    }
+}
+
+impl Errors {
+    fn of(&self, name: &str) -> Option<f64> {
+        let error = self.named.iter().find(|(known, _)| *known == name);
+        error.map(|(_, error)| *error)
+    }
+}
+
+/// The error in the fields over the degree; NaN if the run failed.
+fn points(runs: &[Ran<Resolution, Errors>]) -> Vec<(f64, f64)> {
+    let error = |run: &Ran<_, Errors>| run.ok().and_then(|errors| errors.of("fields"));
+    runs.iter()
+        .map(|run| (run.case.data.degree as f64, error(run).unwrap_or(f64::NAN)))
+        .collect()
+}
+
+/// Whether every run starts from the projection (3.6) of its initial data; with none, completion
+/// fails.
+fn projected(runs: &[Ran<Resolution, Errors>]) -> Check {
+    let moments = runs.iter().filter_map(Ran::ok).map(|errors| errors.start);
+    let largest = moments.fold(0.0, max_or_nan);
+    let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";
+    let evidence = format!("largest moment on an element {largest:.1e}, allowed {PROJECTED:e}");
+    Check::that(largest <= PROJECTED, claim, evidence).about(Subject::of("initial projection"))
+}
+
+/// Whether errors over the degree fall by `factor` on average until they are round-off.
+fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
+    let reached = points.iter().position(|(_, error)| *error <= ROUND_OFF);
+    let last = reached.unwrap_or(points.len().saturating_sub(1));
+    let fall = match (points.first(), points.get(last)) {
+        (Some((p0, e0)), Some((p1, e1))) if last > 0 => (e0 / e1).powf(1.0 / (p1 - p0)),
+        _ => f64::NAN,
+    };
+    let is_monotone = points
+        .windows(2)
+        .take(last)
+        .all(|pair| pair[1].1 < pair[0].1);
+    let stays = points
+        .iter()
+        .skip(last)
+        .all(|(_, error)| *error <= ROUND_OFF);
+    let end = points.get(last).map_or(f64::NAN, |(p, _)| *p);
+    let steep = Check::that(
+        fall >= factor && is_monotone,
+        format!("the error falls with every degree, {factor} times on average"),
+        format!("{fall:.1} times a degree, up to p = {end}"),
+    );
+    let exact = Check::that(
+        reached.is_some() && stays,
+        format!("it reaches round-off, {ROUND_OFF:e}, and stays there"),
+        format!("error at most {ROUND_OFF:e} from p = {end} on"),
+    );
+    [
+        steep.about(Subject::of("error over the degree")),
+        exact.about(Subject::of("round-off")),
+    ]
+}

@@ -1,0 +1,294 @@
+//! Frequencies of the beam on elements of degree p against the exact ones: order 2p, from above.
+//!
+//! Rayleigh-Ritz: the frequencies of a subspace lie above those of the beam, and their error is the
+//! square of the modes' error in the energy norm, h^2p. On linear elements `ω_h - ω` is `ω³h²/24`
+//! to leading order for high modes.
+//!
+//! ```toml
+//! [frequencies]
+//! degree = 3            # of the elements; 1 by default
+//! first = 3             # the lowest mode judged; below it high degrees leave only round-off; 1 by default
+//! count = 6             # the highest
+//! elements = [6, 8, 12]
+//! order = 6.0
+//! tolerance = 0.1
+//! ```
+
+use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
+
+use super::{Drawn, Orders, Runs, Series, Shown, Source};
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Layout, increasing};
+
+/// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
+///
+/// Between frequencies the determinant is of order 1, as is its slope near one: 16 rounding errors
+/// mean 14 digits.
+const ROUNDING_ERRORS: f64 = 16.0;
+
+/// Allowed relative error of frequencies without a judged rate.
+const MET: f64 = 1e-8;
+
+/// A study of frequencies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frequencies {
+    /// The lowest judged mode, from 1.
+    first: usize,
+    /// The highest.
+    count: usize,
+    degree: usize,
+    elements: Vec<usize>,
+    layout: Layout,
+    claim: Claim,
+}
+
+impl Source for Frequencies {
+    const ROW: KindRow = KindRow {
+        name: "orders/frequencies",
+        read: reader::<Orders<Self>>,
+        why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
+              a scalar equation.",
+        judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
+                 below the first must be met on the finest mesh.",
+        failure: "Mass, stiffness or coupling of the discretisation is wrong.",
+        settings: |header, item| Topic::vibrations(ItemMethod::Exact).settings(header, item),
+    };
+
+    /// Number of elements.
+    type Data = usize;
+    /// The first discrete frequencies, ascending.
+    type Found = Vec<f64>;
+
+    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "frequencies"])?;
+        let keys = [
+            "count",
+            "elements",
+            "order",
+            "tolerance",
+            "first",
+            "degree",
+            "map",
+        ];
+        let section = root.table("frequencies", &keys)?;
+        let allowed = "a list of increasing whole numbers >= 1";
+        let elements = increasing(&section, "elements", allowed, 1, tables::elements)?;
+        let degree = section
+            .get("degree")
+            .map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
+        // A mesh has twice as many frequencies, but the upper ones are not approximations.
+        let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
+        let claim = read_claim(&section, "order")?;
+        Ok(Self {
+            first: section
+                .get("first")
+                .map_or(Ok(1), |field| field.count(1..=count))?,
+            count,
+            degree,
+            layout: Layout::read(&section, &elements, None)?,
+            elements,
+            claim: Claim {
+                tolerance: section.positive("tolerance")?,
+                ..claim
+            },
+        })
+    }
+
+    fn cases(&self) -> Vec<Case<usize>> {
+        // Bisection to the last bit takes some 60 counts per frequency.
+        let cost = |n: usize| 60.0 * (n * self.degree.pow(3) * self.count) as f64;
+        self.elements
+            .iter()
+            .map(|&n| Case::new(format!("n = {n}"), cost(n), n))
+            .collect()
+    }
+
+    fn run(&self, &elements: &usize) -> Result<Vec<f64>, CaseFailure> {
+        // Each count of the bisection traverses all elements, like a step.
+        let mut patience = Patience::new(elements * self.degree.pow(3));
+        let mesh = self.layout.mesh(elements)?;
+        Ok(discrete_frequencies_until(
+            &mesh,
+            self.degree,
+            self.count,
+            |known| patience.check(known, || 0.0),
+        )??)
+    }
+
+    fn not_finite(&self, found: &Vec<f64>) -> Vec<String> {
+        let is_complete = found.len() == self.count && found.iter().all(|omega| omega.is_finite());
+        if is_complete {
+            vec![]
+        } else {
+            vec!["a frequency".to_owned()]
+        }
+    }
+
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+        let exact = frequencies(self.count);
+        let refinement = |run: &Ran<usize, Vec<f64>>| {
+            let n = run.case.data;
+            let label = run.case.label.clone();
+            Refinement::new(label, &[("elements", n)], self.layout.size(n))
+        };
+        let column = |mode: usize| ErrorColumn {
+            name: format!("omega-{}", mode + 1),
+            symbol: Some(format!("ω{}", subscript(mode + 1))),
+            errors: runs
+                .iter()
+                .map(|run| Some(run.ok()?.get(mode)? - exact[mode]))
+                .collect(),
+            claim: Some(self.claim),
+            look: mode,
+        };
+        let levels = Levels::new(
+            Axis::Space,
+            runs.iter().map(refinement),
+            (self.first - 1..self.count).map(column),
+        );
+        let Self {
+            first,
+            count,
+            degree,
+            ..
+        } = self;
+        let caption = format!(
+            "Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}."
+        );
+        let figure = Drawn::new("errors", Some("Frequencies ωₕ − ω"), caption);
+        vec![Series::new(levels, figure)]
+    }
+
+    fn checks(&self, runs: &Runs<Self>, series: &[Series]) -> Vec<Check> {
+        let mut checks = vec![self.equation_holds(), self.lie_above(&series[0].levels)];
+        if self.first > 1 {
+            checks.push(self.met_below_first(runs.last().and_then(Ran::ok)));
+        }
+        checks
+    }
+
+    fn shown(&self, _: &Runs<Self>, series: &[Series], judged: &Outcome) -> Shown {
+        Shown {
+            tables: vec![self.table(&series[0].levels, &judged.rates)],
+            ..Shown::default()
+        }
+    }
+}
+
+impl Frequencies {
+    /// Each judged frequency on the finest mesh, with its rate.
+    fn table(&self, levels: &Levels, rates: &[(String, RateVerdict)]) -> Table {
+        let finest = levels.refinements.last();
+        let h = finest.map_or(f64::NAN, |level| level.step);
+        let mesh = finest.map_or("-", |level| level.label.as_str());
+        let title = format!(
+            "Frequencies {} to {}, exact and discrete ({mesh})",
+            self.first, self.count
+        );
+        let head = [
+            "mode",
+            "ω exact",
+            "ω_h",
+            "ω_h - ω",
+            "over ω³h²/24",
+            "rate",
+            "95 % interval",
+            "verdict",
+        ];
+        let mut rows = vec![];
+        let exact = frequencies(self.count).into_iter().skip(self.first - 1);
+        for ((mode, omega), (column, (_, rate))) in (self.first..)
+            .zip(exact)
+            .zip(levels.columns.iter().zip(rates))
+        {
+            let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
+            // Known for linear elements only.
+            let leading = (self.degree == 1)
+                .then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
+            let fitted = rate.fitted.map(|rate| format!("{rate:.4}"));
+            let interval = rate
+                .interval
+                .map(|[low, high]| format!("{low:.4} to {high:.4}"));
+            let [leading, fitted, interval] =
+                [leading, fitted, interval].map(|cell| cell.unwrap_or_else(|| "-".into()));
+            rows.push(vec![
+                mode.to_string(),
+                format!("{omega:.11}"),
+                format!("{:.11}", omega + error),
+                format!("{error:.3e}"),
+                leading,
+                fitted,
+                interval,
+                rate.verdict.to_string(),
+            ]);
+        }
+        Table::new(title, head, rows)
+    }
+
+    fn equation_holds(&self) -> Check {
+        let rounding = |omega: f64| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega));
+        let worst = frequencies(self.count)
+            .into_iter()
+            .map(rounding)
+            .fold(0.0, max_or_nan);
+        Check::that(
+            worst <= ROUNDING_ERRORS,
+            "the exact frequencies solve the frequency equation 1 + C+ C- - ω² S+ S- = 0",
+            format!("largest residual {worst:.1} rounding errors, allowed {ROUNDING_ERRORS}"),
+        )
+        .about(Subject::of("frequency equation"))
+    }
+
+    /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
+    fn met_below_first(&self, found: Option<&Vec<f64>>) -> Check {
+        let mut worst = 0.0;
+        for (mode, omega) in frequencies(self.first - 1).into_iter().enumerate() {
+            let discrete = found
+                .and_then(|found| found.get(mode))
+                .map_or(f64::NAN, |discrete| *discrete);
+            worst = max_or_nan(worst, (discrete - omega).abs() / omega);
+        }
+        Check::that(
+            worst <= MET,
+            format!(
+                "the frequencies below number {} are met to {MET:e} of their value on the finest mesh",
+                self.first
+            ),
+            format!("largest relative error {worst:.1e}"),
+        )
+        .about(Subject::of("low frequencies"))
+    }
+
+    fn lie_above(&self, levels: &Levels) -> Check {
+        // A NaN and a missing mode must stay visible.
+        let errors = levels
+            .columns
+            .iter()
+            .flat_map(|column| &column.errors)
+            .map(|error| error.unwrap_or(f64::NAN));
+        let least = errors.fold(f64::INFINITY, min_or_nan);
+        Check::that(
+            least > 0.0,
+            format!(
+                "discrete frequencies {} to {} lie above the exact ones",
+                self.first, self.count
+            ),
+            format!("the smallest ω_h - ω of all levels and modes is {least:.3e}"),
+        )
+        .about(Subject::of("sign of the errors"))
+    }
+}
+
+/// `1 + C+ C- - ω² S+ S-` at x = 1 for ω > 1, half the determinant of the boundary conditions, by
+/// plain sines.
+fn determinant(omega: f64) -> f64 {
+    let [plus, minus] = [omega * omega - omega, omega * omega + omega].map(f64::sqrt);
+    1.0 + plus.cos() * minus.cos() - omega * omega * (plus.sin() / plus) * (minus.sin() / minus)
+}
+
+/// A number in small digits below the line.
+fn subscript(number: usize) -> String {
+    let digits = number.to_string().into_bytes();
+    let small = |digit: u8| char::from_u32('₀' as u32 + u32::from(digit - b'0'));
+    digits.into_iter().filter_map(small).collect()
+}

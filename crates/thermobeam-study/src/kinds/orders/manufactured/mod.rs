@@ -1,0 +1,262 @@
+//! Convergence studies: a manufactured solution, levels of refinement, orders expected.
+//!
+//! `[refine]` selects one of three shapes: one axis, a path on which both are refined together (h =
+//! dt), or the full grid of (h, dt) with `e² = A(h)² + B(dt)²`, where each order is judged by
+//! itself. The step of a level is 1/n, the mean mesh width, or dt.
+//!
+//! ```toml
+//! [study]
+//! id = "theorem-3.4-space"
+//! claim = "Theorem 3.4: first order in h"
+//! tier = "quick"
+//!
+//! [exact]                     # sums of products, functions of x and of t; `[beam]`, `[obstacles]` as in a scene
+//! u     = [{ x = "0.3*sin(1.3*pi*x)", t = "cos(3*t) + 0.2*t" }]
+//! theta = [{ x = "(1+x)*sin(pi*x)", t = "exp(-t)" }]
+//!
+//! [refine]
+//! axis = "space"
+//! isolate = true
+//! elements = [8, 16, 32, 64]  # or "auto": levels until it is decided, for at most `budget` node-steps (1e7)
+//! steps = 20
+//! t_end = 1.0
+//!
+//! [control]                   # optional: coefficients in which the solver differs from the sources
+//! zeta = 0.101
+//!
+//! [[expect]]
+//! norm = "theorem-3.4"
+//! order = 1.0                 # or ">= 1"; with `constant = [0.9, 1.1]`: C of C h^p
+//! tolerance = 0.05
+//! ```
+
+pub(in crate::kinds) mod design;
+
+use convergence_study::study::grid::{Grid, GridColumn};
+
+use super::one_step::{levels, not_finite_norms};
+use super::{Drawn, Finer, Orders, Runs, Series, Source};
+pub use crate::exact::defect::Defect;
+use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::detects::untested::untested;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Refine, TERMS, control, expectations, manufactured, refine};
+pub use design::Prepared;
+
+/// Preparing the space vectors of a mesh costs as much as this many steps.
+const PREPARATION: f64 = 50.0;
+
+/// A convergence study, validated.
+#[derive(Debug, Clone)]
+pub struct Convergence {
+    /// Coefficients from which the sources are derived.
+    pub theory: Coefficients,
+    /// The solver's own coefficients; if they differ, the study must fail.
+    pub solver: Coefficients,
+    /// The exact solution, which satisfies the essential boundary conditions.
+    pub exact: Manufactured,
+    /// What is refined, and how.
+    pub refine: Refine,
+    /// The expected orders: at least one, and each norm at most once.
+    pub expect: Vec<(Norm, Claim)>,
+    /// The formulas of a scheme that files do not know; `None` for one that they name.
+    pub formulas: Option<SchemeFormulas>,
+}
+
+impl Source for Convergence {
+    const ROW: KindRow = KindRow {
+        name: "orders/manufactured",
+        read: reader::<Orders<Self>>,
+        why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
+              the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
+              it by c (h + dt).",
+        judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
+                 which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
+                 within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
+        failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
+                  wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
+        settings: |header, item| {
+            Topic::of_solution(header, ItemMethod::OneStep).settings(header, item)
+        },
+    };
+
+    /// Elements and steps.
+    type Data = (usize, usize);
+    /// The error in each norm, the maximum over the time levels.
+    type Found = Norms;
+
+    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&[
+            "study",
+            "beam",
+            "obstacles",
+            "exact",
+            "refine",
+            "control",
+            "expect",
+        ])?;
+        let theory = Coefficients::read(root)?;
+        let refine = refine(root)?;
+        let exact = manufactured(root, &theory.beam, refine.t_end)?;
+        let solver = control(root, theory)?;
+        let expect = expectations(root)?;
+        if refine.grid
+            && expect
+                .iter()
+                .any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance))
+        {
+            let allowed = "orders alone, for a grid has one in h and in dt";
+            return Err(root.refuse("expect", "a least order or a constant", allowed));
+        }
+        Ok(Self {
+            theory,
+            solver,
+            exact,
+            refine,
+            expect,
+            formulas: None,
+        })
+    }
+
+    fn cases(&self) -> Vec<Case<(usize, usize)>> {
+        self.refine.cases().into_iter().map(case).collect()
+    }
+
+    fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
+        Prepared::new(self, elements)?.run(steps, self.solver, None)
+    }
+
+    fn not_finite(&self, errors: &Norms) -> Vec<String> {
+        not_finite_norms(errors)
+    }
+
+    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+        let what = match self.refine.axis {
+            Axis::Space => "the mesh width 1/n",
+            Axis::Time => "the time step",
+            Axis::Both => "the mesh width 1/n, refined together with the time step",
+        };
+        let caption = format!("Errors over {what}, with the orders of theory (triangles).");
+        let step = |elements, steps| self.step_size(elements, steps);
+        let errors = runs.iter().map(|run| (run.case.data, run.ok()));
+        let levels = levels(&self.refine, &self.expect, step, errors);
+        vec![Series {
+            grid: self.refine.grid.then(|| self.grid(runs)),
+            ..Series::new(levels, Drawn::new("rates", None, caption))
+        }]
+    }
+
+    fn finer(&self, runs: &Runs<Self>) -> Option<Finer<(usize, usize)>> {
+        let budget = self.refine.budget?;
+        let data = self.refine.finer(runs.last()?.case.data);
+        Some(Finer {
+            case: case(data),
+            cost: node_steps(data),
+            spent: runs.iter().map(|run| node_steps(run.case.data)).sum(),
+            budget,
+            unit: "node-steps",
+        })
+    }
+
+    fn details(&self) -> Vec<(String, String)> {
+        let mut details = vec![("what is done".to_owned(), self.design())];
+        for &(norm, claim) in &self.expect {
+            let title = format!("{}, order {claim}", norm.name());
+            details.push((title, format!("{}.", TERMS[norm as usize].text)));
+        }
+        details
+    }
+
+    fn untested(&self) -> Vec<Untested> {
+        let is_wrong_on_purpose = self.solver != self.theory;
+        if is_wrong_on_purpose || self.refine.grid {
+            return vec![];
+        }
+        untested(self, || design::range_of_the_tip(self))
+    }
+}
+
+fn case(data: (usize, usize)) -> Case<(usize, usize)> {
+    let (elements, steps) = data;
+    // A step takes as long as four elements in addition to its own.
+    let cost = (elements as f64 + 4.0) * steps as f64 + elements as f64 * PREPARATION;
+    Case::new(Refine::label(elements, steps), cost, data)
+}
+
+fn node_steps((elements, steps): (usize, usize)) -> f64 {
+    elements as f64 * steps as f64
+}
+
+impl Convergence {
+    /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
+    pub(crate) fn step_size(&self, elements: usize, steps: usize) -> f64 {
+        match self.refine.axis {
+            Axis::Space | Axis::Both => 1.0 / elements as f64,
+            Axis::Time => self.refine.dt(steps),
+        }
+    }
+
+    /// The errors on a grid of mesh widths 1/n and time steps.
+    fn grid(&self, runs: &Runs<Self>) -> Grid {
+        let mut points = vec![];
+        for run in runs {
+            let (elements, steps) = run.case.data;
+            points.push([1.0 / elements as f64, self.refine.dt(steps)]);
+        }
+        let mut columns = vec![];
+        for &(norm, claim) in &self.expect {
+            let error = |run: &Ran<_, Norms>| run.ok().map_or(f64::NAN, |errors| errors[norm]);
+            columns.push(GridColumn {
+                name: norm.name().to_owned(),
+                space: claim,
+                time: claim.order,
+                errors: runs.iter().map(error).collect(),
+            });
+        }
+        Grid {
+            points,
+            times: self.refine.steps.len(),
+            columns,
+            squares_add: true,
+        }
+    }
+
+    /// What is refined, and why the other error does not interfere.
+    fn design(&self) -> String {
+        let refine = &self.refine;
+        let what = match (refine.axis, refine.isolate) {
+            (Axis::Space, true) => {
+                "The mesh is refined. The exact solution is replaced by its own time sequence and the loads by the scheme's \
+                 time-discrete operator on it, so that the time error is exactly zero and few steps are enough."
+            }
+            (Axis::Space, false) => {
+                "The mesh is refined; the time step is fixed, and its error must be far below that of the mesh."
+            }
+            (Axis::Time, true) => {
+                "The time step is refined. The exact solution is replaced by its interpolant and the loads use the discrete \
+                 matrices, so that the space error is exactly zero and a coarse mesh is enough."
+            }
+            (Axis::Time, false) => {
+                "The time step is refined; the mesh is fixed, and its error must be far below that of the steps."
+            }
+            (Axis::Both, _) if refine.grid => {
+                "All combinations of meshes and time steps. With e^2 = A(h)^2 + B(dt)^2 the differences over h at the finest \
+                 time step hold nothing of B, and those over dt on the finest mesh nothing of A: each order by itself."
+            }
+            (Axis::Both, _) => "Mesh and time step are refined together: the theorem as it stands.",
+        };
+        let text = format!(
+            "{what} {} levels; scheme {}.",
+            refine.cases().len(),
+            refine.scheme.name
+        );
+        let changed: Vec<_> = self.solver.differing(self.theory).collect();
+        if changed.is_empty() {
+            return text;
+        }
+        format!(
+            "{text} The solver differs from the sources in {}: a negative control, which must fail.",
+            changed.join(", ")
+        )
+    }
+}

@@ -1,0 +1,106 @@
+//! Errors of one-step schemes in every norm, which manufactured solutions and vibrations measure.
+
+use super::Levels;
+use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::Refine;
+
+/// Errors in each norm over the levels of a refinement: a column for each norm, with the expected
+/// order.
+///
+/// * `step`: the step, from elements and steps, against which errors are judged.
+/// * `runs`: elements and steps of each level, coarse to fine, with its errors; `None` if the case
+///   failed.
+pub(super) fn levels<'r>(
+    refine: &Refine,
+    expect: &[(Norm, Claim)],
+    step: impl Fn(usize, usize) -> f64,
+    runs: impl Iterator<Item = ((usize, usize), Option<&'r Norms>)> + Clone,
+) -> Levels {
+    let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
+    let column = |norm: Norm| ErrorColumn {
+        name: norm.name().to_owned(),
+        symbol: Some(norm.symbol().to_owned()),
+        errors: runs
+            .clone()
+            .map(|(_, errors)| errors.map(|errors| errors[norm]))
+            .collect(),
+        claim: expect
+            .iter()
+            .find(|(of, _)| *of == norm)
+            .map(|(_, claim)| *claim),
+        look: norm as usize,
+    };
+    Levels::new(
+        refine.axis,
+        runs.clone().map(refinement),
+        Norm::ALL.into_iter().map(column),
+    )
+}
+
+/// Names of the norms whose errors are NaN or infinite.
+pub(super) fn not_finite_norms(errors: &Norms) -> Vec<String> {
+    not_finite(errors.iter().map(|(norm, error)| (norm.name(), error)))
+}
+
+/// The solver at t = 0, and the lifting of its temperature in the meter of its errors.
+///
+/// * `solver`: its coefficients; `dt`: the length of a step.
+///
+/// # Errors
+/// [`CaseFailure`] if the solver refuses the problem.
+pub(super) fn start<'l>(
+    refine: &Refine,
+    dt: f64,
+    loaded: bool,
+    solver: Coefficients,
+    mesh: &Mesh,
+    initial: Initial,
+    meter: &mut ErrorMeter,
+) -> Result<Driver<'l>, CaseFailure> {
+    let stepping = Stepping {
+        scheme: refine.scheme,
+        settings: refine.settings,
+        dt,
+        loaded,
+    };
+    let problem = Problem {
+        beam: solver.beam,
+        obstacles: solver.obstacles,
+        mesh: mesh.clone(),
+        initial,
+    };
+    meter.lift(mesh, solver.beam.theta_a);
+    Ok(Driver::new(problem, stepping)?)
+}
+
+/// Steps to `until` and returns the largest error in each norm over the steps; NaN stays.
+///
+/// * `measure`: the errors at the end of a step.
+///
+/// # Errors
+/// [`RunError`] of a step that fails.
+pub(super) fn largest_errors(
+    driver: &mut Driver<'_>,
+    until: f64,
+    mut measure: impl FnMut(&Driver<'_>) -> Norms,
+) -> Result<Norms, RunError> {
+    let mut largest = Norms::ZERO;
+    run_to(driver, until, |driver, _| {
+        largest = largest.max(&measure(driver));
+    })?;
+    Ok(largest)
+}
+
+/// The formulas of a scheme on the side of the exact solutions.
+///
+/// # Errors
+/// [`CaseFailure`] if it has none there.
+pub(super) fn formulas_of(scheme: Scheme) -> Result<SchemeFormulas, CaseFailure> {
+    SchemeFormulas::of(scheme.name).ok_or_else(|| {
+        CaseFailure::new(format!(
+            "no formulas of the scheme {} to compare with",
+            scheme.name
+        ))
+    })
+}

@@ -1,0 +1,250 @@
+//! Differences of runs, and what is checked and shown beside their rates.
+
+use super::observable::{Observable, TIP, last};
+use super::{Runs, SelfConvergence, Traced};
+use crate::kinds::prelude::*;
+use crate::kinds::tables::Refine;
+
+/// Half-width of the band about the order for quantities that are shown but not claimed.
+const SHOWN_TOLERANCE: f64 = 0.1;
+
+/// Relative change that the baseline tolerates in a value of the solution itself.
+const VALUE_TOLERANCE: f64 = 1e-8;
+
+/// The part of the finest level's error that the two references may differ by.
+const KNOWN: f64 = 1e-2;
+
+/// What each level is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reading {
+    /// The next finer one.
+    Successive,
+    /// The reference.
+    Reference,
+}
+
+/// Both readings, in the order in which they are judged.
+pub(super) const READINGS: [Reading; 2] = [Reading::Successive, Reading::Reference];
+
+impl Reading {
+    fn name(self) -> &'static str {
+        match self {
+            Reading::Successive => "successive",
+            Reading::Reference => "reference",
+        }
+    }
+}
+
+impl SelfConvergence {
+    /// Differences of each level to what it is compared with, of the observables whose claim is
+    /// `wanted`.
+    pub(super) fn differences(
+        &self,
+        runs: &Runs<Self>,
+        reading: Reading,
+        wanted: impl Fn(Option<Claim>) -> bool,
+    ) -> Levels {
+        let reference = self.levels.len();
+        let count = match reading {
+            Reading::Successive => reference - 1,
+            Reading::Reference => reference,
+        };
+        let mut columns = vec![];
+        for (place, observable) in self.observables().enumerate() {
+            let claim = self.claim(observable);
+            if !wanted(claim) {
+                continue;
+            }
+            let difference = |k: usize| {
+                let other = match reading {
+                    Reading::Successive => k + 1,
+                    Reading::Reference => reference,
+                };
+                Some(observable.difference(found(runs, &k)?, found(runs, &other)?))
+            };
+            let smooth = Claim::new(self.smooth_order(observable), SHOWN_TOLERANCE);
+            // A norm that is also one of errors has its look wherever it is drawn.
+            let mut norms = Norm::ALL.iter();
+            let norm = norms.position(|norm| norm.name() == observable.name);
+            columns.push(ErrorColumn {
+                name: format!("{}, {}", observable.name, reading.name()),
+                symbol: Some(observable.symbol.to_owned()),
+                errors: (0..count).map(difference).collect(),
+                claim: claim.or(Some(smooth)),
+                look: norm.unwrap_or(Norm::ALL.len() + place),
+            });
+        }
+        let refinement = |k: usize| {
+            let (elements, steps) = self.levels[k];
+            Refine::level(elements, steps, self.step_size(k))
+        };
+        Levels::new(self.axis, (0..count).map(refinement), columns)
+    }
+
+    fn observables(&self) -> impl Iterator<Item = &'static Observable> {
+        Observable::all(self.axis, self.scene.method.stopping())
+    }
+
+    fn claim(&self, observable: &Observable) -> Option<Claim> {
+        let mut claims = self.claims.iter();
+        let own = claims.find(|(claimed, _)| claimed.name == observable.name);
+        own.map(|(_, claim)| *claim)
+    }
+
+    fn smooth_order(&self, observable: &Observable) -> f64 {
+        observable.order(self.axis, self.order_in_time)
+    }
+
+    /// h of a level, or dt where time alone is refined.
+    fn step_size(&self, level: usize) -> f64 {
+        let (elements, steps) = self.levels[level];
+        match self.axis {
+            Axis::Space | Axis::Both => {
+                resampled(&self.scene.mesh, elements).map_or(f64::NAN, |mesh| mesh.size())
+            }
+            Axis::Time => self.t_end / steps as f64,
+        }
+    }
+
+    /// The time of sample `k` from 1.
+    fn time(&self, k: usize) -> f64 {
+        self.t_end * k as f64 / self.samples as f64
+    }
+
+    /// All differences to the reference; the legend marks those without a claim.
+    pub(super) fn to_reference(&self, runs: &Runs<Self>) -> Figure {
+        let mut differences = self.differences(runs, Reading::Reference, |_| true);
+        for (column, observable) in differences.columns.iter_mut().zip(self.observables()) {
+            if self.claim(observable).is_none() {
+                column.symbol = Some(format!("{} (not claimed)", observable.symbol));
+            }
+        }
+        let rates = differences.judge();
+        let subject = self.scene.name.clone();
+        let caption = "Differences to a run of any order, with the orders of a smooth solution.";
+        differences.figure("errors", Some(subject), caption.to_owned(), &rates)
+    }
+
+    /// How far u(1) of each level is from the reference over time.
+    pub(super) fn tip(&self, runs: &Runs<Self>) -> Figure {
+        let reference = self.levels.len();
+        let mut curves = vec![];
+        for (level, (elements, steps)) in self.levels.iter().enumerate() {
+            let name = match self.axis {
+                Axis::Time => format!("{steps} steps"),
+                Axis::Space | Axis::Both => format!("n = {elements}"),
+            };
+            let point = |k: usize| {
+                let distance = (tip_at(runs, level, k) - tip_at(runs, reference, k)).abs();
+                (self.time(k), distance)
+            };
+            curves.push(plots::Series::new(name, (1..=self.samples).map(point)));
+        }
+        let y = plots::Axis::log("|u(1, t) − reference| (dimensionless)");
+        let drawn = plots::history(y, &curves)
+            .marked()
+            .titled("Each refinement brings the tip nearer to the reference, at all times");
+        Figure::new(
+            "tip",
+            "Distance of u(1, t) to the reference on each level.",
+            drawn.draw(),
+        )
+    }
+
+    /// Tip displacements of the finest level, what Richardson adds to them, and those of the
+    /// reference.
+    pub(super) fn values(&self, runs: &Runs<Self>) -> Table {
+        let reference = self.levels.len();
+        let [before, finest] = [reference - 2, reference - 1];
+        let ratio = self.step_size(before) / self.step_size(finest);
+        let order = self.smooth_order(&TIP);
+        let head = [
+            "t",
+            "u(1), finest",
+            "extrapolated",
+            "reference",
+            "error estimated",
+            "against reference",
+        ];
+        let mut rows = vec![];
+        for k in 1..=self.samples {
+            let tip = tip_at(runs, finest, k);
+            let exact = tip_at(runs, reference, k);
+            let correction = richardson::correction(tip_at(runs, before, k), tip, ratio, order);
+            rows.push(vec![
+                format!("{:.4}", self.time(k)),
+                format!("{tip:.10}"),
+                format!("{:.10}", tip + correction),
+                format!("{exact:.10}"),
+                format!("{:.1e}", correction.abs()),
+                format!("{:.1e}", (tip - exact).abs()),
+            ]);
+        }
+        let title = "Tip displacement: finest level, extrapolated, reference";
+        Table::new(title, head, rows)
+    }
+
+    /// Where contact is claimed: does the tip meet an obstacle?
+    pub(super) fn meets_obstacle(&self, runs: &Runs<Self>) -> Option<Check> {
+        let obstacles = self.scene.obstacles.filter(|_| self.contact)?;
+        let [low, high] =
+            found(runs, &self.levels.len()).map_or([f64::NAN; 2], |found| found.tip_range);
+        let evidence = format!(
+            "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
+            obstacles.g1, obstacles.g2
+        );
+        let is_met = low < obstacles.g1 || high > obstacles.g2;
+        let check = Check::that(is_met, "the tip meets an obstacle", evidence);
+        Some(check.about(Subject::of("contact")))
+    }
+
+    /// Does another discretisation give the same reference, to a small part of the smallest error
+    /// that is measured with it?
+    pub(super) fn reference_known(&self, runs: &Runs<Self>) -> Check {
+        let mut worst = 0.0;
+        let mut parts = vec![];
+        for (observable, _) in &self.claims {
+            let part = self.unknown_part(observable, runs).unwrap_or(f64::NAN);
+            worst = max_or_nan(worst, part);
+            parts.push(format!("{} {part:.0e}", observable.name));
+        }
+        let claim = format!(
+            "another discretisation gives the same reference, to {KNOWN:e} of the finest level's error"
+        );
+        Check::that(worst <= KNOWN, claim, parts.join(", ")).about(Subject::of("reference"))
+    }
+
+    /// The difference of the references as a part of the finest level's error.
+    fn unknown_part(&self, observable: &Observable, runs: &Runs<Self>) -> Option<f64> {
+        let first = self.levels.len();
+        let reference = found(runs, &first)?;
+        let error = observable.difference(found(runs, &(first - 1))?, reference);
+        Some(observable.difference(reference, found(runs, &(first + 1))?) / error)
+    }
+
+    /// Values of the finest level.
+    pub(super) fn values_guarded(&self, runs: &Runs<Self>) -> Vec<Quantity> {
+        let (finest, samples) = (self.levels.len() - 1, self.samples);
+        let traced = found(runs, &finest);
+        let energy = traced.and_then(|traced| traced.energies.get(samples - 1).copied());
+        let values = [
+            (format!("tip {samples}"), tip_at(runs, finest, samples)),
+            (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
+            (
+                "tip max".to_owned(),
+                traced.map_or(f64::NAN, |traced| traced.tip_range[1]),
+            ),
+        ];
+        let guarded = values.map(|(name, value)| {
+            Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE)
+                .about(Subject::of(name).at("finest level"))
+        });
+        guarded.into()
+    }
+}
+
+/// u(1) of a run at sample `k` from 1; NaN where there is none.
+fn tip_at(runs: &[Ran<usize, Traced>], run: usize, k: usize) -> f64 {
+    let level = found(runs, &run).and_then(|traced| traced.levels.get(k - 1));
+    level.map_or(f64::NAN, |level| last(&level.u))
+}

@@ -1,0 +1,388 @@
+//! The ends of long runs, compared with exact steady states, which no source term keeps in place.
+//!
+//! A beam at rest solves the discrete static problem to round-off for any time step. What remains
+//! is the error of P1 elements, O(h²) at the nodes in u and in φ; with elements of high degree and
+//! dG(q) it nearly vanishes. A straight steady state has no such error: the beam is only checked to
+//! end straight, up to the remaining motion.
+
+use super::checks::{Condition, all, at_most, within};
+pub use super::steady::{AtRest, Nearest};
+use super::steady::{
+    cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
+};
+use super::{Findings, Listing, Results, RunStudy, Runs};
+use crate::error::reference::Traced;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "runs/equilibrium",
+    read: reader::<RunStudy<EndStates>>,
+    why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
+    judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
+             state; a run of any order ends in it.",
+    failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
+    settings: |header, item| {
+        Topic::new("steady states", ItemMethod::OneStep).settings(header, item)
+    },
+};
+
+/// Order of the elements in u and φ.
+const ORDER: f64 = 2.0;
+
+/// Remaining share of the tip's error after extrapolation from two meshes: the next term of the
+/// expansion, and the motion.
+const EXTRAPOLATED: f64 = 1e-2;
+
+/// Errors below this multiple of the velocity at rest are motion.
+const MOTION: f64 = 10.0;
+
+/// Relative change that the baseline tolerates in the tip of a discrete state.
+const TIP: f64 = 1e-8;
+
+/// The same of an exact state.
+const EXACT_TIP: f64 = 1e-9;
+
+/// Elements on which a run of any order is compared with the exact state.
+const COMPARED: usize = 64;
+
+/// A study of the steady states in which long runs end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndStates {
+    scenes: Vec<Scene>,
+    /// At least three numbers of elements, ascending.
+    elements: Vec<usize>,
+    dt: f64,
+    /// The largest velocity that counts as rest.
+    speed: f64,
+    t_max: f64,
+    /// Allowed deviation of the observed rate from the order 2.
+    tolerance: f64,
+    /// The error allowed on the finest mesh.
+    error: f64,
+    any_order: Option<AnyOrder>,
+}
+
+/// The same scenes by the scheme of any order.
+#[derive(Debug, Clone, PartialEq)]
+struct AnyOrder {
+    how: Discretisation,
+    t_end: f64,
+    /// The error allowed.
+    error: f64,
+}
+
+impl AnyOrder {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
+        let t_end = section.positive("t_end")?;
+        Ok(Self {
+            how: Discretisation::read(section, t_end)?,
+            t_end,
+            error: section.positive("error")?,
+        })
+    }
+}
+
+/// A run of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LongRun {
+    /// The place of the scene.
+    scene: usize,
+    /// Its number of linear elements; `None` for the run of any order.
+    elements: Option<usize>,
+}
+
+impl Runs for EndStates {
+    type Run = LongRun;
+    /// Its end, and the nearest stable state.
+    type Shown = AtRest;
+
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "run", "any-order", "expect"])?;
+        let run = root.table("run", &["scenes", "elements", "dt", "speed", "t_max"])?;
+        let expect = root.table("expect", &["tolerance", "error"])?;
+        let (dt, t_max) = steps_to_rest(&run)?;
+        let any_order = root.section("any-order")?;
+        Ok(Self {
+            elements: meshes(&run)?,
+            scenes: listed_scenes(&run, folder)?,
+            dt,
+            speed: run.positive("speed")?,
+            t_max,
+            tolerance: tolerance(&expect)?,
+            error: expect.positive("error")?,
+            any_order: any_order.as_ref().map(AnyOrder::read).transpose()?,
+        })
+    }
+
+    fn runs(&self) -> Vec<Case<LongRun>> {
+        let mut runs = vec![];
+        for (scene, Scene { name, .. }) in self.scenes.iter().enumerate() {
+            for &n in &self.elements {
+                let elements = Some(n);
+                let run = LongRun { scene, elements };
+                let cost = cost_to_rest(n, self.dt);
+                runs.push(Case::new(format!("{name}, n = {n}"), cost, run));
+            }
+        }
+        if let Some(AnyOrder { how, t_end, .. }) = &self.any_order {
+            for (scene, Scene { name, .. }) in self.scenes.iter().enumerate() {
+                let elements = None;
+                let run = LongRun { scene, elements };
+                let label = format!("{name}, {}", how.label());
+                runs.push(Case::new(label, how.cost(*t_end), run));
+            }
+        }
+        runs
+    }
+
+    fn run(&self, &LongRun { scene, elements }: &LongRun) -> Result<AtRest, CaseFailure> {
+        let scene = &self.scenes[scene];
+        let is_stable = |state: &Equilibrium| state.stable;
+        let end = match (elements, &self.any_order) {
+            (Some(elements), _) => {
+                let scene = scene.at(Mesh::uniform(elements)?, self.dt);
+                let (t, level) = settle(&scene, self.speed, self.t_max)?;
+                AtRest::of(&scene, &scene.mesh, t, &level, is_stable)
+            }
+            (None, Some(AnyOrder { how, t_end, .. })) => {
+                let mesh = Mesh::uniform(COMPARED)?;
+                let Traced { mesh, levels, .. } =
+                    Traced::compute(&how.of(scene, *t_end)?, mesh, 1)?;
+                let last = levels.last();
+                let last = last.ok_or_else(|| CaseFailure::new("the run has no end"))?;
+                AtRest::of(scene, &mesh, *t_end, last, is_stable)
+            }
+            (None, None) => Err(CaseFailure::new("the study has no run of any order")),
+        }?;
+        match end.nearest {
+            Some(_) => Ok(end),
+            None => Err(CaseFailure::new("there is no stable steady state")),
+        }
+    }
+
+    fn numbers(&self, _: &LongRun, end: &AtRest) -> Vec<Reading> {
+        let [[u, phi], [exact_u, exact_phi], [error_u, error_phi]] =
+            [end.tip, end.exact_tip(), end.errors()];
+        vec![
+            Reading::new("u(1)", u),
+            Reading::new("φ(1)", phi),
+            Reading::new("exact u(1)", exact_u),
+            Reading::new("exact φ(1)", exact_phi),
+            Reading::new("error of u", error_u),
+            Reading::new("error of φ", error_phi),
+            Reading::new("time of rest", end.t),
+        ]
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        let scenes: Vec<Ends<'_>> = (0..self.scenes.len())
+            .map(|scene| self.ends(results, scene))
+            .collect();
+        // Errors below the floor cannot be distinguished from the remaining motion.
+        let bent = self
+            .levels(scenes.iter().filter(|ends| !ends.is_straight()))
+            .with_floor(MOTION * self.speed);
+        let rates = bent.judge();
+        let caption =
+            "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
+        let title = Some("Steady states".to_owned());
+        let figure = bent.figure("errors", title, caption.to_owned(), &rates);
+        let rows = scenes
+            .iter()
+            .map(|ends| (vec![ends.scene.name.clone()], ends.readings()));
+        let elements = self.elements.last().unwrap_or(&0);
+        let title = format!(
+            "Ends of long runs ({elements} elements, and extrapolated) and exact steady states"
+        );
+        let worst = scenes.iter().map(Ends::error).fold(0.0, max_or_nan);
+        let straight = |ends: &Ends<'_>| {
+            ends.is_straight()
+                .then_some("straight, so that the mesh causes no error")
+        };
+        let count = scenes.len();
+        let checks = scenes.iter().map(Ends::check);
+        let found = Findings {
+            summary: format!(
+                "{count} long runs end at most {worst:.1e} from an exact steady state"
+            ),
+            headline: format!("largest error at the finest mesh {worst:.1e}, of {count} ends"),
+            checks: checks
+                .chain(scenes.iter().filter_map(Ends::check_any_order))
+                .collect(),
+            coverage: vec![Coverage::of(
+                "ends for the order",
+                scenes.iter().map(straight),
+            )],
+            listings: vec![Listing::of(title, &["scene"], rows)],
+            figures: vec![figure],
+            ..Findings::default()
+        };
+        Findings {
+            levels: self.levels(scenes.iter()).errors(),
+            ..found.with_orders(&bent, rates)
+        }
+    }
+}
+
+impl EndStates {
+    /// Largest errors at the nodes over the mean mesh width.
+    fn levels<'e>(&self, scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
+        let mut columns = vec![];
+        let mut subjects = vec![];
+        for (k, ends) in scenes.enumerate() {
+            for (field, name) in ["u", "φ"].into_iter().enumerate() {
+                let scene = &ends.scene.name;
+                let errors = ends.ends.iter();
+                let column = ErrorColumn {
+                    name: format!("{scene}: {name}"),
+                    symbol: None,
+                    errors: errors
+                        .map(|end| end.map(|end| end.errors()[field]))
+                        .collect(),
+                    claim: Some(Claim::new(ORDER, self.tolerance)),
+                    look: 2 * k + field,
+                };
+                subjects.push((column.name.clone(), Subject::of(name).in_case(scene)));
+                columns.push(column);
+            }
+        }
+        let refinement =
+            |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
+        Levels::new(Axis::Space, self.elements.iter().map(refinement), columns)
+            .with_subjects(subjects)
+    }
+
+    fn ends<'r>(&'r self, results: &Results<'r, Self>, scene: usize) -> Ends<'r> {
+        let end = |elements: Option<usize>| results.of(&LongRun { scene, elements });
+        Ends {
+            study: self,
+            scene: &self.scenes[scene],
+            ends: self.elements.iter().map(|&n| end(Some(n))).collect(),
+            any_order: end(None),
+        }
+    }
+}
+
+/// The ends of one scene, one for each mesh; `None` if the run failed.
+struct Ends<'r> {
+    study: &'r EndStates,
+    scene: &'r Scene,
+    ends: Vec<Option<&'r AtRest>>,
+    any_order: Option<&'r AtRest>,
+}
+
+impl Ends<'_> {
+    fn finest(&self) -> Option<&AtRest> {
+        self.ends.last().copied().flatten()
+    }
+
+    /// Two numbers of the finest end, of u and of φ; NaN if that run failed.
+    fn numbers(&self, of: fn(&AtRest) -> [f64; 2]) -> [f64; 2] {
+        self.finest().map_or([f64::NAN; 2], of)
+    }
+
+    /// The larger error on the finest mesh.
+    fn error(&self) -> f64 {
+        let [u, phi] = self.numbers(AtRest::errors);
+        max_or_nan(u, phi)
+    }
+
+    /// Whether the beam ends straight, in which case the mesh causes no error.
+    fn is_straight(&self) -> bool {
+        self.numbers(AtRest::exact_tip) == [0.0, 0.0]
+    }
+
+    /// The tip extrapolated from the two finest meshes to vanishing mesh width.
+    fn extrapolated(&self, field: usize) -> f64 {
+        let (&[.., coarse, fine], &[.., Some(before), Some(last)]) =
+            (&self.study.elements[..], &self.ends[..])
+        else {
+            return f64::NAN;
+        };
+        let [before, last] = [before.tip[field], last.tip[field]];
+        last + richardson::correction(before, last, fine as f64 / coarse as f64, ORDER)
+    }
+
+    /// The end of a run, which either the run or the exact state may miss: other items tell the
+    /// methods apart.
+    fn end(&self) -> Subject {
+        Subject::of("end")
+            .in_case(&self.scene.name)
+            .by(ItemMethod::Exact)
+    }
+
+    fn check(&self) -> Check {
+        let allowed = self.study.error;
+        let u = self.extrapolated(0);
+        let [exact, _] = self.numbers(AtRest::exact_tip);
+        // The beam may buckle to either side, but errors are comparable only if it is the same side
+        // on all meshes.
+        let contact = self.finest().and_then(AtRest::contact);
+        let is_there = |end: &Option<&AtRest>| end.is_some_and(|end| end.contact() == contact);
+        let n = self.study.elements.last().unwrap_or(&0);
+        let [of_u, of_phi] = self.numbers(AtRest::errors);
+        let [extrapolated, expected] = [u, exact].map(|u| decimals(u, 10));
+        let errors = format!("largest error at {n} elements: u {of_u:.2e}, φ {of_phi:.2e}");
+        let tips =
+            format!("u(1) extrapolated from the last two meshes {extrapolated} for {expected}");
+        all(
+            format!("the beam comes to rest in the exact steady state, to {allowed:.0e}"),
+            self.end(),
+            [
+                at_most(self.error(), allowed, errors),
+                within(u, exact, EXTRAPOLATED * allowed, tips),
+                Condition::or(
+                    self.ends.iter().all(is_there),
+                    "not all meshes end in the same state of contact",
+                ),
+            ],
+        )
+    }
+
+    /// The run of any order must end in an exact state, whichever of the stable ones it is.
+    fn check_any_order(&self) -> Option<Check> {
+        let AnyOrder { how, error, .. } = self.study.any_order.as_ref()?;
+        let how = how.label();
+        let claim =
+            format!("by {how} the beam comes to rest in the exact steady state, to {error:.0e}");
+        let [u, phi] = self.any_order.map_or([f64::NAN; 2], AtRest::errors);
+        let errors = format!("largest error: u {u:.1e}, φ {phi:.1e}");
+        let condition = at_most(max_or_nan(u, phi), *error, errors);
+        Some(all(claim, self.end(), [condition]))
+    }
+
+    /// Tips on the finest mesh, extrapolated, and of the exact state; those of bent beams are
+    /// guarded.
+    fn readings(&self) -> Vec<Reading> {
+        let name = &self.scene.name;
+        let contact = self.finest().and_then(AtRest::contact);
+        let shown =
+            |head: &str, value: f64| Reading::new(head, value).shown(|value| decimals(value, 10));
+        let guarded = |reading: Reading, quantity: &str, tolerance: f64| {
+            if self.is_straight() {
+                return reading;
+            }
+            reading.guarded_in(name, quantity, tolerance)
+        };
+        let exact = |reading: Reading, quantity: &str| {
+            let subject = Subject::of(quantity).in_case(name).by(ItemMethod::Exact);
+            guarded(reading, quantity, EXACT_TIP).about(subject)
+        };
+        let [u, phi] = self.numbers(|end| end.tip);
+        let [exact_u, exact_phi] = self.numbers(AtRest::exact_tip);
+        vec![
+            Reading::text("at rest", contact.map_or("?", name_of)),
+            guarded(shown("u(1)", u), "u_tip", TIP),
+            // The table shows the extrapolated value instead.
+            guarded(Reading::new("φ(1)", phi), "phi_tip", TIP),
+            shown("extrapolated", self.extrapolated(0)),
+            exact(shown("exact", exact_u), "exact_u_tip"),
+            shown("φ(1) extrapolated", self.extrapolated(1)),
+            exact(shown("φ(1) exact", exact_phi), "exact_phi_tip"),
+            Reading::new("at rest by t", self.finest().map_or(f64::NAN, |end| end.t)).fixed(0),
+        ]
+    }
+}

@@ -1,0 +1,250 @@
+//! Studies of runs: a list of runs of beams, and a list of checks on what they show.
+//!
+//! A kind of this sort is a type with [`Runs`]. It declares the numbers of a run once, as
+//! [`Reading`]s: these give completion, table and guarded numbers. It judges by the checks of
+//! [`checks`]. [`RunStudy`] does for all of them what does not depend on the kind.
+
+pub mod bifurcation;
+pub mod checks;
+pub mod end;
+pub mod equilibrium;
+pub mod exact_experiments;
+pub mod rigid;
+pub(crate) mod side_by_side;
+pub(crate) mod steady;
+pub(crate) mod watch;
+
+use super::prelude::*;
+use convergence_study::study::LevelErrors;
+
+/// A list of runs, and what is claimed of them.
+pub trait Runs: Sized + Send + Sync {
+    /// What distinguishes a run from the others.
+    type Run: Clone + PartialEq + Send + Sync;
+    /// What a run shows.
+    type Shown: Send;
+
+    /// Reads the study from the document of its file.
+    ///
+    /// * `folder`: the folder of the file; names of other files are relative to it.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, field, the value found and the values allowed.
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+
+    /// The runs, in the order in which they are judged.
+    fn runs(&self) -> Vec<Case<Self::Run>>;
+
+    /// One run: the same result on every thread, at every time.
+    ///
+    /// # Errors
+    /// Why there is no result, with step, time and numbers.
+    fn run(&self, run: &Self::Run) -> Result<Self::Shown, CaseFailure>;
+
+    /// The numbers of a result: none may be NaN or infinite. A number that the run lacks has no
+    /// value.
+    fn numbers(&self, run: &Self::Run, shown: &Self::Shown) -> Vec<Reading>;
+
+    /// The title of a table with a row for each run and its numbers, whose guarded numbers count,
+    /// and the head of its first column; `None` if the rows of all tables combine runs.
+    fn table(&self) -> Option<[&str; 2]> {
+        None
+    }
+
+    /// The checks, and what else the results show. That a run is missing has failed the check of
+    /// completion already, but no other claim may hold because of it.
+    fn judge(&self, results: &Results<'_, Self>) -> Findings;
+}
+
+/// What a study of runs found, except that its cases complete.
+#[derive(Debug, Default)]
+pub struct Findings {
+    /// The result in a sentence.
+    pub summary: String,
+    /// The numbers to read first.
+    pub headline: String,
+    /// Everything judged that is not a rate.
+    pub checks: Vec<Check>,
+    /// Tables, with the numbers in them that the baseline guards.
+    pub listings: Vec<Listing>,
+    /// Figures.
+    pub figures: Vec<Figure>,
+    /// Items other than cases: how many were judged, and why not the others.
+    pub coverage: Vec<Coverage>,
+    /// Judged rates, each with its name.
+    pub rates: Vec<(String, RateVerdict)>,
+    /// What they are about, by their names.
+    pub rate_subjects: Vec<(String, Subject)>,
+    /// Errors over levels.
+    pub levels: Vec<LevelErrors>,
+    /// Guarded numbers that are in no listing.
+    pub quantities: Vec<Quantity>,
+}
+
+impl Findings {
+    /// The same with the rates of these errors: guarded, like the errors themselves.
+    #[must_use]
+    pub(crate) fn with_orders(
+        mut self,
+        levels: &Levels,
+        rates: Vec<(String, RateVerdict)>,
+    ) -> Self {
+        self.quantities.extend(levels.quantities(&rates));
+        Self {
+            levels: levels.errors(),
+            rate_subjects: levels.subjects.clone(),
+            rates,
+            ..self
+        }
+    }
+}
+
+/// A table, and the numbers in it that the baseline guards.
+#[derive(Debug)]
+pub struct Listing {
+    table: Table,
+    guarded: Vec<Quantity>,
+}
+
+impl Listing {
+    /// Readings in rows.
+    ///
+    /// * `first`: heads of the leading cells, which are not readings.
+    pub(crate) fn of(
+        title: impl Into<String>,
+        first: &[&str],
+        rows: impl IntoIterator<Item = Row>,
+    ) -> Self {
+        let rows: Vec<Row> = rows.into_iter().collect();
+        Self {
+            table: readings::table(title, first, &rows),
+            guarded: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
+        }
+    }
+}
+
+/// The leading cells of a row, and its readings.
+pub(crate) type Row = (Vec<String>, Vec<Reading>);
+
+impl From<Table> for Listing {
+    /// Without guarded numbers.
+    fn from(table: Table) -> Self {
+        Self {
+            table,
+            guarded: vec![],
+        }
+    }
+}
+
+/// The results of a study, in the order of its cases.
+#[derive(Debug)]
+pub struct Results<'r, R: Runs> {
+    ran: &'r [Ran<R::Run, R::Shown>],
+}
+
+impl<'r, R: Runs> Results<'r, R> {
+    /// What this run shows; `None` if it failed or was not done.
+    pub fn of(&self, run: &R::Run) -> Option<&'r R::Shown> {
+        found(self.ran, run)
+    }
+
+    /// Every run that has a result.
+    pub fn completed(&self) -> impl Iterator<Item = (&'r R::Run, &'r R::Shown)> + use<'r, R> {
+        self.ran
+            .iter()
+            .filter_map(|ran| Some((&ran.case.data, ran.ok()?)))
+    }
+
+    /// The runs that judge something.
+    ///
+    /// * `items`: what that is, in the plural.
+    /// * `reason`: why a run with a result does not; `None` if it does.
+    pub fn coverage(
+        &self,
+        items: &str,
+        reason: impl Fn(&R::Run, &R::Shown) -> Option<&'static str>,
+    ) -> Coverage {
+        let reasons = self.ran.iter().map(|ran| match ran.ok() {
+            Some(shown) => reason(&ran.case.data, shown),
+            None => Some(NO_RESULT),
+        });
+        Coverage::of(items, reasons)
+    }
+}
+
+/// The study of these runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunStudy<R>(pub R);
+
+impl<R: Runs> FromFile for RunStudy<R> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        R::from_document(root, folder).map(Self)
+    }
+}
+
+impl<R: Runs> Kind for RunStudy<R> {
+    type Data = R::Run;
+    type Found = R::Shown;
+
+    fn cases(&self) -> Vec<Case<R::Run>> {
+        self.0.runs()
+    }
+
+    fn run(&self, run: &R::Run) -> Result<R::Shown, CaseFailure> {
+        self.0.run(run)
+    }
+
+    fn judge(&self, ran: &[Ran<R::Run, R::Shown>]) -> Outcome {
+        let numbers: Vec<Ran<(), Vec<Reading>>> = ran.iter().map(|ran| self.numbers(ran)).collect();
+        let Findings {
+            summary,
+            headline,
+            checks,
+            listings,
+            figures,
+            coverage,
+            rates,
+            rate_subjects,
+            levels,
+            quantities,
+        } = self.0.judge(&Results { ran });
+        let complete = completion(&numbers, |numbers| readings::not_finite(numbers));
+        let checks = [vec![complete], checks].concat();
+        let (tables, guarded): (Vec<_>, Vec<_>) = self
+            .table_of_runs(numbers)
+            .into_iter()
+            .chain(listings)
+            .map(|listing| (listing.table, listing.guarded))
+            .unzip();
+        Outcome {
+            coverage,
+            tables,
+            figures,
+            levels,
+            rate_subjects,
+            quantities: [guarded.concat(), quantities].concat(),
+            headline,
+            ..Outcome::new(summary, rates, checks)
+        }
+    }
+}
+
+impl<R: Runs> RunStudy<R> {
+    /// The numbers in place of the result, or why there is none.
+    fn numbers(&self, ran: &Ran<R::Run, R::Shown>) -> Ran<(), Vec<Reading>> {
+        let Case { label, cost, data } = &ran.case;
+        let numbers = ran.found.as_ref().map(|shown| self.0.numbers(data, shown));
+        Ran {
+            case: Case::new(label, *cost, ()),
+            found: numbers.map_err(CaseFailure::clone),
+        }
+    }
+
+    fn table_of_runs(&self, numbers: Vec<Ran<(), Vec<Reading>>>) -> Option<Listing> {
+        let [title, first] = self.0.table()?;
+        let rows = numbers
+            .into_iter()
+            .filter_map(|ran| Some((vec![ran.case.label], ran.found.ok()?)));
+        Some(Listing::of(title, &[first], rows))
+    }
+}

@@ -1,0 +1,447 @@
+//! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline
+//! guards.
+
+use convergence_study::text::number::rate_text;
+
+use super::{RigidObstacles, RunOf, ShownImpact, peak_penetration};
+use crate::figures::{ContractionFactors, contraction, obstacle_lines};
+use crate::kinds::prelude::*;
+use crate::kinds::runs::checks::{Condition, all, at_most, largest_difference, within};
+use crate::kinds::runs::{Findings, Listing, Results, Row};
+
+/// Contraction above which a time step averages over the whole impact, so that the penetration is
+/// of order 1.
+const AVERAGED: f64 = 5.0;
+
+/// Compliance below which an obstacle is stiff: the layer of an impact is then short compared with
+/// the beam.
+const STIFF: f64 = 1e-3;
+
+/// Contraction above which the fixed point may need more iterations than allowed.
+const SLOW: f64 = 0.8;
+
+/// Contraction below which a step takes too few iterations to show it.
+const MEASURABLE: f64 = 0.01;
+
+/// A rate, and the name of its curve.
+const LARGEST: &str = "largest penetration, fixed h and dt";
+
+/// The runs with one compliance; `None` if the case failed.
+struct Compliance<'r> {
+    epsilon: f64,
+    bouncing: Option<&'r ShownImpact>,
+    fixed_point: Option<&'r ShownImpact>,
+    rest: Option<&'r ShownImpact>,
+    impact: Option<&'r ShownImpact>,
+    /// Largest distance over time between the free ends of the bouncing beam and of the beam with
+    /// rigid obstacles.
+    distance: Option<f64>,
+}
+
+/// A number of a run; NaN if missing.
+fn number(run: Option<&ShownImpact>, of: fn(&ShownImpact) -> Option<f64>) -> f64 {
+    run.and_then(of).unwrap_or(f64::NAN)
+}
+
+fn penetration(run: Option<&ShownImpact>) -> Option<f64> {
+    run?.penetration
+}
+
+/// The largest distance between the free ends over time; NaN for different levels.
+fn distance(one: &ShownImpact, other: &ShownImpact) -> f64 {
+    let [one, other] =
+        [one, other].map(|run| run.tip.iter().map(|(_, u)| *u).collect::<Vec<f64>>());
+    largest_difference(&one, &other)
+}
+
+impl<'r> Compliance<'r> {
+    fn new(
+        epsilon: f64,
+        results: &Results<'r, RigidObstacles>,
+        limit: Option<&ShownImpact>,
+    ) -> Self {
+        let [bouncing, fixed_point, rest, impact] =
+            RunOf::OF_EACH_COMPLIANCE.map(|run| results.of(&(epsilon, run)));
+        let both = bouncing.zip(limit);
+        Self {
+            epsilon,
+            bouncing,
+            fixed_point,
+            rest,
+            impact,
+            distance: both.map(|(one, other)| distance(one, other)),
+        }
+    }
+
+    fn label(&self) -> String {
+        format!("ε = {:.1e}", self.epsilon)
+    }
+
+    fn alpha(&self) -> f64 {
+        number(self.fixed_point, |run| run.alpha)
+    }
+
+    fn contraction(&self) -> f64 {
+        number(self.fixed_point, |run| run.contraction)
+    }
+
+    /// Whether the fixed point fails at a step.
+    fn fails(&self) -> bool {
+        self.fixed_point.is_some_and(|run| run.failed_at.is_some())
+    }
+
+    /// Whether a time step averages over the impact. The predicted α tells; if the case failed it
+    /// is NaN, which must not drop a level.
+    fn is_averaged(&self) -> bool {
+        !(self.alpha() < AVERAGED)
+    }
+
+    fn is_stiff(&self) -> bool {
+        self.epsilon <= STIFF
+    }
+
+    /// Why the factor of the fixed point is not compared with α; `None` if it is.
+    fn factor_left_out(&self) -> Option<&'static str> {
+        match self.alpha() {
+            alpha if alpha.is_nan() => Some(NO_RESULT),
+            alpha if alpha < MEASURABLE => Some("too few iterations to show a factor"),
+            alpha if alpha >= SLOW => Some("α near 1 or above"),
+            _ => None,
+        }
+    }
+
+    /// Penetrations and forces.
+    fn forces(&self) -> Vec<Reading> {
+        let penetration = |head: &str, run: Option<&ShownImpact>, name: &str| {
+            Reading::new(head, penetration(run))
+                .scientific(4)
+                .guarded(format!("{name}, {}", self.label()), 1e-6)
+                .about(Subject::of(name).at(self.label()))
+        };
+        let force = |head: &str, run: Option<&ShownImpact>| {
+            Reading::new(head, run.and_then(|run| run.force)).scientific(4)
+        };
+        vec![
+            penetration(
+                "bouncing: largest penetration",
+                self.bouncing,
+                "largest penetration",
+            ),
+            force("largest force", self.bouncing),
+            Reading::new("distance to the rigid limit", self.distance).scientific(4),
+            penetration("at rest: penetration", self.rest, "penetration at rest"),
+            force("force", self.rest),
+            penetration(
+                "impact, resolved: peak penetration",
+                self.impact,
+                "peak penetration",
+            ),
+            force("peak force", self.impact),
+        ]
+    }
+
+    fn solvers(&self) -> Vec<Reading> {
+        let newton = |head: &str, of: fn(&ShownImpact) -> Option<f64>| {
+            Reading::new(head, self.bouncing.and_then(of))
+        };
+        let fixed_point = |head: &str, of: fn(&ShownImpact) -> Option<f64>| {
+            Reading::new(head, self.fixed_point.and_then(of))
+        };
+        let ended = self.fixed_point.map_or("-".to_owned(), |run| {
+            run.failed_at
+                .map_or("converges".to_owned(), |t| format!("fails at t = {t:.3}"))
+        });
+        vec![
+            newton("Newton's iterations", |run| run.mean_iterations).fixed(3),
+            newton("most in a step", |run| Some(run.most_iterations as f64)).fixed(0),
+            fixed_point("fixed point's iterations", |run| run.mean_iterations).fixed(2),
+            fixed_point("α", |run| run.alpha).fixed(4),
+            fixed_point("contraction", |run| run.contraction).fixed(4),
+            Reading::text("fixed point", ended),
+        ]
+    }
+}
+
+pub(super) fn judge(study: &RigidObstacles, results: &Results<'_, RigidObstacles>) -> Findings {
+    let limit = results.of(&(study.limit, RunOf::RigidLimit));
+    let compliances: Vec<Compliance<'_>> = study
+        .epsilons
+        .iter()
+        .map(|&epsilon| Compliance::new(epsilon, results, limit))
+        .collect();
+    let rates = rates(study, &compliances);
+    let observed: Vec<String> = rates
+        .iter()
+        .map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted)))
+        .collect();
+    let forces = rows(&compliances, Compliance::forces);
+    let solvers = rows(&compliances, Compliance::solvers);
+    let title = "Penetrations and forces as the obstacles become rigid";
+    Findings {
+        summary: format!("orders in ε: {}", observed.join("; ")),
+        rates,
+        checks: vec![
+            peak_as_predicted(study, compliances.last()),
+            newton_does_not_depend_on_epsilon(study, &compliances, limit),
+            fixed_point_fails_at_one(&compliances),
+            contraction_as_predicted(&compliances),
+        ],
+        listings: vec![
+            Listing::of(title, &["ε"], forces),
+            Listing::of("Solvers of the bouncing beam", &["ε"], solvers),
+        ],
+        figures: vec![
+            penetrations(&compliances),
+            tip(study, &compliances, limit),
+            contractions(&compliances),
+        ],
+        coverage: coverage(&compliances),
+        ..Findings::default()
+    }
+}
+
+/// The rows of a table, one for each compliance.
+fn rows<'r>(
+    compliances: &[Compliance<'r>],
+    readings: fn(&Compliance<'r>) -> Vec<Reading>,
+) -> Vec<Row> {
+    compliances
+        .iter()
+        .map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of)))
+        .collect()
+}
+
+/// The four orders in ε.
+fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
+    let averaged: Vec<_> = compliances.iter().filter(|of| of.is_averaged()).collect();
+    let stiff: Vec<_> = compliances.iter().filter(|of| of.is_stiff()).collect();
+    let judged =
+        |range: &[&Compliance<'_>], name, order, error: fn(&Compliance<'_>) -> Option<f64>| {
+            let levels = range
+                .iter()
+                .map(|of| Refinement::new(of.label(), &[], of.epsilon));
+            let claim = Claim::new(order, study.tolerance);
+            let column = ErrorColumn::new(name, claim, range.iter().map(|of| error(of)));
+            // The axis is that of a figure which this study does not draw.
+            Levels::new(Axis::Both, levels, [column]).judge()
+        };
+    let distance = "distance to the rigid limit, fixed h and dt";
+    let peak = "peak penetration of an impact, resolved";
+    [
+        judged(&averaged, LARGEST, 1.0, |of| penetration(of.bouncing)),
+        judged(&averaged, distance, 1.0, |of| of.distance),
+        judged(&stiff, "penetration at rest", 1.0, |of| {
+            penetration(of.rest)
+        }),
+        judged(&stiff, peak, 2.0 / 3.0, |of| penetration(of.impact)),
+    ]
+    .concat()
+}
+
+fn peak_as_predicted(study: &RigidObstacles, last: Option<&Compliance<'_>>) -> Check {
+    let exact = peak_penetration();
+    let epsilon = last.map_or(f64::NAN, |of| of.epsilon);
+    let impact = last.and_then(|of| of.impact);
+    let velocity = number(impact, |run| run.velocity);
+    let measured = number(impact, |run| run.penetration) / (velocity * study.impact_time(epsilon));
+    let evidence = format!("{measured:.5} for {exact:.5} at ε = {epsilon:.0e}");
+    all(
+        "the peak penetration of an impact is 0.858 v (ε √ζ)^(2/3), to half a per cent",
+        Subject::of("peak penetration"),
+        [within(measured / exact, 1.0, 5e-3, evidence)],
+    )
+}
+
+fn newton_does_not_depend_on_epsilon(
+    study: &RigidObstacles,
+    compliances: &[Compliance<'_>],
+    limit: Option<&ShownImpact>,
+) -> Check {
+    let bouncing: Vec<&ShownImpact> = compliances
+        .iter()
+        .filter_map(|of| of.bouncing)
+        .chain(limit)
+        .collect();
+    let means = bouncing
+        .iter()
+        .map(|run| run.mean_iterations.unwrap_or(f64::NAN));
+    let softest = means.clone().next().unwrap_or(f64::NAN);
+    let most = bouncing.iter().map(|run| run.most_iterations);
+    let allowed = most.clone().next().unwrap_or(0) + 2;
+    let most = most.max().unwrap_or(0);
+    let evidence = format!(
+        "mean from {softest:.3} at the softest to {:.3} at the stiffest, ε = {:.0e}",
+        number(limit, |run| run.mean_iterations),
+        study.limit
+    );
+    all(
+        "Newton's iterations do not grow as the obstacles become rigid",
+        Subject::of("Newton's iterations"),
+        [
+            at_most(
+                means.fold(f64::NEG_INFINITY, max_or_nan),
+                1.1 * softest,
+                evidence,
+            ),
+            Condition::that(most <= allowed, format!("most in a step: {most}")),
+            Condition::or(
+                bouncing.len() == compliances.len() + 1,
+                "a bouncing beam was not run to its end",
+            ),
+        ],
+    )
+}
+
+fn fixed_point_fails_at_one(compliances: &[Compliance<'_>]) -> Check {
+    let (failed, converged): (Vec<_>, Vec<_>) = compliances
+        .iter()
+        .filter(|of| of.fixed_point.is_some())
+        .partition(|of| of.fails());
+    // Between SLOW and 1 either is allowed; NaN is neither.
+    let holds =
+        converged.iter().all(|of| of.alpha() <= 1.0) && failed.iter().all(|of| of.alpha() >= SLOW);
+    let name = |run: Option<&&Compliance<'_>>| {
+        run.map_or("none".to_owned(), |of| {
+            format!("{} (α = {:.3})", of.label(), of.alpha())
+        })
+    };
+    Check::that(
+        holds && !converged.is_empty() && !failed.is_empty(),
+        "the fixed point converges while α < 1 and fails beyond; Newton's method does every step",
+        format!(
+            "last that converges: {}, first that fails: {}",
+            name(converged.last()),
+            name(failed.first())
+        ),
+    )
+    .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
+}
+
+fn contraction_as_predicted(compliances: &[Compliance<'_>]) -> Check {
+    let judged = compliances
+        .iter()
+        .filter(|of| of.factor_left_out().is_none());
+    let deviations: Vec<f64> = judged
+        .map(|of| (of.contraction() / of.alpha() - 1.0).abs())
+        .collect();
+    let worst = largest_of(deviations.iter().copied());
+    let farthest = worst.map_or("no ratio".to_owned(), |worst| {
+        format!("the farthest ratio {worst:.1e} from 1")
+    });
+    Check::that(
+        worst.is_some_and(|worst| worst <= 0.1),
+        "in contact the fixed point contracts by α = (dt/ε) [A_u⁻¹]_nn, to a tenth",
+        format!(
+            "{} compliances with α between {MEASURABLE} and {SLOW}, {farthest}",
+            deviations.len()
+        ),
+    )
+    .about(Subject::of("contraction").by(ItemMethod::FixedPoint))
+}
+
+/// The compliances that each statement judges; the orders have ranges of their own.
+fn coverage(compliances: &[Compliance<'_>]) -> Vec<Coverage> {
+    let count = |items: &str, reason: fn(&Compliance<'_>) -> Option<&'static str>| {
+        Coverage::of(items, compliances.iter().map(reason))
+    };
+    vec![
+        count("compliances on a fixed grid for an order", |of| {
+            (!of.is_averaged()).then_some("a time step resolves the impact")
+        }),
+        count("compliances at rest and in an impact for an order", |of| {
+            (!of.is_stiff()).then_some("too soft")
+        }),
+        count("compliances for the end of convergence", |of| {
+            if of.fixed_point.is_none() {
+                return Some(NO_RESULT);
+            }
+            (SLOW..=1.0)
+                .contains(&of.alpha())
+                .then_some("α just below 1")
+        }),
+        count("compliances for the factor α", |of| of.factor_left_out()),
+    ]
+}
+
+fn contractions(compliances: &[Compliance<'_>]) -> Figure {
+    let runs = |label: &str, fails: bool| {
+        let runs = compliances
+            .iter()
+            .filter(|of| of.fixed_point.is_some() && of.fails() == fails);
+        plots::Series::new(label, runs.map(|of| (of.alpha(), of.contraction())))
+    };
+    let svg = contraction(&ContractionFactors {
+        title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
+        measured: vec![runs("converges", false), runs("fails", true)],
+        predicted: "predicted factor α".to_owned(),
+        estimates: plots::Series::default(),
+    });
+    let caption = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
+    Figure::new("contraction", caption, svg)
+}
+
+/// Without the distance to the rigid limit: on the scale of the figure it coincides with the
+/// largest penetration.
+fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
+    let over_epsilon = |label: &str, run: fn(&Compliance<'_>) -> Option<f64>| plots::ErrorSeries {
+        label: label.into(),
+        points: compliances
+            .iter()
+            .map(|of| (of.epsilon, run(of).unwrap_or(f64::NAN)))
+            .collect(),
+        ..plots::ErrorSeries::default()
+    };
+    let series = [
+        over_epsilon(LARGEST, |of| penetration(of.bouncing)),
+        over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
+        over_epsilon("at rest", |of| penetration(of.rest)),
+    ];
+    let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
+    let resolved = compliances.first().map(|of| of.alpha() * of.epsilon);
+    let xy = Xy {
+        title: Some(title.to_owned()),
+        x: plots::Axis::log("compliance of the obstacles ε"),
+        y: plots::Axis::log("penetration (dimensionless)"),
+        beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
+        ..Xy::default()
+    };
+    let caption = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
+                   order 2/3 where it is resolved.";
+    let svg = plots::convergence(xy, &series, &[1.0, 2.0 / 3.0]);
+    Figure::new("penetration", caption, svg)
+}
+
+/// The decades of ε whose curves are distinct.
+const DECADES: [(f64, &str); 3] = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
+
+fn tip(
+    study: &RigidObstacles,
+    compliances: &[Compliance<'_>],
+    limit: Option<&ShownImpact>,
+) -> Figure {
+    let mut series = vec![];
+    for of in compliances {
+        let decade = DECADES
+            .iter()
+            .find(|(decade, _)| (of.epsilon / decade - 1.0).abs() < 1e-6);
+        series.extend(
+            decade
+                .zip(of.bouncing)
+                .map(|((_, label), run)| (*label, run)),
+        );
+    }
+    series.extend(limit.map(|run| ("rigid", run)));
+    let curves: Vec<_> = series
+        .into_iter()
+        .map(|(label, run)| plots::Series::new(label, run.tip.clone()))
+        .collect();
+    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
+    let svg = Xy {
+        guides: obstacle_lines(study.moving.obstacles),
+        ..plots::history(y, &curves)
+    }
+    .titled("The motion tends to that between rigid obstacles")
+    .draw();
+    let caption = "Displacement of the free end as the obstacles become rigid.";
+    Figure::new("tip", caption, svg)
+}

@@ -1,0 +1,379 @@
+//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they
+//! should end.
+
+use std::ops::ControlFlow;
+
+use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
+
+use crate::kinds::prelude::*;
+use crate::kinds::tables::Discretisation;
+
+/// Reads the scenes of a list of file names, which are relative to the folder of the study file.
+pub(crate) fn listed_scenes(
+    section: &Section<'_>,
+    folder: &Path,
+) -> Result<Vec<Scene>, InputError> {
+    let scene = |item: &Field<'_>| listed_scene(item, folder);
+    section.list(
+        "scenes",
+        "a list of at least one scene file",
+        scene,
+        |list| !list.is_empty(),
+    )
+}
+
+/// Reads the scene of a file name; it must have obstacles.
+pub(crate) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
+    let scene = Scene::read_one_step(field, folder)?;
+    if scene.obstacles.is_none() {
+        return Err(field.refuse(
+            format!("{}, without obstacles", scene.name),
+            "a scene with obstacles",
+        ));
+    }
+    Ok(scene)
+}
+
+/// Settings of the runs to rest: with these β, until the beam is slow.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ToRest {
+    pub(crate) betas: Vec<f64>,
+    method: MethodToRest,
+    /// Largest velocity that counts as rest.
+    speed: f64,
+    /// A longer run fails.
+    t_max: f64,
+}
+
+/// How a beam is stepped until it rests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum MethodToRest {
+    /// By the scheme of its scene, on a uniform mesh.
+    OneStep { elements: usize, dt: f64 },
+    /// By dG.
+    AnyOrder(Discretisation),
+}
+
+/// Elements of the mesh on whose nodes a run by dG is compared with speeds and steady states: more
+/// than two nodes for each half wave of a polynomial of degree 12.
+const COMPARED: usize = 32;
+
+impl ToRest {
+    /// The keys of a table.
+    pub(crate) const KEYS: [&str; 5] = ["beta", "elements", "dt", "speed", "t_max"];
+
+    /// Reads a table that has [`ToRest::KEYS`], and possibly others.
+    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let (dt, t_max) = steps_to_rest(section)?;
+        let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
+        Self::with(section, MethodToRest::OneStep { elements, dt }, t_max)
+    }
+
+    /// The keys of a table for runs by dG.
+    pub(crate) const ANY_ORDER_KEYS: [&str; 3] = ["beta", "speed", "t_max"];
+
+    /// Reads a table with [`ToRest::ANY_ORDER_KEYS`].
+    pub(crate) fn read_any_order(
+        section: &Section<'_>,
+        discretisation: Discretisation,
+    ) -> Result<Self, InputError> {
+        let t_max = section.positive("t_max")?;
+        let field = section.require("t_max", POSITIVE)?;
+        limits::steps_until(&field, t_max, discretisation.stepping.dt, limits::STEPS)?;
+        Self::with(section, MethodToRest::AnyOrder(discretisation), t_max)
+    }
+
+    fn with(section: &Section<'_>, method: MethodToRest, t_max: f64) -> Result<Self, InputError> {
+        let fits = |list: &[f64]| !list.is_empty() && increases(list);
+        Ok(Self {
+            betas: section.list("beta", "a list of numbers, ascending", Field::number, fits)?,
+            method,
+            speed: section.positive("speed")?,
+            t_max,
+        })
+    }
+
+    /// What a run costs.
+    pub(crate) fn cost(&self) -> f64 {
+        match &self.method {
+            MethodToRest::OneStep { elements, dt } => cost_to_rest(*elements, *dt),
+            MethodToRest::AnyOrder(discretisation) => discretisation.cost(RESTS),
+        }
+    }
+
+    /// Runs the scene with the β of this index to rest.
+    ///
+    /// # Errors
+    /// As [`settle`], and if the steady states cannot be found.
+    pub(crate) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
+        let beta = self.betas[place];
+        let mut scene = match &self.method {
+            MethodToRest::OneStep { elements, dt } => scene.at(Mesh::uniform(*elements)?, *dt),
+            MethodToRest::AnyOrder(discretisation) => discretisation.of(scene, self.t_max)?,
+        };
+        scene.beam.beta = beta;
+        scene.name = format!("beta = {beta}");
+        let (t, level) = settle(&scene, self.speed, self.t_max)?;
+        AtRest::of(&scene, &compared(&scene)?, t, &level, |_| true)
+    }
+}
+
+/// The mesh on whose nodes a run is compared with exact steady states.
+///
+/// # Errors
+/// The mesh has elements that are too small.
+pub(crate) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
+    Ok(match scene.method {
+        Method::OneStep(_) => scene.mesh.clone(),
+        Method::Dg(_) => resampled(&scene.mesh, COMPARED)?,
+    })
+}
+
+/// The keys dt and t_max of a run to rest.
+pub(crate) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputError> {
+    let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
+    limits::steps_until(
+        &section.require("t_max", "a number")?,
+        t_max,
+        dt,
+        limits::STEPS,
+    )?;
+    Ok((dt, t_max))
+}
+
+/// The key `elements`: the meshes over which the rate is observed.
+pub(crate) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
+    let allowed = "a list of at least three numbers of elements, ascending";
+    section.list("elements", allowed, tables::elements, |list| {
+        list.len() >= 3 && increases(list)
+    })
+}
+
+/// The key `tolerance`: the allowed deviation of a rate from its order.
+pub(crate) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
+    let allowed = "a number > 0 and < 0.5";
+    section
+        .require("tolerance", allowed)?
+        .number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
+}
+
+/// When a beam has come to rest, roughly.
+const RESTS: f64 = 200.0;
+
+/// The cost until a beam has come to rest.
+pub(crate) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
+    RESTS / dt * elements as f64
+}
+
+/// Where a moving beam comes to rest, and the exact steady states. Pairs are of u and of φ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtRest {
+    /// When it came to rest.
+    pub t: f64,
+    /// u(1) and φ(1).
+    pub tip: [f64; 2],
+    /// Number of exact steady states.
+    pub states: usize,
+    /// Whether there are no others.
+    pub is_complete: bool,
+    /// Number of those that are stable.
+    pub stable: usize,
+    /// The nearest exact steady state; `None` if there is none.
+    pub nearest: Option<Nearest>,
+}
+
+impl AtRest {
+    /// The beam at rest since `t`, by its values at the nodes of `mesh`.
+    ///
+    /// * `meant`: the exact states of which the nearest is found.
+    ///
+    /// # Errors
+    /// The steady states cannot be found.
+    pub(crate) fn of(
+        scene: &Scene,
+        mesh: &Mesh,
+        t: f64,
+        level: &Level,
+        meant: impl Fn(&Equilibrium) -> bool,
+    ) -> Result<Self, CaseFailure> {
+        let states = exact_states(scene)?;
+        Ok(Self {
+            t,
+            tip: [&level.u, &level.phi].map(|field| field[mesh.elements()]),
+            states: states.len(),
+            is_complete: completeness(&scene.beam, scene.obstacles.as_ref())
+                == Completeness::Complete,
+            stable: states.iter().filter(|state| state.stable).count(),
+            nearest: Nearest::of(mesh, level, states.into_iter().filter(meant)),
+        })
+    }
+
+    /// The number of steady states, in words: a list that may lack some gives only a least number.
+    pub(crate) fn count(&self) -> String {
+        if self.is_complete {
+            self.states.to_string()
+        } else {
+            format!("at least {}", self.states)
+        }
+    }
+
+    /// u(1) and φ(1) of the nearest exact steady state; NaN if there is none.
+    pub(crate) fn exact_tip(&self) -> [f64; 2] {
+        self.nearest.map_or([f64::NAN; 2], |Nearest { state, .. }| {
+            [state.u_tip, state.phi_tip]
+        })
+    }
+
+    /// Its distances in u and in φ; NaN if there is none.
+    pub(crate) fn errors(&self) -> [f64; 2] {
+        self.nearest.map_or([f64::NAN; 2], |nearest| nearest.errors)
+    }
+
+    /// Its state of contact.
+    pub(crate) fn contact(&self) -> Option<Phase> {
+        self.nearest.map(|nearest| nearest.state.contact)
+    }
+
+    /// Distance to the nearest exact steady state; NaN if there is none.
+    pub(crate) fn distance(&self) -> f64 {
+        self.nearest.map_or(f64::NAN, |nearest| nearest.distance)
+    }
+
+    /// Whether the nearest state is stable.
+    pub(crate) fn is_stable(&self) -> bool {
+        self.nearest.is_some_and(|nearest| nearest.state.stable)
+    }
+}
+
+/// A beam is at rest when it has been slow for this time: at the turning points of an oscillation
+/// it is slow for a moment, and near buckling the slowest oscillation differs from rest by its
+/// speed alone.
+const QUIET: f64 = 5.0;
+
+/// Runs until no node has been faster than `speed`, in u or φ, for a while; returns that time and
+/// level.
+///
+/// * `scene`: by any method; a run by dG is observed at the nodes of its mesh of comparison.
+///
+/// # Errors
+/// A step that fails, or motion beyond `t_max`.
+pub(crate) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
+    match scene.method {
+        Method::OneStep(_) => {
+            let level = |driver: &Driver<'_>| driver.level().clone();
+            let is_slow = |driver: &Driver<'_>| driver.level().is_slow(speed);
+            quiet(&mut simulate::driver(scene)?, t_max, is_slow, level)?
+        }
+        Method::Dg(_) => {
+            let nodes = compared(scene)?;
+            let level = |motion: &AnyMotion| motion.snapshot().on(&nodes);
+            let is_slow = |motion: &AnyMotion| level(motion).is_slow(speed);
+            quiet(&mut *simulate::motion(scene)?, t_max, is_slow, level)?
+        }
+    }
+    .ok_or_else(|| {
+        CaseFailure::new(format!(
+            "{} still moves faster than {speed:e} at t = {t_max}",
+            scene.name
+        ))
+    })
+}
+
+/// Steps a motion until it has been slow for a while; `None` if it still moves at `t_max`.
+fn quiet<M: Motion + ?Sized>(
+    motion: &mut M,
+    t_max: f64,
+    is_slow: impl Fn(&M) -> bool,
+    level: impl Fn(&M) -> Level,
+) -> Result<Option<(f64, Level)>, RunError> {
+    motion.refuse_loads("rest at a steady state")?;
+    let mut moved = 0.0;
+    let mut watch = |motion: &mut M, _: &Report| {
+        let t = motion.work().t;
+        if !is_slow(motion) {
+            moved = t;
+        }
+        Ok(if t - moved >= QUIET {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    };
+    run(motion, t_max, &[], &mut [&mut watch])?;
+    let t = motion.work().t;
+    Ok((t - moved >= QUIET).then(|| (t, level(motion))))
+}
+
+/// All exact steady states of the scene.
+pub(crate) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, EquilibriumError> {
+    equilibria(&scene.beam, scene.obstacles.as_ref())
+}
+
+/// The exact steady state nearest to the end of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The state.
+    pub state: Equilibrium,
+    /// Largest difference over all nodes, in u and φ.
+    pub distance: f64,
+    /// The same in u and in φ.
+    pub errors: [f64; 2],
+}
+
+impl Nearest {
+    /// `None` if there is no state.
+    fn of(mesh: &Mesh, level: &Level, states: impl Iterator<Item = Equilibrium>) -> Option<Self> {
+        let measured = states.map(|state| {
+            let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
+                let differences = mesh
+                    .nodes()
+                    .iter()
+                    .zip(values)
+                    .map(|(&x, value)| (value - exact(x)).abs());
+                differences.fold(0.0, max_or_nan)
+            };
+            let errors = [
+                largest(&level.u, &|x| state.shape.u(x)),
+                largest(&level.phi, &|x| state.shape.phi(x)),
+            ];
+            Self {
+                state,
+                distance: max_or_nan(errors[0], errors[1]),
+                errors,
+            }
+        });
+        measured.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    }
+}
+
+/// A contact state in words.
+pub(crate) fn name_of(contact: Phase) -> &'static str {
+    match contact {
+        Phase::Free => "free",
+        Phase::Upper => "on the upper obstacle",
+        Phase::Lower => "on the lower obstacle",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_with_loads_is_refused() {
+        let text =
+            "[initial]\nu_t = \"0.1*x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 1.0\n";
+        let mut scene = Scene::parse(text, "s.toml").expect("a scene");
+        assert!(settle(&scene, 1e-2, 500.0).is_ok());
+        if let Method::OneStep(stepping) = &mut scene.method {
+            stepping.loaded = true;
+        }
+        let refused = settle(&scene, 1e-2, 500.0).expect_err("a refusal");
+        assert!(
+            refused
+                .reason
+                .starts_with("rest at a steady state: found a beam with loads"),
+            "{refused:?}"
+        );
+    }
+}

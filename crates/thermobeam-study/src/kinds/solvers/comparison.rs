@@ -1,0 +1,166 @@
+//! The difference between the fixed point and Newton's method on a scene, against the fixed point's
+//! tolerance.
+
+use convergence_study::plots::{Phases, Series};
+
+use super::{Found, SolverTask, positive_numbers, results};
+use crate::kinds::prelude::*;
+use crate::kinds::runs::checks::agree;
+use crate::kinds::runs::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
+
+/// The table `[comparison]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Comparison {
+    scene: Scene,
+    elements: usize,
+    steps: usize,
+    tolerances: Vec<f64>,
+}
+
+/// The results of running both solvers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Agreement {
+    /// η*.
+    tolerance: f64,
+    /// Distance and iterations over all steps.
+    pub solvers: SolverComparison,
+    /// Its iterations in each step, as (t, iterations).
+    pub iterations: Vec<(f64, f64)>,
+    /// Newton iterations in each step, likewise.
+    pub newton: Vec<(f64, f64)>,
+    /// Time intervals of the steps that end in contact.
+    pub contact: Vec<(f64, f64)>,
+}
+
+impl Comparison {
+    pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        section.allow(&["scene", "elements", "steps", "tolerances"])?;
+        Ok(Self {
+            scene: Scene::read_one_step(
+                &section.require("scene", "a scene file beside this one")?,
+                folder,
+            )?,
+            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
+            // Each step is a point of a figure.
+            steps: section.count("steps", 1..=limits::RECORDED_STEPS)?,
+            tolerances: positive_numbers(section, "tolerances")?,
+        })
+    }
+
+    pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
+        // Some four iterations of 60 ns per step and element; the unit of the runner is 25 ns.
+        let cost = (self.elements * self.steps) as f64 * 10.0;
+        let mut cases = vec![];
+        for &eta in &self.tolerances {
+            let label = format!("tolerance {eta:e}");
+            cases.push(Case::new(label, cost, SolverTask::Comparison(eta)));
+        }
+        cases
+    }
+
+    /// Steps the scene by both solvers side by side.
+    pub(super) fn run(&self, tolerance: f64) -> Result<Agreement, CaseFailure> {
+        let scene = Scene {
+            mesh: Mesh::uniform(self.elements)?,
+            ..self.scene.clone()
+        };
+        let mut both = SideBySide::new(&scene, tolerance)?;
+        let mut agreement = Agreement {
+            tolerance,
+            ..Agreement::default()
+        };
+        for _ in 0..self.steps {
+            let StepOfBoth {
+                fixed_point,
+                newton,
+            } = both.step()?;
+            let t = both.fixed_point.work().t;
+            agreement
+                .iterations
+                .push((t, fixed_point.iterations as f64));
+            agreement.newton.push((t, newton.iterations as f64));
+            if fixed_point.in_contact {
+                agreement.contact.push((t - scene.dt(), t));
+            }
+        }
+        agreement.solvers = both.comparison;
+        Ok(agreement)
+    }
+
+    pub(super) fn judge(ran: &[Ran<SolverTask, Found>]) -> Outcome {
+        let all = results(ran, |found| match found {
+            Found::Comparison(agreement) => Some(agreement),
+            _ => None,
+        });
+        let last = all.last().copied();
+        let distance = last.map_or(f64::NAN, |last| last.solvers.distance);
+        let summary =
+            format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
+        let rows: Vec<_> = all
+            .iter()
+            .map(|of| (vec![format!("{:e}", of.tolerance)], of.readings()))
+            .collect();
+        let title = "Fixed point against Newton's method on the scene";
+        Outcome {
+            headline: summary.clone(),
+            tables: vec![readings::table(title, &["tolerance"], &rows)],
+            figures: vec![iterations(last.unwrap_or(&Agreement::default()))],
+            ..Outcome::new(summary, vec![], all.iter().map(|of| of.check()).collect())
+        }
+    }
+}
+
+impl Agreement {
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let SolverComparison {
+            distance,
+            mean_iterations,
+            most_iterations,
+        } = self.solvers;
+        vec![
+            Reading::new("distance to Newton", distance).scientific(3),
+            Reading::new("mean iterations", mean_iterations).fixed(3),
+            Reading::new("most iterations", most_iterations as f64).fixed(0),
+        ]
+    }
+
+    /// A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the
+    /// rest.
+    fn check(&self) -> Check {
+        let subject = Subject::of("distance to Newton's method")
+            .in_case(format!("eta* = {:e}", self.tolerance))
+            .by(ItemMethod::FixedPoint);
+        agree(
+            "both solvers",
+            subject,
+            self.solvers.distance,
+            self.tolerance,
+        )
+    }
+}
+
+fn iterations(of: &Agreement) -> Figure {
+    let series = [
+        Series::new("fixed point", of.iterations.clone()),
+        Series::new("Newton's method", of.newton.clone()),
+    ];
+    let (title, shaded) = if of.contact.is_empty() {
+        ("Newton's method takes fewer iterations", "")
+    } else {
+        (
+            "The fixed point takes more iterations in contact",
+            "; shaded where the tip is in contact",
+        )
+    };
+    let xy = Xy {
+        phases: Phases {
+            label: "in contact".to_owned(),
+            intervals: of.contact.clone(),
+        },
+        ..plots::iterations(&series)
+    };
+    let caption = format!(
+        "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
+    );
+    Figure::new("iterations", caption, xy.titled(title).draw())
+}

@@ -1,0 +1,377 @@
+//! The contraction factor of one step in contact, measured and predicted.
+
+use convergence_study::plots::Series;
+
+use super::spectrum::spectral_radius;
+use super::{Found, SolverTask, factors, positive_numbers, results};
+use crate::kinds::prelude::*;
+
+/// Smallest and largest number of iterations between the start and the last increment but one of a
+/// measurement.
+const FEWEST: usize = 3;
+const ITERATIONS: usize = 60;
+/// The increments of a measurement shrink or grow by about this factor: so much that the largest
+/// eigenvalue dominates, and so little that rounding errors do not show.
+const SPAN: f64 = 1e8;
+/// Largest displacement of the free end by the disturbance, in all iterates: small against the
+/// depth of the contact, 0.02.
+const DISTURBANCE: f64 = 1e-5;
+/// Largest relative difference between the measured factor and the spectral radius.
+const AGREEMENT: f64 = 0.01;
+/// Iterations from which the ratio of two increments shows the largest eigenvalue. The first
+/// increment is not one of the linearised iteration, by (4.1), and with fewer ratios the other
+/// eigenvalues still take part.
+const SETTLED: usize = 5;
+/// Largest distance of an increment to that of the linearised iteration.
+const LINEAR: f64 = 1e-3;
+/// Slope of the beam pressed into the upper obstacle by a fifth of the gap.
+const PRESSED: f64 = 0.12;
+
+/// The table `[contraction]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Grid {
+    elements: usize,
+    dt: Vec<f64>,
+    epsilon: Vec<f64>,
+    zeta: Vec<f64>,
+}
+
+impl Grid {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&["elements", "dt", "epsilon", "zeta"])?;
+        let dt = positive_numbers(section, "dt")?;
+        let epsilon = positive_numbers(section, "epsilon")?;
+        let zeta = positive_numbers(section, "zeta")?;
+        limits::cases(
+            &section.require("dt", "a list")?,
+            &[dt.len(), epsilon.len(), zeta.len()],
+        )?;
+        let elements = tables::elements(&section.require("elements", "a number of elements")?)?;
+        Ok(Self {
+            elements,
+            dt,
+            epsilon,
+            zeta,
+        })
+    }
+
+    pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
+        let cost = self.elements as f64 * ITERATIONS as f64;
+        let mut cases = vec![];
+        for &zeta in &self.zeta {
+            for &epsilon in &self.epsilon {
+                for &dt in &self.dt {
+                    let at = [dt, epsilon, zeta];
+                    cases.push(Case::new(name(at), cost, SolverTask::Contraction(at)));
+                }
+            }
+        }
+        cases
+    }
+
+    /// The beam at rest in contact, before it is disturbed.
+    fn state(&self, [_, epsilon, zeta]: [f64; 3]) -> Result<Problem, MeshError> {
+        let mesh = Mesh::uniform(self.elements)?;
+        let mut initial = Initial::at_rest(&mesh, 0.0);
+        initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
+        Ok(Problem {
+            beam: Beam {
+                zeta,
+                ..Beam::default()
+            },
+            obstacles: Some(Obstacles {
+                epsilon,
+                ..Obstacles::default()
+            }),
+            mesh,
+            initial,
+        })
+    }
+
+    /// The first step next to a state of rest in contact, after a disturbance of u_t.
+    ///
+    /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper
+    /// obstacle. On a uniform mesh they are, by (3.7) at rest, `(1 + N) p + g(p)` at the free end
+    /// in the first equation, and `-p (1, χ_i)` in the second.
+    pub(super) fn measure(&self, at: [f64; 3]) -> Result<Contraction, CaseFailure> {
+        let [dt, ..] = at;
+        let mut problem = self.state(at)?;
+        let n_value = problem.beam.axial_force(PRESSED * PRESSED);
+        let [alpha, gamma] = factors(&problem, dt, n_value);
+        let case = problem.case(EULER_CRANK_NICOLSON, dt);
+        let mut map = case
+            .linearized_iteration(&problem.initial.u)
+            .ok_or_else(|| CaseFailure::new("a matrix of (4.2) is not positive definite"))?;
+        let radius = spectral_radius(&mut map);
+        let iterations =
+            ((SPAN.ln() / radius.ln().abs()).ceil() as usize).clamp(FEWEST, ITERATIONS);
+        let growth = radius.max(1.0).powi(iterations as i32 + 1);
+        let speed = DISTURBANCE / (dt * growth);
+        problem.initial.u_t = problem.mesh.nodes().iter().map(|x| speed * x).collect();
+        let contact_force = problem
+            .obstacles
+            .map_or(0.0, |obstacles| obstacles.force(PRESSED));
+        let held = Held {
+            problem,
+            dt,
+            tip_load: (1.0 + n_value) * PRESSED + contact_force,
+        };
+        let before = held.iterate(iterations - 1)?;
+        let one = held.iterate(iterations)?;
+        let two = held.iterate(iterations + 1)?;
+        let mut expected = difference(&one.velocities, &before.velocities);
+        let (v, w) = expected.split_at_mut(self.elements + 1);
+        map.apply(v, w);
+        let increment = difference(&two.velocities, &one.velocities);
+        Ok(Contraction {
+            at,
+            alpha,
+            gamma,
+            radius,
+            iterations: iterations + 1,
+            measured: two.contraction,
+            deviation: length(&difference(&increment, &expected)) / length(&increment),
+        })
+    }
+
+    pub(super) fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
+        let points = results(ran, |found| match found {
+            Found::Contraction(point) => Some(point),
+            _ => None,
+        });
+        let all = self.cases().len();
+        let summary = format!("{}; {}", increments(&points, all), known_factors(&points));
+        let rows: Vec<_> = points.iter().map(|point| point.row()).collect();
+        Outcome {
+            headline: summary.clone(),
+            coverage: vec![factors_judged(&points, all)],
+            tables: vec![readings::table(
+                "Contraction factor in contact",
+                &["dt", "epsilon", "zeta"],
+                &rows,
+            )],
+            figures: vec![figure(&points)],
+            quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
+            ..Outcome::new(
+                summary,
+                vec![],
+                points.iter().flat_map(|point| point.checks()).collect(),
+            )
+        }
+    }
+}
+
+/// The factor of an iteration in contact: predictions and measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contraction {
+    /// dt, ε and ζ.
+    at: [f64; 3],
+    /// Predicted factor of the contact alone; infinite if its operator is not definite.
+    pub alpha: f64,
+    /// Predicted factor of the coupling between rotation and displacement alone; infinite if its
+    /// operator is not definite.
+    pub gamma: f64,
+    /// Spectral radius of the whole iteration, linearised at the state.
+    pub radius: f64,
+    /// Iterations done.
+    pub iterations: usize,
+    /// Ratio of the last two increments in the norm of (3.14).
+    pub measured: f64,
+    /// Distance of the last increment of (û, φ̂) to the image of the one before under the
+    /// linearised iteration, relative.
+    pub deviation: f64,
+}
+
+/// A step from a disturbed state of rest that loads hold.
+struct Held {
+    problem: Problem,
+    dt: f64,
+    /// Load of the first equation at the free end.
+    tip_load: f64,
+}
+
+struct Iterate {
+    /// û at the nodes, then φ̂.
+    velocities: Vec<f64>,
+    /// Ratio of the last two increments.
+    contraction: f64,
+}
+
+impl Held {
+    /// The iterate after this number of iterations.
+    fn iterate(&self, iterations: usize) -> Result<Iterate, CaseFailure> {
+        let settings = Settings {
+            solver: Solver::FixedPoint,
+            stopping: Stopping::Iterations(iterations),
+            ..Settings::default()
+        };
+        let stepping = Stepping {
+            scheme: EULER_CRANK_NICOLSON,
+            settings,
+            dt: self.dt,
+            loaded: true,
+        };
+        let hold = |_, load: &mut [[f64; 3]]| {
+            let n = load.len() - 1;
+            let moment = -PRESSED / n as f64;
+            load.iter_mut().for_each(|load| load[1] = moment);
+            load[n] = [self.tip_load, 0.5 * moment, 0.0];
+        };
+        let mut driver = Driver::new(self.problem.clone(), stepping)?.loaded(hold);
+        let mut contraction = None;
+        run_to(&mut driver, self.dt, |_, report| {
+            contraction = report.contraction;
+        })?;
+        let level = driver.level();
+        Ok(Iterate {
+            velocities: [&level.v[..], &level.w].concat(),
+            contraction: contraction.unwrap_or(f64::NAN),
+        })
+    }
+}
+
+fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
+    one.iter()
+        .zip(other)
+        .map(|(one, other)| one - other)
+        .collect()
+}
+
+/// Euclidean length.
+fn length(vector: &[f64]) -> f64 {
+    vector.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
+    format!("dt = {dt:e}, epsilon = {epsilon:e}, zeta = {zeta}")
+}
+
+/// How far the increments are those of the linearised iteration.
+fn increments(points: &[&Contraction], all: usize) -> String {
+    let linear = points.iter().filter(|point| point.is_linear()).count();
+    largest_of(points.iter().map(|point| point.deviation)).map_or(
+        "no point has a result".to_owned(),
+        |deviation| {
+            format!(
+                "increments are those of the linearised iteration to {deviation:.0e} at {linear} of {all} points"
+            )
+        },
+    )
+}
+
+/// How far the factors are spectral radii.
+fn known_factors(points: &[&Contraction]) -> String {
+    let settled: Vec<f64> = points
+        .iter()
+        .filter(|point| point.is_settled())
+        .map(|point| point.error())
+        .collect();
+    let count = settled.len();
+    largest_of(settled).map_or("no factor is known".to_owned(), |worst| {
+        format!(
+            "the factor is its spectral radius to {:.1} % at {count}",
+            100.0 * worst
+        )
+    })
+}
+
+/// The points whose factor is compared with the spectral radius.
+fn factors_judged(points: &[&Contraction], all: usize) -> Coverage {
+    let unsettled = format!("fewer than {SETTLED} iterations");
+    let reasons = points
+        .iter()
+        .map(|point| (!point.is_settled()).then_some(&unsettled[..]));
+    Coverage::among("factors", all, reasons)
+}
+
+impl Contraction {
+    /// Relative difference of the measured factor to the spectral radius.
+    fn error(&self) -> f64 {
+        (self.measured / self.radius - 1.0).abs()
+    }
+
+    fn is_settled(&self) -> bool {
+        self.iterations >= SETTLED
+    }
+
+    fn is_linear(&self) -> bool {
+        self.deviation <= LINEAR
+    }
+
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let name = name(self.at);
+        let subject = Subject::of("contraction").by(ItemMethod::FixedPoint);
+        vec![
+            Reading::new("alpha", self.alpha).fixed(5),
+            Reading::new("gamma", self.gamma),
+            Reading::new("spectral radius", self.radius).fixed(5),
+            Reading::new("measured", self.measured)
+                .fixed(5)
+                .guarded(format!("contraction, {name}"), 1e-2)
+                .about(subject.at(name)),
+            Reading::new("deviation", self.deviation),
+            Reading::new("iterations", self.iterations as f64).fixed(0),
+        ]
+    }
+
+    /// The row of a table: dt, ε, ζ and the readings.
+    fn row(&self) -> (Vec<String>, Vec<Reading>) {
+        let [dt, epsilon, zeta] = self.at;
+        let at = vec![format!("{dt:e}"), format!("{epsilon:e}"), zeta.to_string()];
+        (at, self.readings())
+    }
+
+    fn checks(&self) -> Vec<Check> {
+        let linear = Check::that(
+            self.is_linear(),
+            "the last increment is that of the linearised iteration",
+            format!("apart by {:.1e} of it", self.deviation),
+        );
+        let factor = Check::that(
+            self.error() <= AGREEMENT,
+            "the contraction factor is the spectral radius",
+            format!(
+                "spectral radius {:.5}, measured {:.5}",
+                self.radius, self.measured
+            ),
+        );
+        let mut checks = vec![linear.about(self.subject("increment"))];
+        if self.is_settled() {
+            checks.push(factor.about(self.subject("contraction")));
+        }
+        checks
+    }
+
+    fn subject(&self, quantity: &str) -> Subject {
+        Subject::of(quantity)
+            .in_case(name(self.at))
+            .by(ItemMethod::FixedPoint)
+    }
+}
+
+fn figure(points: &[&Contraction]) -> Figure {
+    let mut zetas: Vec<f64> = points.iter().map(|point| point.at[2]).collect();
+    zetas.dedup();
+    let mut measured = vec![];
+    for zeta in zetas {
+        let of_zeta = points.iter().filter(|point| point.at[2] == zeta);
+        measured.push(Series::new(
+            format!("ζ = {zeta}"),
+            of_zeta.map(|point| (point.radius, point.measured)),
+        ));
+    }
+    // Elsewhere α lies under the marker of the measured factor.
+    let off = points
+        .iter()
+        .filter(|point| (point.alpha / point.measured - 1.0).abs() > 0.1)
+        .map(|point| (point.radius, point.alpha));
+    let svg = figures::contraction(&figures::ContractionFactors {
+        title: "The fixed point contracts as its linearisation does".to_owned(),
+        measured,
+        predicted: "spectral radius of the linearised iteration".to_owned(),
+        estimates: Series::new("α, where over 10 % off", off),
+    });
+    let caption = "Contraction factor of the fixed point in contact: measured over the spectral radius of the linearised \
+                   iteration, and the estimate α. From 1 on the iteration diverges.";
+    Figure::new("contraction", caption, svg)
+}

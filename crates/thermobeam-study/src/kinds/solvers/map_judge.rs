@@ -1,0 +1,311 @@
+//! The maps: claims, the table of boundaries, and guarded numbers.
+
+use super::FixedPointStep;
+use super::map::{Boundary, Map, MapRow, NewtonSteps, Point};
+use super::{Found, SolverTask, results};
+use crate::kinds::prelude::*;
+use crate::kinds::runs::checks::energy_and_balance;
+use crate::kinds::runs::watch::Worst;
+
+/// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
+/// known in advance.
+const SLOW: f64 = 0.8;
+/// γ up to which α alone decides.
+const ALONE: f64 = 0.01;
+/// Maximum number of Newton iterations in a step.
+const MOST: usize = 30;
+
+/// A map with the results of its cases.
+pub(super) struct MapResults<'r> {
+    pub(super) map: &'r Map,
+    pub(super) rows: Vec<&'r MapRow>,
+    pub(super) lines: Vec<&'r Boundary>,
+}
+
+impl Map {
+    pub(super) fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
+        let results = MapResults {
+            map: self,
+            rows: results(ran, |found| match found {
+                Found::Row(row) => Some(row),
+                _ => None,
+            }),
+            lines: results(ran, |found| match found {
+                Found::Boundary(line) => Some(line),
+                _ => None,
+            }),
+        };
+        results.outcome()
+    }
+}
+
+impl MapResults<'_> {
+    fn outcome(&self) -> Outcome {
+        let mut checks = vec![
+            self.complete(),
+            self.in_contact(),
+            self.as_predicted(),
+            self.newton_completes(),
+            self.newton_is_quick(),
+        ];
+        checks.extend(energy_and_balance(
+            &self.worst(),
+            self.every_row_has_a_step(),
+        ));
+        checks.extend(self.lines.iter().map(|line| line.check(self.map.agreement)));
+        let converged = self.points().filter(|point| point.step.converged).count();
+        let completes = self.points().filter(|point| point.newton_completes).count();
+        let worst = largest_of(self.lines.iter().filter_map(|line| line.distance_alone()));
+        let boundary = worst.map_or("no boundary".to_owned(), |worst| {
+            format!("boundary within {:.2} % of alpha = 1", 100.0 * worst)
+        });
+        let residual = largest_of(self.newton().map(|steps| steps.worst.residual));
+        let residual = residual.map_or("no residual".to_owned(), |residual| {
+            format!("residual at most {residual:.1e} of the energy")
+        });
+        let summary = format!(
+            "{} points: the fixed point converges at {converged}, Newton's method at {completes}; \
+             {boundary} where gamma <= {ALONE}; {residual}",
+            self.asked()
+        );
+        let lines: Vec<_> = self
+            .lines
+            .iter()
+            .map(|line| (vec![plain_text(line.value)], line.readings()))
+            .collect();
+        let mut quantities = readings::guarded(lines.iter().flat_map(|(_, readings)| readings));
+        // A point next to the boundary may fall on either side.
+        let name = "points with a fixed point";
+        let subject = Subject::of(name).by(ItemMethod::FixedPoint);
+        quantities.push(Quantity::new(name, converged as f64, 1e-2).about(subject));
+        let title = "Boundary of the fixed point's convergence, by bisection in dt";
+        Outcome {
+            headline: format!("{boundary}, {residual}"),
+            coverage: self.coverage(),
+            tables: vec![readings::table(title, &[self.map.over.name()], &lines)],
+            figures: self.figures(),
+            quantities,
+            ..Outcome::new(summary, vec![], checks)
+        }
+    }
+
+    /// The number of points of the map.
+    fn asked(&self) -> usize {
+        self.map.points * self.map.points
+    }
+
+    pub(super) fn points(&self) -> impl Iterator<Item = &Point> {
+        self.rows.iter().flat_map(|row| &row.points)
+    }
+
+    fn newton(&self) -> impl Iterator<Item = &NewtonSteps> {
+        self.points().filter_map(|point| point.newton.as_ref())
+    }
+
+    /// The points and boundaries that each statement judges.
+    fn coverage(&self) -> Vec<Coverage> {
+        let asked = self.asked();
+        let convergence = self.points().map(|point| {
+            let between = prediction(&point.step).is_none();
+            between.then_some("factors near 1, which predict nothing")
+        });
+        let balance = self.points().map(|point| {
+            let failed = point.newton.is_none();
+            failed.then_some("no step by Newton's method")
+        });
+        let boundaries = self.lines.iter().map(|line| line.not_alone());
+        vec![
+            Coverage::among("points for convergence", asked, convergence),
+            Coverage::among("points for the balance", asked, balance),
+            Coverage::among(
+                "boundaries for alpha = 1 alone",
+                self.map.lines.len(),
+                boundaries,
+            ),
+        ]
+    }
+
+    fn complete(&self) -> Check {
+        let judged = self.points().count();
+        let asked = self.asked();
+        Check::that(
+            judged == asked,
+            "both solvers were run at every point",
+            format!("{judged} of {asked}"),
+        )
+        .about(Subject::of("points"))
+    }
+
+    fn in_contact(&self) -> Check {
+        let forces = self.newton().map(|steps| steps.contact_force);
+        let least = forces.reduce(min_or_nan).unwrap_or(f64::NAN);
+        Check::that(
+            least > 0.0,
+            "the first step ends in contact",
+            format!("least contact force {least:.2e}"),
+        )
+        .about(Subject::of("contact"))
+    }
+
+    /// The map against α and γ: convergence where both are well below 1, no convergence where α
+    /// exceeds 1 by more than γ.
+    fn as_predicted(&self) -> Check {
+        let mut fast = 0;
+        let mut beyond = 0;
+        let mut wrong = 0;
+        for point in self.points() {
+            match prediction(&point.step) {
+                Some(true) => fast += 1,
+                Some(false) => beyond += 1,
+                None => continue,
+            }
+            wrong += usize::from(prediction(&point.step) != Some(point.step.converged));
+        }
+        Check::that(
+            wrong == 0 && fast > 0 && beyond > 0,
+            "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma",
+            format!(
+                "{fast} points with small factors, {beyond} with a large alpha, {wrong} of them against the prediction"
+            ),
+        )
+        .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
+    }
+
+    /// Newton's method must converge wherever its operator is known to be definite.
+    fn newton_completes(&self) -> Check {
+        let mut known = 0;
+        let mut wrong = 0;
+        let mut others = 0;
+        for row in &self.rows {
+            let Beam { zeta, beta, .. } = self.map.beam(row.value);
+            for point in &row.points {
+                let half = 0.5 * point.step.dt;
+                let failed = usize::from(!point.newton_completes);
+                if BUCKLING * (zeta + half) + beta * half > 0.0 {
+                    known += 1;
+                    wrong += failed;
+                } else {
+                    others += failed;
+                }
+            }
+        }
+        Check::that(
+            wrong == 0 && known > 0,
+            "Newton's method converges wherever B (zeta + dt/2) + beta dt/2 > 0",
+            format!("fails at {wrong} of {known} such points, and at {others} others"),
+        )
+        .about(Subject::of("convergence of Newton's method"))
+    }
+
+    fn newton_is_quick(&self) -> Check {
+        let most = self.newton().map(|steps| steps.iterations).max();
+        Check::that(
+            most.is_some_and(|most| most <= MOST),
+            format!("Newton's method takes at most {MOST} iterations in any step"),
+            most.map_or("no step was done".to_owned(), |most| {
+                format!("at most {most}")
+            }),
+        )
+        .about(Subject::of("iterations of Newton's method"))
+    }
+
+    /// Over all steps of Newton's method.
+    fn worst(&self) -> Worst {
+        self.newton()
+            .map(|steps| steps.worst)
+            .fold(Worst::default(), Worst::max)
+    }
+
+    /// A row without a single step of Newton's method shows nothing.
+    fn every_row_has_a_step(&self) -> bool {
+        self.rows
+            .iter()
+            .all(|row| row.points.iter().any(|point| point.newton.is_some()))
+    }
+}
+
+/// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict
+/// nothing.
+fn prediction(&FixedPointStep { alpha, gamma, .. }: &FixedPointStep) -> Option<bool> {
+    if alpha < SLOW && gamma < SLOW {
+        return Some(true);
+    }
+    // An infinite α means that the operator A_u of the step is not definite.
+    (alpha == f64::INFINITY || alpha > 1.0 + gamma + (1.0 - SLOW)).then_some(false)
+}
+
+impl Boundary {
+    /// Why α alone does not decide where the boundary is; `None` if it does.
+    fn not_alone(&self) -> Option<&'static str> {
+        match self.found {
+            None => Some("no boundary on the map"),
+            Some(crossing) => (!(crossing.gamma <= ALONE)).then_some("gamma takes part"),
+        }
+    }
+
+    /// Relative difference of the boundary to α = 1; `None` if there is none.
+    fn difference(&self) -> Option<f64> {
+        Some(self.found?.dt / self.predicted? - 1.0)
+    }
+
+    /// Relative distance of the boundary to α = 1, where α alone decides.
+    fn distance_alone(&self) -> Option<f64> {
+        let is_alone = self.not_alone().is_none();
+        is_alone.then(|| self.difference().map_or(f64::NAN, f64::abs))
+    }
+
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let at = format!("{} = {:e}", self.over.name(), self.value);
+        let name = format!("boundary at {at}");
+        let mut dt = Reading::new("dt found", self.found.map(|at| at.dt)).scientific(4);
+        if self.found.is_some() {
+            let subject = Subject::of("boundary").by(ItemMethod::FixedPoint).at(at);
+            dt = dt.guarded(name, 1e-2).about(subject);
+        }
+        let percent = self.difference().map(|difference| 100.0 * difference);
+        vec![
+            Reading::new("dt where alpha = 1", self.predicted).scientific(4),
+            dt,
+            Reading::new("difference", percent).shown(|percent| format!("{percent:+.3} %")),
+            Reading::new("alpha there", self.found.map(|at| at.alpha)).fixed(4),
+            Reading::new("gamma there", self.found.map(|at| at.gamma)).scientific(1),
+        ]
+    }
+
+    /// The contact's factor at the boundary found is 1, up to a share of γ.
+    fn check(&self, agreement: f64) -> Check {
+        let fails = "the fixed point fails from alpha = 1 on";
+        let check = match (self.found, self.predicted) {
+            (Some(found), Some(predicted)) => {
+                let FixedPointStep {
+                    dt, alpha, gamma, ..
+                } = found;
+                let difference = 100.0 * (dt / predicted - 1.0);
+                let [from, expected] = [dt, predicted].map(plain_text);
+                let evidence = format!(
+                    "from dt = {from} on, predicted {expected} ({difference:+.2} %); \
+                     alpha {alpha:.4} there, gamma {gamma:.1e}"
+                );
+                Check::that((alpha - 1.0).abs() <= agreement + gamma, fails, evidence)
+            }
+            (None, None) => Check::that(
+                true,
+                "no boundary on the map, as predicted",
+                "the fixed point behaves alike at both ends",
+            ),
+            (Some(_), None) => Check::that(
+                false,
+                fails,
+                "a boundary is found on the map, but none is predicted",
+            ),
+            (None, Some(_)) => Check::that(
+                false,
+                fails,
+                "a boundary is predicted on the map, but none is found",
+            ),
+        };
+        let case = format!("{} = {}", self.over.name(), plain_text(self.value));
+        let subject = Subject::of("boundary").in_case(case);
+        check.about(subject.by(ItemMethod::FixedPoint))
+    }
+}

@@ -16,7 +16,7 @@ use std::ops::{Deref, DerefMut};
 
 use convergence_study::study::LevelErrors;
 use convergence_study::study::grid::Grid;
-use convergence_study::study::levels::rate_table;
+use convergence_study::study::levels::{Rates, rate_table};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
@@ -98,19 +98,6 @@ pub struct Series {
     pub is_claimed: bool,
     /// Rates with their verdicts, errors, guarded numbers, figures.
     judged: Outcome,
-}
-
-/// Errors over levels, judged together.
-pub struct Series {
-    /// The errors, and the claims about them.
-    pub levels: Levels,
-    /// Their rates with the verdicts.
-    pub rates: Vec<(String, RateVerdict)>,
-    /// Whether the orders are claims; otherwise the rates are shown and decide nothing.
-    pub is_claimed: bool,
-    /// On a grid of mesh widths and time steps, how the contributions add.
-    checks: Vec<Check>,
-    figures: Vec<Figure>,
 }
 
 /// The next level of a study that adds levels.
@@ -203,7 +190,7 @@ impl<S: Source> Kind for Orders<S> {
         }
         if !not_claimed.is_empty() {
             let title = "Rates shown, not claimed: not needed for a pass";
-            tables.push(rate_table(title, &not_claimed));
+            outcome.tables.push(rate_table(title, &not_claimed));
         }
         let mut checks = vec![completion(runs, |found| self.0.not_finite(found))];
         checks.extend(measured.checks);
@@ -218,6 +205,7 @@ impl<S: Source> Kind for Orders<S> {
             outcome.summary = measured.summary;
             return outcome;
         };
+        outcome.summary = summary(&outcome.rates);
         let outcome = outcome.summed_up_by_rates("");
         match self.finer_of_complete(runs) {
             Some(finer) => {
@@ -295,6 +283,11 @@ impl Series {
         let figure = self.levels.figure(file, subject, caption.to_owned(), rates);
         self.judged.figures.push(figure);
         self
+    }
+
+    /// The verdict on all its rates.
+    pub fn verdict(&self) -> Verdict {
+        self.judged.verdict
     }
 
     /// The rates of the errors with claims, with their verdicts.

@@ -113,17 +113,9 @@ fn has_unused_points(series: &ErrorSeries) -> bool {
 /// that it does not use. If the rate is not known, only the markers.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let line = Curve::line(0, &Series::new(label(series), series.points.clone()));
-    let (noted_as, width) = (
-        Some(series.label.clone()),
-        if series.fit.is_some() {
-            0.0
-        } else {
-            line.width
-        },
-    );
+    let is_fitted = series.fit.is_some();
     let marked = Curve {
-        noted_as,
-        width,
+        width: if is_fitted { 0.0 } else { line.width },
         look,
         marks: Marks::Filled,
         ..line

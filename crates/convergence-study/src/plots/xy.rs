@@ -4,7 +4,6 @@ pub mod inset;
 
 use super::attributes;
 use super::canvas::{Anchor, Layer, Point, Rect};
-use super::coinciding;
 pub use super::curve::Curve;
 use super::envelope::lines;
 use super::legend::{Entry, Swatch};
@@ -53,7 +52,7 @@ pub struct Xy {
     pub show_y: Vec<f64>,
     /// More values that the horizontal axis must show.
     pub show_x: Vec<f64>,
-    /// Lines under the legend, before those on coinciding curves and on omitted points.
+    /// Lines under the legend, before that on omitted points.
     pub notes: Vec<String>,
     /// A small figure inside the plot.
     pub inset: Option<Inset>,
@@ -178,7 +177,7 @@ impl Xy {
             right: guide_margin(&self.guides),
             above,
             legend: self.entries(),
-            notes: self.notes(&extent, &x, &y),
+            notes: self.notes(&extent),
         }
     }
 
@@ -211,9 +210,8 @@ impl Xy {
         entries
     }
 
-    fn notes(&self, extent: &Extent, x: &Ruler, y: &Ruler) -> Vec<String> {
+    fn notes(&self, extent: &Extent) -> Vec<String> {
         let mut notes = self.notes.clone();
-        notes.extend(coinciding::notes(&self.curves, x, y));
         notes.extend(left_out(
             extent.points - extent.finite,
             extent.finite - extent.drawable,

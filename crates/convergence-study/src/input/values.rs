@@ -1,6 +1,5 @@
 //! Values and tables of a document, with their places in the file.
 
-use std::fmt::Display;
 use std::fs;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
@@ -324,68 +323,6 @@ impl<'a> Section<'a> {
             .section()?;
         table.allow(keys)?;
         Ok(table)
-    }
-
-    /// The values of a list without a default, each by `read`.
-    ///
-    /// * `fits`: whether the list as a whole matches `allowed`.
-    pub fn list<T>(
-        &self,
-        key: &str,
-        allowed: &str,
-        read: impl FnMut(&Field<'a>) -> Result<T, InputError>,
-        fits: impl Fn(&[T]) -> bool,
-    ) -> Result<Vec<T>, InputError> {
-        let field = self.require(key, allowed)?;
-        let list = field
-            .items(allowed)?
-            .iter()
-            .map(read)
-            .collect::<Result<Vec<T>, InputError>>()?;
-        if fits(&list) {
-            Ok(list)
-        } else {
-            Err(field.refuse_as_written(allowed))
-        }
-    }
-
-    /// A list of at least `least` levels, each of which `follows` the previous one; `relation`
-    /// describes this, such as `a number >`.
-    pub fn sequence<T: Copy + Display>(
-        &self,
-        (key, allowed, least): (&str, &str, usize),
-        read: impl Fn(&Field<'a>) -> Result<T, InputError>,
-        (relation, follows): (&str, fn(T, T) -> bool),
-    ) -> Result<Vec<T>, InputError> {
-        let mut last = None;
-        let level = |item: &Field<'a>| {
-            let level = read(item)?;
-            match last.replace(level) {
-                Some(before) if !follows(before, level) => {
-                    Err(item.refuse_as_written(format!("{relation} {before}, the level before")))
-                }
-                _ => Ok(level),
-            }
-        };
-        self.list(key, allowed, level, |list| list.len() >= least)
-    }
-
-    /// The tables `[[key]]`, at least one, each by `read`.
-    ///
-    /// * `keys`: the end of a message, such as ` with order and tolerance`.
-    pub fn tables<T>(
-        &self,
-        key: &str,
-        keys: &str,
-        mut read: impl FnMut(&Section<'a>) -> Result<T, InputError>,
-    ) -> Result<Vec<T>, InputError> {
-        let allowed = format!("at least one table [[{key}]]{keys}");
-        self.list(
-            key,
-            &allowed,
-            |item| read(&item.section()?),
-            |list| !list.is_empty(),
-        )
     }
 
     /// The whole number of a key without a default.

@@ -113,6 +113,15 @@ fn a_blessing_does_not_turn_a_failing_study_green() {
     assert_eq!(failing.record.verdict, Verdict::Fail);
     assert!(matches!(failing.blessing, Blessing::Refused(_)));
     assert_eq!(fs::read(&file).unwrap(), before);
+    // Nor does it with a selection of its numbers.
+    let selected = Request {
+        only: vec!["a:*".to_owned()],
+        reason: Some("meant".to_owned()),
+        ..bless
+    };
+    let failing = run(vec![study("a", Does::Stay)], &selected);
+    assert!(matches!(failing.blessing, Blessing::Refused(_)));
+    assert_eq!(fs::read(&file).unwrap(), before);
     // Nor does a baseline that agrees with what the failing study finds.
     let agreeing = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;
     fs::write(&file, agreeing).unwrap();

@@ -78,10 +78,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         &arguments.ids,
         &format!("{} list", project.command),
     )?;
-    let (verdicts, seconds) = (
-        workspace::last_verdicts(&root)?,
-        workspace::last_seconds(&root)?,
-    );
+    let verdicts = workspace::last_verdicts(&root)?;
+    let seconds = workspace::last_seconds(&root)?;
     let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
     let listed = |(file, _): (&StudyFile, bool)| {
         let id = &file.study.header().id;

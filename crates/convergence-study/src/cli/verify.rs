@@ -196,10 +196,8 @@ fn text(
         flags: Flags { quiet, .. },
         ..
     } = arguments;
-    let (verdict, sentence) = (
-        screen::verdict(found.record.verdict),
-        sentence(&found.record.studies, found.record.changes.as_deref()),
-    );
+    let verdict = screen::verdict(found.record.verdict);
+    let sentence = sentence(&found.record.studies, found.record.changes.as_deref());
     let table = if *quiet {
         String::new()
     } else {
@@ -291,7 +289,8 @@ fn overview(
         verbose, durations, ..
     }: &Arguments,
 ) -> String {
-    let (verbose, durations) = (*verbose, *durations);
+    let verbose = *verbose;
+    let durations = *durations;
     let mut text = String::new();
     let shown = found
         .record

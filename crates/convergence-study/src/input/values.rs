@@ -80,7 +80,8 @@ impl<'a> Field<'a> {
             _ => None,
         };
         value.filter(|value| range.contains(value)).ok_or_else(|| {
-            let (least, most) = (*range.start(), *range.end());
+            let least = *range.start();
+            let most = *range.end();
             let most = if most == usize::MAX {
                 String::new()
             } else {
@@ -206,7 +207,8 @@ impl<'a> Field<'a> {
     pub fn section(&self) -> Result<Section<'a>, InputError> {
         match self.value {
             DeValue::Table(table) => {
-                let (path, span) = (self.path.clone(), self.span.clone());
+                let path = self.path.clone();
+                let span = self.span.clone();
                 Ok(Section {
                     source: self.source,
                     table,
@@ -287,11 +289,10 @@ impl<'a> Section<'a> {
         let Some(key) = unknown.min_by_key(|key| key.span().start) else {
             return Ok(());
         };
-        let (found, shown) = (key.get_ref().as_ref(), shorten(key.get_ref()));
-        let (name, suggestion) = (
-            self.name_of(&shown),
-            nearest(found, keys.iter().copied()).map(str::to_owned),
-        );
+        let found = key.get_ref().as_ref();
+        let shown = shorten(key.get_ref());
+        let name = self.name_of(&shown);
+        let suggestion = nearest(found, keys.iter().copied()).map(str::to_owned);
         let complaint = Complaint::UnknownKey {
             found: shown,
             suggestion,

@@ -163,7 +163,8 @@ impl Xy {
 
     fn plan(&self) -> Layout {
         let extent = self.extent();
-        let (x, y) = (self.x_ruler_of(&extent), self.y_ruler_of(&extent));
+        let x = self.x_ruler_of(&extent);
+        let y = self.y_ruler_of(&extent);
         let above = self.beyond.as_ref().and_then(|(from, text)| {
             let from = on_scale(self.x.scale, *from)?.max(x.lo);
             (from < x.hi).then(|| (0.5 * (from + x.hi), text.clone()))
@@ -222,7 +223,8 @@ impl Xy {
     fn draw_ground(&self, sheet: &mut Page) {
         let plot = sheet.plot;
         let ends = self.phases.intervals.iter().filter_map(|&(a, b)| {
-            let (a, b) = (sheet.x.px(a)?, sheet.x.px(b)?);
+            let a = sheet.x.px(a)?;
+            let b = sheet.x.px(b)?;
             Some((a.min(b), a.max(b)))
         });
         let mut spans = merge_intervals(ends.collect());

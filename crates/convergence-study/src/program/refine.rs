@@ -102,7 +102,8 @@ impl Refine {
             Some(sequence) => sequence.values.iter().copied().map(Some).collect(),
             None => vec![None],
         };
-        let (space, time) = (values(&self.space), values(&self.time));
+        let space = values(&self.space);
+        let time = values(&self.time);
         let together = !self.grid && space.len() == time.len();
         let pairs: Vec<_> = if together {
             space.into_iter().zip(time).collect()

@@ -155,10 +155,8 @@ impl Levels {
         refinements: impl IntoIterator<Item = Refinement>,
         columns: impl IntoIterator<Item = ErrorColumn>,
     ) -> Self {
-        let (refinements, columns) = (
-            refinements.into_iter().collect(),
-            columns.into_iter().collect(),
-        );
+        let refinements = refinements.into_iter().collect();
+        let columns = columns.into_iter().collect();
         Self {
             axis,
             refinements,

@@ -111,7 +111,8 @@ impl RateVerdict {
     ///
     /// * `most`: the largest number of decimals.
     pub fn found(&self, most: usize) -> Option<String> {
-        let (fitted, interval) = (self.fitted?, self.interval?);
+        let fitted = self.fitted?;
+        let interval = self.interval?;
         let fitted = decimals(fitted, interval_places(interval, most));
         let interval = interval_text(interval, most);
         // A narrow interval begins with its middle.
@@ -225,7 +226,9 @@ impl RateVerdict {
 
     /// The levels that the fit used.
     fn levels_in_words(&self) -> String {
-        let (first, last, levels) = (self.used.start + 1, self.used.end, self.pairwise.len() + 1);
+        let first = self.used.start + 1;
+        let last = self.used.end;
+        let levels = self.pairwise.len() + 1;
         format!("from levels {first} to {last} of {levels}")
     }
 
@@ -317,10 +320,8 @@ impl RateVerdict {
         } else {
             ""
         };
-        let (levels, have) = (
-            counted(levels, "level"),
-            if missing.len() == 1 { "has" } else { "have" },
-        );
+        let levels = counted(levels, "level");
+        let have = if missing.len() == 1 { "has" } else { "have" };
         let lacking = format!(
             "{} of {levels} {have} no result: {named}{more}",
             missing.len()

@@ -74,7 +74,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     } else {
         arguments.ids.clone()
     };
-    let meant = workspace::select(&headers, arguments.tier, &ids, &list)?;
+    let mask = workspace::select(&headers, arguments.tier, &ids, &list)?;
     let scope = match scope(arguments.tier, &ids, &all) {
         // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
@@ -82,8 +82,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     };
     let studies: Vec<Box<dyn Study>> = all
         .into_iter()
-        .zip(meant)
-        .filter(|(_, meant)| *meant)
+        .zip(mask)
+        .filter(|(_, is_selected)| *is_selected)
         .map(|(file, _)| file.study)
         .collect();
 

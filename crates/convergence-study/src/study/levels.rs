@@ -226,7 +226,7 @@ impl Levels {
             let judged = judge.map(|judge| claim.judge(&judge, &points));
             let judged =
                 judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
-            let judged = judged.among(&labels, &self.has_result(column));
+            let judged = judged.over_all_levels(&labels, &self.has_result(column));
             let is_unknown = !column.errors.iter().any(Option::is_some) && !known.is_empty();
             let unknown = || {
                 format!(

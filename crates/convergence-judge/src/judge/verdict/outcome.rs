@@ -110,7 +110,7 @@ impl RateVerdict {
     /// narrow; `None` without one. The levels follow unless all were used.
     ///
     /// * `most`: the largest number of decimals.
-    pub fn found(&self, most: usize) -> Option<String> {
+    pub fn interval_in_words(&self, most: usize) -> Option<String> {
         let fitted = self.fitted?;
         let interval = self.interval?;
         let fitted = decimals(fitted, interval_places(interval, most));
@@ -207,7 +207,7 @@ impl RateVerdict {
             .find(|rate| rate.is_finite())
     }
 
-    /// Like [`found`](Self::found); without an interval, the rate between the finest levels.
+    /// Like [`interval_in_words`](Self::interval_in_words); without an interval, the rate between the finest levels.
     ///
     /// * `most`: the largest number of decimals.
     pub fn rate_in_words(&self, most: usize) -> String {
@@ -219,7 +219,7 @@ impl RateVerdict {
                 )
             })
         };
-        self.found(most)
+        self.interval_in_words(most)
             .or_else(finest)
             .unwrap_or_else(|| "no rate".to_owned())
     }
@@ -238,7 +238,7 @@ impl RateVerdict {
     /// * `self`: the verdict on the levels with a result.
     /// * `names`: of all levels.
     /// * `has`: whether each of them has a result.
-    pub fn among(self, names: &[&str], has: &[bool]) -> Self {
+    pub fn over_all_levels(self, names: &[&str], has: &[bool]) -> Self {
         let present: Vec<usize> = (0..has.len()).filter(|level| has[*level]).collect();
         if present.len() == has.len() {
             return self;

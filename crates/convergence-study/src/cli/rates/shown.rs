@@ -32,8 +32,8 @@ const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
-    fn found(&self) -> String {
-        let found = match self.claim {
+    fn answer(&self) -> String {
+        let rate = match self.claim {
             Claim {
                 at_least: true,
                 order,
@@ -61,18 +61,17 @@ impl JudgedColumn<'_> {
                 let gci = gci.map_or(String::new(), |gci| {
                     format!(", GCI ± {}", short_text(gci.half_width))
                 });
-                found
-                    + &format!(
-                        "; limit {} ({low} to {high}){gci}",
-                        pair_text([bar.extrapolated, bar.limit[1]])[0]
-                    )
+                rate + &format!(
+                    "; limit {} ({low} to {high}){gci}",
+                    pair_text([bar.extrapolated, bar.limit[1]])[0]
+                )
             }
-            Some((Err(refusal), _)) => found + &format!("; no limit: {refusal}"),
-            None => found,
+            Some((Err(refusal), _)) => rate + &format!("; no limit: {refusal}"),
+            None => rate,
         }
     }
 
-    fn shown(&self) -> Shown<'_> {
+    fn column_with_rate(&self) -> Shown<'_> {
         let late = usize::from(self.estimate.is_some());
         Shown {
             name: &self.column.name,
@@ -93,7 +92,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
             "{}: {}: {}\n",
             judged.column.name,
             screen::verdict(judged.rate.verdict),
-            judged.found()
+            judged.answer()
         )
     };
     let last = format!(
@@ -115,7 +114,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
         } + &lines
             + &last;
     }
-    let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::shown).collect();
+    let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::column_with_rate).collect();
     let mut text = reading + &shown::table(&table.step, &shown, findings.judge.floor()) + "\n";
     text.extend(columns.iter().map(line));
     // Words common to several columns appear once.
@@ -343,7 +342,7 @@ pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
         (
             judged.column.name.clone() + &claim,
             judged.rate.verdict,
-            judged.found(),
+            judged.answer(),
         )
     };
     let mut cases: Vec<_> = findings

@@ -103,10 +103,10 @@ pub(super) fn reference(
         last: 0.0,
         best: [f64::INFINITY; 2],
     };
-    let begun = if start.is_some() {
-        first
-    } else {
-        search.begin(&first)
+    // A search that finds no start for the first two steps begins with the guess.
+    let begun = match start {
+        Some(_) => first,
+        None => search.begin(&first).unwrap_or(first),
     };
     search.last = 0.0;
     search.refine(begun).map_err(|reason| {
@@ -144,8 +144,9 @@ impl Search<'_, '_> {
     /// Refines for the first two steps only, which cost little: the start often needs the shortest
     /// steps of all.
     ///
-    /// Returns the given discretisation if that fails.
-    fn begin(&mut self, first: &Scene) -> Scene {
+    /// # Errors
+    /// [`Reason`]: a run fails, or refinement ends before the differences are small enough.
+    fn begin(&mut self, first: &Scene) -> Result<Scene, Reason> {
         let mut scene = first.clone();
         for _ in 0..ROUNDS {
             let Stepping { dt, restart_dt, .. } = scene.dg_stepping();
@@ -161,21 +162,14 @@ impl Search<'_, '_> {
                 ..scene.clone()
             };
             let rows = self.wanted.rows.on(&short);
-            let compared = self
-                .run(&short, &rows, None)
-                .and_then(|base| self.compare(&short, &rows, &base));
-            let Ok(Compared { space, time, .. }) = compared else {
-                return first.clone();
-            };
+            let base = self.run(&short, &rows, None)?;
+            let Compared { space, time, .. } = self.compare(&short, &rows, &base)?;
             if space.most() <= SHARE && time.most() <= SHARE {
-                return scene;
+                return Ok(scene);
             }
-            match refined(&scene, &space, &time, &self.data.kinks) {
-                Some(next) => scene = next,
-                None => return first.clone(),
-            }
+            scene = refined(&scene, &space, &time, &self.data.kinks).ok_or(Reason::Finest)?;
         }
-        first.clone()
+        Err(Reason::Rounds)
     }
 
     /// Refines a discretisation until both differences are small enough.

@@ -25,8 +25,9 @@ const OF_A_MESH: (&str, [&str; 2]) = ("vibration/discrete.rs", ["dg::MAX_DEGREE"
 
 /// The files of the studies that evaluate exact solutions by a scheme, or errors against a
 /// reference.
-const STUDIES: [&str; 4] = [
+const STUDIES: [&str; 5] = [
     "kinds/orders/manufactured/design.rs",
+    "kinds/orders/one_step.rs",
     "run/family.rs",
     "kinds/orders/vibration/modes.rs",
     "error/reference.rs",

@@ -162,6 +162,11 @@ mod tests {
         let all = Coverage::of("points", [None::<&str>, None]);
         assert_eq!(all.to_string(), "2 of 2 points judged");
         assert!(all.is_complete() && incomplete(&[all]).is_empty());
+        let missing = Coverage::among("points", 4, [None, Some("short")].into_iter());
+        assert_eq!(
+            missing.to_string(),
+            "1 of 4 points judged; 3 not: 1 short, 2 without a result"
+        );
     }
 
     #[test]

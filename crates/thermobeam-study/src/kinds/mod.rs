@@ -5,13 +5,11 @@
 //! numbers that the baseline guards.
 
 pub mod detects;
-pub mod energy;
-pub mod experiment;
+mod interval;
 pub mod orders;
 mod prelude;
 pub mod random_errors;
 pub mod runs;
-pub mod scenes;
 pub mod settings;
 pub mod solvers;
 pub mod tables;
@@ -36,13 +34,13 @@ pub const KINDS: [KindRow; 17] = [
     Convergence::ROW,
     AnyOrder::ROW,
     detects::ROW,
-    energy::ROW,
-    scenes::ROW,
+    runs::energy::ROW,
+    runs::scenes::ROW,
     solvers::ROW,
     Vibration::ROW,
     Frequencies::ROW,
     SelfConvergence::ROW,
-    experiment::ROW,
+    runs::experiment::ROW,
     runs::exact_experiments::ROW,
     runs::equilibrium::ROW,
     runs::bifurcation::ROW,

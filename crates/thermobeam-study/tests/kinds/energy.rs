@@ -1,12 +1,17 @@
 use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::{FromFile, Kind, Outcome, run_cases_here};
-use thermobeam_study::kinds::energy::random::{Batch, RandomScenes};
-use thermobeam_study::kinds::energy::runs::{EnergyRuns, Found};
-use thermobeam_study::kinds::energy::{End, ROW};
+use convergence_study::study::{CaseFailure, FromFile, Kind, Outcome, run_cases_here};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::cases::End;
+use thermobeam_study::kinds::runs::energy::ROW;
+use thermobeam_study::kinds::runs::energy::one_by_one::{self, Found};
+use thermobeam_study::kinds::runs::energy::random::{self, Batch};
 
 use super::file;
 use super::refused::refusal;
-use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
+use super::typed::{changed, counted, leaves_one_out, passes_but_not_without_each_case};
+
+type EnergyRuns = RunStudy<one_by_one::EnergyRuns>;
+type RandomScenes = RunStudy<random::RandomScenes>;
 
 fn runs(name: &str) -> EnergyRuns {
     EnergyRuns::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -125,6 +130,11 @@ fn each_claim_of_a_case_can_fail() {
     leaves_one_out(&study, &sound, stepped.expect("a case"), items, |found| {
         found.steps = 0;
     });
+    let mut missing = sound.clone();
+    missing[0].found = Err(CaseFailure::new("planted"));
+    let outcome = study.judge(&missing);
+    let left = &counted(&outcome, "runs for the balance").left_out;
+    assert!(left.iter().any(|left| left.reason == "without a result"));
     // Without a step there is no largest residual.
     let unmoved = changed::<EnergyRuns>(&sound, |_, found| found.steps = 0);
     assert_eq!(study.judge(&unmoved).headline, "no step");

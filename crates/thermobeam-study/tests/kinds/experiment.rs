@@ -1,15 +1,18 @@
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::kind::run_cases_here;
-use convergence_study::study::{Case, FromFile, Kind, Origin};
+use convergence_study::study::{Case, FromFile, Kind, Origin, Outcome};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
-use thermobeam_study::kinds::experiment::{
-    AtRest, Experiments, Found, Measured, Nearest, PaperRun, ROW, Task,
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::experiment::{
+    self, AtRest, Found, Measured, Nearest, PaperRun, ROW, Task,
 };
 
 use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{changed, passes_but_not_without_each_case};
 use super::{file, text};
+
+type Experiments = RunStudy<experiment::Experiments>;
 
 fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
@@ -126,6 +129,42 @@ fn each_claim_of_section_5_can_fail() {
             "defect {number}, in {label}"
         );
     }
+}
+
+/// What is claimed of a group holds of none of its experiments alone: without one of them it fails,
+/// in addition to the check of completion.
+#[test]
+fn no_claim_about_a_group_holds_without_all_of_its_runs() {
+    let study = study("section-5.toml");
+    let mut missing = run_cases_here(&study);
+    let is_first = |label: &str| label == "paper-1-beta-0";
+    missing.retain(|ran| !is_first(&ran.case.label));
+    let outcome = study.judge(&missing);
+    for quantity in [
+        "energy",
+        "energy at rest",
+        "fields at rest",
+        "first contact",
+        "frequency",
+        "phi_amplitude",
+    ] {
+        let check = outcome
+            .checks
+            .iter()
+            .find(|check| check.subject.quantity == quantity)
+            .unwrap_or_else(|| panic!("no check of {quantity}"));
+        assert_eq!(check.verdict, Verdict::Fail, "{quantity}");
+    }
+    let rests = |outcome: &Outcome| {
+        let checks = outcome.checks.iter();
+        let of_states = checks.filter(|check| check.subject.quantity.starts_with("steady states"));
+        of_states
+            .filter(|check| check.verdict == Verdict::Pass)
+            .count()
+    };
+    assert_eq!(rests(&outcome), 3);
+    missing.pop();
+    assert_eq!(rests(&study.judge(&missing)), 0);
 }
 
 /// Every experiment by the paper's algorithm too, which is most of the work.

@@ -5,14 +5,17 @@ use convergence_study::input::Complaint;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::run::run_one;
 use convergence_study::study::{FromFile, Outcome, Quantity};
-use thermobeam_study::kinds::energy::End;
-use thermobeam_study::kinds::scenes::{NUMBERS, ROW, Scenes, Shown};
+use thermobeam_study::kinds::runs::RunStudy;
+use thermobeam_study::kinds::runs::cases::End;
+use thermobeam_study::kinds::runs::scenes::{self, NUMBERS, ROW, Shown};
 use thermobeam_study::scene::Scene;
 
 use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{counted, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
+
+type Scenes = RunStudy<scenes::Scenes>;
 
 const STUDY: &str = "whole-scenes.toml";
 

@@ -1,6 +1,8 @@
 //! Blocks of a step's linear system, three fields times q + 1 coefficients in time, and dense
 //! matrices between them.
 
+use crate::lanes::fma;
+
 /// Coefficients in time of (v, w, θ~) at one block of the space.
 pub(super) type Block<const S: usize> = [[f64; S]; 3];
 
@@ -30,7 +32,7 @@ pub(super) fn subtract_product<const S: usize>(y: &mut Block<S>, matrix: &Matrix
 pub(super) fn add_columns<const S: usize>(y: &mut [f64; S], columns: &[[f64; S]; S], x: &[f64; S]) {
     for (column, x) in columns.iter().zip(x) {
         for (y, entry) in y.iter_mut().zip(column) {
-            *y = entry.mul_add(*x, *y);
+            *y = fma(*entry, *x, *y);
         }
     }
 }
@@ -77,7 +79,7 @@ pub(super) fn add<const S: usize>(a: &mut Matrix<S>, b: &Matrix<S>) {
 #[inline(always)]
 fn add_multiple<const S: usize>(y: &mut Block<S>, x: &Block<S>, factor: f64) {
     for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
-        *y = factor.mul_add(*x, *y);
+        *y = fma(factor, *x, *y);
     }
 }
 

@@ -5,6 +5,7 @@ use super::block::{Block, add_columns};
 use super::space::Space;
 use super::time::{Forcing, MAX_STAGES, Path, TimeForms};
 use crate::contact::Phase;
+use crate::lanes::fma;
 use crate::parameters::{Beam, Obstacles};
 
 /// u and φ in a block during the step, and the combinations of them in the equations.
@@ -257,11 +258,11 @@ impl<const S: usize> Gram<S> {
         for i in 0..S {
             let factor = weight * u.low[i];
             for j in 0..S {
-                self.entries[i][j] = factor.mul_add(u.low[j], self.entries[i][j]);
+                self.entries[i][j] = fma(factor, u.low[j], self.entries[i][j]);
             }
-            self.entries[i][S] = factor.mul_add(u.top, self.entries[i][S]);
+            self.entries[i][S] = fma(factor, u.top, self.entries[i][S]);
         }
-        self.entries[S][S] = (weight * u.top).mul_add(u.top, self.entries[S][S]);
+        self.entries[S][S] = fma(weight * u.top, u.top, self.entries[S][S]);
     }
 
     /// `‖u_x‖²` for the given values of the Legendre polynomials.

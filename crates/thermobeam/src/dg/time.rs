@@ -2,6 +2,7 @@
 //! of scheme and loads.
 
 use super::legendre;
+use crate::lanes::fma;
 
 /// The integrals for velocities of degree q = S - 1.
 #[derive(Debug, Clone)]
@@ -81,7 +82,7 @@ impl<const S: usize> TimeForms<S> {
     /// `y_0 + τ ∫_0^ξ Σ_j v_j L_j`, with τ = `h`.
     pub(super) fn integrate(y0: f64, h: f64, v: &[f64; S]) -> Path<S> {
         let mut y = [0.0; S];
-        y[0] = 0.5_f64.mul_add(h * v[0], y0);
+        y[0] = fma(0.5, h * v[0], y0);
         for i in 1..S {
             y[i] = h * v[i - 1] / (4 * i - 2) as f64;
         }
@@ -132,7 +133,7 @@ impl<const S: usize> Forcing<S> {
                 let weight = h * point.weight * legendre;
                 for (moment, load) in moments.iter_mut().zip(&self.load) {
                     for field in 0..3 {
-                        moment[field] = weight.mul_add(load[field], moment[field]);
+                        moment[field] = fma(weight, load[field], moment[field]);
                     }
                 }
             }

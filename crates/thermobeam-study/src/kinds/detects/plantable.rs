@@ -1,7 +1,7 @@
 //! Studies into which faults can be planted, and the runs of such a study with a fault.
 
 use super::fault::{Fault, Planted};
-use crate::kinds::orders::{Runs, Source};
+use crate::kinds::orders::{Runs, Series, Source};
 use crate::kinds::prelude::*;
 
 /// A study of orders whose solver or sources can be wrong on purpose.
@@ -34,7 +34,7 @@ pub trait Plantable: Source<Found: Clone> {
     fn errors(found: &Self::Found) -> Vec<(&'static str, f64)>;
 }
 
-/// The verdict of a study on the results of its cases, without tables and figures.
+/// The verdict of a study on the results of its cases.
 pub(super) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
     let is_complete = |run: &Ran<S::Data, S::Found>| {
         run.ok()
@@ -43,19 +43,10 @@ pub(super) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
     if !runs.iter().all(is_complete) {
         return Verdict::Fail;
     }
-    let series = source.series(runs);
-    let checks = source.checks(runs, &series);
-    let mut verdicts: Vec<Verdict> = checks.iter().map(|check| check.verdict).collect();
-    for series in series.iter().filter(|series| series.is_claimed) {
-        match &series.grid {
-            Some(grid) => verdicts.push(grid.judge().verdict),
-            None => {
-                let rates = series.levels.judge();
-                verdicts.extend(rates.into_iter().map(|(_, rate)| rate.verdict));
-            }
-        }
-    }
-    Verdict::worst(verdicts)
+    let measured = source.measured(runs);
+    let checks = measured.checks.iter().map(|check| check.verdict);
+    let claimed = measured.series.iter().filter(|series| series.is_claimed);
+    Verdict::worst(checks.chain(claimed.map(Series::verdict)))
 }
 
 /// A case of a study, and what its runs share.

@@ -16,7 +16,7 @@
 
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
-use super::{Drawn, Orders, Runs, Series, Shown, Source};
+use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{Layout, increasing};
 
@@ -124,7 +124,28 @@ impl Source for Frequencies {
         }
     }
 
-    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+    fn measured(&self, runs: &Runs<Self>) -> Measured {
+        let levels = self.levels(runs);
+        let mut checks = vec![self.equation_holds(), self.lie_above(&levels)];
+        if self.first > 1 {
+            checks.push(self.met_below_first(runs.last().and_then(Ran::ok)));
+        }
+        let caption = format!(
+            "Errors of frequencies {} to {} over the mesh width, on elements of degree {}.",
+            self.first, self.count, self.degree
+        );
+        let series = Series::new(levels).drawn("errors", Some("Frequencies ωₕ − ω"), &caption);
+        Measured {
+            checks,
+            tables: vec![self.table(&series)],
+            series: vec![series],
+            ..Measured::default()
+        }
+    }
+}
+
+impl Frequencies {
+    fn levels(&self, runs: &Runs<Self>) -> Levels {
         let exact = frequencies(self.count);
         let refinement = |run: &Ran<usize, Vec<f64>>| {
             let n = run.case.data;
@@ -141,44 +162,16 @@ impl Source for Frequencies {
             claim: Some(self.claim),
             look: mode,
         };
-        let levels = Levels::new(
+        Levels::new(
             Axis::Space,
             runs.iter().map(refinement),
             (self.first - 1..self.count).map(column),
-        );
-        let Self {
-            first,
-            count,
-            degree,
-            ..
-        } = self;
-        let caption = format!(
-            "Errors of frequencies {first} to {count} over the mesh width, on elements of degree {degree}."
-        );
-        let figure = Drawn::new("errors", Some("Frequencies ωₕ − ω"), caption);
-        vec![Series::new(levels, figure)]
+        )
     }
 
-    fn checks(&self, runs: &Runs<Self>, series: &[Series]) -> Vec<Check> {
-        let mut checks = vec![self.equation_holds(), self.lie_above(&series[0].levels)];
-        if self.first > 1 {
-            checks.push(self.met_below_first(runs.last().and_then(Ran::ok)));
-        }
-        checks
-    }
-
-    fn shown(&self, _: &Runs<Self>, series: &[Series], judged: &Outcome) -> Shown {
-        Shown {
-            tables: vec![self.table(&series[0].levels, &judged.rates)],
-            ..Shown::default()
-        }
-    }
-}
-
-impl Frequencies {
     /// Each judged frequency on the finest mesh, with its rate.
-    fn table(&self, levels: &Levels, rates: &[(String, RateVerdict)]) -> Table {
-        let finest = levels.refinements.last();
+    fn table(&self, series: &Series) -> Table {
+        let finest = series.levels.refinements.last();
         let h = finest.map_or(f64::NAN, |level| level.step);
         let mesh = finest.map_or("-", |level| level.label.as_str());
         let title = format!(
@@ -199,7 +192,7 @@ impl Frequencies {
         let exact = frequencies(self.count).into_iter().skip(self.first - 1);
         for ((mode, omega), (column, (_, rate))) in (self.first..)
             .zip(exact)
-            .zip(levels.columns.iter().zip(rates))
+            .zip(series.levels.columns.iter().zip(series.rates()))
         {
             let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
             // Known for linear elements only.

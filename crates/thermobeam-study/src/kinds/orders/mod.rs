@@ -51,22 +51,8 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// Names of the numbers of a run that are NaN or infinite.
     fn not_finite(&self, found: &Self::Found) -> Vec<String>;
 
-    /// The errors that are judged by their rates, with the claims about them.
-    fn series(&self, runs: &Runs<Self>) -> Vec<Series>;
-
-    /// Checks beside the rates.
-    ///
-    /// * `series`: those of the same runs.
-    fn checks(&self, _runs: &Runs<Self>, _series: &[Series]) -> Vec<Check> {
-        vec![]
-    }
-
-    /// What the study shows beside errors and rates.
-    ///
-    /// * `judged`: errors, rates and checks; `series`: those of the same runs.
-    fn shown(&self, _runs: &Runs<Self>, _series: &[Series], _judged: &Outcome) -> Shown {
-        Shown::default()
-    }
+    /// The errors that are judged by their rates, and what is checked and shown beside them.
+    fn measured(&self, runs: &Runs<Self>) -> Measured;
 
     /// The next finer run, for a study that adds levels until its rates are decided.
     fn finer(&self, _runs: &Runs<Self>) -> Option<Finer<Self::Data>> {
@@ -87,40 +73,31 @@ pub trait Source: Send + Sync + Sized + 'static {
 /// The results of a source.
 pub type Runs<S> = [Ran<<S as Source>::Data, <S as Source>::Found>];
 
-/// Errors over levels that are judged together.
+/// What the runs of a source say.
+#[derive(Default)]
+pub struct Measured {
+    /// Errors that are judged by their rates.
+    pub series: Vec<Series>,
+    /// Checks beside the rates and completion.
+    pub checks: Vec<Check>,
+    /// Tables beside that of the rates.
+    pub tables: Vec<Table>,
+    /// Figures beside those of the series.
+    pub figures: Vec<Figure>,
+    /// Guarded numbers beside errors and rates.
+    pub quantities: Vec<Quantity>,
+    /// The summary of a study without rates.
+    pub summary: String,
+}
+
+/// Errors over levels, judged together.
 pub struct Series {
     /// The errors, and the claims about them.
     pub levels: Levels,
     /// Whether the orders are claims; otherwise the rates are shown and decide nothing.
     pub is_claimed: bool,
-    /// Their figure; `None` if the source draws them itself.
-    pub figure: Option<Drawn>,
-    /// The same errors on a grid of mesh widths and time steps: rates and figures are then those of
-    /// the grid.
-    pub grid: Option<Grid>,
-}
-
-/// A figure of errors over levels; the arguments of [`Levels::figure`].
-pub struct Drawn {
-    /// The last part of the name of its file.
-    pub file: String,
-    /// What has these errors, for the title.
-    pub subject: Option<String>,
-    /// The content, as a sentence.
-    pub caption: String,
-}
-
-/// What a source shows beside errors and rates.
-#[derive(Default)]
-pub struct Shown {
-    /// Tables.
-    pub tables: Vec<Table>,
-    /// Figures.
-    pub figures: Vec<Figure>,
-    /// Guarded numbers.
-    pub quantities: Vec<Quantity>,
-    /// The summary of a study without rates.
-    pub summary: String,
+    /// Rates with their verdicts, errors, guarded numbers, figures.
+    judged: Outcome,
 }
 
 /// The next level of a study that adds levels.
@@ -184,7 +161,9 @@ impl<S: Source> Kind for Orders<S> {
     }
 
     fn more(&self, runs: &Runs<S>) -> Option<Case<S::Data>> {
-        let (next, finer) = self.next(runs, self.0.series(runs).first()?)?;
+        let finer = self.finer_of_complete(runs)?;
+        let measured = self.0.measured(runs);
+        let next = finer.next(measured.series.first()?);
         (next == Next::Another).then_some(finer.case)
     }
 
@@ -193,43 +172,45 @@ impl<S: Source> Kind for Orders<S> {
     }
 
     fn judge(&self, runs: &Runs<S>) -> Outcome {
-        let series = self.0.series(runs);
-        // Each part can only worsen the verdict, and completion is always one of them.
+        let measured = self.0.measured(runs);
+        // Every part can only worsen the verdict, and completion is always one of them.
         let mut outcome = Outcome {
             verdict: Verdict::Pass,
             ..Outcome::new("", vec![], vec![])
         };
         let mut not_claimed = vec![];
-        for series in &series {
-            let mut part = series.judge();
-            add_levels(&mut outcome.levels, std::mem::take(&mut part.levels));
+        for series in &measured.series {
+            let mut judged = series.judged.clone();
+            add_levels(&mut outcome.levels, std::mem::take(&mut judged.levels));
             if series.is_claimed {
-                outcome.extend(part);
+                outcome.extend(judged);
             } else {
-                not_claimed.extend(part.rates);
+                not_claimed.extend(judged.rates);
             }
         }
-        let mut checks = vec![completion(runs, |found| self.0.not_finite(found))];
-        checks.extend(self.0.checks(runs, &series));
-        outcome.extend(Outcome::new("", vec![], checks));
         if !not_claimed.is_empty() {
             let title = "Rates shown, not claimed: not needed for a pass";
             outcome.tables.push(rate_table(title, &not_claimed));
         }
-        let shown = self.0.shown(runs, &series, &outcome);
-        outcome.tables.extend(shown.tables);
-        outcome.figures.extend(shown.figures);
-        outcome.quantities.extend(shown.quantities);
-        let Some(first) = series.first() else {
-            outcome.headline = shown.summary.clone();
-            outcome.summary = shown.summary;
+        let mut checks = vec![completion(runs, |found| self.0.not_finite(found))];
+        checks.extend(measured.checks);
+        outcome.extend(Outcome {
+            tables: measured.tables,
+            figures: measured.figures,
+            quantities: measured.quantities,
+            ..Outcome::new("", vec![], checks)
+        });
+        let Some(first) = measured.series.first() else {
+            outcome.headline.clone_from(&measured.summary);
+            outcome.summary = measured.summary;
             return outcome;
         };
         outcome.summary = summary(&outcome.rates);
         let outcome = outcome.summed_up_by_rates("");
-        match self.next(runs, first) {
-            Some((next, Finer { budget, unit, .. })) => {
-                until_decided::ended(outcome, next, &first.levels, budget, unit)
+        match self.finer_of_complete(runs) {
+            Some(finer) => {
+                let next = finer.next(first);
+                until_decided::ended(outcome, next, &first.levels, finer.budget, finer.unit)
             }
             None => outcome,
         }
@@ -245,87 +226,73 @@ impl<S: Source> Kind for Orders<S> {
 }
 
 impl<S: Source> Orders<S> {
-    /// What a study that adds levels does next; `None` if its levels are listed or a run has
-    /// failed.
-    fn next(&self, runs: &Runs<S>, series: &Series) -> Option<(Next, Finer<S::Data>)> {
-        if runs.iter().any(|run| run.found.is_err()) {
-            return None;
-        }
-        let finer = self.0.finer(runs)?;
-        let next = until_decided::next(
-            &series.levels.judge(),
-            series.levels.refinements.len(),
-            finer.cost,
-            finer.spent,
-            finer.budget,
-        );
-        Some((next, finer))
+    /// The next level; `None` also if a run has failed.
+    fn finer_of_complete(&self, runs: &Runs<S>) -> Option<Finer<S::Data>> {
+        let is_complete = runs.iter().all(|run| run.found.is_ok());
+        self.0.finer(runs).filter(|_| is_complete)
+    }
+}
+
+impl<D> Finer<D> {
+    fn next(&self, series: &Series) -> Next {
+        let levels = series.levels.refinements.len();
+        until_decided::next(series.rates(), levels, self.cost, self.spent, self.budget)
     }
 }
 
 impl Series {
-    /// Errors with claims, and their figure.
-    pub fn new(levels: Levels, figure: Drawn) -> Self {
+    /// Judges errors over levels.
+    pub fn new(levels: Levels) -> Self {
+        let judged = Outcome::new("", levels.judge(), vec![]);
+        Self::of(levels, judged)
+    }
+
+    /// Judges the same errors on a grid of mesh widths and time steps, and draws them.
+    pub fn on_grid(levels: Levels, grid: &Grid) -> Self {
+        let label = |name: &str| {
+            let mut columns = levels.columns.iter();
+            let column = columns.find(|column| column.name == name);
+            let symbol = column.and_then(|column| column.symbol.as_deref());
+            format!("error, {}", symbol.unwrap_or(name))
+        };
+        let judged = Outcome {
+            figures: grid.figures(label),
+            ..grid.judge()
+        };
+        Self::of(levels, judged)
+    }
+
+    fn of(levels: Levels, judged: Outcome) -> Self {
         Self {
+            judged: Outcome {
+                levels: levels.errors(),
+                rate_subjects: levels.subjects.clone(),
+                quantities: levels.quantities(&judged.rates),
+                ..judged
+            },
             levels,
             is_claimed: true,
-            figure: Some(figure),
-            grid: None,
         }
     }
 
-    /// Errors, rates with their verdicts, guarded numbers and figures.
-    fn judge(&self) -> Outcome {
-        let levels = &self.levels;
-        let outcome = match &self.grid {
-            Some(grid) => Outcome {
-                figures: grid.figures(|name| self.label(name)),
-                ..grid.judge()
-            },
-            None => {
-                let rates = levels.judge();
-                let figure = self.figure.as_ref().map(|figure| figure.of(levels, &rates));
-                Outcome {
-                    figures: figure.into_iter().collect(),
-                    ..Outcome::new("", rates, vec![])
-                }
-            }
-        };
-        Outcome {
-            levels: levels.errors(),
-            quantities: levels.quantities(&outcome.rates),
-            rate_subjects: levels.subjects.clone(),
-            ..outcome
-        }
+    /// The same with a figure; the arguments are those of [`Levels::figure`].
+    #[must_use]
+    pub fn drawn(mut self, file: &str, subject: Option<&str>, caption: &str) -> Self {
+        let subject = subject.map(str::to_owned);
+        let rates = self.rates();
+        let figure = self.levels.figure(file, subject, caption.to_owned(), rates);
+        self.judged.figures.push(figure);
+        self
     }
 
-    /// The axis of an error in a figure.
-    fn label(&self, name: &str) -> String {
-        let mut columns = self.levels.columns.iter();
-        let symbol = columns
-            .find(|column| column.name == name)
-            .and_then(|column| column.symbol.as_deref());
-        format!("error, {}", symbol.unwrap_or(name))
-    }
-}
-
-impl Drawn {
-    /// * `file`: the last part of its name; `subject`, `caption`: as in [`Levels::figure`].
-    pub fn new(file: &str, subject: Option<&str>, caption: impl Into<String>) -> Self {
-        Self {
-            file: file.to_owned(),
-            subject: subject.map(str::to_owned),
-            caption: caption.into(),
-        }
+    /// The verdict on all its rates.
+    pub fn verdict(&self) -> Verdict {
+        self.judged.verdict
     }
 
-    fn of(&self, levels: &Levels, rates: &Rates) -> Figure {
-        levels.figure(
-            &self.file,
-            self.subject.clone(),
-            self.caption.clone(),
-            rates,
-        )
+    /// The rates of the errors with claims, with their verdicts.
+    pub fn rates(&self) -> &Rates {
+        &self.judged.rates
     }
 }
 

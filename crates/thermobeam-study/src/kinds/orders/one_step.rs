@@ -43,37 +43,6 @@ pub(super) fn not_finite_norms(errors: &Norms) -> Vec<String> {
     not_finite(errors.iter().map(|(norm, error)| (norm.name(), error)))
 }
 
-/// The solver at t = 0, and the lifting of its temperature in the meter of its errors.
-///
-/// * `solver`: its coefficients; `dt`: the length of a step.
-///
-/// # Errors
-/// [`CaseFailure`] if the solver refuses the problem.
-pub(super) fn start<'l>(
-    refine: &Refine,
-    dt: f64,
-    loaded: bool,
-    solver: Coefficients,
-    mesh: &Mesh,
-    initial: Initial,
-    meter: &mut ErrorMeter,
-) -> Result<Driver<'l>, CaseFailure> {
-    let stepping = Stepping {
-        scheme: refine.scheme,
-        settings: refine.settings,
-        dt,
-        loaded,
-    };
-    let problem = Problem {
-        beam: solver.beam,
-        obstacles: solver.obstacles,
-        mesh: mesh.clone(),
-        initial,
-    };
-    meter.lift(mesh, solver.beam.theta_a);
-    Ok(Driver::new(problem, stepping)?)
-}
-
 /// Steps to `until` and returns the largest error in each norm over the steps; NaN stays.
 ///
 /// * `measure`: the errors at the end of a step.

@@ -26,8 +26,8 @@ mod truth;
 pub use self::measure::{Found, Refusal};
 
 use self::judge::worst;
-use super::energy::named_cases;
 use super::prelude::*;
+use super::runs::cases::named_cases;
 use crate::scene;
 
 /// The row of the table of kinds.

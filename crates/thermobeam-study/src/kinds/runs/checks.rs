@@ -2,7 +2,7 @@
 //!
 //! A claim holds if each of its conditions does. A condition compares such that NaN fails.
 
-use super::end::End;
+use super::cases::End;
 use super::watch::{Worst, of_allowed};
 use crate::kinds::prelude::*;
 

@@ -5,11 +5,14 @@
 //! [`checks`]. [`RunStudy`] does for all of them what does not depend on the kind.
 
 pub mod bifurcation;
+pub mod cases;
 pub mod checks;
-pub mod end;
+pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
+pub mod experiment;
 pub mod rigid;
+pub mod scenes;
 pub(crate) mod side_by_side;
 pub(crate) mod steady;
 pub(crate) mod watch;

@@ -3,7 +3,8 @@
 use convergence_study::plots::Series;
 
 use super::spectrum::spectral_radius;
-use super::{Found, SolverTask, factors, positive_numbers, results};
+use super::step::{by_fixed_point, factors};
+use super::{Found, SolverTask, positive_numbers, results};
 use crate::kinds::prelude::*;
 
 /// Smallest and largest number of iterations between the start and the last increment but one of a
@@ -200,16 +201,9 @@ struct Iterate {
 impl Held {
     /// The iterate after this number of iterations.
     fn iterate(&self, iterations: usize) -> Result<Iterate, CaseFailure> {
-        let settings = Settings {
-            solver: Solver::FixedPoint,
-            stopping: Stopping::Iterations(iterations),
-            ..Settings::default()
-        };
         let stepping = Stepping {
-            scheme: EULER_CRANK_NICOLSON,
-            settings,
-            dt: self.dt,
             loaded: true,
+            ..by_fixed_point(self.dt, Stopping::Iterations(iterations))
         };
         let hold = |_, load: &mut [[f64; 3]]| {
             let n = load.len() - 1;

@@ -18,7 +18,9 @@
 //! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is sufficient, with the
 //! buckling force B and the mean axial force m >= β.
 
-use super::{FixedPointStep, SolverTask, factors};
+use super::SolverTask;
+use super::step::{FixedPointStep, factors};
+use crate::kinds::interval::Interval;
 use crate::kinds::prelude::*;
 use crate::kinds::runs::watch::{Watched, Worst, watched};
 
@@ -46,8 +48,8 @@ const CONSECUTIVE: usize = 8;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Map {
     pub(super) over: Parameter,
-    pub(super) dt: [f64; 2],
-    pub(super) range: [f64; 2],
+    pub(super) dt: Interval,
+    pub(super) range: Interval,
     pub(super) points: usize,
     pub(super) lines: Vec<f64>,
     elements: usize,
@@ -85,19 +87,6 @@ impl Parameter {
     }
 }
 
-/// Values from the first to the last of `range`, equally spaced on a linear or logarithmic scale.
-pub(super) fn spaced([low, high]: [f64; 2], points: usize, linear: bool) -> Vec<f64> {
-    let at = |k: usize| k as f64 / (points - 1) as f64;
-    let value = |s: f64| {
-        if linear {
-            low + (high - low) * s
-        } else {
-            low * (high / low).powf(s)
-        }
-    };
-    (0..points).map(|k| value(at(k))).collect()
-}
-
 impl Map {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         section.allow(&[
@@ -113,9 +102,9 @@ impl Map {
         let over = section
             .require("over", "a second parameter")?
             .choice(&Parameter::ALL)?;
-        let range = interval(section, "range", over.is_linear())?;
+        let range = Interval::read(section, "range", !over.is_linear())?;
         if over == Parameter::Width {
-            check_width(&section.require("range", "a range")?, range[0])?;
+            check_width(&section.require("range", "a range")?, range.low)?;
         }
         let line = |item: &Field<'_>| {
             // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
@@ -130,7 +119,7 @@ impl Map {
         };
         Ok(Self {
             over,
-            dt: interval(section, "dt", false)?,
+            dt: Interval::read(section, "dt", true)?,
             range,
             points: section.count("points", 2..=limits::MAP_POINTS)?,
             lines: section.list("lines", "a list of at least one number", line, |list| {
@@ -144,7 +133,7 @@ impl Map {
 
     /// The time steps of every row.
     pub(super) fn time_steps(&self) -> Vec<f64> {
-        spaced(self.dt, self.points, false)
+        self.dt.values(self.points)
     }
 
     /// The coefficients at a value of the second parameter.
@@ -188,7 +177,7 @@ impl Map {
         let row = (self.points * (ITERATIONS + 4 * self.steps)) as f64;
         let boundary = (2 * HALVINGS * SETTLED) as f64;
         let mut cases = vec![];
-        for value in spaced(self.range, self.points, self.over.is_linear()) {
+        for value in self.range.values(self.points) {
             let label = format!("{name} = {value:.3e}");
             let cost = row * self.elements(value);
             cases.push(Case::new(label, cost, SolverTask::Row(value)));
@@ -232,18 +221,6 @@ fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
         limits::memory_of_elements(elements)
     );
     Err(field.refuse(found, format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64)))
-}
-
-/// Two ascending numbers, positive unless the axis is linear.
-fn interval(section: &Section<'_>, key: &str, linear: bool) -> Result<[f64; 2], InputError> {
-    let allowed = if linear {
-        "two ascending numbers"
-    } else {
-        "two ascending numbers > 0"
-    };
-    let fits = |ends: &[f64]| ends.len() == 2 && increases(ends) && (linear || ends[0] > 0.0);
-    let ends = section.list(key, allowed, Field::number, fits)?;
-    Ok([ends[0], ends[1]])
 }
 
 /// Both solvers with one time step.
@@ -356,7 +333,7 @@ pub struct Boundary {
 impl Map {
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
         let problem = self.problem(value)?;
-        let [low, high] = self.dt;
+        let Interval { low, high, .. } = self.dt;
         let n_value = axial_force(&problem);
         let alpha_is_below = |limit: f64| {
             bisect(

@@ -2,8 +2,9 @@
 
 use convergence_study::plots::{Axis, Series, Surface};
 
-use super::map::{NewtonSteps, Parameter, Point, spaced};
+use super::map::{NewtonSteps, Parameter, Point};
 use super::map_judge::MapResults;
+use crate::kinds::interval::Interval;
 use crate::kinds::prelude::*;
 
 /// Smaller contractions are shown as this value: after a few iterations the ratio is no longer
@@ -13,32 +14,40 @@ const FASTEST: f64 = 1e-6;
 const EXACT: f64 = 1e-18;
 
 /// A number of the completed steps by Newton's method.
-fn of_newton(point: &Point, number: fn(&NewtonSteps) -> f64) -> Option<f64> {
+fn steps(point: &Point, number: fn(&NewtonSteps) -> f64) -> Option<f64> {
     let completes = point.newton_completes;
     completes.then(|| point.newton.as_ref().map_or(f64::NAN, number))
 }
 
+/// What figures of Newton's method share.
+fn of_newton(z: Axis, boundaries: Vec<Series>) -> Surface {
+    Surface {
+        z,
+        marked_label: "operator not definite".to_owned(),
+        boundaries,
+        ..Surface::default()
+    }
+}
+
 impl MapResults<'_> {
-    pub(super) fn figures(&self) -> Vec<Figure> {
-        let over = self.map.over.name();
-        let fixed_point = |z: &str| Surface {
+    /// What figures of the fixed point share.
+    fn of_fixed_point(&self, z: &str) -> Surface {
+        Surface {
             z: Axis::log(z),
             marked_label: "the fixed point fails".to_owned(),
             boundaries: vec![self.predicted(), self.crossings()],
             ..Surface::default()
-        };
-        let newton = |z: Axis, boundaries: Vec<Series>| Surface {
-            z,
-            marked_label: "operator not definite".to_owned(),
-            boundaries,
-            ..Surface::default()
-        };
+        }
+    }
+
+    pub(super) fn figures(&self) -> Vec<Figure> {
+        let over = self.map.over.name();
         vec![
             self.figure(
                 "contraction",
                 "The fixed point fails where α reaches 1",
                 format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
-                fixed_point("contraction per iteration"),
+                self.of_fixed_point("contraction per iteration"),
                 |point| {
                     let contraction = point.step.contraction.unwrap_or(f64::NAN);
                     point.step.converged.then_some(max_or_nan(contraction, FASTEST))
@@ -48,7 +57,7 @@ impl MapResults<'_> {
                 "iterations",
                 "The iterations of the fixed point grow towards α = 1",
                 format!("Iterations of the fixed point in a step over dt and {over}."),
-                fixed_point("iterations of the fixed point"),
+                self.of_fixed_point("iterations of the fixed point"),
                 |point| {
                     let iterations = point.step.iterations.max(1) as f64;
                     point.step.converged.then_some(iterations)
@@ -58,15 +67,15 @@ impl MapResults<'_> {
                 "newton",
                 "Newton's method needs few iterations at every step",
                 format!("Most iterations of Newton's method in a step over dt and {over}."),
-                newton(Axis::linear("most Newton iterations in a step"), self.definite()),
-                |point| of_newton(point, |steps| steps.iterations.max(1) as f64),
+                of_newton(Axis::linear("most Newton iterations in a step"), self.definite()),
+                |point| steps(point, |steps| steps.iterations.max(1) as f64),
             ),
             self.figure(
                 "balance",
                 "The balance of the energy closes to round-off at every step",
                 format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
-                newton(Axis::log("largest residual / energy"), vec![self.predicted()]),
-                |point| of_newton(point, |steps| max_or_nan(steps.worst.residual, EXACT)),
+                of_newton(Axis::log("largest residual / energy"), vec![self.predicted()]),
+                |point| steps(point, |steps| max_or_nan(steps.worst.residual, EXACT)),
             ),
         ]
     }
@@ -151,8 +160,11 @@ impl MapResults<'_> {
             return vec![];
         }
         let zeta = Beam::default().zeta;
-        let [low, high] = self.map.range;
-        let points = spaced(self.map.dt, 400, false)
+        let Interval { low, high, .. } = self.map.range;
+        let points = self
+            .map
+            .dt
+            .values(400)
             .into_iter()
             .map(|dt| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt)))
             .filter(|(_, beta)| (low..high).contains(beta));

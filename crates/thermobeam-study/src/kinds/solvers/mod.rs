@@ -43,7 +43,6 @@ use super::prelude::*;
 use comparison::Comparison;
 use contraction::Grid;
 use map::Map;
-use step::factors;
 
 pub use super::runs::side_by_side::SolverComparison;
 pub use comparison::Agreement;

@@ -39,19 +39,11 @@ impl FixedPointStep {
         n_value: f64,
         max_iterations: usize,
     ) -> Result<Self, CaseFailure> {
-        let stepping = Stepping {
-            scheme: EULER_CRANK_NICOLSON,
-            settings: Settings {
-                solver: Solver::FixedPoint,
-                stopping: Stopping::Converged {
-                    tolerance: TOLERANCE,
-                    max_iterations,
-                },
-                ..Settings::default()
-            },
-            dt,
-            loaded: false,
+        let stopping = Stopping::Converged {
+            tolerance: TOLERANCE,
+            max_iterations,
         };
+        let stepping = by_fixed_point(dt, stopping);
         let mut driver = Driver::new(problem.clone(), stepping)?;
         let mut reached = (0, None);
         let ended = run_to(&mut driver, dt, |_, report| {
@@ -89,6 +81,20 @@ impl FixedPointStep {
             iterations,
             contraction,
         })
+    }
+}
+
+/// Steps of the paper's algorithm, without loads.
+pub(super) fn by_fixed_point(dt: f64, stopping: Stopping) -> Stepping {
+    Stepping {
+        scheme: EULER_CRANK_NICOLSON,
+        settings: Settings {
+            solver: Solver::FixedPoint,
+            stopping,
+            ..Settings::default()
+        },
+        dt,
+        loaded: false,
     }
 }
 

@@ -147,6 +147,16 @@ impl Refine {
         )
     }
 
+    /// How a run with this number of steps is stepped.
+    pub(crate) fn stepping(&self, steps: usize, loaded: bool) -> Stepping {
+        Stepping {
+            scheme: self.scheme,
+            settings: self.settings,
+            dt: self.dt(steps),
+            loaded,
+        }
+    }
+
     /// The length of a step.
     pub fn dt(&self, steps: usize) -> f64 {
         self.t_end / steps as f64
@@ -200,25 +210,24 @@ pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
         scheme: tables::scheme(&section)?,
         settings: tables::settings(&section)?,
     };
-    if refine.grid {
-        limits::cases(
-            &section.require("elements", "a list")?,
-            &[refine.elements.len(), refine.steps.len()],
-        )?;
-    }
-    if axis == Axis::Both && !refine.grid && refine.elements.len() != refine.steps.len() {
-        let found = format!(
-            "{} numbers of steps for {} of elements",
-            refine.steps.len(),
-            refine.elements.len()
-        );
-        return Err(section.refuse(
-            "steps",
-            found,
-            "lists of the same length, or grid = true for all combinations",
-        ));
+    if axis == Axis::Both {
+        check_pairs(&section, &refine)?;
     }
     Ok(refine)
+}
+
+/// Refuses lists of both axes that make too many runs, or no pairs.
+fn check_pairs(section: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
+    let [elements, steps] = [refine.elements.len(), refine.steps.len()];
+    if refine.grid {
+        limits::cases(&section.require("elements", "a list")?, &[elements, steps])
+    } else if elements != steps {
+        let found = format!("{steps} numbers of steps for {elements} of elements");
+        let allowed = "lists of the same length, or grid = true for all combinations";
+        Err(section.refuse("steps", found, allowed))
+    } else {
+        Ok(())
+    }
 }
 
 /// A key that may be true only if `possible`.

@@ -30,7 +30,7 @@ mod runs;
 use convergence_study::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::Stepping;
 
-use super::{Drawn, Orders, Runs, Series, Shown, Source};
+use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
@@ -212,45 +212,13 @@ impl Source for AnyOrder {
         not_finite(found.named.iter().copied())
     }
 
-    /// Rates over h or dt; one figure shows each degree's errors together.
-    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
-        if self.over == Over::Degree {
-            return vec![];
-        }
-        let mut series = vec![];
-        for (of_degree, runs) in self.by_degree(runs) {
-            let Resolution {
-                degree: p,
-                time_degree: q,
-                ..
-            } = of_degree.runs[0];
-            let (letter, degree) = match self.over {
-                Over::Time => ("q", q),
-                Over::Space | Over::Degree => ("p", p),
-            };
-            let subject = format!("{letter} = {degree}");
-            let caption = format!("Errors for {subject}, with the orders of theory (triangles).");
-            let levels = self.levels(&subject, of_degree, runs);
-            let file = format!("{letter}{degree}");
-            series.push(Series::new(
-                levels,
-                Drawn::new(&file, Some(&subject), caption),
-            ));
-        }
-        series
-    }
-
-    fn checks(&self, runs: &Runs<Self>, _: &[Series]) -> Vec<Check> {
-        let mut checks = vec![projected(runs)];
-        checks.extend(self.falls(runs));
-        checks
-    }
-
-    fn shown(&self, runs: &Runs<Self>, _: &[Series], _: &Outcome) -> Shown {
-        match self.over {
+    fn measured(&self, runs: &Runs<Self>) -> Measured {
+        let mut measured = match self.over {
             Over::Degree => self.over_degrees(runs),
-            Over::Space | Over::Time => Shown::default(),
-        }
+            Over::Space | Over::Time => self.over_steps(runs),
+        };
+        measured.checks.insert(0, projected(runs));
+        measured
     }
 }
 
@@ -322,6 +290,31 @@ impl AnyOrder {
         }
     }
 
+    /// Rates over h or dt; one figure shows each degree's errors together.
+    fn over_steps(&self, runs: &Runs<Self>) -> Measured {
+        let mut series = vec![];
+        for (of_degree, runs) in self.by_degree(runs) {
+            let Resolution {
+                degree: p,
+                time_degree: q,
+                ..
+            } = of_degree.runs[0];
+            let (letter, degree) = match self.over {
+                Over::Time => ("q", q),
+                Over::Space | Over::Degree => ("p", p),
+            };
+            let subject = format!("{letter} = {degree}");
+            let caption = format!("Errors for {subject}, with the orders of theory (triangles).");
+            let levels = self.levels(&subject, of_degree, runs);
+            let file = format!("{letter}{degree}");
+            series.push(Series::new(levels).drawn(&file, Some(&subject), &caption));
+        }
+        Measured {
+            series,
+            ..Measured::default()
+        }
+    }
+
     /// * `degree`: in words, such as `p = 2`.
     fn levels(&self, degree: &str, series: &RunsOfDegree, runs: &Runs<Self>) -> Levels {
         let mut columns = vec![];
@@ -368,24 +361,16 @@ impl AnyOrder {
         Refinement::new(run.case.label.clone(), &numbers, step)
     }
 
-    /// Over degrees the error must fall by the factor claimed, as a geometric mean, from the first
-    /// degree to the one that reaches round-off.
-    fn falls(&self, runs: &Runs<Self>) -> Vec<Check> {
-        let mut checks = vec![];
-        if self.over == Over::Degree {
-            for (series, runs) in self.by_degree(runs) {
-                checks.extend(exponential(&points(runs), series.tolerance));
-            }
-        }
-        checks
-    }
-
-    fn over_degrees(&self, runs: &Runs<Self>) -> Shown {
+    /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the
+    /// one that reaches round-off.
+    fn over_degrees(&self, runs: &Runs<Self>) -> Measured {
         let mut curves = vec![];
+        let mut checks = vec![];
         let mut quantities = vec![];
         let mut rows = vec![];
         for (series, runs) in self.by_degree(runs) {
             let points = points(runs);
+            checks.extend(exponential(&points, series.tolerance));
             let mesh = counted(series.runs[0].elements, "element");
             for &(p, error) in &points {
                 rows.push(vec![mesh.clone(), p.to_string(), format!("{error:.2e}")]);
@@ -410,16 +395,17 @@ impl AnyOrder {
             .draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let title = "Error of all fields at the end over the degree";
-        let found: Vec<_> = self
-            .falls(runs)
-            .into_iter()
-            .map(|check| check.evidence)
+        let evidence: Vec<&str> = checks
+            .iter()
+            .map(|check: &Check| &*check.evidence)
             .collect();
-        Shown {
+        Measured {
+            summary: evidence.join("; "),
+            checks,
             tables: vec![Table::new(title, ["mesh", "degree p", "error"], rows)],
             figures: vec![Figure::new("degrees", caption, svg)],
             quantities,
-            summary: found.join("; "),
+            ..Measured::default()
         }
     }
 }

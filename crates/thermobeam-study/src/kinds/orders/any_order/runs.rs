@@ -90,36 +90,21 @@ pub(super) fn series(
     let levels = increasing(section, keys.levels, allowed, 3, |item| {
         count(keys.levels, item)
     })?;
-    // The refined number is that of each level.
-    let number = |key: &str| {
-        let table = match keys.of_series {
-            Some(own) if own == key => section,
-            _ if keys.of_run.contains(&key) => run,
-            _ => return Ok(0),
-        };
-        count(key, &table.require(key, "a whole number")?)
-    };
-    let fixed = Resolution {
-        degree: number("degree")?,
-        time_degree: number("time_degree")?,
-        elements: number("elements")?,
-        steps: number("steps")?,
-    };
     let mut runs = vec![];
     for level in levels {
-        runs.push(match over {
-            Over::Space => Resolution {
-                elements: level,
-                ..fixed
-            },
-            Over::Time => Resolution {
-                steps: level,
-                ..fixed
-            },
-            Over::Degree => Resolution {
-                degree: level,
-                ..fixed
-            },
+        let number = |key: &str| {
+            let table = match keys.of_series {
+                Some(own) if own == key => section,
+                _ if keys.of_run.contains(&key) => run,
+                _ => return Ok(level),
+            };
+            count(key, &table.require(key, "a whole number")?)
+        };
+        runs.push(Resolution {
+            degree: number("degree")?,
+            time_degree: number("time_degree")?,
+            elements: number("elements")?,
+            steps: number("steps")?,
         });
     }
     let least = if over == Over::Degree { 1.0 } else { 0.0 };

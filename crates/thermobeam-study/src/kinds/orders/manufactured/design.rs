@@ -15,7 +15,7 @@ use std::cell::RefCell;
 use super::Convergence;
 use crate::exact::defect::Defect;
 use crate::exact::sources::{Nodal, Sources};
-use crate::kinds::orders::one_step::{self, formulas_of, largest_errors};
+use crate::kinds::orders::one_step::{formulas_of, largest_errors};
 use crate::kinds::prelude::*;
 
 /// Space vectors and error meter of one mesh, shared by several runs.
@@ -33,27 +33,21 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// [`MeshError`] if the study's map gives no valid mesh.
     pub fn new(study: &'a Convergence, elements: usize) -> Result<Self, MeshError> {
-        let (exact, beam, mesh) = (
-            &study.exact,
-            &study.theory.beam,
-            study.refine.layout.mesh(elements)?,
-        );
+        let exact = &study.exact;
+        let beam = &study.theory.beam;
+        let mesh = study.refine.layout.mesh(elements)?;
         let is_nodal = study.refine.isolates(Axis::Time);
         let sources = if is_nodal {
             Sources::discrete(exact, beam, &mesh)
         } else {
             Sources::strong(exact, beam, &mesh)
         };
-        let (meter, nodal) = (
-            ErrorMeter::new(exact, &mesh, is_nodal),
-            Nodal::of(exact, &mesh),
-        );
         Ok(Self {
             study,
-            mesh,
-            nodal,
+            nodal: Nodal::of(exact, &mesh),
             sources,
-            meter,
+            meter: ErrorMeter::new(exact, &mesh, is_nodal),
+            mesh,
         })
     }
 
@@ -83,10 +77,14 @@ impl<'a> Prepared<'a> {
         let dt = refine.dt(steps);
         let mut start = Factors::default();
         start.at(exact, 0.0);
-        let driver = self.start(&start, dt, solver, defect)?;
+        let problem = self.problem(&start, solver, defect);
+        let driver = Driver::new(problem, refine.stepping(steps, true))?;
+        self.meter.lift(&self.mesh, solver.beam.theta_a);
         // The exact solution at the end of the step whose loads are filled, for the watch too.
         let reached = RefCell::new(start.clone());
-        let (mut old, mut source, mut n) = (start.clone(), start, 0.0);
+        let mut old = start.clone();
+        let mut source = start;
+        let mut n = 0.0;
         let sources = &self.sources;
         let fill = |_, load: &mut [[f64; 3]]| {
             let mut new = reached.borrow_mut();
@@ -118,21 +116,20 @@ impl<'a> Prepared<'a> {
         )?)
     }
 
-    /// The solver at t = 0.
+    /// The solver's problem, with the exact solution at t = 0.
     ///
     /// * `factors`: those of the exact solution at t = 0; the rest as in [`Self::run`].
-    fn start<'l>(
-        &mut self,
+    fn problem(
+        &self,
         factors: &Factors,
-        dt: f64,
-        solver: Coefficients,
+        Coefficients { beam, obstacles }: Coefficients,
         defect: Option<Defect>,
-    ) -> Result<Driver<'l>, CaseFailure> {
-        let (mesh, meter) = (&self.mesh, &mut self.meter);
+    ) -> Problem {
+        let mesh = self.mesh.clone();
         let exact_theta_a = self.study.theory.beam.theta_a;
         let mut initial = self
             .nodal
-            .initial(mesh, factors, exact_theta_a, solver.beam.theta_a);
+            .initial(&mesh, factors, exact_theta_a, beam.theta_a);
         if defect == Some(Defect::StartNotLifted) {
             // Without the ends: the solver refuses initial data that contradict the boundary
             // conditions.
@@ -142,7 +139,12 @@ impl<'a> Prepared<'a> {
                 *theta -= exact_theta_a * (1.0 - x);
             }
         }
-        one_step::start(&self.study.refine, dt, true, solver, mesh, initial, meter)
+        Problem {
+            beam,
+            obstacles,
+            mesh,
+            initial,
+        }
     }
 }
 

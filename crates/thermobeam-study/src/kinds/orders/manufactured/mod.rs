@@ -35,7 +35,7 @@ pub(in crate::kinds) mod design;
 use convergence_study::study::grid::{Grid, GridColumn};
 
 use super::one_step::{levels, not_finite_norms};
-use super::{Drawn, Finer, Orders, Runs, Series, Source};
+use super::{Finer, Measured, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::detects::untested::untested;
@@ -130,7 +130,7 @@ impl Source for Convergence {
         not_finite_norms(errors)
     }
 
-    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+    fn measured(&self, runs: &Runs<Self>) -> Measured {
         let what = match self.refine.axis {
             Axis::Space => "the mesh width 1/n",
             Axis::Time => "the time step",
@@ -140,10 +140,15 @@ impl Source for Convergence {
         let step = |elements, steps| self.step_size(elements, steps);
         let errors = runs.iter().map(|run| (run.case.data, run.ok()));
         let levels = levels(&self.refine, &self.expect, step, errors);
-        vec![Series {
-            grid: self.refine.grid.then(|| self.grid(runs)),
-            ..Series::new(levels, Drawn::new("rates", None, caption))
-        }]
+        let series = if self.refine.grid {
+            Series::on_grid(levels, &self.grid(runs))
+        } else {
+            Series::new(levels).drawn("rates", None, &caption)
+        };
+        Measured {
+            series: vec![series],
+            ..Measured::default()
+        }
     }
 
     fn finer(&self, runs: &Runs<Self>) -> Option<Finer<(usize, usize)>> {

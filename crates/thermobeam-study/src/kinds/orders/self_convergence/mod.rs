@@ -49,7 +49,7 @@
 mod judge;
 mod observable;
 
-use super::{Orders, Runs, Series, Shown, Source};
+use super::{Measured, Orders, Runs, Series, Source};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
 use crate::kinds::prelude::*;
@@ -179,33 +179,26 @@ impl Source for SelfConvergence {
         broken
     }
 
-    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+    fn measured(&self, runs: &Runs<Self>) -> Measured {
         let mut series = vec![];
         for reading in judge::READINGS {
             for is_claimed in [true, false] {
+                let levels = self.differences(runs, reading, |claim| claim.is_some() == is_claimed);
                 series.push(Series {
-                    levels: self.differences(runs, reading, |claim| claim.is_some() == is_claimed),
                     is_claimed,
-                    figure: None,
-                    grid: None,
+                    ..Series::new(levels)
                 });
             }
         }
-        series
-    }
-
-    fn checks(&self, runs: &Runs<Self>, _: &[Series]) -> Vec<Check> {
         let mut checks = vec![self.reference_known(runs)];
         checks.extend(self.meets_obstacle(runs));
-        checks
-    }
-
-    fn shown(&self, runs: &Runs<Self>, _: &[Series], _: &Outcome) -> Shown {
-        Shown {
+        Measured {
+            series,
+            checks,
             tables: vec![self.values(runs)],
             figures: vec![self.to_reference(runs), self.tip(runs)],
             quantities: self.values_guarded(runs),
-            ..Shown::default()
+            ..Measured::default()
         }
     }
 }

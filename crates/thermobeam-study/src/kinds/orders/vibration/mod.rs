@@ -6,8 +6,8 @@
 
 mod modes;
 
-use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms, start};
-use super::{Drawn, Orders, Runs, Series, Shown, Source};
+use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms};
+use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{Refine, control, expectations, refine};
@@ -109,19 +109,18 @@ impl Source for Vibration {
         let mut closed = is_of_mesh.then(|| modes.moved(Some(formulas), dt));
         let mut factors = Factors::default();
         reference(0, &mut factors);
-        let theta_a = [self.theory, self.solver].map(|beam| beam.beam.theta_a);
+        let Coefficients { beam, obstacles } = self.solver;
         let nodal = Nodal::of(&modes.exact, &mesh);
-        let initial = nodal.initial(&mesh, &factors, theta_a[0], theta_a[1]);
+        let initial = nodal.initial(&mesh, &factors, self.theory.beam.theta_a, beam.theta_a);
         let mut meter = ErrorMeter::new(&modes.exact, &mesh, is_of_mesh);
-        let mut driver = start(
-            &self.refine,
-            dt,
-            false,
-            self.solver,
-            &mesh,
+        meter.lift(&mesh, beam.theta_a);
+        let problem = Problem {
+            beam,
+            obstacles,
+            mesh,
             initial,
-            &mut meter,
-        )?;
+        };
+        let mut driver = Driver::new(problem, self.refine.stepping(steps, false))?;
         let zero = Level::new(elements + 1);
         let mut deviation = 0.0;
         let mut size = 0.0;
@@ -152,7 +151,7 @@ impl Source for Vibration {
         broken
     }
 
-    fn series(&self, runs: &Runs<Self>) -> Vec<Series> {
+    fn measured(&self, runs: &Runs<Self>) -> Measured {
         let step = |elements: usize, steps: usize| match self.refine.axis {
             Axis::Time => self.refine.dt(steps),
             Axis::Space | Axis::Both => self.refine.layout.size(elements),
@@ -162,39 +161,32 @@ impl Source for Vibration {
             .map(|run| (run.case.data, run.ok().map(|found| &found.errors)));
         let levels = levels(&self.refine, &self.expect, step, errors);
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
-        let figure = Drawn::new("errors", Some("Damped vibration"), caption);
-        vec![Series::new(levels, figure)]
-    }
-
-    /// If time is isolated, the exact result of the solver is known.
-    fn checks(&self, runs: &Runs<Self>, _: &[Series]) -> Vec<Check> {
-        if !self.refine.isolates(Axis::Time) {
-            return vec![];
-        }
-        let deviations = runs
-            .iter()
-            .map(|run| run.ok().and_then(|found| found.closed_form));
-        let worst = largest_of(deviations.map(|deviation| deviation.unwrap_or(f64::NAN)));
-        let worst = worst.unwrap_or(f64::NAN);
-        let check = Check::that(
-            worst <= CLOSED_FORM,
-            "each step is the scheme's own step of each mode of the mesh, to round-off",
-            format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
-        );
-        vec![check.about(Subject::of("closed form"))]
-    }
-
-    fn shown(&self, runs: &Runs<Self>, _: &[Series], _: &Outcome) -> Shown {
-        let tip = match self.refine.axis {
-            Axis::Both => self.tip_figure(runs),
-            Axis::Space | Axis::Time => None,
-        };
-        Shown {
+        let mut measured = Measured {
+            series: vec![Series::new(levels).drawn("errors", Some("Damped vibration"), caption)],
             tables: vec![self.modes_table()],
-            figures: tip.into_iter().collect(),
-            ..Shown::default()
+            ..Measured::default()
+        };
+        if self.refine.isolates(Axis::Time) {
+            measured.checks.push(closed_form(runs));
         }
+        if self.refine.axis == Axis::Both {
+            measured.figures.extend(self.tip_figure(runs));
+        }
+        measured
     }
+}
+
+/// If time is isolated, the exact result of the solver is known.
+fn closed_form(runs: &Runs<Vibration>) -> Check {
+    let deviations = runs.iter().map(|run| run.ok()?.closed_form);
+    let worst = largest_of(deviations.map(|deviation| deviation.unwrap_or(f64::NAN)));
+    let worst = worst.unwrap_or(f64::NAN);
+    Check::that(
+        worst <= CLOSED_FORM,
+        "each step is the scheme's own step of each mode of the mesh, to round-off",
+        format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
+    )
+    .about(Subject::of("closed form"))
 }
 
 /// The beam, which must have exact modes.

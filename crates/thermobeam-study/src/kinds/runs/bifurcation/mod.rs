@@ -13,6 +13,7 @@ mod judge;
 pub use super::steady::AtRest;
 use super::steady::{ToRest, listed_scenes, meshes, tolerance};
 use super::{Findings, Results, RunStudy, Runs};
+use crate::kinds::interval::Interval;
 use crate::kinds::prelude::*;
 pub use branches::Diagram;
 use buckling::discrete_buckling_force;
@@ -73,20 +74,13 @@ impl Runs for Bifurcation {
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         root.allow(&["study", "diagram", "buckling", "rest"])?;
         let diagram = root.table("diagram", &["scenes", "beta", "points"])?;
-        let fits = |ends: &[f64]| ends.len() == 2 && increases(ends);
-        let ends = diagram.list(
-            "beta",
-            "a list of two numbers, ascending",
-            Field::number,
-            fits,
-        )?;
+        let beta = Interval::read(&diagram, "beta", false)?;
         let points = diagram.count("points", 2..=100_000)?;
-        let beta = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 / (points - 1) as f64);
         let buckling = root.table("buckling", &["elements", "tolerance"])?;
         let rest = root.table("rest", &[&["distance"], &ToRest::KEYS[..]].concat())?;
         Ok(Self {
             scenes: listed_scenes(&diagram, folder)?,
-            grid: (0..points).map(beta).collect(),
+            grid: beta.values(points),
             meshes: meshes(&buckling)?,
             tolerance: tolerance(&buckling)?,
             rest: ToRest::read(&rest)?,

@@ -7,7 +7,7 @@
 //!
 //! ```toml
 //! [experiments]
-//! scenes = ["scenes/paper-1-beta-0.toml"]   # one-step scenes; their own scheme is what is compared
+//! scenes = ["scenes/paper-1-beta-0.toml"]   # one-step scenes; their own scheme is compared
 //! times = [1.0, 10.0]
 //! agreement = 1e-10                         # of the two discretisations, in every number
 //! compare = true                            # run the scenes' own schemes as well

@@ -112,54 +112,61 @@ impl<'r> Compliance<'r> {
 
     /// Penetrations and forces.
     fn forces(&self) -> Vec<Reading> {
-        let penetration = |head: &str, run: Option<&ShownImpact>, name: &str| {
-            Reading::new(head, penetration(run))
-                .scientific(4)
-                .guarded(format!("{name}, {}", self.label()), 1e-6)
-                .about(Subject::of(name).at(self.label()))
-        };
-        let force = |head: &str, run: Option<&ShownImpact>| {
-            Reading::new(head, run.and_then(|run| run.force)).scientific(4)
-        };
+        let bouncing = "bouncing: largest penetration";
+        let impact = "impact, resolved: peak penetration";
         vec![
-            penetration(
-                "bouncing: largest penetration",
-                self.bouncing,
-                "largest penetration",
-            ),
+            self.penetration(bouncing, self.bouncing, "largest penetration"),
             force("largest force", self.bouncing),
             Reading::new("distance to the rigid limit", self.distance).scientific(4),
-            penetration("at rest: penetration", self.rest, "penetration at rest"),
+            self.penetration("at rest: penetration", self.rest, "penetration at rest"),
             force("force", self.rest),
-            penetration(
-                "impact, resolved: peak penetration",
-                self.impact,
-                "peak penetration",
-            ),
+            self.penetration(impact, self.impact, "peak penetration"),
             force("peak force", self.impact),
         ]
     }
 
+    /// * `name`: that of the guarded number.
+    fn penetration(&self, head: &str, run: Option<&ShownImpact>, name: &str) -> Reading {
+        Reading::new(head, penetration(run))
+            .scientific(4)
+            .guarded(format!("{name}, {}", self.label()), 1e-6)
+            .about(Subject::of(name).at(self.label()))
+    }
+
     fn solvers(&self) -> Vec<Reading> {
-        let newton = |head: &str, of: fn(&ShownImpact) -> Option<f64>| {
-            Reading::new(head, self.bouncing.and_then(of))
-        };
-        let fixed_point = |head: &str, of: fn(&ShownImpact) -> Option<f64>| {
-            Reading::new(head, self.fixed_point.and_then(of))
-        };
-        let ended = self.fixed_point.map_or("-".to_owned(), |run| {
+        let newton = self.bouncing;
+        let fixed_point = self.fixed_point;
+        let ended = fixed_point.map_or("-".to_owned(), |run| {
             run.failed_at
                 .map_or("converges".to_owned(), |t| format!("fails at t = {t:.3}"))
         });
         vec![
-            newton("Newton's iterations", |run| run.mean_iterations).fixed(3),
-            newton("most in a step", |run| Some(run.most_iterations as f64)).fixed(0),
-            fixed_point("fixed point's iterations", |run| run.mean_iterations).fixed(2),
-            fixed_point("α", |run| run.alpha).fixed(4),
-            fixed_point("contraction", |run| run.contraction).fixed(4),
+            reading("Newton's iterations", newton, |run| run.mean_iterations).fixed(3),
+            reading("most in a step", newton, |run| {
+                Some(run.most_iterations as f64)
+            })
+            .fixed(0),
+            reading("fixed point's iterations", fixed_point, |run| {
+                run.mean_iterations
+            })
+            .fixed(2),
+            reading("α", fixed_point, |run| run.alpha).fixed(4),
+            reading("contraction", fixed_point, |run| run.contraction).fixed(4),
             Reading::text("fixed point", ended),
         ]
     }
+}
+
+fn reading(
+    head: &str,
+    run: Option<&ShownImpact>,
+    number: fn(&ShownImpact) -> Option<f64>,
+) -> Reading {
+    Reading::new(head, run.and_then(number))
+}
+
+fn force(head: &str, run: Option<&ShownImpact>) -> Reading {
+    reading(head, run, |run| run.force).scientific(4)
 }
 
 pub(super) fn judge(study: &RigidObstacles, results: &Results<'_, RigidObstacles>) -> Findings {
@@ -215,27 +222,34 @@ fn rows<'r>(
 fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
     let averaged: Vec<_> = compliances.iter().filter(|of| of.is_averaged()).collect();
     let stiff: Vec<_> = compliances.iter().filter(|of| of.is_stiff()).collect();
-    let judged =
-        |range: &[&Compliance<'_>], name, order, error: fn(&Compliance<'_>) -> Option<f64>| {
-            let levels = range
-                .iter()
-                .map(|of| Refinement::new(of.label(), &[], of.epsilon));
-            let claim = Claim::new(order, study.tolerance);
-            let column = ErrorColumn::new(name, claim, range.iter().map(|of| error(of)));
-            // The axis is that of a figure which this study does not draw.
-            Levels::new(Axis::Both, levels, [column]).judge()
-        };
+    let linear = Claim::new(1.0, study.tolerance);
+    let resolved = Claim::new(2.0 / 3.0, study.tolerance);
     let distance = "distance to the rigid limit, fixed h and dt";
     let peak = "peak penetration of an impact, resolved";
     [
-        judged(&averaged, LARGEST, 1.0, |of| penetration(of.bouncing)),
-        judged(&averaged, distance, 1.0, |of| of.distance),
-        judged(&stiff, "penetration at rest", 1.0, |of| {
+        rate(&averaged, LARGEST, linear, |of| penetration(of.bouncing)),
+        rate(&averaged, distance, linear, |of| of.distance),
+        rate(&stiff, "penetration at rest", linear, |of| {
             penetration(of.rest)
         }),
-        judged(&stiff, peak, 2.0 / 3.0, |of| penetration(of.impact)),
+        rate(&stiff, peak, resolved, |of| penetration(of.impact)),
     ]
     .concat()
+}
+
+/// The rate of an error over the compliances in the range of its order.
+fn rate(
+    range: &[&Compliance<'_>],
+    name: &str,
+    claim: Claim,
+    error: fn(&Compliance<'_>) -> Option<f64>,
+) -> Vec<(String, RateVerdict)> {
+    let errors = range.iter().map(|of| error(of));
+    let levels = range
+        .iter()
+        .map(|of| Refinement::new(of.label(), &[], of.epsilon));
+    // The axis is that of a figure which this study does not draw.
+    Levels::new(Axis::Both, levels, [ErrorColumn::new(name, claim, errors)]).judge()
 }
 
 fn peak_as_predicted(study: &RigidObstacles, last: Option<&Compliance<'_>>) -> Check {

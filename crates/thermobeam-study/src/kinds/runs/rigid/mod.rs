@@ -26,7 +26,7 @@
 
 mod judge;
 
-use super::steady::{listed_scene, settle, tolerance};
+use super::steady::{listed_scene, settle, steps_to_rest, tolerance};
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
 
@@ -117,23 +117,29 @@ pub struct ShownImpact {
 }
 
 /// The scene of a table, at the table's resolution.
-fn scene(section: &Section<'_>, folder: &Path, t_end: Option<f64>) -> Result<Scene, InputError> {
+fn scene(section: &Section<'_>, folder: &Path, dt: f64) -> Result<Scene, InputError> {
     let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
-    let field = section.require("elements", "a whole number >= 1")?;
-    let scene = Scene {
-        t_end: t_end.unwrap_or(scene.t_end),
-        ..scene
-    };
-    let dt = section.positive("dt")?;
-    let of_dt = section.require("dt", "a number")?;
-    // The tip of the moving beam is kept at every step.
-    limits::steps_until(&of_dt, scene.t_end, dt, limits::RECORDED_STEPS)?;
-    if section.get("t_max").is_some() {
-        limits::steps_until(&of_dt, section.positive("t_max")?, dt, limits::STEPS)?;
-    }
-    let mesh = Mesh::uniform(tables::elements(&field)?)
-        .map_err(|error| field.refuse(error.to_string(), "a mesh"))?;
+    let elements = section.require("elements", "a whole number >= 1")?;
+    let mesh = Mesh::uniform(tables::elements(&elements)?)
+        .map_err(|error| elements.refuse(error.to_string(), "a mesh"))?;
     Ok(scene.at(mesh, dt))
+}
+
+/// The scene of the beam that bounces, until the table's t_end.
+fn moving_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
+    let t_end = section.positive("t_end")?;
+    let dt = section.positive("dt")?;
+    // Its tip is kept at every step.
+    limits::steps_until(
+        &section.require("dt", POSITIVE)?,
+        t_end,
+        dt,
+        limits::RECORDED_STEPS,
+    )?;
+    Ok(Scene {
+        t_end,
+        ..scene(section, folder, dt)?
+    })
 }
 
 /// The scene of the impact: its free end must start at the upper obstacle and move into it.
@@ -166,7 +172,8 @@ impl Runs for RigidObstacles {
         )?;
         let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
         let impact = root.table("impact", &["scene", "steps"])?;
-        let t_end = moving.positive("t_end")?;
+        let bouncing = moving_scene(&moving, folder)?;
+        let (dt, t_max) = steps_to_rest(&rest)?;
         let allowed = "a list of at least three positive numbers, descending";
         // Descending, so that the last is the smallest.
         let fits = |list: &[f64]| {
@@ -176,11 +183,11 @@ impl Runs for RigidObstacles {
             epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
             limit: obstacles.positive("limit")?,
             tolerance: tolerance(&obstacles)?,
-            moving: scene(&moving, folder, Some(t_end))?,
+            moving: bouncing,
             max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
-            resting: scene(&rest, folder, None)?,
+            resting: scene(&rest, folder, dt)?,
             speed: rest.positive("speed")?,
-            t_max: rest.positive("t_max")?,
+            t_max,
             impact: impact_scene(&impact, folder)?,
             steps: impact.count("steps", 1..=1_000_000)?,
         })

@@ -1,89 +1,14 @@
-//! Proposition 3.1 and a sharper form of it: the energy never rises, and its balance closes in
-//! every step.
-//!
-//! An exactly solved step without loads satisfies, with the energy E of (3.9),
-//!
-//! ```text
-//! E^n - E^{n-1} + dt ζ (‖v_x - w‖² + ‖w_x‖²) + dt ‖θ_x‖² (at n-½) + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
-//! ```
-//!
-//! where gap >= 0 comes from the contact term. Only the first difference can be negative, so E
-//! cannot rise. An energy may decrease by chance, whereas a missing or wrong term opens the balance
-//! in the first step in which it acts.
-//!
-//! A study file selects its scenes by one of three tables:
-//!
-//! | table | scenes |
-//! | --- | --- |
-//! | `[energy]` | scene files and smooth random beams, by every scheme listed: a fixed bound on rise and residual |
-//! | `[[case]]` | single scenes at the limits of the allowed range, each with its own claim and the way its run must end |
-//! | `[random]` | batches of random scenes, in lanes |
-//!
-//! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, if that is
-//! larger, by a bound on the rounding errors of the step.
-
-pub mod random;
-pub mod runs;
+//! Random beams and time steps, the same on every machine.
 
 use std::f64::consts::PI;
 
-use super::prelude::*;
-pub use super::runs::end::End;
-pub use super::runs::watch::Worst;
-
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "runs/energy",
-    read,
-    why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
-          Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
-          cannot rise (Proposition 3.1). Scenes at the limits of every range, and random ones, test it where nobody would look.",
-    judged: "Every step of every run: the energy must not rise and the balance must close, up to rounding errors. A run must end \
-             with its answer or, where the scene asks for it, with the failure that it names.",
-    failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
-              very step in which it happens. Run the scene named alone.",
-    settings: |header, item| {
-        Topic::new("the energy's laws", ItemMethod::OneStep).settings(header, item)
-    },
-};
-
-/// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
-fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    match only_table(
-        root,
-        ["energy", "case", "random"],
-        "one of the tables [energy], [[case]] and [random]",
-    )? {
-        "random" => reader::<random::RandomScenes>(header, root, folder),
-        _ => reader::<runs::EnergyRuns>(header, root, folder),
-    }
-}
-
-/// The tables `[[case]]`, each with a unique name.
-pub(in crate::kinds) fn named_cases<C>(
-    root: &Section<'_>,
-    read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
-) -> Result<Vec<C>, InputError> {
-    let mut names = std::collections::BTreeSet::new();
-    root.tables("case", "", |section| {
-        let name = section.require("name", "a text")?.text()?.to_owned();
-        let case = read(section, name.clone())?;
-        if names.insert(name.clone()) {
-            return Ok(case);
-        }
-        Err(section.refuse(
-            "name",
-            format!("a second \"{name}\""),
-            "a name that no other case has",
-        ))
-    })
-}
+use crate::kinds::prelude::*;
 
 /// Modes of the initial data.
 const MODES: usize = 4;
 
 /// A beam with moderate random coefficients and smooth random data, the same on every machine.
-fn smooth(mesh: &Mesh, seed: u64) -> Problem {
+pub(super) fn smooth(mesh: &Mesh, seed: u64) -> Problem {
     let mut random = SplitMix::new(seed);
     let mut between = |low: f64, high: f64| random.within([low, high]);
     let beam = Beam {
@@ -116,7 +41,7 @@ fn smooth(mesh: &Mesh, seed: u64) -> Problem {
 /// A random beam and its time step, the same on every machine: every coefficient over its whole
 /// range including zero, element lengths that differ by a factor of up to 1000, initial data either
 /// smooth or independent from node to node.
-fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
+pub(super) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshError> {
     let mut random = SplitMix::new(seed);
     let mesh = wild_mesh(&mut random, elements)?;
     let beam = wild_beam(&mut random);

@@ -10,15 +10,18 @@
 //!
 //! ```toml
 //! [random]
-//! batches = 64       # of 256 scenes, with 1 to 32 elements; the scheme changes from batch to batch
+//! # of 256 scenes, with 1 to 32 elements; the scheme changes from batch to batch
+//! batches = 64
 //! steps = 20
 //! seed = 1
 //! ```
 
-use super::{End, Worst};
+use super::beams::wild;
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::energy_and_balance;
-use crate::kinds::runs::watch::{CLOSED, Watched, watched};
+use crate::kinds::runs::cases::End;
+use crate::kinds::runs::checks::{Condition, all, at_most, energy_and_balance};
+use crate::kinds::runs::watch::{CLOSED, Watched, Worst, watched};
+use crate::kinds::runs::{Findings, Listing, Results, Runs};
 
 /// Scenes in the lanes of one solver, all with the same number of elements.
 const LANES: usize = 8;
@@ -64,8 +67,12 @@ pub struct Batch {
     pub scenes: Vec<[f64; 3]>,
 }
 
-impl FromFile for RandomScenes {
-    fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+impl Runs for RandomScenes {
+    /// Number of the batch.
+    type Run = usize;
+    type Shown = Batch;
+
+    fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let section = root.table("random", &["batches", "steps", "seed"])?;
         Ok(Self {
             batches: section.count("batches", 1..=100_000)?,
@@ -73,14 +80,8 @@ impl FromFile for RandomScenes {
             seed: section.count("seed", 0..=u32::MAX as usize)? as u64,
         })
     }
-}
 
-impl Kind for RandomScenes {
-    /// Number of the batch.
-    type Data = usize;
-    type Found = Batch;
-
-    fn cases(&self) -> Vec<Case<usize>> {
+    fn runs(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
         let label =
@@ -93,53 +94,55 @@ impl Kind for RandomScenes {
     /// Runs the scenes in lanes, each to its end.
     fn run(&self, &number: &usize) -> Result<Batch, CaseFailure> {
         let mut batch = Batch::default();
-        (0..GROUPS).try_for_each(|group| self.run_group(number, group, &mut batch))?;
+        for group in 0..GROUPS {
+            self.run_group(number, group, &mut batch)?;
+        }
         Ok(batch)
     }
 
-    fn judge(&self, ran: &[Ran<usize, Batch>]) -> Outcome {
-        let total = ran
-            .iter()
-            .filter_map(Ran::ok)
-            .fold(Batch::default(), Batch::with);
-        let (scenes, listed) = (self.batches * BATCH, exceptions(ran));
-        let (
-            Batch {
-                ends, steps, worst, ..
-            },
-            exceptions,
-        ) = (&total, listed.len());
-        let mut checks = vec![completion(ran, |batch| not_finite(batch.worst.named()))];
-        checks.extend(total.claims(scenes, exceptions));
+    fn numbers(&self, _: &usize, batch: &Batch) -> Vec<Reading> {
+        let named = batch.worst.named().into_iter();
+        named
+            .map(|(name, value)| Reading::new(name, value))
+            .collect()
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        let batches = results.completed().map(|(_, batch)| batch);
+        let total = batches.fold(Batch::default(), Batch::with);
+        let scenes = self.batches * BATCH;
+        let listed = exceptions(results);
+        let exceptions = listed.len();
         let [answers, indefinite, others] = total.ended();
         let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
-        let largest = if *steps > 0 {
-            format!("{:.1e} of the energy", worst.residual)
+        let largest = if total.steps > 0 {
+            format!("{:.1e} of the energy", total.worst.residual)
         } else {
             "unknown without a step".to_owned()
         };
+        let mut headline = format!("{scenes} scenes: {solved}");
+        if others > 0 {
+            headline += &format!(", {others} other failures");
+        }
+        let steps = total.steps;
         let above = format!("residual at most {largest}, {exceptions} above {CLOSED:.0e}");
-        let summary =
-            format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
-        let others = if others > 0 {
-            format!(", {others} other failures")
-        } else {
-            String::new()
-        };
         let counts = End::ALL
             .iter()
-            .zip(ends)
+            .zip(total.ends)
             .map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
         let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);
-        // On another machine, a scene at the limit of definiteness may fall on either side.
-        let quantities = vec![Quantity::new("answers", answers as f64, 1e-3)];
-        Outcome {
+        Findings {
+            summary: format!(
+                "{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}"
+            ),
+            headline: format!("{headline}; largest residual {largest}"),
+            checks: total.claims(scenes, exceptions),
             coverage: vec![self.coverage(&total)],
-            headline: format!("{scenes} scenes: {solved}{others}; largest residual {largest}"),
-            tables: vec![counts, self.table(&listed)],
+            listings: vec![Listing::from(counts), Listing::from(self.table(&listed))],
             figures: vec![residuals(&total.scenes)],
-            quantities,
-            ..Outcome::new(summary, vec![], checks)
+            // On another machine, a scene at the limit of definiteness may fall on either side.
+            quantities: vec![Quantity::new("answers", answers as f64, 1e-3)],
+            ..Findings::default()
         }
     }
 }
@@ -150,17 +153,14 @@ impl RandomScenes {
     fn coverage(&self, total: &Batch) -> Coverage {
         let [answers, indefinite, others] = total.ended();
         let ended = answers + indefinite + others;
-        let count = |reason: Option<&'static str>, n: usize| std::iter::repeat_n(reason, n);
-        let reasons = count(None, answers)
-            .chain(count(
-                Some("refused, the operator is not definite"),
-                indefinite,
-            ))
-            .chain(count(Some("ended by another failure"), others))
-            .chain(count(
-                Some(NO_RESULT),
-                (self.batches * BATCH).saturating_sub(ended),
-            ));
+        let missing = (self.batches * BATCH).saturating_sub(ended);
+        let mut reasons = vec![None; answers];
+        reasons.extend(vec![
+            Some("refused, the operator is not definite");
+            indefinite
+        ]);
+        reasons.extend(vec![Some("ended by another failure"); others]);
+        reasons.extend(vec![Some(NO_RESULT); missing]);
         Coverage::of("scenes to their last step", reasons)
     }
 
@@ -172,7 +172,7 @@ impl RandomScenes {
     fn problem(&self, scene: usize) -> Result<(Problem, f64), MeshError> {
         let elements = scene % BATCH / LANES + 1;
         // Far from the seeds of other studies, which are small.
-        super::wild(elements, (self.seed << 32) + scene as u64)
+        wild(elements, (self.seed << 32) + scene as u64)
     }
 
     /// Runs scenes with `group + 1` elements each to their ends.
@@ -231,13 +231,15 @@ impl RandomScenes {
 
 /// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and
 /// residual.
-fn exceptions(ran: &[Ran<usize, Batch>]) -> Vec<(usize, f64)> {
-    let batches = ran
-        .iter()
-        .filter_map(|ran| Some((ran.case.data * BATCH, &ran.ok()?.scenes)));
-    let all = batches
-        .flat_map(|(first, scenes)| (first..).zip(scenes.iter().map(|[.., residual]| *residual)));
-    let mut above: Vec<(usize, f64)> = all.filter(|(_, residual)| !(*residual <= CLOSED)).collect();
+fn exceptions(results: &Results<'_, RandomScenes>) -> Vec<(usize, f64)> {
+    let mut above = vec![];
+    for (batch, Batch { scenes, .. }) in results.completed() {
+        for (scene, &[.., residual]) in (batch * BATCH..).zip(scenes) {
+            if !(residual <= CLOSED) {
+                above.push((scene, residual));
+            }
+        }
+    }
     above.sort_by(|a, b| b.1.total_cmp(&a.1));
     above
 }
@@ -277,39 +279,35 @@ impl Batch {
     }
 
     /// Claims about all scenes together.
-    fn claims(&self, scenes: usize, exceptions: usize) -> [Check; 5] {
-        let Self {
-            ends,
-            refused,
-            not_finite_levels,
-            worst,
-            ..
-        } = self;
-        let [never_rises, closes] = energy_and_balance(worst, true);
-        let (ended, [_, _, others]) = (ends.iter().sum::<usize>(), self.ended());
-        [
-            Check::that(
-                ended == scenes && *not_finite_levels == 0,
+    fn claims(&self, scenes: usize, exceptions: usize) -> Vec<Check> {
+        let ended: usize = self.ends.iter().sum();
+        let [_, _, others] = self.ended();
+        let not_finite = self.not_finite_levels;
+        let refused = self.refused;
+        let ends = format!(
+            "{ended} of {scenes} ended, {not_finite} levels with a number that is not finite"
+        );
+        let refusals = format!("{refused} definite operators refused, {others} other failures");
+        let rare = format!("{exceptions} of {scenes} scenes");
+        let [never_rises, closes] = energy_and_balance(&self.worst, true);
+        vec![
+            all(
                 "every scene is solved with finite numbers, or refused with a stated reason",
-                format!(
-                    "{ended} of {scenes} ended, {not_finite_levels} levels with a number that is not finite"
-                ),
-            )
-            .about(Subject::of("ends")),
-            Check::that(
-                *refused == 0 && others == 0,
+                Subject::of("ends"),
+                [Condition::that(ended == scenes && not_finite == 0, ends)],
+            ),
+            all(
                 "a step is refused for an indefinite operator only, and never where β > -B (1 + 2ζ/dt)",
-                format!("{refused} definite operators refused, {others} other failures"),
-            )
-            .about(Subject::of("refusals")),
+                Subject::of("refusals"),
+                [Condition::that(refused == 0 && others == 0, refusals)],
+            ),
             never_rises,
             closes,
-            Check::that(
-                exceptions as f64 <= RARE * scenes as f64,
+            all(
                 "at most 2 scenes in 1000 have a residual above 1e-12 of the energy",
-                format!("{exceptions} of {scenes} scenes"),
-            )
-            .about(Subject::of("residuals above 1e-12")),
+                Subject::of("residuals above 1e-12"),
+                [at_most(exceptions as f64, RARE * scenes as f64, rare)],
+            ),
         ]
     }
 }

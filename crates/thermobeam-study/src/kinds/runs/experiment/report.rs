@@ -1,62 +1,61 @@
 //! Tables, figures and guarded numbers.
 
+use super::group::{OfExperiment, SectionFive};
 use super::judge;
 use super::plotted::{ENERGY, Plotted, Quantity, U_TIP};
-use super::runs::{OfGroup, Runs};
 use super::trace::SPAN;
-use super::{Experiments, Found, SectionGroup, Task, straight_energy};
+use super::{Experiments, straight_energy};
 use crate::kinds::prelude::*;
+use crate::kinds::runs::{Findings, Listing};
 use convergence_study::plots::inset::Place;
 
 /// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can
 /// be followed.
 const SECONDS: f64 = 16.0;
 
-pub(super) fn outcome(study: &Experiments, ran: &[Ran<Task, Found>]) -> Outcome {
-    let rests = judge::rests(study, ran);
-    let plotted = plotted(study, ran);
-    let checks = judge::checks(study, ran, &rests, &plotted);
+pub(super) fn findings(study: &Experiments, runs: &SectionFive<'_>) -> Findings {
+    let plotted = plotted(runs);
+    let checks = judge::checks(study, runs, &plotted);
     let headline = headline(&checks);
-    let all = OfGroup::of(study, ran, |_| true).runs;
-    let rows: Vec<_> = all
+    let all = &runs.all.runs;
+    let rests = runs
+        .rests
         .iter()
-        .map(|runs| (names_of(runs), runs.readings()))
-        .collect();
-    let by_the_paper: Vec<_> = all
-        .iter()
-        .filter_map(|runs| {
-            let paper = runs.paper?;
-            Some((names_of(runs), paper.readings(&runs.experiment.scene.name)))
-        })
-        .collect();
-    let rests: Vec<_> = rests
-        .iter()
-        .map(|(beta, rest)| (vec![beta.to_string()], rest.readings()))
-        .collect();
+        .map(|(beta, rest)| (vec![beta.to_string()], rest.readings()));
+    let rows = all.iter().map(|runs| (names_of(runs), runs.readings()));
     let title = "Steady states without heating, and where the moving beam comes to rest";
-    let mut tables = vec![
-        readings::table("The seven experiments", &["θ_A", "β"], &rows),
-        readings::table(title, &["β"], &rests),
+    let mut listings = vec![
+        Listing::of("The seven experiments", &["θ_A", "β"], rows),
+        Listing::of(title, &["β"], rests),
     ];
     if let Some(tolerance) = study.fixed_point {
         let title = format!(
             "The paper's algorithm (4.1)-(4.5), η* = {tolerance:e} in the norm of (3.14), and Newton's method beside it"
         );
-        tables.push(readings::table(&title, &["θ_A", "β"], &by_the_paper));
+        let rows = all.iter().filter_map(|runs| {
+            let paper = runs.paper?;
+            Some((names_of(runs), paper.readings(runs.name())))
+        });
+        listings.push(Listing::of(title, &["θ_A", "β"], rows));
     }
-    let guarded = rows.iter().chain(&by_the_paper);
-    Outcome {
-        tables,
-        figures: figures(study, ran, &plotted),
-        quantities: readings::guarded(guarded.flat_map(|(_, readings)| readings)),
-        headline: headline.clone(),
-        ..Outcome::new(headline, vec![], checks)
+    let drawn = plotted.iter().map(|plot| {
+        let title = plot.xy.title.as_deref().unwrap_or_default();
+        let caption = format!("{}: {title}. {}.", plot.name, plot.accuracy().join(". "));
+        Figure::new(plot.what, caption, plot.draw())
+    });
+    Findings {
+        summary: headline.clone(),
+        headline,
+        checks,
+        listings,
+        figures: animation(all).into_iter().chain(drawn).collect(),
+        ..Findings::default()
     }
 }
 
-fn names_of(runs: &Runs<'_>) -> Vec<String> {
-    let Scene { beam, .. } = &runs.experiment.scene;
-    vec![beam.theta_a.to_string(), beam.beta.to_string()]
+fn names_of(runs: &OfExperiment<'_>) -> Vec<String> {
+    let Beam { theta_a, beta, .. } = runs.beam();
+    vec![theta_a.to_string(), beta.to_string()]
 }
 
 /// How many statements hold: the paper's as printed, what holds in place of one that does not, and
@@ -85,33 +84,18 @@ fn headline(checks: &[Check]) -> String {
     )
 }
 
-/// Every figure, and what its caption says first.
-fn figures(study: &Experiments, ran: &[Ran<Task, Found>], plotted: &[Plotted]) -> Vec<Figure> {
-    let drawn = plotted.iter().map(|plot| {
-        let title = plot.xy.title.as_deref().unwrap_or_default();
-        let caption = format!("{}: {title}. {}.", plot.name, plot.accuracy().join(". "));
-        Figure::new(plot.what, caption, plot.draw())
-    });
-    animation(study, ran).into_iter().chain(drawn).collect()
-}
-
-fn animation(study: &Experiments, ran: &[Ran<Task, Found>]) -> Option<Figure> {
-    let all = OfGroup::of(study, ran, |_| true).runs;
-    let shown = |runs: &&Runs<'_>| !runs.first.trace.frames.times.is_empty();
-    let Runs {
-        experiment, first, ..
-    } = all.iter().find(shown)?;
+fn animation(all: &[OfExperiment<'_>]) -> Option<Figure> {
+    let shown = |runs: &&OfExperiment<'_>| !runs.first.trace.frames.times.is_empty();
+    let runs = all.iter().find(shown)?;
     let caption = format!(
         "The experiment at {}, θ_A = 0, in motion up to t = {SPAN}, by dG.",
-        figures::beta_label(&experiment.scene.beam)
+        figures::beta_label(runs.beam())
     );
+    let obstacles = runs.experiment.scene.obstacles;
     let svg = figures::animation(&figures::Animation {
         title: Some("The beam between its obstacles".to_owned()),
-        frames: first.trace.frames.clone(),
-        obstacles: experiment
-            .scene
-            .obstacles
-            .map(|obstacles| (obstacles.g1, obstacles.g2)),
+        frames: runs.first.trace.frames.clone(),
+        obstacles: obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
         seconds: SECONDS,
     });
     Some(Figure::new("beam", caption, svg))
@@ -135,52 +119,50 @@ const UPPER: Place = Place {
 };
 
 /// The figures of the paper, and the decay of the energy until each run is steady.
-fn plotted(study: &Experiments, ran: &[Ran<Task, Found>]) -> Vec<Plotted> {
-    let of = |belongs: fn(SectionGroup) -> bool| OfGroup::of(study, ran, belongs).runs;
-    let first = of(|group| group == SectionGroup::First);
-    let second = of(|group| matches!(group, SectionGroup::Second(_)));
-    let third = of(|group| group == SectionGroup::Third);
+fn plotted(runs: &SectionFive<'_>) -> Vec<Plotted> {
+    let first = &runs.first.runs;
+    let second = &runs.second.runs;
     let mut plotted = vec![
-        energies(&first),
+        energies(first),
         Plotted::new(
             ["figure-3", "Figure 3"],
             displacement(
-                &first,
+                first,
                 "The beam bounces off both obstacles, faster for larger β",
             ),
-            &first,
+            first,
             &[U_TIP],
         ),
         Plotted::new(
             ["figure-4", "Figure 4"],
             rotation("The free end turns most for β = −0.5"),
-            &first,
+            first,
             &[PHI_TIP],
         ),
         Plotted::new(
             ["figure-5", "Figure 5"],
             displacement(
-                &second,
+                second,
                 "Heated, the beam ends on the upper obstacle unless β = 5",
             ),
-            &second,
+            second,
             &[U_TIP],
         ),
         Plotted::new(
             ["figure-6", "Figure 6"],
             rotation("Heated, the free end keeps a rotation"),
-            &second,
+            second,
             &[PHI_TIP],
         ),
     ];
-    plotted.extend(beyond_buckling(&third));
-    plotted.push(decay(&first));
+    plotted.extend(beyond_buckling(&runs.third.runs));
+    plotted.push(decay(first));
     plotted
 }
 
 /// Figure 2. Two of its limits lie too close together for labels: the inset shows the distance to
 /// each.
-fn energies(runs: &[Runs<'_>]) -> Plotted {
+fn energies(runs: &[OfExperiment<'_>]) -> Plotted {
     let inset = axis(plots::Axis::log("E − β²/(4ρ)"));
     let xy = energy("Without heating, the energy falls to its limit β²/(4ρ)");
     Plotted::new(["figure-2", "Figure 2"], xy, runs, &[ENERGY])
@@ -188,7 +170,7 @@ fn energies(runs: &[Runs<'_>]) -> Plotted {
 }
 
 /// Both parts of Figure 7.
-fn beyond_buckling(runs: &[Runs<'_>]) -> [Plotted; 2] {
+fn beyond_buckling(runs: &[OfExperiment<'_>]) -> [Plotted; 2] {
     let whole = Quantity {
         until_steady: true,
         ..ENERGY
@@ -219,7 +201,7 @@ fn beyond_buckling(runs: &[Runs<'_>]) -> [Plotted; 2] {
     ]
 }
 
-fn decay(runs: &[Runs<'_>]) -> Plotted {
+fn decay(runs: &[OfExperiment<'_>]) -> Plotted {
     let excess = Quantity {
         until_steady: true,
         ..EXCESS
@@ -267,7 +249,7 @@ fn axis(y: plots::Axis) -> Xy {
 }
 
 /// The energy of the straight beam.
-fn straight(runs: &Runs<'_>) -> plots::Guide {
+fn straight(runs: &OfExperiment<'_>) -> plots::Guide {
     plots::Guide {
         label: "β²/(4ρ)".to_owned(),
         value: straight_energy(&runs.experiment.scene),
@@ -278,7 +260,7 @@ fn energy(title: &str) -> Xy {
     axis(plots::Axis::linear("energy E (dimensionless)")).titled(title)
 }
 
-fn displacement(runs: &[Runs<'_>], title: &str) -> Xy {
+fn displacement(runs: &[OfExperiment<'_>], title: &str) -> Xy {
     let scene = runs.first().map(|runs| &runs.experiment.scene);
     Xy {
         guides: figures::obstacle_lines(scene.and_then(|scene| scene.obstacles)),

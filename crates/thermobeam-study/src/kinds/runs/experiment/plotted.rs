@@ -7,7 +7,7 @@ use convergence_study::plots::ruler::on_scale;
 use convergence_study::plots::style;
 use convergence_study::plots::xy::Curve;
 
-use super::runs::Runs;
+use super::group::OfExperiment;
 use super::{Experiment, Trace};
 use crate::kinds::prelude::*;
 
@@ -52,7 +52,7 @@ impl Plotted {
     pub(super) fn new(
         [what, name]: [&'static str; 2],
         xy: Xy,
-        runs: &[Runs<'_>],
+        runs: &[OfExperiment<'_>],
         quantities: &[Quantity],
     ) -> Self {
         let mut plotted = Self {
@@ -80,8 +80,8 @@ impl Plotted {
         }
     }
 
-    fn push(&mut self, runs: &Runs<'_>, quantity: &Quantity) {
-        let Runs { experiment, .. } = *runs;
+    fn push(&mut self, runs: &OfExperiment<'_>, quantity: &Quantity) {
+        let OfExperiment { experiment, .. } = *runs;
         let drawn = quantity.points(experiment, &runs.first.trace);
         let (label, look) = match quantity.label {
             Some(label) => (label.to_owned(), look(self.curves.len())),

@@ -3,26 +3,27 @@
 //!
 //! # Which method shows what
 //!
-//! | run | until | for |
-//! | --- | --- | --- |
-//! | dG, by the first of `[[discretisations]]` | steady | statements about rest, and the figures |
-//! | dG, by the second | steady | the error of the first: the two share neither mesh nor degrees nor steps |
-//! | with a table `[fixed_point]`: the paper's algorithm (4.1)-(4.5) with η*, at the scene's own h and dt, and Newton's method beside it | t_end | statements about the motion, in place of dG; iterations per step; distance to Newton's solution |
-//! | dG, for each β of `[steady]` | rest | the number of steady states |
+//! * dG by the first of `[[discretisations]]`, until steady: statements about rest, and figures.
+//! * dG by the second, until steady: the error of the first. The two share neither mesh nor degrees
+//!   nor steps.
+//! * With a table `[fixed_point]`: the paper's algorithm (4.1)-(4.5) with η*, at the scene's own h
+//!   and dt, and Newton's method side by side, until t_end: statements about the motion, in place
+//!   of dG; iterations per step; distance to Newton's solution.
+//! * dG for each β of `[steady]`, until rest: the number of steady states.
 //!
 //! The paper leaves open in which "appropriate norm" the increments fall below η*. Here it is that
 //! of (3.14), for the reasons in THEORY.md, "The norm of the stopping test".
 //!
 //! # What is measured, and how
 //!
-//! | quantity | measured as |
-//! | --- | --- |
-//! | steady | the energy has fallen by at most `rate` per unit of time over the last `window` |
-//! | frequency of u(1) | upward crossings of zero on [0, t_end]: (their number - 1) / (last - first), each interpolated |
-//! | amplitude of φ(1) | largest minus smallest value on [0, t_end] |
-//! | first contact | when the tip first passes the obstacle: a contact event of dG, or interpolated between time levels |
-//! | rests on | the contact force at the end, and the tip's position |
-//! | error of a figure | largest difference of the two discretisations, over the width of the line |
+//! * Steady: the energy has fallen by at most `rate` per unit of time over the last `window`.
+//! * Frequency of u(1): upward crossings of zero on [0, t_end], each interpolated: (their number -
+//!   1) / (last - first).
+//! * Amplitude of φ(1): largest minus smallest value on [0, t_end].
+//! * First contact: when the tip first passes the obstacle: a contact event of dG, or interpolated
+//!   between time levels.
+//! * Rests on: the contact force at the end, and the tip's position.
+//! * Error of a figure: largest difference of the two discretisations, over the width of the line.
 //!
 //! t_end is that of the scene, 10 in the paper: the span of its figures.
 //!
@@ -40,28 +41,32 @@
 //! is the only one. The study shows this twice: by the list of all exact steady states, and by
 //! where moving beams come to rest.
 
+mod group;
 mod judge;
+mod numbers;
 mod plotted;
 mod report;
-mod runs;
+mod rests;
 mod trace;
 
 use std::ops::ControlFlow;
 
-use super::prelude::*;
-use super::runs::side_by_side::SideBySide;
-use super::runs::steady::{ToRest, compared, listed_scene};
-use super::tables::{Discretisation, discretisations};
+use super::side_by_side::SideBySide;
+use super::steady::{ToRest, compared, listed_scene};
+use super::{Findings, Results, RunStudy, Runs};
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Discretisation, discretisations};
+use group::SectionFive;
 use trace::{Observed, Recorder};
 
-pub use super::runs::side_by_side::SolverComparison;
-pub use super::runs::steady::{AtRest, Nearest};
+pub use super::side_by_side::SolverComparison;
+pub use super::steady::{AtRest, Nearest};
 pub use trace::Trace;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/experiment",
-    read: reader::<Experiments>,
+    read: reader::<RunStudy<Experiments>>,
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
              Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",
@@ -158,8 +163,11 @@ pub struct PaperRun {
     pub solvers: SolverComparison,
 }
 
-impl FromFile for Experiments {
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+impl Runs for Experiments {
+    type Run = Task;
+    type Shown = Found;
+
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let tables = ["run", "discretisations", "fixed_point", "steady"];
         root.allow(&[&["study", "experiments"], &tables[..]].concat())?;
         let run = root.table("run", &["t_max", "window", "rate"])?;
@@ -190,6 +198,57 @@ impl FromFile for Experiments {
             window: run.positive("window")?,
             rate: run.positive("rate")?,
         })
+    }
+
+    /// The experiments by both discretisations and, where asked for, by the paper's algorithm; then
+    /// for each β a moving beam until it rests.
+    fn runs(&self) -> Vec<Case<Task>> {
+        let places = 0..self.experiments.len();
+        let mut runs = vec![];
+        for discretisation in [0, 1] {
+            runs.extend(
+                places
+                    .clone()
+                    .map(|k| self.any_order_case(k, discretisation)),
+            );
+        }
+        if self.fixed_point.is_some() {
+            runs.extend(places.map(|k| self.fixed_point_case(k)));
+        }
+        for (place, beta) in self.rest.betas.iter().enumerate() {
+            let label = format!("to rest, beta = {beta}");
+            runs.push(Case::new(label, self.rest.cost(), Task::Rest(place)));
+        }
+        runs
+    }
+
+    fn run(&self, &task: &Task) -> Result<Found, CaseFailure> {
+        Ok(match task {
+            Task::AnyOrder {
+                experiment,
+                discretisation,
+            } => Found::Run(Box::new(self.run_until_steady(experiment, discretisation)?)),
+            Task::FixedPoint(experiment) => {
+                Found::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
+            }
+            Task::Rest(place) => {
+                let last = self.experiments.last();
+                let third = last.ok_or_else(|| CaseFailure::new("no experiment"))?;
+                Found::Rest(self.rest.run(&third.scene, place)?)
+            }
+        })
+    }
+
+    fn numbers(&self, _: &Task, found: &Found) -> Vec<Reading> {
+        match found {
+            Found::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
+            Found::FixedPoint(run) => [run.trace.readings(""), run.readings("")].concat(),
+            Found::Rest(rest) => rest.readings(),
+        }
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        report::findings(self, &SectionFive::of(self, results))
     }
 }
 
@@ -239,56 +298,6 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
         .chain([(SectionGroup::Third, third)])
         .map(one)
         .collect())
-}
-
-impl Kind for Experiments {
-    type Data = Task;
-    type Found = Found;
-
-    /// The experiments by both discretisations and, where asked for, by the paper's algorithm; then
-    /// for each β a moving beam until it rests.
-    fn cases(&self) -> Vec<Case<Task>> {
-        let places = 0..self.experiments.len();
-        let first = places.clone().map(|k| self.any_order_case(k, 0));
-        let second = places.clone().map(|k| self.any_order_case(k, 1));
-        let by_the_paper = self
-            .fixed_point
-            .iter()
-            .flat_map(|_| places.clone().map(|k| self.fixed_point_case(k)));
-        let rest = self.rest.betas.iter().enumerate().map(|(k, beta)| {
-            Case::new(
-                format!("to rest, beta = {beta}"),
-                self.rest.cost(),
-                Task::Rest(k),
-            )
-        });
-        first
-            .chain(second)
-            .chain(by_the_paper)
-            .chain(rest)
-            .collect()
-    }
-
-    fn run(&self, &task: &Task) -> Result<Found, CaseFailure> {
-        Ok(match task {
-            Task::AnyOrder {
-                experiment,
-                discretisation,
-            } => Found::Run(Box::new(self.run_until_steady(experiment, discretisation)?)),
-            Task::FixedPoint(experiment) => {
-                Found::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
-            }
-            Task::Rest(place) => {
-                let last = self.experiments.last();
-                let third = last.ok_or_else(|| CaseFailure::new("no experiment"))?;
-                Found::Rest(self.rest.run(&third.scene, place)?)
-            }
-        })
-    }
-
-    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
-        report::outcome(self, ran)
-    }
 }
 
 impl Experiments {

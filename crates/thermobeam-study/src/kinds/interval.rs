@@ -1,0 +1,75 @@
+//! An interval of a parameter, as studies sample it.
+
+use super::prelude::*;
+
+/// Two ends, ascending; positive on a logarithmic scale.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Interval {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    is_logarithmic: bool,
+}
+
+impl Interval {
+    /// # Errors
+    /// The key is not a list of two ascending numbers, or one is not positive on a logarithmic
+    /// scale.
+    pub(crate) fn read(
+        section: &Section<'_>,
+        key: &str,
+        is_logarithmic: bool,
+    ) -> Result<Self, InputError> {
+        let allowed = if is_logarithmic {
+            "two ascending numbers > 0"
+        } else {
+            "two ascending numbers"
+        };
+        let fits =
+            |ends: &[f64]| ends.len() == 2 && increases(ends) && (!is_logarithmic || ends[0] > 0.0);
+        let ends = section.list(key, allowed, Field::number, fits)?;
+        Ok(Self {
+            low: ends[0],
+            high: ends[1],
+            is_logarithmic,
+        })
+    }
+
+    /// Values from the first end to the last, equally spaced on its scale.
+    ///
+    /// * `points`: at least 2.
+    pub(crate) fn values(&self, points: usize) -> Vec<f64> {
+        (0..points)
+            .map(|k| self.value(k as f64 / (points - 1) as f64))
+            .collect()
+    }
+
+    /// * `share`: of the way from the first end to the last.
+    fn value(&self, share: f64) -> f64 {
+        let Self { low, high, .. } = *self;
+        if self.is_logarithmic {
+            low * (high / low).powf(share)
+        } else {
+            low + (high - low) * share
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Interval;
+
+    #[test]
+    fn values_are_equally_spaced_on_the_scale_of_the_interval() {
+        let [linear, logarithmic] = [false, true].map(|is_logarithmic| {
+            let [low, high] = [1.0, 100.0];
+            let interval = Interval {
+                low,
+                high,
+                is_logarithmic,
+            };
+            interval.values(3)
+        });
+        assert_eq!(linear, [1.0, 50.5, 100.0]);
+        assert_eq!(logarithmic, [1.0, 10.0, 100.0]);
+    }
+}

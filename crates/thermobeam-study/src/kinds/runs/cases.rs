@@ -1,0 +1,107 @@
+//! The tables `[[case]]` of a study: scenes, each with a claim in words and the way its run ends.
+
+use std::collections::BTreeSet;
+
+use crate::kinds::prelude::*;
+use crate::scene;
+
+/// A scene of a table `[[case]]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ClaimedScene {
+    pub(crate) name: String,
+    /// In words.
+    pub(crate) claim: String,
+    /// How its run must end.
+    pub(crate) end: End,
+    pub(crate) scene: Scene,
+}
+
+impl ClaimedScene {
+    /// Reads `claim`, `ends` and the tables of a scene.
+    ///
+    /// * `more`: the keys of the case that its kind reads.
+    pub(crate) fn read(
+        section: &Section<'_>,
+        name: String,
+        more: &[&str],
+    ) -> Result<Self, InputError> {
+        section.allow(&[&["name", "claim", "ends"], more, &scene::TABLES].concat())?;
+        let end = section.require("ends", "\"answer\" or an error")?;
+        Ok(Self {
+            end: end.choice(&End::ALL)?,
+            scene: Scene::from_tables(section, name.clone())?,
+            claim: section.require("claim", "a text")?.text()?.to_owned(),
+            name,
+        })
+    }
+}
+
+/// The tables `[[case]]`, each with a unique name.
+pub(crate) fn named_cases<C>(
+    root: &Section<'_>,
+    read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
+) -> Result<Vec<C>, InputError> {
+    let mut names = BTreeSet::new();
+    root.tables("case", "", |section| {
+        let name = section.require("name", "a text")?.text()?.to_owned();
+        let case = read(section, name.clone())?;
+        if names.insert(name.clone()) {
+            return Ok(case);
+        }
+        Err(section.refuse(
+            "name",
+            format!("a second \"{name}\""),
+            "a name that no other case has",
+        ))
+    })
+}
+
+/// How a run ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum End {
+    /// After its last step.
+    #[default]
+    Answer,
+    /// At a step whose operator is not definite.
+    Indefinite,
+    /// At a step whose iteration diverges or needs too many iterations.
+    IterationLimit,
+    /// At a step with numbers that are not finite.
+    NotFinite,
+}
+
+impl End {
+    /// All ends, with their names in study files and reports.
+    pub const ALL: [(&str, End); 4] = [
+        ("answer", End::Answer),
+        ("indefinite", End::Indefinite),
+        ("iteration-limit", End::IterationLimit),
+        ("not-finite", End::NotFinite),
+    ];
+
+    /// The end of a run.
+    ///
+    /// # Errors
+    /// The failure, if it is not a failed step of a one-step scheme.
+    pub(crate) fn of(failure: Option<&RunError>) -> Result<Self, RunError> {
+        let Some(run) = failure else {
+            return Ok(End::Answer);
+        };
+        let RunError::Step(StepError { failure, .. }) = run else {
+            return Err(run.clone());
+        };
+        match failure {
+            StepFailure::Indefinite { .. } => Ok(End::Indefinite),
+            StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => {
+                Ok(End::IterationLimit)
+            }
+            StepFailure::NonFinite { .. } => Ok(End::NotFinite),
+            _ => Err(run.clone()),
+        }
+    }
+
+    /// Its name in study files and reports.
+    pub fn name(self) -> &'static str {
+        Self::ALL[self as usize].0
+    }
+}

@@ -1,0 +1,60 @@
+//! Proposition 3.1 and a sharper form of it: the energy never rises, and its balance closes in
+//! every step.
+//!
+//! An exactly solved step without loads satisfies, with the energy E of (3.9),
+//!
+//! ```text
+//! E^n - E^{n-1} + dt ζ (‖v_x - w‖² + ‖w_x‖²) + dt ‖θ_x‖² (at n-½)
+//!     + ½ (‖v - v0‖² + ‖w - w0‖²) + gap = 0,
+//! ```
+//!
+//! where gap >= 0 comes from the contact term. Only the first difference can be negative, so E
+//! cannot rise. An energy may decrease by chance, whereas a missing or wrong term opens the balance
+//! in the first step in which it acts.
+//!
+//! A study file selects its scenes by one of three tables:
+//!
+//! * `[energy]`: scene files and smooth random beams, by every scheme listed: a fixed bound on rise
+//!   and residual
+//! * `[[case]]`: single scenes at the limits of the allowed range, each with its own claim and the
+//!   way its run must end
+//! * `[random]`: batches of random scenes, in lanes
+//!
+//! Rise and residual of `[[case]]` and `[random]` are bounded by 1e-12 of the energy or, if that is
+//! larger, by a bound on the rounding errors of the step.
+
+mod beams;
+mod bound;
+pub mod one_by_one;
+pub mod random;
+
+use super::RunStudy;
+use crate::kinds::prelude::*;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "runs/energy",
+    read,
+    why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
+          Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
+          cannot rise (Proposition 3.1). Scenes at the limits of every range, and random ones, test it where nobody would look.",
+    judged: "Every step of every run: the energy must not rise and the balance must close, up to rounding errors. A run must end \
+             with its answer or, where the scene asks for it, with the failure that it names.",
+    failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
+              very step in which it happens. Run the scene named alone.",
+    settings: |header, item| {
+        Topic::new("the energy's laws", ItemMethod::OneStep).settings(header, item)
+    },
+};
+
+/// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
+fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
+    match only_table(
+        root,
+        ["energy", "case", "random"],
+        "one of the tables [energy], [[case]] and [random]",
+    )? {
+        "random" => reader::<RunStudy<random::RandomScenes>>(header, root, folder),
+        _ => reader::<RunStudy<one_by_one::EnergyRuns>>(header, root, folder),
+    }
+}

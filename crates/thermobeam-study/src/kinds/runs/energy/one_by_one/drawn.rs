@@ -1,0 +1,79 @@
+//! Figures of the runs that are drawn, and the table of their largest residuals.
+
+use super::{EnergyAt, EnergyRun, EnergyRuns, Found};
+use crate::kinds::prelude::*;
+
+/// Curves of all runs drawn.
+fn curves(
+    drawn: &[(&EnergyRun, &Found)],
+    point: fn(&Found, &EnergyAt) -> (f64, f64),
+) -> Vec<plots::Series> {
+    let mut curves = vec![];
+    for (run, found) in drawn {
+        let points = found.samples.iter().map(|sample| point(found, sample));
+        curves.push(plots::Series::new(run.scene(), points));
+    }
+    curves
+}
+
+impl EnergyRuns {
+    pub(super) fn figure(&self, drawn: &[(&EnergyRun, &Found)]) -> Option<Figure> {
+        if drawn.is_empty() {
+            None
+        } else if self.histories {
+            Some(energies(drawn))
+        } else {
+            Some(drifts(drawn))
+        }
+    }
+
+    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve
+    /// shows no more.
+    pub(super) fn balance(&self, drawn: &[(&EnergyRun, &Found)]) -> Option<Table> {
+        let rows = drawn.iter().map(|(run, found)| {
+            vec![
+                run.scene().to_owned(),
+                format!("{:.1e}", found.worst.residual),
+                run.share.map_or_else(String::new, plain_text),
+            ]
+        });
+        let title = "Largest residual of the energy balance in a step, over the initial energy";
+        let head = ["scene", "residual", "allowed"];
+        (self.histories && !drawn.is_empty()).then(|| Table::new(title, head, rows))
+    }
+}
+
+fn energies(drawn: &[(&EnergyRun, &Found)]) -> Figure {
+    let energies = curves(drawn, |found, sample| {
+        (sample.t, sample.energy / found.initial_energy)
+    });
+    let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies)
+        .with_looks(&looks(drawn.iter().map(|(run, _)| run.scene())))
+        .titled("The energy never rises");
+    let caption = "The energy, in units of its initial size: it never rises.";
+    Figure::new("energy", caption, energy.draw())
+}
+
+/// With a line for each bound that the runs drawn must keep.
+fn drifts(drawn: &[(&EnergyRun, &Found)]) -> Figure {
+    let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| run.drift).collect();
+    bounds.sort_by(f64::total_cmp);
+    bounds.dedup();
+    let allowed = |value: f64| plots::Guide {
+        label: "allowed".to_owned(),
+        value,
+    };
+    let mut drifts = curves(drawn, |_, sample| (sample.step as f64, sample.drift.abs()));
+    // Exactly zero, such as at the start, has no place on a logarithmic axis.
+    for series in &mut drifts {
+        series.points.retain(|(_, value)| *value != 0.0);
+    }
+    let drift = Xy {
+        x: plots::Axis::linear("steps"),
+        guides: bounds.into_iter().map(allowed).collect(),
+        ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
+    };
+    let caption = "Sum of the signed residuals of the energy balance up to each step.";
+    let title = "The residuals of the balance do not add up";
+    Figure::new("drift", caption, drift.titled(title).draw())
+}

@@ -1,0 +1,140 @@
+//! The tables `[energy]` and `[[case]]`.
+
+use super::EnergyRun;
+use crate::kinds::prelude::*;
+use crate::kinds::runs::cases::{ClaimedScene, End};
+use crate::kinds::runs::energy::beams::smooth;
+use crate::kinds::runs::energy::bound::stability;
+use crate::kinds::runs::watch::SOLVED;
+use crate::kinds::tables::Layout;
+
+/// The runs of `[energy]`: every scene, then every random beam, by each scheme in turn.
+pub(super) fn runs(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputError> {
+    section.allow(&[
+        "scenes",
+        "schemes",
+        "elements",
+        "map",
+        "dt",
+        "steps",
+        "random",
+        "seed",
+        "tolerance",
+    ])?;
+    let names = SCHEMES.map(|scheme| (scheme.name, scheme));
+    let schemes = section.list(
+        "schemes",
+        "a list of at least one scheme",
+        |item| item.choice(&names),
+        |list| !list.is_empty(),
+    )?;
+    let random = count(section, "random")?;
+    if let Some(field) = section.get("random") {
+        limits::cases(&field, &[random, schemes.len()])?;
+    }
+    let seed = count(section, "seed")? as u64;
+    let field = section.require("elements", "a number of elements")?;
+    let elements = tables::elements(&field)?;
+    let mesh = Layout::read(section, &[elements], None)?.mesh(elements);
+    let mesh = tables::checked_mesh(mesh, &field)?;
+    let dt = section.positive("dt")?;
+    let tolerance = section.positive("tolerance")?;
+    let steps = section.count("steps", 1..=limits::STEPS)?;
+    let scenes = section.list(
+        "scenes",
+        "a list of scene files beside this one",
+        |item| Scene::read(item.file(folder)?),
+        |_| true,
+    )?;
+    let mut beams = vec![];
+    for scene in scenes {
+        let mesh = mesh.clone();
+        beams.push((
+            scene.name.clone(),
+            simulate::problem(&Scene { mesh, ..scene }),
+        ));
+    }
+    let of_scenes = beams.len();
+    for k in 0..random as u64 {
+        beams.push((format!("random-{k}"), smooth(&mesh, seed.wrapping_add(k))));
+    }
+    let mut runs = vec![];
+    for (k, (name, problem)) in beams.into_iter().enumerate() {
+        for &scheme in &schemes {
+            runs.push(EnergyRun {
+                name: format!("{name}, {}", scheme.name),
+                problem: problem.clone(),
+                stepping: Stepping {
+                    scheme,
+                    settings: solved(Settings::default()),
+                    dt,
+                    loaded: false,
+                },
+                steps,
+                claim: "the energy falls and its balance closes".to_owned(),
+                end: End::Answer,
+                share: Some(tolerance),
+                drift: None,
+                is_bounded: false,
+                // Random beams and further schemes would crowd the figures.
+                is_drawn: k < of_scenes && scheme == schemes[0],
+            });
+        }
+    }
+    Ok(runs)
+}
+
+/// A number that may be left out, which is 0.
+fn count(section: &Section<'_>, key: &str) -> Result<usize, InputError> {
+    section
+        .get(key)
+        .map_or(Ok(0), |field| field.count(0..=usize::MAX))
+}
+
+/// The balance holds for the exact solution of a step only.
+fn solved(settings: Settings) -> Settings {
+    Settings {
+        stopping: Stopping::below(SOLVED),
+        ..settings
+    }
+}
+
+/// A run of `[[case]]`.
+pub(super) fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
+    let ClaimedScene {
+        name,
+        claim,
+        end,
+        scene,
+    } = ClaimedScene::read(section, name, &["drift", "stability"])?;
+    let mut stepping = scene
+        .one_step()
+        .map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
+    if stepping.settings.solver == Solver::Newton {
+        stepping.settings = solved(stepping.settings);
+    }
+    let is_bounded = section
+        .get("stability")
+        .map_or(Ok(false), |field| field.boolean())?;
+    if is_bounded && stability(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
+        let allowed = "theta_a = 0, and rho > 0 or beta > -0.7116";
+        return Err(section.refuse(
+            "stability",
+            "a beam for which Corollary 3.2 states nothing",
+            allowed,
+        ));
+    }
+    let drift = section.get("drift").map(|field| field.positive());
+    Ok(EnergyRun {
+        name,
+        problem: simulate::problem(&scene),
+        stepping,
+        steps: scene.steps(),
+        claim,
+        end,
+        share: None,
+        drift: drift.transpose()?,
+        is_bounded,
+        is_drawn: false,
+    })
+}

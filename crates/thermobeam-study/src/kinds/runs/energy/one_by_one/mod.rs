@@ -1,0 +1,468 @@
+//! Scenes run one by one, of the table `[energy]` or of `[[case]]`.
+//!
+//! ```toml
+//! [energy]
+//! scenes = ["scenes/paper-1-beta-0.toml"]       # files beside this one
+//! schemes = ["euler-crank-nicolson", "midpoint"]
+//! elements = 50                                 # of the mesh, graded or uniform as below
+//! map = "s"                                     # optional
+//! dt = 1e-3
+//! steps = 1000
+//! random = 16                                   # beams with random coefficients and smooth data
+//! seed = 1
+//! tolerance = 1e-12                             # of rise and residual, in units of the energy
+//! ```
+//!
+//! ```toml
+//! [[case]]
+//! name = "long-steps"
+//! claim = "..."                # in words
+//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
+//! # optional: bound of the sum of all residuals, in units of the energy
+//! drift = 1e-10
+//! # optional: every level keeps the bound of Corollary 3.2; needs theta_a = 0
+//! stability = true
+//! # and the tables of a scene
+//! [case.time]
+//! dt = 10.0
+//! t_end = 1000.0
+//! ```
+
+mod drawn;
+mod listed;
+
+use thermobeam::energy::Energy;
+
+use super::bound::{left_side, stability};
+use crate::kinds::prelude::*;
+use crate::kinds::runs::cases::{End, named_cases};
+use crate::kinds::runs::checks::{Condition, all, at_most, ended};
+use crate::kinds::runs::watch::{EnergyWatch, Worst, of_allowed};
+use crate::kinds::runs::{Findings, Listing, Results, Runs};
+
+/// Samples of a run, about.
+const SAMPLES: usize = 400;
+
+/// Steps from one computation of the energy's size to the next.
+const SCALED: usize = 8;
+
+/// A study of this kind.
+#[derive(Clone)]
+pub struct EnergyRuns {
+    runs: Vec<EnergyRun>,
+    /// Whether the figures show energy and residual over time; else they show the sum of the
+    /// residuals over the steps.
+    histories: bool,
+}
+
+/// A run, and what is claimed of it.
+#[derive(Clone)]
+struct EnergyRun {
+    name: String,
+    /// The scene's, or a beam with random coefficients and smooth random data.
+    problem: Problem,
+    stepping: Stepping,
+    steps: usize,
+    /// In words.
+    claim: String,
+    end: End,
+    /// Bound of rise and residual in a step, as a share of the energy; else 1e-12 of it, or the
+    /// bound on the rounding errors of the step.
+    share: Option<f64>,
+    /// Bound of the sum of all residuals, in units of the energy.
+    drift: Option<f64>,
+    /// Whether every level must keep the bound of Corollary 3.2.
+    is_bounded: bool,
+    is_drawn: bool,
+}
+
+/// What a run finds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Found {
+    /// How it ended.
+    pub end: End,
+    /// Steps done.
+    pub steps: usize,
+    /// Steps that ended in contact.
+    pub contact_steps: usize,
+    /// Most iterations in a step.
+    pub most_iterations: usize,
+    /// Size of the energy at t = 0: its terms without their signs.
+    pub initial_energy: f64,
+    /// Largest rise and residual of a step.
+    pub worst: Worst,
+    /// Sum of all residuals with their signs, in units of the energy.
+    pub drift: f64,
+    /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is
+    /// claimed.
+    pub of_bound: Option<f64>,
+    /// The term of the balance that does not close, and the factor of it that is left over.
+    pub open_term: Option<(&'static str, f64)>,
+    /// Samples for the figures.
+    pub samples: Vec<EnergyAt>,
+}
+
+/// A run after a number of steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyAt {
+    /// Number of the step.
+    pub step: usize,
+    /// Its time.
+    pub t: f64,
+    /// The energy.
+    pub energy: f64,
+    /// Largest residual of a step so far, in units of the initial energy.
+    pub residual: f64,
+    /// Sum of all residuals so far, in units of the energy.
+    pub drift: f64,
+}
+
+impl Runs for EnergyRuns {
+    /// Number of the run.
+    type Run = usize;
+    type Shown = Found;
+
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        if let Some(energy) = root.section("energy")? {
+            let runs = listed::runs(&energy, folder)?;
+            let histories = true;
+            return Ok(Self { runs, histories });
+        }
+        let mut runs = named_cases(root, listed::case)?;
+        let is_claimed = runs.iter().any(|run| run.drift.is_some());
+        // The drift of cases that claim a bound; of all where none does.
+        for run in &mut runs {
+            run.is_drawn = !run.is_bounded && (run.drift.is_some() || !is_claimed);
+        }
+        Ok(Self {
+            runs,
+            histories: false,
+        })
+    }
+
+    fn runs(&self) -> Vec<Case<usize>> {
+        let mut runs = vec![];
+        for (place, run) in self.runs.iter().enumerate() {
+            // Observing a step costs three times its solution, and a step some 100 ns in addition
+            // to its elements.
+            let cost = run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
+            runs.push(Case::new(run.name.clone(), cost, place));
+        }
+        runs
+    }
+
+    /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
+    fn run(&self, place: &usize) -> Result<Found, CaseFailure> {
+        let run = &self.runs[*place];
+        let mut driver = Driver::new(run.problem.clone(), run.stepping)?;
+        driver.refuse_loads("a study of the energy")?;
+        let mut recorder = Recorder::new(run, &driver);
+        let until = run.steps as f64 * run.stepping.dt;
+        let stepped = run_to(&mut driver, until, |driver, report| {
+            recorder.add(driver, report.iterations);
+        });
+        let Recorder { watch, found, .. } = recorder;
+        Ok(Found {
+            end: End::of(stepped.err().as_ref())?,
+            worst: watch.worst,
+            drift: watch.drift,
+            open_term: watch.open_term(),
+            ..found
+        })
+    }
+
+    /// A run without a step has no residuals.
+    fn numbers(&self, place: &usize, found: &Found) -> Vec<Reading> {
+        let run = &self.runs[*place];
+        let of_steps =
+            |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value));
+        let mut numbers = vec![
+            Reading::text("elements", run.problem.mesh.elements().to_string()),
+            Reading::text("dt", plain_text(run.stepping.dt)),
+            Reading::text("steps", found.steps.to_string()),
+            Reading::text("in contact", found.contact_steps.to_string()),
+            Reading::text("end", found.end.name()),
+            Reading::text("most iterations", found.most_iterations.to_string()),
+            Reading::new("initial energy", found.initial_energy).scientific(4),
+            of_steps("rise", found.worst.rise).scientific(1),
+            of_steps("residual", found.worst.residual).scientific(1),
+            of_steps("sum of residuals", found.drift.abs()).scientific(1),
+            of_steps("rise over its bound", found.worst.risen),
+            of_steps("residual over its bound", found.worst.open),
+        ];
+        if let Some(share) = found.of_bound {
+            numbers.push(Reading::new("of the bound (3.12)", share).fixed(3));
+        }
+        numbers
+    }
+
+    fn table(&self) -> Option<[&str; 2]> {
+        Some([
+            "Largest rise and residual of a step, and the sum of all residuals, in units of the energy",
+            "run",
+        ])
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        let completed: Vec<(&EnergyRun, &Found)> = results
+            .completed()
+            .map(|(place, found)| (&self.runs[*place], found))
+            .collect();
+        let mut checks = vec![];
+        let mut worst = Worst::default();
+        let mut steps = 0;
+        let mut share = 0.0;
+        for (run, found) in &completed {
+            checks.push(run.check(found));
+            worst = worst.max(found.worst);
+            steps += found.steps;
+            share = max_or_nan(share, run.share_of(found));
+        }
+        let passes = |check: &&Check| check.verdict == Verdict::Pass;
+        let holding = checks.iter().filter(passes).count();
+        let headline = if steps > 0 {
+            format!(
+                "largest residual {:.1e} of the energy, largest change in a step {:.1e}",
+                worst.residual, worst.rise
+            )
+        } else {
+            "no step".to_owned()
+        };
+        let drawn: Vec<_> = completed
+            .into_iter()
+            .filter(|(run, _)| run.is_drawn)
+            .collect();
+        Findings {
+            summary: format!(
+                "{holding} of {} runs hold, {steps} steps: {headline}; at most {}",
+                self.runs.len(),
+                of_allowed(share)
+            ),
+            headline,
+            checks,
+            coverage: vec![results.coverage("runs for the balance", |_, found| {
+                (found.steps == 0).then_some("without a step")
+            })],
+            listings: self
+                .balance(&drawn)
+                .map(Listing::from)
+                .into_iter()
+                .collect(),
+            figures: self.figure(&drawn).into_iter().collect(),
+            quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
+            ..Findings::default()
+        }
+    }
+}
+
+/// What is recorded of a run, step by step.
+struct Recorder<'r> {
+    run: &'r EnergyRun,
+    /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
+    bound: Option<f64>,
+    watch: EnergyWatch,
+    /// Largest residual of a step so far, in units of the initial energy.
+    residual: f64,
+    found: Found,
+}
+
+impl<'r> Recorder<'r> {
+    /// The beam stands at t = 0.
+    fn new(run: &'r EnergyRun, driver: &Driver<'_>) -> Self {
+        let simulation = driver.simulation();
+        let level = driver.level();
+        let energy = simulation.energy(level);
+        let Energy {
+            kinetic,
+            shear,
+            bending,
+            thermal,
+            kirchhoff,
+            contact,
+            lifting,
+        } = energy;
+        let Problem {
+            beam, obstacles, ..
+        } = &run.problem;
+        let bound = run
+            .is_bounded
+            .then(|| stability(beam, obstacles.as_ref(), energy.total()));
+        let mut recorder = Self {
+            run,
+            bound: bound.flatten(),
+            watch: EnergyWatch::new(simulation.energy_scale(level)),
+            residual: 0.0,
+            found: Found {
+                initial_energy: kinetic
+                    + shear
+                    + bending
+                    + thermal
+                    + kirchhoff.abs()
+                    + contact
+                    + lifting.abs(),
+                ..Found::default()
+            },
+        };
+        recorder.add_share(driver);
+        recorder.sample(driver);
+        recorder
+    }
+
+    /// Adds the last step.
+    fn add(&mut self, driver: &Driver<'_>, iterations: usize) {
+        let simulation = driver.simulation();
+        let old = driver.old_level();
+        let new = driver.level();
+        let step = simulation.step();
+        let found = &mut self.found;
+        found.steps = step;
+        found.contact_steps += usize::from(new.contact_force != 0.0);
+        found.most_iterations = iterations.max(found.most_iterations);
+        // The scale only grows, so that leaving a level out makes the bounds stricter.
+        let scale = if step % SCALED == 1 {
+            simulation.energy_scale(new)
+        } else {
+            0.0
+        };
+        let balance = simulation.balance(old, new);
+        self.watch
+            .add(&balance, scale, || simulation.rounding(old, new));
+        let residual = balance.residual.abs() / found.initial_energy;
+        self.residual = max_or_nan(self.residual, residual);
+        self.add_share(driver);
+        let steps = self.run.steps;
+        if step.is_multiple_of(steps.div_ceil(SAMPLES)) || step == steps {
+            self.sample(driver);
+        }
+    }
+
+    /// Compares the left side of (3.12) with its bound.
+    fn add_share(&mut self, driver: &Driver<'_>) {
+        let Some(bound) = self.bound else { return };
+        let simulation = driver.simulation();
+        let level = driver.level();
+        let obstacles = self.run.problem.obstacles.as_ref();
+        let energy = simulation.energy(level);
+        let share = left_side(obstacles, simulation.lengths(), level, &energy) / bound;
+        let largest = self.found.of_bound;
+        self.found.of_bound = Some(largest.map_or(share, |largest| max_or_nan(largest, share)));
+    }
+
+    fn sample(&mut self, driver: &Driver<'_>) {
+        let simulation = driver.simulation();
+        self.found.samples.push(EnergyAt {
+            step: simulation.step(),
+            t: simulation.t(),
+            energy: simulation.energy(driver.level()).total(),
+            residual: self.residual,
+            drift: self.watch.drift,
+        });
+    }
+}
+
+impl EnergyRun {
+    /// Largest rise or residual of a run in units of its bound.
+    fn share_of(&self, Found { worst, .. }: &Found) -> f64 {
+        match self.share {
+            Some(tolerance) => max_or_nan(worst.residual, worst.rise) / tolerance,
+            None => max_or_nan(worst.open, worst.risen),
+        }
+    }
+
+    /// The end that is claimed, and the bounds of every step before.
+    fn check(&self, found: &Found) -> Check {
+        let all_steps = self.end != End::Answer || found.steps == self.steps;
+        let bound = match found.of_bound {
+            Some(share) => {
+                let evidence = format!("left side of (3.12) at most {share:.3} of its bound");
+                at_most(share, 1.0, evidence)
+            }
+            None => Condition::or(!self.is_bounded, "the bound of (3.12) is not known"),
+        };
+        let subject = Subject::of("energy and balance")
+            .in_case(&self.name)
+            .by(ItemMethod::of_scheme(&self.stepping.scheme));
+        all(
+            &self.claim,
+            subject,
+            [
+                ended(found.end, self.end, found.steps),
+                Condition::or(all_steps, "a step is missing"),
+                self.closes(found),
+                self.drifts(found),
+                bound,
+            ],
+        )
+    }
+
+    /// No step opens the balance; a run without a step has nothing to bound.
+    fn closes(&self, found: &Found) -> Condition {
+        if found.steps == 0 {
+            return Condition::that(true, "");
+        }
+        let Worst { rise, residual, .. } = found.worst;
+        let share = self.share_of(found);
+        let allowed = of_allowed(share);
+        let mut evidence =
+            format!("rise {rise:.1e}, residual {residual:.1e} of the energy ({allowed})");
+        if let (false, Some((term, left))) = (share <= 1.0, found.open_term) {
+            evidence += &format!("; in every step the residual is {left:.3} times {term}");
+        }
+        at_most(share, 1.0, evidence)
+    }
+
+    /// The residuals of all steps do not add up, where that is claimed.
+    fn drifts(&self, found: &Found) -> Condition {
+        let drift = found.drift.abs();
+        let evidence = if found.steps > 0 {
+            format!("sum of all residuals {drift:.1e}")
+        } else {
+            String::new()
+        };
+        Condition::that(self.drift.is_none_or(|bound| drift <= bound), evidence)
+    }
+
+    /// The name without that of its scheme.
+    fn scene(&self) -> &str {
+        self.name.split(',').next().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_with_loads_is_refused() {
+        let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 1.0\n";
+        let scene = Scene::parse(text, "s.toml").expect("a scene");
+        let stepping = scene.one_step().expect("a one-step scheme");
+        let result = |loaded: bool| {
+            let run = EnergyRun {
+                name: "s".to_owned(),
+                problem: simulate::problem(&scene),
+                stepping: Stepping { loaded, ..stepping },
+                steps: 10,
+                claim: String::new(),
+                end: End::default(),
+                share: None,
+                drift: None,
+                is_bounded: false,
+                is_drawn: false,
+            };
+            let study = EnergyRuns {
+                runs: vec![run],
+                histories: false,
+            };
+            study.run(&0)
+        };
+        assert!(result(false).is_ok());
+        let refused = result(true).expect_err("a refusal");
+        assert!(
+            refused
+                .reason
+                .starts_with("a study of the energy: found a beam with loads"),
+            "{refused:?}"
+        );
+    }
+}

@@ -1,0 +1,157 @@
+//! The runs of an experiment, the experiments of a group, and all groups together.
+
+use super::{
+    AtRest, Experiment, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace,
+};
+use crate::kinds::prelude::*;
+use crate::kinds::runs::Results;
+
+/// An experiment and its runs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OfExperiment<'r> {
+    pub(super) experiment: &'r Experiment,
+    /// By the first discretisation.
+    pub(super) first: &'r Measured,
+    /// By the second, which shows the error of the first.
+    pub(super) second: &'r Measured,
+    /// By the paper's algorithm, if the study runs that.
+    pub(super) paper: Option<&'r PaperRun>,
+}
+
+impl<'r> OfExperiment<'r> {
+    /// `None` if a run is missing.
+    fn of(
+        study: &'r Experiments,
+        results: &Results<'r, Experiments>,
+        experiment: usize,
+    ) -> Option<Self> {
+        let any_order = |discretisation: usize| {
+            let task = Task::AnyOrder {
+                experiment,
+                discretisation,
+            };
+            match results.of(&task) {
+                Some(Found::Run(run)) => Some(&**run),
+                _ => None,
+            }
+        };
+        let paper = match results.of(&Task::FixedPoint(experiment)) {
+            Some(Found::FixedPoint(run)) => Some(&**run),
+            _ => None,
+        };
+        let is_complete = paper.is_some() || study.fixed_point.is_none();
+        is_complete.then_some(Self {
+            experiment: &study.experiments[experiment],
+            first: any_order(0)?,
+            second: any_order(1)?,
+            paper,
+        })
+    }
+
+    /// The motion by which statements are judged: that of the paper's algorithm, if the study runs
+    /// that.
+    pub(super) fn trace(&self) -> &'r Trace {
+        self.paper.map_or(&self.first.trace, |paper| &paper.trace)
+    }
+
+    pub(super) fn name(&self) -> &'r str {
+        &self.experiment.scene.name
+    }
+
+    pub(super) fn beam(&self) -> &'r Beam {
+        &self.experiment.scene.beam
+    }
+}
+
+/// The experiments of a group that completed.
+pub(super) struct OfGroup<'r> {
+    pub(super) runs: Vec<OfExperiment<'r>>,
+    /// Whether all of them completed: otherwise no claim holds.
+    complete: bool,
+}
+
+impl<'r> OfGroup<'r> {
+    /// The experiments that belong to the group.
+    fn of(
+        study: &'r Experiments,
+        results: &Results<'r, Experiments>,
+        belongs: impl Fn(SectionGroup) -> bool,
+    ) -> Self {
+        let mut runs = vec![];
+        let mut complete = true;
+        for (place, experiment) in study.experiments.iter().enumerate() {
+            if belongs(experiment.group) {
+                let completed = OfExperiment::of(study, results, place);
+                complete &= completed.is_some();
+                runs.extend(completed);
+            }
+        }
+        Self { runs, complete }
+    }
+
+    pub(super) fn all(&self, holds: impl Fn(&OfExperiment<'r>) -> bool) -> bool {
+        self.complete && !self.runs.is_empty() && self.runs.iter().all(holds)
+    }
+
+    /// A number of each experiment; none if a run is missing.
+    pub(super) fn numbers(&self, number: impl Fn(&OfExperiment<'r>) -> f64) -> Vec<f64> {
+        if self.complete {
+            self.runs.iter().map(number).collect()
+        } else {
+            vec![]
+        }
+    }
+
+    /// The largest of these; NaN if a run is missing.
+    pub(super) fn largest(&self, number: impl Fn(&OfExperiment<'r>) -> f64) -> f64 {
+        largest_of(self.numbers(number)).unwrap_or(f64::NAN)
+    }
+
+    /// Words about each experiment, by its β.
+    pub(super) fn list(&self, text: impl Fn(&OfExperiment<'r>) -> String) -> String {
+        self.joined("; ", |runs| {
+            format!("β = {}: {}", runs.beam().beta, text(runs))
+        })
+    }
+
+    pub(super) fn joined(
+        &self,
+        separator: &str,
+        text: impl Fn(&OfExperiment<'r>) -> String,
+    ) -> String {
+        self.runs
+            .iter()
+            .map(text)
+            .collect::<Vec<_>>()
+            .join(separator)
+    }
+}
+
+/// All runs of the study.
+pub(super) struct SectionFive<'r> {
+    pub(super) all: OfGroup<'r>,
+    pub(super) first: OfGroup<'r>,
+    pub(super) second: OfGroup<'r>,
+    pub(super) third: OfGroup<'r>,
+    /// The runs to rest that completed, each with its β.
+    pub(super) rests: Vec<(f64, &'r AtRest)>,
+}
+
+impl<'r> SectionFive<'r> {
+    pub(super) fn of(study: &'r Experiments, results: &Results<'r, Experiments>) -> Self {
+        let group = |belongs: fn(SectionGroup) -> bool| OfGroup::of(study, results, belongs);
+        let mut rests = vec![];
+        for (place, &beta) in study.rest.betas.iter().enumerate() {
+            if let Some(Found::Rest(rest)) = results.of(&Task::Rest(place)) {
+                rests.push((beta, rest));
+            }
+        }
+        Self {
+            all: group(|_| true),
+            first: group(|group| group == SectionGroup::First),
+            second: group(|group| matches!(group, SectionGroup::Second(_))),
+            third: group(|group| group == SectionGroup::Third),
+            rests,
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! The numbers of each run, declared once: they give completion, tables and guarded numbers.
+
+use super::group::OfExperiment;
+use super::{AtRest, Measured, PaperRun, SectionGroup, Trace};
+use crate::kinds::prelude::*;
+
+/// Tolerance of a number that depends smoothly on the data: far above round-off, below any change
+/// of method.
+const SMOOTH: f64 = 1e-6;
+
+/// The same if many bounces lie between the data and the number: each amplifies a perturbation.
+const AFTER_BOUNCES: f64 = 1e-4;
+
+/// The same for numbers that depend on when an iteration stops: rounding decides where an increment
+/// is close to the tolerance.
+const OF_ITERATIONS: f64 = 1e-2;
+
+impl OfExperiment<'_> {
+    /// The numbers of the experiment.
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let bent = self.experiment.group != SectionGroup::First;
+        let mut readings = self.trace().readings(self.name());
+        readings.extend(self.first.readings(self.name(), bent));
+        readings
+    }
+}
+
+impl Trace {
+    /// * `name`: the experiment's.
+    pub(super) fn readings(&self, name: &str) -> Vec<Reading> {
+        let of = |reading: Reading, guard: &str, tolerance: f64| {
+            reading
+                .fixed(4)
+                .guarded(format!("{name}: {guard}"), tolerance)
+        };
+        vec![
+            of(
+                Reading::new("first contact above", self.first_upper),
+                "first_upper",
+                SMOOTH,
+            ),
+            of(
+                Reading::new("below", self.first_lower),
+                "first_lower",
+                AFTER_BOUNCES,
+            ),
+            of(
+                Reading::new("frequency of u(1)", self.frequency),
+                "frequency",
+                AFTER_BOUNCES,
+            ),
+            of(
+                Reading::new("range of φ(1)", self.phi_amplitude),
+                "phi_amplitude",
+                AFTER_BOUNCES,
+            ),
+            Reading::new("largest change of the energy", self.largest_increase),
+            Reading::new("largest residual of the balance", self.largest_residual),
+        ]
+    }
+}
+
+impl PaperRun {
+    /// * `name`: the experiment's.
+    pub(super) fn readings(&self, name: &str) -> Vec<Reading> {
+        let of = |reading: Reading, guard: &str| reading.guarded_in(name, guard, OF_ITERATIONS);
+        let solvers = &self.solvers;
+        let per_step = Reading::new("iterations per step", solvers.mean_iterations).fixed(4);
+        let distance = Reading::new("distance to Newton's solution", solvers.distance);
+        vec![
+            of(per_step, "iterations_per_step"),
+            Reading::text("most", solvers.most_iterations.to_string()),
+            of(distance.scientific(2), "distance_to_newton"),
+            Reading::new("largest change of the energy", self.trace.largest_increase).scientific(1),
+            Reading::new(
+                "largest residual of its balance",
+                self.trace.largest_residual,
+            )
+            .scientific(1),
+        ]
+    }
+}
+
+impl Measured {
+    /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those
+    ///   of the remaining motion.
+    pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
+        let ends = |reading: Reading, guard: &str| {
+            if bent {
+                reading.guarded_in(name, guard, SMOOTH)
+            } else {
+                reading
+            }
+        };
+        let exact = self.end.nearest.map(|nearest| nearest.state.u_tip);
+        vec![
+            Reading::new("steady by t", self.end.t).fixed(0),
+            ends(Reading::new("E at the end", self.energy).fixed(8), "energy"),
+            Reading::new("u(1)", self.end.tip[0]).scientific(3),
+            Reading::new("φ(1)", self.end.tip[1]).scientific(3),
+            ends(
+                Reading::new("u(1) of the exact state", exact),
+                "exact_u_tip",
+            )
+            .about(
+                Subject::of("exact_u_tip")
+                    .in_case(name)
+                    .by(ItemMethod::Exact),
+            ),
+            Reading::new("contact force", self.contact_force),
+            Reading::new("largest field", self.largest_field),
+            Reading::new("distance to a steady state", self.end.distance()),
+        ]
+    }
+}
+
+impl AtRest {
+    pub(super) fn readings(&self) -> Vec<Reading> {
+        let distance = Reading::new("distance to the nearest", self.distance());
+        vec![
+            Reading::text("steady states", self.count()),
+            Reading::text("stable", self.stable.to_string()),
+            Reading::new("u(1) at rest", self.tip[0]).scientific(6),
+            distance.shown(|distance| {
+                if self.nearest.is_some() {
+                    format!("{distance:.1e}")
+                } else {
+                    "-".to_owned()
+                }
+            }),
+            Reading::new("at rest by t", self.t).fixed(0),
+        ]
+    }
+}

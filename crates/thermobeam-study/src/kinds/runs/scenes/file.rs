@@ -1,0 +1,87 @@
+//! The keys of a case.
+
+use super::shown::{NUMBERS, NamedNumbers, PAIRS, listed};
+use super::{Answer, Most, PREDICTED, Whole};
+use crate::kinds::prelude::*;
+use crate::kinds::runs::cases::{ClaimedScene, End};
+
+impl Whole {
+    pub(super) fn read(section: &Section<'_>, name: String) -> Result<Self, InputError> {
+        let case = ClaimedScene::read(section, name, &["answer", "most"])?;
+        let answers = case.end == End::Answer;
+        let none = "none, where a case ends with an error";
+        let answer = section.section("answer")?;
+        let most = section.section("most")?;
+        if answer.is_some() && !answers {
+            return Err(section.refuse("answer", "an answer", none));
+        }
+        if most.is_some() && !answers {
+            return Err(section.refuse("most", "bounds", none));
+        }
+        if answers && answer.is_none() && most.is_none() {
+            return Err(section.missing(
+                "answer",
+                "a table with numbers, where a case ends with its answer",
+            ));
+        }
+        Ok(Self {
+            answer: answer.map_or(Ok(Answer::default()), |section| Answer::read(&section))?,
+            most: most.map_or(Ok(Most::default()), |section| {
+                Most::read(&section, &case.scene)
+            })?,
+            case,
+        })
+    }
+}
+
+impl Most {
+    fn read(section: &Section<'_>, scene: &Scene) -> Result<Self, InputError> {
+        let [iterations, unsolved] = ["iterations_per_step", "unsolved"];
+        section.allow(&[iterations, unsolved])?;
+        let bound = |key: &str| section.get(key).map(|field| field.positive()).transpose();
+        let most = Self {
+            iterations: bound(iterations)?,
+            unsolved: bound(unsolved)?,
+        };
+        if most == Self::default() {
+            return Err(section.missing(iterations, "at least one bound"));
+        }
+        if most.unsolved.is_some() {
+            scene
+                .one_step()
+                .map_err(|error| section.refuse(unsolved, "a bound for dg", error.to_string()))?;
+        }
+        Ok(most)
+    }
+}
+
+impl Answer {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS].concat())?;
+        let within = section.positive("within")?;
+        let mut numbers: NamedNumbers = vec![];
+        for name in NUMBERS.into_iter().chain(PREDICTED) {
+            if let Some(field) = section.get(name) {
+                numbers.push((name.to_owned(), field.number()?));
+            }
+        }
+        for key in PAIRS {
+            if let Some(field) = section.get(key) {
+                numbers.extend(listed(key, pairs(&field)?));
+            }
+        }
+        if numbers.is_empty() {
+            return Err(section.missing(NUMBERS[0], "at least one number of the answer"));
+        }
+        Ok(Self { numbers, within })
+    }
+}
+
+fn pairs(field: &Field<'_>) -> Result<Vec<[f64; 2]>, InputError> {
+    let allowed = "a list of pairs of numbers";
+    let pair = |item: &Field<'_>| match item.items(allowed)?.as_slice() {
+        [one, other] => Ok([one.number()?, other.number()?]),
+        _ => Err(item.refuse_as_written("two numbers")),
+    };
+    field.items(allowed)?.iter().map(pair).collect()
+}

@@ -1,0 +1,378 @@
+//! Whole scenes, read and run as `run` does it, against the answers of an independent
+//! implementation.
+//!
+//! Studies of orders take loads and initial data from an exact solution; everything else that a
+//! scene says, from its initial rotation to its stopping criterion, is tested here. The work of a
+//! run is guarded as well.
+//!
+//! ```toml
+//! [[case]]
+//! name = "listed-nodes"
+//! claim = "..."                # in words
+//! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
+//! # with `ends = "answer"` only: numbers as `run --format json` calls them
+//! [case.answer]
+//! within = 1e-9                # bound on the distance to each
+//! u_tip = -0.0408657198986
+//! history = [[0.5, 0.012]]     # t and u(1, t), at times k t_end/200
+//! contact = [[0.0, 0.2]]       # beginning and end of each contact
+//! # u(1) and the number of unstable directions of each steady state, in the order of u(1)
+//! steady = [[-0.01, 0]]
+//! estimated_error = 1e-3       # what `--estimate-error` says of u(1) at the end
+//! # u(1) at the end of the run that `--target-error` chooses for an error of `within`
+//! chosen_u_tip = -0.040865
+//! # with `ends = "answer"`, in addition to an answer or in place of it: bounds
+//! [case.most]
+//! iterations_per_step = 5.0    # mean number of iterations
+//! # distance of a step to the same step solved to round-off, over the tolerance; one-step schemes
+//! unsolved = 1.0
+//! # and the tables of a scene, by any scheme
+//! [case.time]
+//! dt = 0.005
+//! t_end = 1.0
+//! ```
+
+mod file;
+mod shown;
+
+use super::cases::{ClaimedScene, named_cases};
+use super::checks::{Condition, all, at_most, ended};
+use super::steady::exact_states;
+use super::{Findings, Results, RunStudy, Runs};
+use crate::kinds::prelude::*;
+use crate::kinds::tables::cost_of_run;
+use crate::predict::Work;
+use crate::predict::choice::{Quantity as Accuracy, choose};
+use crate::predict::estimate::estimate;
+use crate::run::together::run_together;
+use shown::{NamedNumbers, STEADY, listed, unsolved};
+
+pub use shown::{COUNTS, NUMBERS, Shown};
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "runs/scenes",
+    read: reader::<RunStudy<Scenes>>,
+    why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
+          the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
+          order those of a converged solution.",
+    judged: "Each number of an answer must be met within the bound of its case, and each run must end as the case says. Where a \
+             case bounds iterations or the distance to solved steps, they must stay below. The baseline guards all numbers of a \
+             run and its counts: steps, iterations, factorisations.",
+    failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
+              not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
+    settings: |header, item| {
+        Topic::new("whole scenes", ItemMethod::OneStep)
+            .of_file()
+            .settings(header, item)
+    },
+};
+
+/// Times of a history.
+const TIMES: usize = 200;
+
+/// Relative change of a number that the baseline tolerates. Iterations stop at a tolerance of 1e-10
+/// or more, and may stop one earlier where rounding differs.
+const TOLERANCE: f64 = 1e-7;
+
+/// The same of a count: below 50 it must be equal.
+const COUNT_TOLERANCE: f64 = 0.02;
+
+/// A study of whole scenes.
+#[derive(Debug, Clone)]
+pub struct Scenes {
+    scenes: Vec<Whole>,
+}
+
+/// A scene and what is known of it.
+#[derive(Debug, Clone)]
+struct Whole {
+    case: ClaimedScene,
+    answer: Answer,
+    most: Most,
+}
+
+/// What an independent implementation answers.
+#[derive(Debug, Clone, Default)]
+struct Answer {
+    /// Empty if it was not asked.
+    numbers: NamedNumbers,
+    /// Bound on the distance to each.
+    within: f64,
+}
+
+/// Upper bounds on the cost of steps and on what their iterations leave unsolved.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Most {
+    /// On the mean number of iterations of a step.
+    iterations: Option<f64>,
+    /// On the distance of a step to the same step solved to round-off, in the norm of (3.14) and in
+    /// units of the tolerance.
+    unsolved: Option<f64>,
+}
+
+/// Keys of what predictions say: the error of a scene, and the run for an accuracy.
+const PREDICTED: [&str; 2] = ["estimated_error", "chosen_u_tip"];
+
+/// Work that a prediction may do.
+const MOST_WORK: f64 = 2e8;
+
+impl Runs for Scenes {
+    /// Number of the scene.
+    type Run = usize;
+    type Shown = Shown;
+
+    fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        root.allow(&["study", "case"])?;
+        Ok(Self {
+            scenes: named_cases(root, Whole::read)?,
+        })
+    }
+
+    fn runs(&self) -> Vec<Case<usize>> {
+        let mut runs = vec![];
+        for (place, Whole { case, .. }) in self.scenes.iter().enumerate() {
+            // Each step is observed, which costs three times its solution.
+            let observed = match case.scene.method {
+                Method::OneStep(_) => 4.0,
+                Method::Dg(_) => 1.0,
+            };
+            let cost = observed * cost_of_run(&case.scene);
+            runs.push(Case::new(case.name.clone(), cost, place));
+        }
+        runs
+    }
+
+    fn run(&self, place: &usize) -> Result<Shown, CaseFailure> {
+        let whole = &self.scenes[*place];
+        let scene = &whole.case.scene;
+        let shown =
+            Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
+        let lanes = run_together(std::slice::from_ref(scene))?;
+        let lane = lanes.first().map(Shown::of).transpose()?;
+        let unsolved = whole.most.unsolved.map(|_| unsolved(scene)).transpose()?;
+        Ok(Shown {
+            alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)),
+            others: whole.others()?,
+            unsolved,
+            ..shown
+        })
+    }
+
+    /// All numbers and counts of a run; a run without a step has no change of the energy.
+    fn numbers(&self, place: &usize, shown: &Shown) -> Vec<Reading> {
+        let whole = &self.scenes[*place];
+        let ClaimedScene { name, scene, .. } = &whole.case;
+        let solver = scene
+            .one_step()
+            .map_or("newton", |stepping| stepping.settings.solver.name());
+        let farthest = whole.answer.farthest(shown);
+        let by = if whole.answer.numbers.is_empty() {
+            "-".to_owned()
+        } else {
+            format!("{:.1e}", farthest.distance)
+        };
+        let mut numbers = vec![
+            Reading::text("scheme", scene.method.name()),
+            Reading::text("solver", solver),
+            Reading::text("end", shown.end.name()),
+            Reading::text("farthest from its answer", farthest.name),
+            Reading::text("by", by),
+        ];
+        let without_a_step = usize::from(shown.counts[0] == 0);
+        let of_levels = NUMBERS.len() - without_a_step;
+        for (of, value) in NUMBERS.into_iter().zip(shown.numbers).take(of_levels) {
+            numbers.push(Reading::new(of, value).guarded_in(name, of, TOLERANCE));
+        }
+        for (of, count) in COUNTS.into_iter().zip(shown.counts) {
+            let count = Reading::new(of, count as f64).fixed(0);
+            numbers.push(count.guarded_in(name, of, COUNT_TOLERANCE));
+        }
+        numbers
+    }
+
+    fn table(&self) -> Option<[&str; 2]> {
+        Some(["Scenes against an independent implementation", "scene"])
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        let shown: Vec<(&Whole, &Shown)> = results
+            .completed()
+            .map(|(place, shown)| (&self.scenes[*place], shown))
+            .collect();
+        let mut checks: Vec<Check> = shown
+            .iter()
+            .map(|(whole, shown)| whole.check(shown))
+            .collect();
+        for (whole, shown) in &shown {
+            checks.extend(whole.most.checks(&whole.case.name, shown));
+        }
+        checks.push(alike_in_lanes(&shown));
+        let mut headline = format!("{} scenes", shown.len());
+        let strains = shown
+            .iter()
+            .filter_map(|(whole, shown)| whole.answer.strain(shown));
+        if let Some(strain) = largest_of(strains) {
+            headline +=
+                &format!(", at most {strain:.2} of the distance allowed to an independent answer");
+        }
+        Findings {
+            summary: headline.clone(),
+            headline,
+            checks,
+            coverage: vec![
+                results.coverage("scenes against an answer", |place, _| {
+                    let unknown = self.scenes[*place].answer.numbers.is_empty();
+                    unknown.then_some("with bounds or an end only")
+                }),
+                results.coverage("scenes in lanes", |_, shown| {
+                    let alone = shown.alike_in_lanes.is_none();
+                    alone.then_some("without a scheme that runs in lanes")
+                }),
+            ],
+            ..Findings::default()
+        }
+    }
+}
+
+/// The number that is farthest from its answer.
+struct Farthest<'a> {
+    name: &'a str,
+    distance: f64,
+}
+
+impl Answer {
+    /// NaN is farthest.
+    fn farthest(&self, shown: &Shown) -> Farthest<'_> {
+        let named = shown.named();
+        let mut farthest = Farthest {
+            name: "none",
+            distance: 0.0,
+        };
+        for (name, expected) in &self.numbers {
+            let number = named.iter().find(|(of, _)| of == name);
+            let distance = number.map_or(f64::NAN, |(_, value)| (value - expected).abs());
+            if !(distance <= farthest.distance) {
+                farthest = Farthest { name, distance };
+            }
+        }
+        farthest
+    }
+
+    /// The largest distance in units of the bound; `None` without an answer.
+    fn strain(&self, shown: &Shown) -> Option<f64> {
+        (!self.numbers.is_empty()).then(|| self.farthest(shown).distance / self.within)
+    }
+
+    /// Each number is met.
+    fn is_met(&self, shown: &Shown) -> Condition {
+        if self.numbers.is_empty() {
+            return Condition::that(true, "");
+        }
+        let Farthest { name, distance } = self.farthest(shown);
+        let far = short_text(distance);
+        let evidence = format!("{name} is {far} from its answer, {:e} allowed", self.within);
+        at_most(distance, self.within, evidence)
+    }
+}
+
+impl Most {
+    /// The claims of a case, each as a check.
+    fn checks(self, name: &str, shown: &Shown) -> Vec<Check> {
+        let [steps, iterations, ..] = shown.counts;
+        let mut checks = vec![];
+        if let Some(most) = self.iterations {
+            let mean = iterations as f64 / steps as f64;
+            checks.push(all(
+                format!("a step takes at most {most} iterations on average"),
+                Subject::of("iterations").in_case(name),
+                [at_most(mean, most, format!("{mean:.2} in {steps} steps"))],
+            ));
+        }
+        if let Some(most) = self.unsolved {
+            let share = shown.unsolved.unwrap_or(f64::NAN);
+            checks.push(all(
+                format!(
+                    "each step is at most {most} times the tolerance from the same step solved to round-off"
+                ),
+                Subject::of("solved steps").in_case(name),
+                [at_most(share, most, format!("{} times", short_text(share)))],
+            ));
+        }
+        checks
+    }
+}
+
+impl Whole {
+    fn check(&self, shown: &Shown) -> Check {
+        let ClaimedScene {
+            name, claim, end, ..
+        } = &self.case;
+        all(
+            claim,
+            Subject::of("answer").in_case(name),
+            [
+                ended(shown.end, *end, shown.counts[0]),
+                self.answer.is_met(shown),
+            ],
+        )
+    }
+
+    /// Predictions and steady states, where the answer has them.
+    fn others(&self) -> Result<NamedNumbers, CaseFailure> {
+        let scene = &self.case.scene;
+        let mut no_progress = |_: f64| ();
+        let [error, chosen] = PREDICTED;
+        let is_known = |name: &str| self.answer.numbers.iter().any(|(of, _)| of == name);
+        let mut others = vec![];
+        if is_known(error) {
+            let budget = estimate(scene, &mut Work::new(MOST_WORK, &mut no_progress))?;
+            let of_tip = budget
+                .quantities
+                .iter()
+                .find(|estimate| estimate.name == "u(1) at the end");
+            let total = of_tip.map_or(f64::NAN, |estimate| estimate.total);
+            others.push((error.to_owned(), total));
+        }
+        if is_known(chosen) {
+            let work = &mut Work::new(MOST_WORK, &mut no_progress);
+            let choice = choose(scene, Accuracy::Tip, self.answer.within, work)?;
+            let run = Simulator::new(&choice.scene)?.run(Recording::Summary, &mut |_, _| ());
+            others.push((chosen.to_owned(), run.last.u_tip));
+        }
+        if is_known(STEADY) {
+            // Infinitely many unstable directions are no number of an answer.
+            let unstable = |state: &Equilibrium| {
+                state
+                    .unstable_directions
+                    .map_or(f64::INFINITY, |count| count as f64)
+            };
+            let states = exact_states(scene)?.into_iter();
+            let pairs = states.map(|state| [state.u_tip, unstable(&state)]);
+            others.extend(listed("steady", pairs));
+        }
+        Ok(others)
+    }
+}
+
+fn alike_in_lanes(shown: &[(&Whole, &Shown)]) -> Check {
+    let alike = |expected: Option<bool>| {
+        move |(_, shown): &&(&Whole, &Shown)| shown.alike_in_lanes == expected
+    };
+    let apart: Vec<&str> = shown
+        .iter()
+        .filter(alike(Some(false)))
+        .map(|(whole, _)| whole.case.name.as_str())
+        .collect();
+    let compared = apart.len() + shown.iter().filter(alike(Some(true))).count();
+    let evidence = format!(
+        "{compared} compared, {} with other bits: {}",
+        apart.len(),
+        apart.join(", ")
+    );
+    all(
+        "in lanes, in a group that is not full, each scene that can run so has the same bits",
+        Subject::of("lanes"),
+        [Condition::that(compared > 0 && apart.is_empty(), evidence)],
+    )
+}

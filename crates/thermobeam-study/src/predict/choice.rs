@@ -153,7 +153,7 @@ pub fn keep_scheme(
     };
     for _ in 0..ROUNDS {
         match search.round(&scene, work) {
-            Next::Reached(choice) => return Ok(choice),
+            Next::Reached(choice) => return Ok(*choice),
             Next::Refine(factors) => {
                 let [elements, steps] = size(&scene);
                 scene = resized(&scene, [factors[0] * elements, factors[1] * steps])
@@ -181,7 +181,7 @@ struct Search {
 /// What a search does after a round.
 enum Next {
     /// The error is small enough.
-    Reached(Choice),
+    Reached(Box<Choice>),
     /// By these factors of elements and of steps.
     Refine([f64; 2]),
     /// The target cannot be reached.
@@ -220,14 +220,14 @@ impl Search {
             return Next::GiveUp(Reason::NotFinite);
         };
         if error <= self.target {
-            return Next::Reached(Choice {
+            return Next::Reached(Box::new(Choice {
                 scene: scene.clone(),
                 parts: parts.errors,
                 parts_by: "by runs with twice the elements and with half of dt".to_owned(),
                 error,
                 is_kept: true,
                 run: own.curves.cost,
-            });
+            }));
         }
         if error < self.best.0 {
             self.best = (error, parts.errors);

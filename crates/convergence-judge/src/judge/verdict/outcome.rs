@@ -207,7 +207,8 @@ impl RateVerdict {
             .find(|rate| rate.is_finite())
     }
 
-    /// Like [`interval_in_words`](Self::interval_in_words); without an interval, the rate between the finest levels.
+    /// Like [`interval_in_words`](Self::interval_in_words); without an interval, the rate between
+    /// the finest levels.
     ///
     /// * `most`: the largest number of decimals.
     pub fn rate_in_words(&self, most: usize) -> String {

@@ -12,6 +12,7 @@ mod list;
 mod planted;
 
 use std::io;
+use std::path::Path;
 
 use convergence_study::cli::exit::{self, Outcome, Unusable};
 use convergence_study::cli::running::LongRun;
@@ -21,6 +22,7 @@ use convergence_study::report;
 use convergence_study::store::atomic;
 use convergence_study::study::outcome::Table;
 
+use judged::Judged;
 use list::Regression;
 use planted::{Copy, Found};
 
@@ -45,18 +47,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let root = workspace::root()?;
     let all = list::read(&root)?;
-    let is_meant = |one: &&Regression| {
-        let has =
-            |part: &String| one.name.contains(part.as_str()) || one.file.contains(part.as_str());
-        arguments.only.is_empty() || arguments.only.iter().any(has)
-    };
-    let chosen: Vec<&Regression> = all.iter().filter(is_meant).collect();
-    if chosen.is_empty() {
-        return Err(Unusable::because(&format!(
-            "no regression with {} in its name",
-            arguments.only.join(" or ")
-        )));
-    }
+    let chosen = chosen(arguments, &all)?;
     if arguments.list {
         return print_list(&chosen);
     }
@@ -76,43 +67,102 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let passing = copy.as_it_is(arguments.recorded)?.seconds;
     exit::say(move || format!("{count} mistakes were to be planted; those that were are recorded"));
     let planted = chosen.iter().copied().zip(&texts);
-    let all = judged::judged(&root, plant(&copy, planted, arguments.recorded, &clock)?)?;
-    let named = all
-        .iter()
-        .filter(|one| one.found.is_named_by(one.regression))
-        .count();
-    let table = Table::new(
-        "",
-        HEAD,
-        all.iter().map(|one| row(one.regression, &one.found)),
-    );
-    let rest = if all.len() < count {
-        format!(", {} more are not recorded", count - all.len())
-    } else {
-        String::new()
-    };
-    let sentence = format!(
-        "{named} of {} mistakes are noticed by the study or the test named for them{rest}",
-        all.len()
-    );
-    let scores = judged::page(&all, passing);
-    screen::print(&format!(
-        "{}{scores}{sentence}\n",
-        screen::table(&HEAD, &table.rows)
-    ))?;
+    let results = plant(&copy, planted, arguments.recorded, &clock)?;
+    let report = Report::of(judged::judged(&root, results)?, count, passing);
+    report.print()?;
     if arguments.write {
-        let page = page(&table, &sentence, &clock.ended(&root)) + "\n" + &scores;
-        atomic::write(&reported, page)?;
-        let prints = serde_json::to_string(&judged::fingerprints(&all)).map_err(io::Error::from)?;
-        let lines = prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n";
-        atomic::write(&root.join(FINGERPRINTS), lines)?;
+        report.write(&root, &clock.ended(&root))?;
         screen::print(&format!("report: {REPORT}, {FINGERPRINTS}\n"))?;
     }
-    Ok(if named == count {
-        Verdict::Pass
-    } else {
-        Verdict::Fail
-    })
+    Ok(report.verdict())
+}
+
+/// The mistakes that are asked for.
+///
+/// # Errors
+/// There are none.
+fn chosen<'r>(
+    arguments: &Arguments,
+    all: &'r [Regression],
+) -> Result<Vec<&'r Regression>, Unusable> {
+    let is_chosen = |one: &&Regression| {
+        let has =
+            |part: &String| one.name.contains(part.as_str()) || one.file.contains(part.as_str());
+        arguments.only.is_empty() || arguments.only.iter().any(has)
+    };
+    let chosen: Vec<&Regression> = all.iter().filter(is_chosen).collect();
+    if chosen.is_empty() {
+        return Err(Unusable::because(&format!(
+            "no regression with {} in its name",
+            arguments.only.join(" or ")
+        )));
+    }
+    Ok(chosen)
+}
+
+/// What was noticed of all mistakes, as the terminal and the page show it.
+struct Report<'r> {
+    judged: Vec<Judged<'r>>,
+    /// Number of mistakes that were to be planted.
+    count: usize,
+    /// Number of mistakes that their study or test names.
+    named: usize,
+    table: Table,
+    sentence: String,
+    /// How well causes are named.
+    scores: String,
+}
+
+impl<'r> Report<'r> {
+    /// * `passing`: seconds of a run without a mistake.
+    fn of(judged: Vec<Judged<'r>>, count: usize, passing: f64) -> Self {
+        let named = judged
+            .iter()
+            .filter(|one| one.found.is_named_by(one.regression))
+            .count();
+        let rest = if judged.len() < count {
+            format!(", {} more are not recorded", count - judged.len())
+        } else {
+            String::new()
+        };
+        Self {
+            table: Table::new(
+                "",
+                HEAD,
+                judged.iter().map(|one| row(one.regression, &one.found)),
+            ),
+            sentence: format!(
+                "{named} of {} mistakes are noticed by the study or the test named for them{rest}",
+                judged.len()
+            ),
+            scores: judged::page(&judged, passing),
+            judged,
+            count,
+            named,
+        }
+    }
+
+    fn verdict(&self) -> Verdict {
+        if self.named == self.count {
+            Verdict::Pass
+        } else {
+            Verdict::Fail
+        }
+    }
+
+    fn print(&self) -> io::Result<()> {
+        let table = screen::table(&HEAD, &self.table.rows);
+        screen::print(&format!("{table}{}{}\n", self.scores, self.sentence))
+    }
+
+    /// Writes the page and the fingerprints.
+    fn write(&self, root: &Path, ended: &str) -> io::Result<()> {
+        let page = page(&self.table, &self.sentence, ended) + "\n" + &self.scores;
+        atomic::write(&root.join(REPORT), page)?;
+        let prints = serde_json::to_string(&judged::fingerprints(&self.judged))?;
+        let lines = prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n";
+        atomic::write(&root.join(FINGERPRINTS), lines)
+    }
 }
 
 /// Plants one mistake after the other, and runs the quick tier with each.
@@ -215,8 +265,10 @@ fn row(regression: &Regression, found: &Found) -> Vec<String> {
 
 fn page(table: &Table, sentence: &str, ended: &str) -> String {
     format!(
-        "# Mistakes of meaning\n\nWritten by `cargo xtask dev regressions --write`. Each mistake of `{}` is planted by itself; the \
-         quick tier of `verify` must notice it, and the study named for it must name what is wrong; or the test named for it must fail. {ended}\n\n{sentence}.\n\n{}",
+        "# Mistakes of meaning\n\n\
+         Written by `cargo xtask dev regressions --write`. Each mistake of `{}` is planted by itself; the \
+         quick tier of `verify` must notice it, and the study named for it must name what is wrong; or \
+         the test named for it must fail. {ended}\n\n{sentence}.\n\n{}",
         list::FILE,
         report::markdown(table)
     )

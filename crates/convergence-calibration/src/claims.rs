@@ -4,8 +4,9 @@ use convergence_study::judge::claims;
 use convergence_study::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reason, Verdict};
 
 use crate::draw::{CalibrationError, Draw};
+use crate::hidden::{hidden_term, three_terms, wrong_limit};
 use crate::judge;
-use crate::laws::{LAWS, Law, Table, hidden_term, three_terms, wrong_limit};
+use crate::laws::{LAWS, Law, Table};
 use crate::sheet::{Cell, Row, Share, Sheet};
 
 /// Whether the order that the coarse levels show passes.

@@ -4,7 +4,8 @@
 //! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H
 //! on the finest, p uniform in [0.5, 4].
 
-use crate::laws::{Exponents, Group, Law, held_out, log_uniform};
+use crate::laws::{Group, Law, held_out};
+use crate::shapes::{Exponents, log_uniform};
 use convergence_study::judge::random::SplitMix;
 
 /// The laws.

@@ -28,7 +28,7 @@ use plots::Axis;
 
 use crate::bars::of_the_bars;
 use crate::grids::of_grids;
-use crate::laws::HIDDEN_SHARES;
+use crate::hidden::HIDDEN_SHARES;
 use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
 use crate::sheet::{Row, Sheet};
 use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};

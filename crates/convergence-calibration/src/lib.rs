@@ -63,10 +63,12 @@ pub mod claims;
 mod draw;
 pub mod grids;
 pub mod held_out;
+pub mod hidden;
 pub mod intervals;
 pub mod kind;
 pub mod laws;
 pub mod rules;
+mod shapes;
 pub mod sheet;
 
 use convergence_study::judge::verdict::{Judge, JudgeError};

@@ -7,7 +7,8 @@ use convergence_study::judge::verdict::{
 };
 
 use crate::draw::{CalibrationError, Draw};
-use crate::laws::{Group, HIDDEN_SHARES, LAWS, Law, Meshes, Table, hidden_term};
+use crate::hidden::{HIDDEN_SHARES, hidden_term};
+use crate::laws::{Group, LAWS, Law, Meshes, Table};
 use crate::sheet::{Cell, Row, Share, Sheet};
 use crate::{judge, wrong};
 

@@ -140,19 +140,19 @@ pub struct Comparison {
 /// * `rule`: see [`rule()`].
 /// * `within`: errors that differ by less, as a share, are the same.
 pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Comparison {
-    let mut found = Comparison {
+    let mut comparison = Comparison {
         within,
         change: Shift::Same,
         studies: 0,
         findings: vec![],
         gained: vec![],
     };
-    for was in &old.studies {
-        let id = &was.header.id;
+    for before in &old.studies {
+        let id = &before.header.id;
         match new.studies.iter().find(|study| study.header.id == *id) {
-            Some(is) => found.add(was, is, rule),
+            Some(after) => comparison.add(before, after, rule),
             None => {
-                found.findings.push(whole(
+                comparison.findings.push(whole(
                     id,
                     Shift::Lost,
                     "the new record does not have the study".to_owned(),
@@ -166,16 +166,16 @@ pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Compari
         .iter()
         .map(|study| &study.header.id)
         .filter(is_new);
-    found
+    comparison
         .gained
         .extend(gained.map(|id| format!("the study {id}")));
-    found.change = found
+    comparison.change = comparison
         .findings
         .iter()
         .map(|finding| finding.change)
         .max()
         .unwrap_or(Shift::Same);
-    found
+    comparison
 }
 
 fn whole(study: &str, change: Shift, reason: String) -> Finding {
@@ -190,23 +190,24 @@ fn whole(study: &str, change: Shift, reason: String) -> Finding {
 
 impl Comparison {
     /// Adds a study that both records have.
-    fn add(&mut self, was: &Finished, is: &Finished, rule: &Judge) {
+    fn add(&mut self, old: &Finished, new: &Finished, rule: &Judge) {
         self.studies += 1;
-        let id = &was.header.id;
-        let [known, found] = [was, is].map(|study| names(&study.outcome));
+        let id = &old.header.id;
+        let [known, named] = [old, new].map(|study| names(&study.outcome));
         self.gained.extend(
-            found
+            named
                 .iter()
                 .filter(|name| !known.contains(name))
                 .map(|name| format!("{id}: {name}")),
         );
-        let before = self.findings.len();
+        let first = self.findings.len();
         for name in known {
-            let [old, new] = [was, is].map(|study| ErrorSequence::new(&study.outcome, name, rule));
-            let orders = [old.order, new.order];
+            let [before, after] =
+                [old, new].map(|study| ErrorSequence::new(&study.outcome, name, rule));
+            let orders = [before.order, after.order];
             let both = Both {
-                old,
-                new,
+                old: before,
+                new: after,
                 floor: rule.floor(),
                 within: self.within,
             };
@@ -219,11 +220,11 @@ impl Comparison {
                 orders,
             });
         }
-        let own = self.findings[before..]
+        let own = self.findings[first..]
             .iter()
             .map(|finding| finding.change)
             .max();
-        let [before, after] = [was, is].map(|study| study.outcome.verdict);
+        let [before, after] = [old, new].map(|study| study.outcome.verdict);
         let change = match (before, after) {
             _ if after > before && own < Some(Shift::Worse) => Shift::Worse,
             (Verdict::Fail, Verdict::Pass) if own < Some(Shift::Better) => Shift::Better,
@@ -231,7 +232,7 @@ impl Comparison {
         };
         let reason = format!(
             "the verdict was {before}, is {after}: {}",
-            is.outcome.summary
+            new.outcome.summary
         );
         self.findings.push(whole(id, change, reason));
     }

@@ -133,14 +133,31 @@ impl Request {
     }
 }
 
+/// Whether the numbers and claims of a run have become the baseline.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Blessing {
+    /// That was not requested.
+    NotAsked,
+    /// They have.
+    Taken,
+    /// They have not, for this reason.
+    Refused(Refusal),
+}
+
+impl Blessing {
+    fn of(taken: Result<(), Refusal>) -> Self {
+        taken.map_or_else(Self::Refused, |()| Self::Taken)
+    }
+}
+
 /// The result of a verification.
 #[derive(Debug)]
 pub struct Verification {
     /// The record of the run, with all digits and times: the studies in the order given; no changes
     /// after a blessing.
     pub record: Record,
-    /// Whether the baseline was replaced, if that was requested.
-    pub blessing: Option<Result<(), Refusal>>,
+    /// Whether the baseline was replaced.
+    pub blessing: Blessing,
     /// The folder of the reports.
     pub reports: PathBuf,
 }
@@ -200,10 +217,7 @@ pub fn verify(
     let _writing = atomic::begin_write();
     // Another run may have blessed in the meantime: the baseline is read again under the lock.
     let mut baseline = Baseline::read(&baseline_file)?;
-    let blessing = request
-        .bless
-        .then(|| bless(&mut baseline, &finished, request))
-        .transpose()?;
+    let blessing = bless(&mut baseline, &finished, request)?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
     let record = diagnosed(project, request, finished, &changes, &mistakes);
@@ -224,7 +238,7 @@ pub fn verify(
     };
     let files = findings.files().map_err(unwritable(folder))?;
     let provenance = json(&provenance).map_err(unwritable(folder))?;
-    if let Some(Ok(())) = &blessing {
+    if blessing == Blessing::Taken {
         baseline.write(&baseline_file)?;
         works.take(&record.studies);
         if !works.is_empty() {
@@ -263,42 +277,45 @@ fn bless(
     baseline: &mut Baseline,
     finished: &[Finished],
     request: &Request,
-) -> Result<Result<(), Refusal>, VerificationError> {
-    let (known, reason) = (request.scope.known(), request.reason.as_deref());
+) -> Result<Blessing, VerificationError> {
+    let known = request.scope.known();
+    let reason = request.reason.as_deref();
+    if !request.bless {
+        return Ok(Blessing::NotAsked);
+    }
     if request.only.is_empty() {
-        return Ok(baseline.bless(finished, known, reason));
+        return Ok(Blessing::of(baseline.bless(finished, known, reason)));
     }
     let changes = baseline.compare(finished, known);
-    let mut chosen = vec![false; changes.len()];
+    let mut is_chosen = vec![false; changes.len()];
     for word in &request.only {
         let pattern = Pattern::new(word).ok();
         let matches =
             |id: &str| id == word || pattern.as_ref().is_some_and(|pattern| pattern.matches(id));
-        let found: Vec<usize> = (0..changes.len())
-            .filter(|&k| matches(&changes[k].id()))
-            .collect();
-        if found.is_empty() {
-            let some = changes.iter().take(3).map(Change::id).collect();
+        let mut occurs = false;
+        for (change, is_chosen) in changes.iter().zip(&mut is_chosen) {
+            if matches(&change.id()) {
+                *is_chosen = true;
+                occurs = true;
+            }
+        }
+        if !occurs {
             return Err(VerificationError::NoChange {
                 pattern: word.clone(),
                 changes: changes.len(),
-                some,
+                some: changes.iter().take(3).map(Change::id).collect(),
             });
         }
-        found.into_iter().for_each(|k| chosen[k] = true);
     }
-    let mut chosen = changes
-        .iter()
-        .zip(chosen)
-        .filter(|(_, chosen)| *chosen)
-        .map(|(change, _)| change);
     let mut new = baseline.clone();
-    let taken =
-        chosen.try_for_each(|change| new.accept(finished, change, reason.unwrap_or_default()));
-    if taken.is_ok() {
-        *baseline = new;
+    let chosen = changes.iter().zip(is_chosen).filter(|(_, chosen)| *chosen);
+    for (change, _) in chosen {
+        if let Err(refusal) = new.accept(finished, change, reason.unwrap_or_default()) {
+            return Ok(Blessing::Refused(refusal));
+        }
     }
-    Ok(taken)
+    *baseline = new;
+    Ok(Blessing::Taken)
 }
 
 /// Writes a report on studies that have run, without a baseline.

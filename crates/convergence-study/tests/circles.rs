@@ -27,7 +27,9 @@ const ORDERS: [(&str, &[&str]); 5] = [
         &[
             "sheet",
             "draw",
+            "shapes",
             "laws",
+            "hidden",
             "held_out",
             "rules",
             "intervals",

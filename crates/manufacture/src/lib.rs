@@ -1,4 +1,19 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # The files of this crate
+//!
+//! | folder or file | holds |
+//! | --- | --- |
+//! | `language/`, `problem/` | text to tree; a file, read and checked, each message with its place |
+//! | `arithmetic/` | the graph of expressions with its derivatives, its evaluation with sizes, Taylor jets, quadrature |
+//! | `derive/` | tensors, four coordinate systems, operators, slips: generic in the arithmetic; the quantities of a file |
+//! | `model.rs`, `sample.rs`, `fit.rs` | a file as one graph and as jets; points of domains and faces; least squares |
+//! | `check/`, `against/` | what is right, wrong, or not noticed; foreign sources and their causes |
+//! | `emit/`, `at.rs` | printers as tables, with templates of each language; values at points as JSON |
+//!
+//! Jets walk the tree and share no rule of derivatives with the graph. Named terms are summed in
+//! alphabetical order, so that the emitted bytes do not depend on the order of keys.
+
 pub mod against;
 mod arithmetic;
 mod at;

@@ -142,36 +142,65 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
                 .map(|history| ("history.csv", history.csv()));
             write_files(folder, history.chain(run.pictures(scene)))
         })?;
-    // The error of a failed run cannot be estimated.
-    let wanted = arguments.estimate_error && run.failure.is_none();
-    let budget = wanted
-        .then(|| accuracy::budget(arguments, scene))
-        .transpose();
-    let known = budget.as_ref().ok().and_then(Option::as_ref);
-    let complaint = budget
-        .as_ref()
-        .err()
-        .map(|reason| format!("error budget: {reason}"))
-        .or(run.complaint());
-    let accuracy = planned.as_ref().map(Planned::object);
-    let object = Printed {
-        object: Object::new(scene, &run),
-        error_budget: known,
-        accuracy,
+    let finished = Finished {
+        scene,
+        planned: planned.as_ref(),
+        run: &run,
+        written: &written,
     };
-    let sentence = format!(
-        "{}: {} steps, to t = {} of {}",
-        scene.name, run.steps, run.last.t, scene.t_end
-    );
-    arguments.show(complaint, &object, &sentence, || {
-        let worth = known.map_or(summary::UNKNOWN.to_owned(), ToString::to_string);
-        let worth = if planned.is_some() && known.is_none() {
-            String::new()
-        } else {
-            format!("\n{worth}\n")
+    finished.show(arguments)
+}
+
+/// A run that has ended, and what led to it.
+struct Finished<'a> {
+    scene: &'a Scene,
+    /// The search for a target error.
+    planned: Option<&'a Planned>,
+    run: &'a Run,
+    /// The files.
+    written: &'a [PathBuf],
+}
+
+impl Finished<'_> {
+    /// Estimates the error if it is asked for, and prints the result.
+    fn show(&self, arguments: &Arguments) -> Outcome {
+        let Self {
+            scene,
+            planned,
+            run,
+            written,
+        } = *self;
+        // The error of a failed run cannot be estimated.
+        let wanted = arguments.estimate_error && run.failure.is_none();
+        let budget = wanted
+            .then(|| accuracy::budget(arguments, scene))
+            .transpose();
+        let known = budget.as_ref().ok().and_then(Option::as_ref);
+        let complaint = budget
+            .as_ref()
+            .err()
+            .map(|reason| format!("error budget: {reason}"))
+            .or(run.complaint());
+        let accuracy = planned.map(Planned::object);
+        let object = Printed {
+            object: Object::new(scene, run),
+            error_budget: known,
+            accuracy,
         };
-        summary::summary(scene, &run, planned.as_ref().map(Planned::lines), &written) + &worth
-    })
+        let sentence = format!(
+            "{}: {} steps, to t = {} of {}",
+            scene.name, run.steps, run.last.t, scene.t_end
+        );
+        arguments.show(complaint, &object, &sentence, || {
+            let worth = known.map_or(summary::UNKNOWN.to_owned(), ToString::to_string);
+            let worth = if planned.is_some() && known.is_none() {
+                String::new()
+            } else {
+                format!("\n{worth}\n")
+            };
+            summary::summary(scene, run, planned.map(Planned::lines), written) + &worth
+        })
+    }
 }
 
 /// Runs the scene, with a bar of the time reached, and a history if files are requested.

@@ -15,6 +15,7 @@
 //! harmonic and does not contribute to f_θ; its contribution `-a θ_A` to `a θ_x` is a term of the
 //! solver's equation as well.
 
+mod term;
 mod vectors;
 
 use crate::assembly::{coupling, mass, stiffness};
@@ -22,6 +23,7 @@ use crate::defect::{Defect, axial_force_with, contact_with};
 use crate::formulas::{SchemeFormulas, contact_force};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, FieldFactors, Manufactured, Product};
+use term::{Term, TimeWeights};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -30,32 +32,6 @@ use vectors::Vectors;
 
 /// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
 const PANELS: usize = 256;
-
-/// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient: a weighted sum of T,
-/// T' and T'' of a product.
-#[derive(Debug, Clone)]
-struct Term {
-    equation: usize,
-    /// The field (0: u, 1: φ, 2: θ) and the index of the product in it.
-    product: [usize; 2],
-    /// The weights, and whether N is added to the weight of T: in the term with u_xx of (1.1).
-    weights: ([f64; 3], bool),
-    vector: Vec<f64>,
-}
-
-impl Term {
-    fn coefficient(&self, factors: &Factors, n_value: f64) -> f64 {
-        let ([field, j], ([value, rate, acceleration], is_tension)) = (self.product, self.weights);
-        let of = [&factors.u, &factors.phi, &factors.theta][field];
-        let value = if is_tension { value + n_value } else { value };
-        value * of.value[j] + rate * of.rate[j] + acceleration * of.acceleration[j]
-    }
-
-    /// Whether this is `a θ_x` in the equation of the rotation.
-    fn is_thermal_moment(&self) -> bool {
-        self.equation == 1 && self.product[0] == 2
-    }
-}
 
 /// The nonlinear terms of the exact solution, at one time or as a scheme takes them over a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -212,19 +188,26 @@ impl Sources {
         tip_index: usize,
     ) -> Self {
         let mut terms = vec![];
-        let mut add =
-            |equation: usize, product: [usize; 2], weights: ([f64; 3], bool), vector: Vec<f64>| {
-                terms.push(Term {
-                    equation,
-                    product,
-                    weights,
-                    vector,
-                });
-            };
-        let [value, rate, inertia] =
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|weights| (weights, false));
+        let mut add = |equation, product, weights, vector| {
+            terms.push(Term {
+                equation,
+                product,
+                weights,
+                vector,
+            });
+        };
+        let value = TimeWeights::VALUE;
+        let rate = TimeWeights::RATE;
+        let inertia = TimeWeights::ACCELERATION;
         // T + ζ T' and (1 + N) T + ζ T'.
-        let [damped, tension] = [false, true].map(|is_tension| ([1.0, beam.zeta, 0.0], is_tension));
+        let damped = TimeWeights {
+            rate: beam.zeta,
+            ..TimeWeights::VALUE
+        };
+        let tension = TimeWeights {
+            has_axial_force: true,
+            ..damped
+        };
         let all =
             |products: &[Product]| products.iter().map(&vectors).collect::<Vec<[Vectors; 3]>>();
         let (u, phi) = (all(&exact.u), all(&exact.phi));

@@ -159,7 +159,8 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
 
 #[test]
 fn an_error_that_is_nan_fails_in_every_norm_even_where_no_order_is_expected() {
-    let study = convergence("theorem-3.4-time.toml");
+    let mut study = convergence("theorem-3.4-time.toml");
+    study.expect.truncate(1);
     let sound = run_cases_here(&study);
     assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
     for norm in Norm::ALL {

@@ -188,7 +188,8 @@ const SAME_RATE: f64 = 1e-9;
 pub fn extrapolated_rate(levels: &[Level]) -> Option<f64> {
     let tail = levels.get(levels.len().checked_sub(4)?..)?;
     let rates = pairwise_rates(tail);
-    let (before, last) = (rates[1] - rates[0], rates[2] - rates[1]);
+    let before = rates[1] - rates[0];
+    let last = rates[2] - rates[1];
     if !(before.is_finite() && last.is_finite()) {
         return None;
     }

@@ -165,12 +165,15 @@ impl GridErrors<'_> {
     ///
     /// NaN if an error is not finite; infinite if the sum is negative, which no error can be.
     pub fn misfit(&self, adding: Adding) -> f64 {
-        let (rows, columns, power) = (self.h.len(), self.dt.len(), adding.power());
+        let rows = self.h.len();
+        let columns = self.dt.len();
+        let power = adding.power();
         if rows < 2 || columns < 2 || self.errors.len() != rows * columns {
             return f64::NAN;
         }
         let at = |j: usize, k: usize| self.errors[j * columns + k];
-        let (last_row, last) = (rows - 1, columns - 1);
+        let last_row = rows - 1;
+        let last = columns - 1;
         let square = |j: usize, k: usize| {
             // In units of the error itself, so that no power overflows.
             let share = |error: f64| (error / at(j, k)).powf(power);
@@ -230,7 +233,8 @@ impl GridErrors<'_> {
     /// error.
     fn rest(&self, adding: Adding, judged: &[RateVerdict; 2]) -> [f64; 2] {
         let power = adding.power();
-        let (mut rest, mut known) = (1.0 / power, MISFITS_OF_REST * self.misfit(adding));
+        let mut rest = 1.0 / power;
+        let mut known = MISFITS_OF_REST * self.misfit(adding);
         for (in_space, judged) in [true, false].into_iter().zip(judged) {
             let [.., before, finest] = self.line(in_space, 0)[..] else {
                 return [f64::NAN; 2];
@@ -265,12 +269,15 @@ impl GridErrors<'_> {
         order: f64,
         tolerance: f64,
     ) -> Result<RateVerdict, JudgeError> {
-        let (judge, misfit, power) = (Judge::new(tolerance)?, self.misfit(adding), adding.power());
+        let judge = Judge::new(tolerance)?;
+        let misfit = self.misfit(adding);
+        let power = adding.power();
         let lines = [0, 1].map(|from_finest| self.line(in_space, from_finest));
         let [finest, next] = lines
             .each_ref()
             .map(|errors| judge.clone().with_floor(floor(errors, misfit, power)));
-        let (finest, next) = (finest?, next?);
+        let finest = finest?;
+        let next = next?;
         let levels = reduced(&finest, &lines[0], power, order);
         let mut reading = finest.read(&levels);
         if let (Some(fit), Some(other)) = (
@@ -292,7 +299,8 @@ impl GridErrors<'_> {
     /// The errors over the refined levels, at the finest level of the other step or this many
     /// before it; NaN if there is none.
     fn line(&self, in_space: bool, from_finest: usize) -> Vec<Level> {
-        let (rows, columns) = (self.h.len(), self.dt.len());
+        let rows = self.h.len();
+        let columns = self.dt.len();
         let steps = if in_space { self.h } else { self.dt };
         let index = |k: usize| match in_space {
             true => ((k + 1) * columns).checked_sub(1 + from_finest),
@@ -353,7 +361,8 @@ fn alone(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
 /// * `off`: how far the last rate is from the order; `fade`: the factor by which that shrinks per
 ///   level.
 fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
-    let (mut next, mut sum) = (1.0, 0.0);
+    let mut next = 1.0;
+    let mut sum = 0.0;
     for _ in 0..40 {
         off *= fade;
         next *= ratio.powf(-power * (order + off));

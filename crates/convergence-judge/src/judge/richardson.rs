@@ -141,7 +141,8 @@ fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
     if quotient <= wide.ln() / narrow.ln() {
         return Err(Refusal::Diverging);
     }
-    let (mut low, mut high) = (0.0, HIGHEST_ORDER);
+    let mut low = 0.0;
+    let mut high = HIGHEST_ORDER;
     // 60 halvings of 64 reach the spacing of doubles.
     for _ in 0..60 {
         let p = 0.5 * (low + high);

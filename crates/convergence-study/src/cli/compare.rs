@@ -161,8 +161,10 @@ fn sentence(comparison: &Comparison) -> String {
             format!("{count} {what}")
         }
     };
-    let (lost, open) = (some(lost, "lost, "), some(open, "not proven, "));
-    let (change, studies) = (comparison.change.name(), comparison.studies);
+    let lost = some(lost, "lost, ");
+    let open = some(open, "not proven, ");
+    let change = comparison.change.name();
+    let studies = comparison.studies;
     format!(
         "{change}: {lost}{worse} worse, {better} better, {same} the same, {open}in {studies} studies\n"
     )

@@ -72,22 +72,22 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
-    let meant = workspace::select(
+    let mask = workspace::select(
         &headers,
         arguments.tier,
         &arguments.ids,
         &format!("{} list", project.command),
     )?;
-    let (verdicts, seconds) = (
-        workspace::last_verdicts(&root)?,
-        workspace::last_seconds(&root)?,
-    );
-    let meant = all.iter().zip(meant).filter(|(_, meant)| *meant);
-    let listed = |(file, _): (&StudyFile, bool)| {
-        let id = &file.study.header().id;
-        Listed::of(file, verdicts.get(id).copied(), seconds.get(id).copied())
-    };
-    let studies: Vec<Listed> = meant.map(listed).collect();
+    let verdicts = workspace::last_verdicts(&root)?;
+    let seconds = workspace::last_seconds(&root)?;
+    let mut studies: Vec<Listed> = vec![];
+    for (file, is_selected) in all.iter().zip(mask) {
+        if is_selected {
+            let id = &file.study.header().id;
+            let verdict = verdicts.get(id).copied();
+            studies.push(Listed::of(file, verdict, seconds.get(id).copied()));
+        }
+    }
     let passed = studies
         .iter()
         .filter(|study| study.last == Some(Verdict::Pass.name()))

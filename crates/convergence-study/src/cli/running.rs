@@ -99,7 +99,8 @@ pub(super) fn watched<T>(
         .map(|study| study.header().id.as_str())
         .collect();
     let done: Arc<Mutex<Vec<String>>> = Arc::default();
-    let (told, count) = (Arc::clone(&done), ids.len());
+    let told = Arc::clone(&done);
+    let count = ids.len();
     exit::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
     let target = if quiet {
         ProgressDrawTarget::hidden()

@@ -19,7 +19,7 @@ use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
-use crate::verify::{Request, Scope, Verification};
+use crate::verify::{Blessing, Request, Scope, Verification};
 
 /// Run the studies in `studies/` and write `reports/`
 #[derive(Debug, clap::Args)]
@@ -74,7 +74,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     } else {
         arguments.ids.clone()
     };
-    let meant = workspace::select(&headers, arguments.tier, &ids, &list)?;
+    let mask = workspace::select(&headers, arguments.tier, &ids, &list)?;
     let scope = match scope(arguments.tier, &ids, &all) {
         // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
@@ -82,8 +82,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     };
     let studies: Vec<Box<dyn Study>> = all
         .into_iter()
-        .zip(meant)
-        .filter(|(_, meant)| *meant)
+        .zip(mask)
+        .filter(|(_, is_selected)| *is_selected)
         .map(|(file, _)| file.study)
         .collect();
 
@@ -196,10 +196,8 @@ fn text(
         flags: Flags { quiet, .. },
         ..
     } = arguments;
-    let (verdict, sentence) = (
-        screen::verdict(found.record.verdict),
-        sentence(&found.record.studies, found.record.changes.as_deref()),
-    );
+    let verdict = screen::verdict(found.record.verdict);
+    let sentence = sentence(&found.record.studies, found.record.changes.as_deref());
     let table = if *quiet {
         String::new()
     } else {
@@ -255,29 +253,30 @@ fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
 
 /// What was blessed, or which command blesses.
 fn blessed(project: &Project, found: &Verification) -> String {
+    let Record {
+        command,
+        studies,
+        diagnosis,
+        ..
+    } = &found.record;
     match &found.blessing {
-        Some(Ok(())) => "baseline: blessed, see studies/baseline.json\n".to_owned(),
-        Some(Err(refusal)) => format!("baseline: {}\n", visible::lines(&refusal.to_string())),
-        None if !found.record.moves().is_empty() && can_be_blessed(&found.record.studies) => {
-            let Record {
-                command,
-                studies,
-                diagnosis,
-                ..
-            } = &found.record;
-            let alike = diagnosis
-                .as_ref()
-                .map(Diagnosis::alike)
-                .filter(|alike| !alike.is_empty());
-            let alike = alike.map_or(String::new(), |alike| {
-                format!("planted mistakes that move them alike: {alike}\n")
-            });
-            format!(
-                "{alike}if that is meant: {}\n",
-                blessing(project, command, studies, found.record.moves())
-            )
+        Blessing::Taken => "baseline: blessed, see studies/baseline.json\n".to_owned(),
+        Blessing::Refused(refusal) => {
+            format!("baseline: {}\n", visible::lines(&refusal.to_string()))
         }
-        None => String::new(),
+        Blessing::NotAsked if found.record.moves().is_empty() || !can_be_blessed(studies) => {
+            String::new()
+        }
+        Blessing::NotAsked => {
+            let alike = diagnosis.as_ref().map(Diagnosis::alike).unwrap_or_default();
+            let alike = if alike.is_empty() {
+                alike
+            } else {
+                format!("planted mistakes that move them alike: {alike}\n")
+            };
+            let command = blessing(project, command, studies, found.record.moves());
+            format!("{alike}if that is meant: {command}\n")
+        }
     }
 }
 
@@ -290,7 +289,8 @@ fn overview(
         verbose, durations, ..
     }: &Arguments,
 ) -> String {
-    let (verbose, durations) = (*verbose, *durations);
+    let verbose = *verbose;
+    let durations = *durations;
     let mut text = String::new();
     let shown = found
         .record

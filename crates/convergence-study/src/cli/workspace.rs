@@ -182,7 +182,7 @@ pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
 
 /// Whether each study is selected.
 ///
-/// * `asked`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id
+/// * `words`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id
 ///   selects its study whatever the tier; a pattern stays within the tier. The full tier includes
 ///   the quick one.
 ///
@@ -193,14 +193,14 @@ pub fn tier_parser() -> impl TypedValueParser<Value = Tier> {
 pub fn select(
     all: &[&Header],
     tier: Tier,
-    asked: &[String],
+    words: &[String],
     list: &str,
 ) -> Result<Vec<bool>, Unusable> {
     let in_tier = |header: &Header| header.tier <= tier;
-    if asked.is_empty() {
-        let meant: Vec<bool> = all.iter().map(|header| in_tier(header)).collect();
-        return if meant.contains(&true) {
-            Ok(meant)
+    if words.is_empty() {
+        let mask: Vec<bool> = all.iter().map(|header| in_tier(header)).collect();
+        return if mask.contains(&true) {
+            Ok(mask)
         } else {
             Err(Unusable::because(&format!(
                 "no study in the tier {}",
@@ -208,8 +208,8 @@ pub fn select(
             )))
         };
     }
-    let mut meant = vec![false; all.len()];
-    for word in asked {
+    let mut mask = vec![false; all.len()];
+    for word in words {
         let pattern = Pattern::new(word)
             .map_err(|error| Unusable::because(&format!("`{word}` is not a pattern: {error}")))?;
         let matches = |header: &Header| {
@@ -221,9 +221,9 @@ pub fn select(
                 word, &pattern, all, tier, list,
             )));
         }
-        found.into_iter().for_each(|i| meant[i] = true);
+        found.into_iter().for_each(|i| mask[i] = true);
     }
-    Ok(meant)
+    Ok(mask)
 }
 
 fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &str) -> String {
@@ -266,22 +266,22 @@ mod tests {
         .to_vec()
     }
 
-    fn meant(tier: Tier, asked: &[&str]) -> Result<Vec<String>, String> {
+    fn selected_ids(tier: Tier, words: &[&str]) -> Result<Vec<String>, String> {
         let headers = headers();
-        let asked: Vec<String> = asked.iter().map(|&word| word.to_owned()).collect();
-        let meant = select(&headers.iter().collect::<Vec<_>>(), tier, &asked, "list")
+        let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
+        let mask = select(&headers.iter().collect::<Vec<_>>(), tier, &words, "list")
             .map_err(|error| error.message().to_owned())?;
         Ok(headers
             .iter()
-            .zip(meant)
-            .filter(|(_, meant)| *meant)
+            .zip(mask)
+            .filter(|(_, is_selected)| *is_selected)
             .map(|(header, _)| header.id.clone())
             .collect())
     }
 
     #[test]
     fn tiers_ids_and_patterns_select() {
-        for (tier, asked, expected) in [
+        for (tier, words, expected) in [
             (Tier::Quick, &[][..], &["a-space", "a-time"][..]),
             (Tier::Full, &[], &["a-space", "a-time", "b-space"]),
             (Tier::Quick, &["b-space"], &["b-space"]),
@@ -293,13 +293,13 @@ mod tests {
                 &["a-space", "a-time"],
             ),
         ] {
-            assert_eq!(meant(tier, asked).unwrap(), expected, "{asked:?}");
+            assert_eq!(selected_ids(tier, words).unwrap(), expected, "{words:?}");
         }
     }
 
     #[test]
     fn a_word_without_a_match_is_an_error_even_beside_others() {
-        for (asked, words) in [
+        for (selection, words) in [
             (
                 &["a-space", "a-spice"][..],
                 "`a-spice` matches no study; expected a-space, a-time, b-space",
@@ -311,7 +311,7 @@ mod tests {
             (&["["], "`[` is not a pattern"),
             (&[""], "`` matches no study"),
         ] {
-            let error = meant(Tier::Quick, asked).unwrap_err();
+            let error = selected_ids(Tier::Quick, selection).unwrap_err();
             assert!(error.starts_with(words), "{error}");
         }
     }

@@ -97,7 +97,8 @@ impl Both<'_> {
                 return Some(Answer::new(change, format!("order {old} → {new}")));
             }
         }
-        let (old, new) = (self.old.rate?, self.new.rate?);
+        let old = self.old.rate?;
+        let new = self.new.rate?;
         let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
         let reason = || {
             format!(

@@ -4,6 +4,7 @@
 //! place in the file, a [`Field`] a value with its place. Readers take values from them and never
 //! compute the position of a message.
 
+mod lists;
 mod settings;
 mod values;
 

@@ -1,6 +1,5 @@
 //! Values and tables of a document, with their places in the file.
 
-use std::fmt::Display;
 use std::fs;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
@@ -81,7 +80,8 @@ impl<'a> Field<'a> {
             _ => None,
         };
         value.filter(|value| range.contains(value)).ok_or_else(|| {
-            let (least, most) = (*range.start(), *range.end());
+            let least = *range.start();
+            let most = *range.end();
             let most = if most == usize::MAX {
                 String::new()
             } else {
@@ -207,7 +207,8 @@ impl<'a> Field<'a> {
     pub fn section(&self) -> Result<Section<'a>, InputError> {
         match self.value {
             DeValue::Table(table) => {
-                let (path, span) = (self.path.clone(), self.span.clone());
+                let path = self.path.clone();
+                let span = self.span.clone();
                 Ok(Section {
                     source: self.source,
                     table,
@@ -288,11 +289,10 @@ impl<'a> Section<'a> {
         let Some(key) = unknown.min_by_key(|key| key.span().start) else {
             return Ok(());
         };
-        let (found, shown) = (key.get_ref().as_ref(), shorten(key.get_ref()));
-        let (name, suggestion) = (
-            self.name_of(&shown),
-            nearest(found, keys.iter().copied()).map(str::to_owned),
-        );
+        let found = key.get_ref().as_ref();
+        let shown = shorten(key.get_ref());
+        let name = self.name_of(&shown);
+        let suggestion = nearest(found, keys.iter().copied()).map(str::to_owned);
         let complaint = Complaint::UnknownKey {
             found: shown,
             suggestion,
@@ -324,68 +324,6 @@ impl<'a> Section<'a> {
             .section()?;
         table.allow(keys)?;
         Ok(table)
-    }
-
-    /// The values of a list without a default, each by `read`.
-    ///
-    /// * `fits`: whether the list as a whole matches `allowed`.
-    pub fn list<T>(
-        &self,
-        key: &str,
-        allowed: &str,
-        read: impl FnMut(&Field<'a>) -> Result<T, InputError>,
-        fits: impl Fn(&[T]) -> bool,
-    ) -> Result<Vec<T>, InputError> {
-        let field = self.require(key, allowed)?;
-        let list = field
-            .items(allowed)?
-            .iter()
-            .map(read)
-            .collect::<Result<Vec<T>, InputError>>()?;
-        if fits(&list) {
-            Ok(list)
-        } else {
-            Err(field.refuse_as_written(allowed))
-        }
-    }
-
-    /// A list of at least `least` levels, each of which `follows` the previous one; `relation`
-    /// describes this, such as `a number >`.
-    pub fn sequence<T: Copy + Display>(
-        &self,
-        (key, allowed, least): (&str, &str, usize),
-        read: impl Fn(&Field<'a>) -> Result<T, InputError>,
-        (relation, follows): (&str, fn(T, T) -> bool),
-    ) -> Result<Vec<T>, InputError> {
-        let mut last = None;
-        let level = |item: &Field<'a>| {
-            let level = read(item)?;
-            match last.replace(level) {
-                Some(before) if !follows(before, level) => {
-                    Err(item.refuse_as_written(format!("{relation} {before}, the level before")))
-                }
-                _ => Ok(level),
-            }
-        };
-        self.list(key, allowed, level, |list| list.len() >= least)
-    }
-
-    /// The tables `[[key]]`, at least one, each by `read`.
-    ///
-    /// * `keys`: the end of a message, such as ` with order and tolerance`.
-    pub fn tables<T>(
-        &self,
-        key: &str,
-        keys: &str,
-        mut read: impl FnMut(&Section<'a>) -> Result<T, InputError>,
-    ) -> Result<Vec<T>, InputError> {
-        let allowed = format!("at least one table [[{key}]]{keys}");
-        self.list(
-            key,
-            &allowed,
-            |item| read(&item.section()?),
-            |list| !list.is_empty(),
-        )
     }
 
     /// The whole number of a key without a default.

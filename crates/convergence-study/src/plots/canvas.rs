@@ -146,8 +146,10 @@ impl Canvas {
     /// The document. `description` is what screen readers say, and browsers show on hovering.
     /// `attributes` are those of the whole picture.
     pub fn finish(self, description: &str, attributes: &str) -> String {
-        let (w, h) = (self.width.round(), self.height.round());
-        let (gw, gh) = (grid(w), grid(h));
+        let w = self.width.round();
+        let h = self.height.round();
+        let gw = grid(w);
+        let gh = grid(h);
         let description = escape(description);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {gw} {gh}\" \
@@ -221,7 +223,8 @@ impl Pen<'_> {
     /// The edges of a rectangle, of this width in px.
     pub fn frame(&self, r: Rect, colour: RGBColor, width: f64) {
         // Plotters' rectangles have no line width.
-        let (a, c) = ((r.left, r.top), (r.right, r.bottom));
+        let a = (r.left, r.top);
+        let c = (r.right, r.bottom);
         self.line(
             &[a, (c.0, a.1), c, (a.0, c.1), a, (c.0, a.1)],
             colour,
@@ -268,7 +271,8 @@ impl Pen<'_> {
         let last = ((r.right + r.bottom) / SPACING).floor() as i32;
         for k in first..=last {
             let sum = f64::from(k) * SPACING;
-            let (x0, x1) = ((sum - r.bottom).max(r.left), (sum - r.top).min(r.right));
+            let x0 = (sum - r.bottom).max(r.left);
+            let x1 = (sum - r.top).min(r.right);
             if x1 > x0 {
                 self.line(&[(x0, sum - x0), (x1, sum - x1)], style::MUTED, 1.1);
             }

@@ -113,17 +113,9 @@ fn has_unused_points(series: &ErrorSeries) -> bool {
 /// that it does not use. If the rate is not known, only the markers.
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let line = Curve::line(0, &Series::new(label(series), series.points.clone()));
-    let (noted_as, width) = (
-        Some(series.label.clone()),
-        if series.fit.is_some() {
-            0.0
-        } else {
-            line.width
-        },
-    );
+    let is_fitted = series.fit.is_some();
     let marked = Curve {
-        noted_as,
-        width,
+        width: if is_fitted { 0.0 } else { line.width },
         look,
         marks: Marks::Filled,
         ..line
@@ -228,11 +220,13 @@ fn candidates(
     x: &Ruler,
     y: &Ruler,
 ) -> impl Iterator<Item = Triangle> {
-    let (width, height) = (x.hi - x.lo, y.hi - y.lo);
+    let width = x.hi - x.lo;
+    let height = y.hi - y.lo;
     let leg = (LEG * width).min(TALLEST * height / order);
     let has_order = move |t: &&LogCurve| t.order.is_some_and(|p| (p - order).abs() < 1e-9);
     let (own, other): (Vec<&LogCurve>, Vec<&LogCurve>) = trends.iter().partition(has_order);
-    let (x, y) = (*x, *y);
+    let x = *x;
+    let y = *y;
     let places = own
         .into_iter()
         .chain(other)
@@ -279,7 +273,8 @@ impl Triangle {
 
     /// Whether triangle and texts keep clear of all curves, the other triangles and the frame.
     fn is_free(&self, trends: &[LogCurve], placed: &[Triangle], x: &Ruler, y: &Ruler) -> bool {
-        let (width, height) = (x.hi - x.lo, y.hi - y.lo);
+        let width = x.hi - x.lo;
+        let height = y.hi - y.lo;
         let bottom = self.base - TEXT_BELOW * height;
         let right = self.right + TEXT_RIGHT * width;
         let clear_of = |t: &LogCurve| {
@@ -347,10 +342,8 @@ mod tests {
             points,
             order: Some(2.0),
         }];
-        let (x, y) = (
-            Ruler::between(Scale::Log, -4.2, 0.2),
-            Ruler::between(Scale::Log, -8.4, 0.4),
-        );
+        let x = Ruler::between(Scale::Log, -4.2, 0.2);
+        let y = Ruler::between(Scale::Log, -8.4, 0.4);
         let (outlines, bottom) = triangles(&[1.0, 2.0], &trends, &x, &y);
         assert_eq!(outlines.len(), 2);
         for (cx, cy) in outlines.iter().flat_map(|o| &o.corners) {

@@ -9,8 +9,6 @@ use crate::judge::verdict::PowerLaw;
 pub struct Curve {
     /// Its entry in the legend; of several curves with the same name the first makes it.
     pub name: String,
-    /// Its name in notes, if its entry says more than its name.
-    pub noted_as: Option<String>,
     /// `(x, y)` in data coordinates, in drawing order.
     pub points: Vec<(f64, f64)>,
     /// Colour, dashes and marker.
@@ -30,7 +28,6 @@ impl Curve {
     pub fn line(k: usize, series: &Series) -> Self {
         Self {
             name: series.label.clone(),
-            noted_as: None,
             points: series.points.clone(),
             look: look(k),
             width: style::LINE,
@@ -38,11 +35,6 @@ impl Curve {
             marks: Marks::None,
             is_data: true,
         }
-    }
-
-    /// Its name in notes.
-    pub fn noted(&self) -> &str {
-        self.noted_as.as_deref().unwrap_or(&self.name)
     }
 
     /// The parts to draw: a fitted line before the markers, which alone are data.

@@ -39,7 +39,8 @@ impl Rect {
 /// The part of a segment that lies in a rectangle, as an interval of its parameter (Liang and
 /// Barsky).
 fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    let mut enter = 0.0_f64;
+    let mut leave = 1.0_f64;
     let directions = [
         (a.0, b.0 - a.0, r.left, r.right),
         (a.1, b.1 - a.1, r.top, r.bottom),
@@ -51,7 +52,8 @@ fn inside(a: Point, b: Point, r: &Rect) -> Option<(f64, f64)> {
             }
             continue;
         }
-        let (s, t) = ((low - start) / step, (high - start) / step);
+        let s = (low - start) / step;
+        let t = (high - start) / step;
         enter = enter.max(s.min(t));
         leave = leave.min(s.max(t));
     }
@@ -70,7 +72,8 @@ pub(super) fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
     }
     let mut kept: Vec<Vec<Point>> = Vec::new();
     for pair in line.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
+        let a = pair[0];
+        let b = pair[1];
         let Some((enter, leave)) = inside(a, b, r) else {
             continue;
         };

@@ -113,7 +113,8 @@ impl HeatMap {
                 .map(|&edge| ruler.px_of(edge))
                 .collect::<Vec<_>>()
         };
-        let (x, y) = (px(&sheet.x, &self.x), px(&sheet.y, &self.y));
+        let x = px(&sheet.x, &self.x);
+        let y = px(&sheet.y, &self.y);
         let place = |k: usize, j: usize| Rect {
             left: x[j],
             right: x[j + 1],
@@ -132,10 +133,12 @@ impl HeatMap {
             // Cells without a value are grey.
             let colour = |&value: &f64| self.colours.colour(value).unwrap_or(style::NO_VALUE);
             for (from, to, colour) in runs(&row.iter().map(colour).collect::<Vec<_>>()) {
-                let (first, last) = (place(k, from), place(k, to));
+                let first = place(k, from);
+                let last = place(k, to);
                 let [left, top, right, bottom] =
                     [first.left, first.top, last.right, first.bottom].map(f64::round);
-                let (width, height) = (right - left, bottom - top);
+                let width = right - left;
+                let height = bottom - top;
                 let path = paths.entry((colour.0, colour.1, colour.2)).or_default();
                 let _ = write!(path, "M{left} {top}h{width}v{height}h-{width}z");
             }

@@ -57,7 +57,8 @@ impl Marker {
                 pen.polygon(&path, colour);
             }
             Marker::Strokes(ends) => ends.iter().for_each(|&(dx, dy)| {
-                let (dx, dy) = (r * dx, r * dy);
+                let dx = r * dx;
+                let dy = r * dy;
                 pen.line(&[(x - dx, y - dy), (x + dx, y + dy)], colour, 2.4);
             }),
         }

@@ -35,7 +35,6 @@
 
 mod attributes;
 pub mod canvas;
-mod coinciding;
 mod colour;
 mod convergence;
 mod curve;

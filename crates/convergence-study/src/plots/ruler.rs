@@ -64,7 +64,8 @@ impl Ruler {
     ///
     /// Without drawable values it is [0, 1], or one decade.
     pub fn around(scale: Scale, values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
-        let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut lo = f64::INFINITY;
+        let mut hi = f64::NEG_INFINITY;
         for v in values.into_iter().filter_map(|v| on_scale(scale, v)) {
             lo = lo.min(v);
             hi = hi.max(v);
@@ -139,7 +140,8 @@ impl Ruler {
     }
 
     fn decade_ticks(&self, wanted: usize) -> Ticks {
-        let (first, last) = (self.lo.ceil() as i32, self.hi.floor() as i32);
+        let first = self.lo.ceil() as i32;
+        let last = self.hi.floor() as i32;
         let stride = (last - first + 1).div_euclid(wanted as i32 + 1) + 1;
         let major = (first..=last).filter(|d| d.rem_euclid(stride) == 0);
         let major = major

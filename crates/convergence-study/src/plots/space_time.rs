@@ -39,7 +39,8 @@ pub fn space_time(figure: &SpaceTime) -> String {
         .filter(|&&v| on_scale(Scale::Linear, v).is_none())
         .count();
     let values = raster(figure, &t, &x, FINEST);
-    let (columns, rows) = (values.first().map_or(0, Vec::len), values.len());
+    let columns = values.first().map_or(0, Vec::len);
+    let rows = values.len();
     let cells = HeatMap {
         x: even(&t, columns),
         y: even(&x, rows),
@@ -105,10 +106,8 @@ fn between(values: &[f64], v: f64) -> (usize, f64) {
 
 /// Frames and weights that make up a cell: all frames in it, or the two around it.
 fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<(usize, f64)> {
-    let (first, last) = (
-        times.partition_point(|&a| a < t - half),
-        times.partition_point(|&a| a < t + half),
-    );
+    let first = times.partition_point(|&a| a < t - half);
+    let last = times.partition_point(|&a| a < t + half);
     if last > first {
         return (first..last)
             .map(|n| (n, 1.0 / (last - first) as f64))
@@ -148,7 +147,8 @@ mod tests {
 
     #[test]
     fn a_linear_field_is_reproduced() {
-        let (times, nodes) = (vec![0.0, 1.0, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
+        let times = vec![0.0, 1.0, 2.0];
+        let nodes = vec![0.0, 0.1, 0.4, 1.0];
         let frames = times
             .iter()
             .map(|t| nodes.iter().map(|x| t + 10.0 * x).collect())
@@ -162,7 +162,8 @@ mod tests {
         let t = Ruler::between(Scale::Linear, 0.0, 2.0);
         let x = Ruler::between(Scale::Linear, 0.0, 1.0);
         let cells = raster(&figure, &t, &x, (200, 100));
-        let (rows, columns) = (cells.len(), cells[0].len());
+        let rows = cells.len();
+        let columns = cells[0].len();
         let exact = 0.5 / rows as f64 * 10.0;
         // The first column holds the frame t = 0 and takes its value.
         assert!((cells[0][0] - exact).abs() < 1e-12);

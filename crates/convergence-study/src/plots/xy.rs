@@ -4,7 +4,6 @@ pub mod inset;
 
 use super::attributes;
 use super::canvas::{Anchor, Layer, Point, Rect};
-use super::coinciding;
 pub use super::curve::Curve;
 use super::envelope::lines;
 use super::legend::{Entry, Swatch};
@@ -53,7 +52,7 @@ pub struct Xy {
     pub show_y: Vec<f64>,
     /// More values that the horizontal axis must show.
     pub show_x: Vec<f64>,
-    /// Lines under the legend, before those on coinciding curves and on omitted points.
+    /// Lines under the legend, before that on omitted points.
     pub notes: Vec<String>,
     /// A small figure inside the plot.
     pub inset: Option<Inset>,
@@ -164,7 +163,8 @@ impl Xy {
 
     fn plan(&self) -> Layout {
         let extent = self.extent();
-        let (x, y) = (self.x_ruler_of(&extent), self.y_ruler_of(&extent));
+        let x = self.x_ruler_of(&extent);
+        let y = self.y_ruler_of(&extent);
         let above = self.beyond.as_ref().and_then(|(from, text)| {
             let from = on_scale(self.x.scale, *from)?.max(x.lo);
             (from < x.hi).then(|| (0.5 * (from + x.hi), text.clone()))
@@ -178,7 +178,7 @@ impl Xy {
             right: guide_margin(&self.guides),
             above,
             legend: self.entries(),
-            notes: self.notes(&extent, &x, &y),
+            notes: self.notes(&extent),
         }
     }
 
@@ -211,9 +211,8 @@ impl Xy {
         entries
     }
 
-    fn notes(&self, extent: &Extent, x: &Ruler, y: &Ruler) -> Vec<String> {
+    fn notes(&self, extent: &Extent) -> Vec<String> {
         let mut notes = self.notes.clone();
-        notes.extend(coinciding::notes(&self.curves, x, y));
         notes.extend(left_out(
             extent.points - extent.finite,
             extent.finite - extent.drawable,
@@ -224,7 +223,8 @@ impl Xy {
     fn draw_ground(&self, sheet: &mut Page) {
         let plot = sheet.plot;
         let ends = self.phases.intervals.iter().filter_map(|&(a, b)| {
-            let (a, b) = (sheet.x.px(a)?, sheet.x.px(b)?);
+            let a = sheet.x.px(a)?;
+            let b = sheet.x.px(b)?;
             Some((a.min(b), a.max(b)))
         });
         let mut spans = merge_intervals(ends.collect());

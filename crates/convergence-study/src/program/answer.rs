@@ -164,7 +164,8 @@ fn with_null_for_nan(line: &str) -> String {
         "-nan",
         "nan",
     ];
-    let (mut is_string, mut is_escaped) = (false, false);
+    let mut is_string = false;
+    let mut is_escaped = false;
     // Pieces end with a quote that opens or closes a string: every second one is a string.
     let pieces = line.split_inclusive(|c| {
         let is_quote = c == '"' && !is_escaped;

@@ -214,7 +214,9 @@ fn ending(status: ExitStatus) -> String {
 /// # Errors
 /// A placeholder without a value, with its place in the text.
 pub(super) fn filled(text: &str, values: &[Parameter]) -> Result<(String, bool), Misread> {
-    let (mut filled, mut rest, mut has_placeholder) = (String::new(), text, false);
+    let mut filled = String::new();
+    let mut rest = text;
+    let mut has_placeholder = false;
     while let Some(at) = rest.find('{') {
         filled += &rest[..at];
         rest = &rest[at..];

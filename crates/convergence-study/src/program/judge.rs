@@ -90,7 +90,8 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
-    let (rates, mut checks) = (levels.judge(), exact(study, ran));
+    let rates = levels.judge();
+    let mut checks = exact(study, ran);
     checks.push(completion(ran));
     let values = values::judge(study, ran, &levels.refinements);
     let quantities = [levels.quantities(&rates), values.quantities].concat();
@@ -160,7 +161,8 @@ fn completion(ran: &[Run]) -> Check {
 /// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace
 /// the missing ones.
 fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
-    let (space, time) = (study.refine.space.is_some(), study.refine.time.is_some());
+    let space = study.refine.space.is_some();
+    let time = study.refine.time.is_some();
     let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
         let labels = |has: bool| {
             let answered = ran

@@ -26,7 +26,9 @@ pub(super) struct NoAnswer {
 
 /// Reads standard output to its end: the last line that is a JSON object, or why there is none.
 pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, NoAnswer> {
-    let (mut object, mut near_miss, mut last) = (None, None, String::new());
+    let mut object = None;
+    let mut near_miss = None;
+    let mut last = String::new();
     for_each_line(stream, |line, is_whole| {
         match answer::object(line) {
             // It may be the answer, and then no earlier object is.

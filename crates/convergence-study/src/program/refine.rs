@@ -102,7 +102,8 @@ impl Refine {
             Some(sequence) => sequence.values.iter().copied().map(Some).collect(),
             None => vec![None],
         };
-        let (space, time) = (values(&self.space), values(&self.time));
+        let space = values(&self.space);
+        let time = values(&self.time);
         let together = !self.grid && space.len() == time.len();
         let pairs: Vec<_> = if together {
             space.into_iter().zip(time).collect()
@@ -254,7 +255,6 @@ fn one_of(
     step: &'static str,
 ) -> Result<Option<Sequence>, InputError> {
     const COUNTS: &str = "a list of increasing whole numbers >= 1, or \"auto\"";
-    const STEPS: &str = "a list of decreasing numbers > 0";
     let number = |item: &Field<'_>| Ok(item.count(1..=LARGEST_COUNT)? as f64);
     let positive = |item: &Field<'_>| {
         item.number_where("a number > 0", |value| {
@@ -274,24 +274,11 @@ fn one_of(
             count,
             until_decided::FIRST.map(|count| count as f64).into(),
         ),
-        (Some(field), None) => {
-            let finer: (&str, fn(f64, f64) -> bool) =
-                ("a number >", |before, value| value > before);
-            (
-                field,
-                count,
-                section.sequence((count, COUNTS, 1), number, finer)?,
-            )
+        (Some(field), None) if field.items(COUNTS)?.is_empty() => {
+            return Err(field.refuse_as_written(COUNTS));
         }
-        (None, Some(field)) => {
-            let finer: (&str, fn(f64, f64) -> bool) =
-                ("a number <", |before, value| value < before);
-            (
-                field,
-                step,
-                section.sequence((step, STEPS, 1), positive, finer)?,
-            )
-        }
+        (Some(field), None) => (field, count, section.increasing(count, 1, number)?),
+        (None, Some(field)) => (field, step, section.decreasing(step, 1, positive)?),
     };
     if values.len() > MOST_CASES {
         return Err(field.refuse(

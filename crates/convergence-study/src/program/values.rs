@@ -26,7 +26,8 @@ pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) ->
         .map(|(column, estimate)| (name(column), estimate.judged.clone()))
         .collect();
     let value = |column: &ErrorColumn, level: usize| {
-        let (value, label) = (name(column), &refinements[level].label);
+        let value = name(column);
+        let label = &refinements[level].label;
         Quantity::new(
             format!("{value}, {label}"),
             column.errors[level].unwrap_or(f64::NAN),

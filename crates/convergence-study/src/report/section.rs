@@ -93,7 +93,8 @@ pub(super) fn body(finished: &Finished, again: &str) -> String {
             .map(|table| titled(table, passes)),
     );
     parts.extend(outcome.figures.iter().map(figure));
-    let (tier, kind) = (header.tier.name(), &header.kind);
+    let tier = header.tier.name();
+    let kind = &header.kind;
     parts.push(format!("Again: `{again}` (tier {tier}, kind {kind})\n"));
     parts.join("\n")
 }

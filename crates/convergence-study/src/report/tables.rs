@@ -133,6 +133,44 @@ struct Column {
     cells: Vec<Option<Vec<String>>>,
 }
 
+/// An error at a level.
+#[derive(Clone, Copy, PartialEq)]
+enum Cell {
+    /// The level does not have the error.
+    NotMeasured,
+    /// It should have it, but its case gave no result.
+    NoResult,
+    /// The error, which may be NaN.
+    Error(f64),
+}
+
+impl Cell {
+    fn of(level: &LevelErrors, name: &str) -> Self {
+        match level.errors.iter().find(|(known, _)| known == name) {
+            None => Cell::NotMeasured,
+            Some(_) if level.without.iter().any(|known| known == name) => Cell::NoResult,
+            Some((_, error)) => Cell::Error(*error),
+        }
+    }
+
+    fn text(self) -> Option<String> {
+        match self {
+            Cell::NotMeasured => None,
+            Cell::NoResult => Some("-".to_owned()),
+            Cell::Error(error) => Some(error_text(error)),
+        }
+    }
+}
+
+/// A rate between neighbouring levels; a dash if there is none.
+fn rate_cell(rate: f64) -> String {
+    if rate.is_nan() {
+        "-".to_owned()
+    } else {
+        decimals(committed_rate(rate), 3)
+    }
+}
+
 /// As many tables as needed to cut none: a row for each level, and for each error its rates if it
 /// was judged.
 ///
@@ -214,41 +252,33 @@ impl Column {
         }
     }
 
+    /// The errors of this name, and their rates if these were judged on the same levels.
     fn of(outcome: &Outcome, name: &str) -> Self {
-        let found = |level: &LevelErrors| {
-            let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
-            let has_result = !level.without.iter().any(|known| known == name);
-            Some(has_result.then_some(*error))
-        };
-        let errors: Vec<Option<Option<f64>>> = outcome.levels.iter().map(found).collect();
-        let judged = outcome.rates.iter().find(|(known, _)| known == name);
-        // Rates belong to levels only if each level is one of those judged.
-        let count = errors.iter().flatten().count();
-        let pairwise = judged
-            .map(|(_, rate)| &rate.pairwise)
-            .filter(|pairwise| pairwise.len() + 1 == count);
-        let mut met = 0;
-        let cell = |error: &Option<Option<f64>>| {
-            let mut cells = vec![(*error)?.map_or_else(|| "-".to_owned(), error_text)];
-            if let Some(pairwise) = pairwise {
-                let before = usize::checked_sub(met, 1)
-                    .map(|before| pairwise[before])
-                    .filter(|rate| !rate.is_nan());
-                cells.push(
-                    before.map_or_else(|| "-".to_owned(), |rate| decimals(committed_rate(rate), 3)),
-                );
-                met += 1;
-            }
-            Some(cells)
-        };
-        let head = [name]
-            .into_iter()
-            .chain(pairwise.map(|_| "rate"))
-            .map(str::to_owned)
+        let cells: Vec<Cell> = outcome
+            .levels
+            .iter()
+            .map(|level| Cell::of(level, name))
             .collect();
+        let measured = cells.iter().filter(|cell| **cell != Cell::NotMeasured);
+        let pairs = measured.count().saturating_sub(1);
+        let mut rates = outcome.rates.iter();
+        let judged = rates.find(|(known, _)| known == name);
+        let pairwise = judged
+            .map(|(_, rate)| rate.pairwise.as_slice())
+            .filter(|pairwise| pairwise.len() == pairs);
+        let Some(pairwise) = pairwise else {
+            let texts = cells.iter().map(|cell| cell.text().map(|text| vec![text]));
+            return Self {
+                head: vec![name.to_owned()],
+                cells: texts.collect(),
+            };
+        };
+        // The coarsest level has no rate.
+        let mut rates = std::iter::once(f64::NAN).chain(pairwise.iter().copied());
+        let mut with_rate = |cell: &Cell| Some(vec![cell.text()?, rate_cell(rates.next()?)]);
         Self {
-            head,
-            cells: errors.iter().map(cell).collect(),
+            head: vec![name.to_owned(), "rate".to_owned()],
+            cells: cells.iter().map(&mut with_rate).collect(),
         }
     }
 

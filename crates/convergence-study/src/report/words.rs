@@ -23,7 +23,8 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
         ids.map(|finished| finished.header.id.as_str())
             .collect::<Vec<_>>()
     };
-    let (failed, inconclusive) = (of(Verdict::Fail), of(Verdict::Inconclusive));
+    let failed = of(Verdict::Fail);
+    let inconclusive = of(Verdict::Inconclusive);
     let studies = match finished.len() {
         0 => "no study was run".to_owned(),
         1 if failed.is_empty() && inconclusive.is_empty() => "the study passes".to_owned(),
@@ -32,10 +33,8 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
             let count = |ids: &[&str], what: &str| match ids {
                 [] => None,
                 ids => {
-                    let (more, named) = (
-                        and_more(ids.len(), NAMED),
-                        ids[..ids.len().min(NAMED)].join(", "),
-                    );
+                    let more = and_more(ids.len(), NAMED);
+                    let named = ids[..ids.len().min(NAMED)].join(", ");
                     Some(format!("{} of {n} {what} ({named}{more})", ids.len()))
                 }
             };
@@ -192,7 +191,8 @@ fn grouped(rates: &[(String, RateVerdict)]) -> String {
         if let [(name, rate)] = group[..] {
             return format!("{name}: {}", rate.line());
         }
-        let (found, why) = (range(group.iter().map(|(_, rate)| rate)), kind.brief());
+        let found = range(group.iter().map(|(_, rate)| rate));
+        let why = kind.brief();
         let count = format!("{} of {} rates", group.len(), rates.len());
         match kind {
             Reason::TooLow | Reason::TooHigh => {

@@ -81,7 +81,8 @@ impl Finished {
 
     /// Verdict, errors with their rates, reasons and advice as text.
     pub fn explained(&self) -> String {
-        let (id, outcome) = (&self.header.id, &self.outcome);
+        let id = &self.header.id;
+        let outcome = &self.outcome;
         let levels: Vec<Vec<Level>> = outcome
             .rates
             .iter()

@@ -236,7 +236,8 @@ impl Baseline {
             movement,
         } = change;
         let reason = reason.map(str::to_owned);
-        let (claims, numbers) = (&mut self.claims, &mut self.studies);
+        let claims = &mut self.claims;
+        let numbers = &mut self.studies;
         match (movement, find(finished, study)) {
             (Movement::Vanished { .. }, _) => {
                 numbers
@@ -316,7 +317,8 @@ fn acceptable(
         header, outcome, ..
     }: &Finished,
 ) -> Result<(), Refusal> {
-    let (study, verdict) = (&header.id, outcome.verdict);
+    let study = &header.id;
+    let verdict = outcome.verdict;
     if verdict != Verdict::Pass {
         let refused = format!(
             "the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass"

@@ -148,10 +148,10 @@ fn numbers<'c>(
     changes: &'c [Change],
     study: &'c str,
 ) -> impl Iterator<Item = (&'c str, &'c Movement)> {
-    let of = move |change: &&Change| change.study == study && is_number(change);
+    let is_of_study = move |change: &&Change| change.study == study && is_number(change);
     changes
         .iter()
-        .filter(of)
+        .filter(is_of_study)
         .map(|change| (change.name.as_str(), &change.movement))
 }
 
@@ -314,7 +314,7 @@ fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
 }
 
 /// The first of several items, and how many more there are.
-fn some(mut items: Vec<String>, what: &str) -> String {
+fn first_named(mut items: Vec<String>, what: &str) -> String {
     let more = items.len().saturating_sub(NAMED);
     items.truncate(NAMED);
     if more > 0 {
@@ -341,7 +341,7 @@ impl Diagnosis {
         if !self.claims.is_empty() {
             lines.push((
                 "claims",
-                format!("changed: {}", some(self.claims.clone(), "")),
+                format!("changed: {}", first_named(self.claims.clone(), "")),
             ));
         }
         lines.extend(self.contrasted());
@@ -362,7 +362,10 @@ impl Diagnosis {
                     claim.clone()
                 }
             };
-            lines.push(("not so", some(self.checks.iter().map(one).collect(), "")));
+            lines.push((
+                "not so",
+                first_named(self.checks.iter().map(one).collect(), ""),
+            ));
         }
         for (
             count,
@@ -384,7 +387,7 @@ impl Diagnosis {
                 "moved",
                 format!(
                     "in studies that pass {}",
-                    some(self.moved.clone(), " groups")
+                    first_named(self.moved.clone(), " groups")
                 ),
             ));
         }

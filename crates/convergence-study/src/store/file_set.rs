@@ -103,7 +103,8 @@ impl ReportFolder {
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = atomic::begin_write();
         self.tidy()?;
-        let (staging, manifest) = (self.staging(), set.manifest());
+        let staging = self.staging();
+        let manifest = set.manifest();
         let changed: Vec<_> = set
             .files()
             .filter(|(path, bytes)| !self.holds(path, bytes))
@@ -182,14 +183,10 @@ impl ReportFolder {
 }
 
 fn leads_out(pending: &Path, path: &str) -> io::Error {
-    let (manifest, path) = (
-        visible::path(&pending.join(MANIFEST)),
-        visible::visible(path),
-    );
-    let (expected, remedy) = (
-        "paths of files below the report's folder",
-        "remove this folder and run again",
-    );
+    let manifest = visible::path(&pending.join(MANIFEST));
+    let path = visible::visible(path);
+    let expected = "paths of files below the report's folder";
+    let remedy = "remove this folder and run again";
     io::Error::new(
         io::ErrorKind::InvalidData,
         format!("{manifest}: found `{path}`; expected {expected}; {remedy}"),

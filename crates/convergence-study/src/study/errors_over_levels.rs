@@ -212,10 +212,8 @@ where
         };
         let mut checks = vec![completion(ran, not_finite)];
         if self.claims.is_empty() {
-            let (claim, evidence) = (
-                "an order is claimed".to_owned(),
-                "no order of any error is claimed".to_owned(),
-            );
+            let claim = "an order is claimed".to_owned();
+            let evidence = "no order of any error is claimed".to_owned();
             checks.push(Check {
                 verdict: Verdict::Inconclusive,
                 ..Check::that(false, claim, evidence).about(Subject::of("claims"))

@@ -61,7 +61,8 @@ impl Grid {
             };
             return Outcome::new("", vec![], vec![check]);
         }
-        let (mut rates, mut checks) = (vec![], vec![]);
+        let mut rates = vec![];
+        let mut checks = vec![];
         for column in &self.columns {
             let errors = GridErrors {
                 h: &h,

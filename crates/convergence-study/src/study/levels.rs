@@ -172,10 +172,8 @@ impl Levels {
         refinements: impl IntoIterator<Item = Refinement>,
         columns: impl IntoIterator<Item = ErrorColumn>,
     ) -> Self {
-        let (refinements, columns) = (
-            refinements.into_iter().collect(),
-            columns.into_iter().collect(),
-        );
+        let refinements = refinements.into_iter().collect();
+        let columns = columns.into_iter().collect();
         Self {
             axis,
             refinements,
@@ -245,7 +243,7 @@ impl Levels {
             let judged = judge.map(|judge| claim.judge(&judge, &points));
             let judged =
                 judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
-            let judged = judged.among(&labels, &self.has_result(column));
+            let judged = judged.over_all_levels(&labels, &self.has_result(column));
             let is_unknown = !column.errors.iter().any(Option::is_some) && !known.is_empty();
             let unknown = || {
                 format!(

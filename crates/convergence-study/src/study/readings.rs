@@ -89,7 +89,8 @@ impl Reading {
         quantity: impl Into<String>,
         tolerance: f64,
     ) -> Self {
-        let (case, quantity) = (case.into(), quantity.into());
+        let case = case.into();
+        let quantity = quantity.into();
         let guard = Guard {
             name: format!("{case}: {quantity}"),
             subject: Subject::of(quantity).in_case(case),

@@ -195,32 +195,3 @@ pub(crate) fn no_two_entries_of_a_legend_look_alike(figures: &Figures) {
         }
     }
 }
-
-/// The points of a series as numbers.
-fn values(node: Node<'_, '_>) -> Vec<f64> {
-    let words = node
-        .attribute("data-points")
-        .unwrap_or("")
-        .split([' ', ',']);
-    words.filter_map(|word| word.parse().ok()).collect()
-}
-
-pub(crate) fn curves_with_the_same_values_are_noted(figures: &Figures) {
-    for (name, svg) in figures {
-        let doc = parse(svg);
-        let drawn =
-            elements(&doc, "g").filter_map(|n| Some((n.attribute("data-series")?, values(n))));
-        let drawn: Vec<_> = drawn.filter(|(_, values)| values.len() > 2).collect();
-        let noted =
-            elements(&doc, "text").any(|n| n.text().is_some_and(|text| text.contains(" coincide")));
-        for (k, (one, p)) in drawn.iter().enumerate() {
-            for (other, q) in drawn[..k].iter().filter(|(other, _)| other != one) {
-                let alike = p.len() == q.len()
-                    && p.iter()
-                        .zip(q)
-                        .all(|(a, b)| (a - b).abs() <= 1e-4 * a.abs());
-                assert!(!alike || noted, "{name}: {one} lies on {other}");
-            }
-        }
-    }
-}

@@ -7,7 +7,7 @@ use std::path::Path;
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::project::Project;
 use convergence_study::study::{Study, Tier};
-use convergence_study::verify::{Request, Scope, Verification, verify};
+use convergence_study::verify::{Blessing, Request, Scope, Verification, verify};
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
 
@@ -53,7 +53,7 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
     );
     assert_eq!(
         (blessed.record.verdict, blessed.blessing),
-        (Verdict::Pass, Some(Ok(())))
+        (Verdict::Pass, Blessing::Taken)
     );
     assert_eq!(
         run(vec![study("a", Does::Converge)], &plain).record.verdict,
@@ -111,7 +111,16 @@ fn a_blessing_does_not_turn_a_failing_study_green() {
     let before = fs::read(&file).unwrap();
     let failing = run(vec![study("a", Does::Stay)], &bless);
     assert_eq!(failing.record.verdict, Verdict::Fail);
-    assert!(failing.blessing.unwrap().is_err());
+    assert!(matches!(failing.blessing, Blessing::Refused(_)));
+    assert_eq!(fs::read(&file).unwrap(), before);
+    // Nor does it with a selection of its numbers.
+    let selected = Request {
+        only: vec!["a:*".to_owned()],
+        reason: Some("meant".to_owned()),
+        ..bless
+    };
+    let failing = run(vec![study("a", Does::Stay)], &selected);
+    assert!(matches!(failing.blessing, Blessing::Refused(_)));
     assert_eq!(fs::read(&file).unwrap(), before);
     // Nor does a baseline that agrees with what the failing study finds.
     let agreeing = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;

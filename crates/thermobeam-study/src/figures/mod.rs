@@ -2,19 +2,16 @@
 //! out.
 
 mod animation;
+mod pictures;
 
 pub use animation::{Animation, Frames, animation};
 
 use convergence_study::plots::look::{Look, Marker, Marks, look};
 use convergence_study::plots::style;
 use convergence_study::plots::xy::{Curve, Xy};
-use convergence_study::plots::{self, Axis, Guide, Phases, Series, SpaceTime};
+use convergence_study::plots::{Axis, Guide, Series};
 use convergence_study::text::lists::distinct;
 use thermobeam::parameters::{Beam, Obstacles};
-
-use crate::run::Sample;
-use crate::run::simulate::Run;
-use crate::scene::Scene;
 
 /// The experiments of the paper, in the order of its Section 5.
 const PAPER: [&str; 7] = [
@@ -67,79 +64,6 @@ pub(crate) fn look_of_beta(beta: f64) -> usize {
 pub(crate) fn beta_label(beam: &Beam) -> String {
     // A minus sign, not a hyphen.
     format!("β = {}", beam.beta).replace('-', "−")
-}
-
-impl Run {
-    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip
-    /// displacement with the obstacles, tip rotation, energy with its limit β²/(4ρ). None if no
-    /// frames were kept.
-    pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
-        let Some(history) = self
-            .history
-            .as_ref()
-            .filter(|history| !history.frames.times.is_empty())
-        else {
-            return vec![];
-        };
-        let title = |what: &str| Some(format!("{}: {what}", scene.name));
-        let over_time = |what: &str, y: &str, label: &str, value: fn(&Sample) -> f64| {
-            let series = [Series::new(label, history.over_time(value))];
-            Xy {
-                title: title(what),
-                ..plots::history(Axis::linear(format!("{y} (dimensionless)")), &series)
-            }
-        };
-        let frames = &history.frames;
-        let space_time = plots::space_time(&SpaceTime {
-            title: title("displacement over space and time"),
-            label: "displacement u (dimensionless)".into(),
-            times: frames.times.clone(),
-            nodes: frames.points.clone(),
-            frames: frames.u.clone(),
-        });
-        let motion = animation(&Animation {
-            title: title("the beam between its obstacles"),
-            frames: frames.clone(),
-            obstacles: scene
-                .obstacles
-                .map(|obstacles| (obstacles.g1, obstacles.g2)),
-            seconds: 20.0,
-        });
-        let displacement = Xy {
-            guides: obstacle_lines(scene.obstacles),
-            phases: Phases {
-                label: "in contact".into(),
-                intervals: self.contact_phases(),
-            },
-            ..over_time(
-                "displacement of the free end",
-                "displacement u(1, t)",
-                "u(1, t)",
-                |sample| sample.u_tip,
-            )
-        };
-        let rotation = over_time(
-            "rotation of the free end",
-            "rotation φ(1, t)",
-            "φ(1, t)",
-            |sample| sample.phi_tip,
-        );
-        let at_rest = energy_at_rest(&scene.beam).map(|value| Guide {
-            label: "β²/(4ρ)".into(),
-            value,
-        });
-        let energy = Xy {
-            guides: at_rest.into_iter().collect(),
-            ..over_time("energy", "energy E", "E", |sample| sample.energy)
-        };
-        vec![
-            ("space-time.svg", space_time),
-            ("motion.svg", motion),
-            ("tip-displacement.svg", displacement.draw()),
-            ("tip-rotation.svg", rotation.draw()),
-            ("energy.svg", energy.draw()),
-        ]
-    }
 }
 
 /// Energy β²/(4ρ) of the straight beam at rest; `None` without a Kirchhoff term.

@@ -4,7 +4,7 @@
 //! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
 //! numbers that the baseline guards.
 
-pub mod controls;
+pub mod detects;
 mod interval;
 pub mod orders;
 mod prelude;
@@ -33,7 +33,7 @@ use std::path::Path;
 pub const KINDS: [KindRow; 17] = [
     Convergence::ROW,
     AnyOrder::ROW,
-    controls::ROW,
+    detects::ROW,
     runs::energy::ROW,
     runs::scenes::ROW,
     solvers::ROW,

@@ -1,7 +1,7 @@
 //! The settings that an item of a study exercises; by these a diagnosis separates failing from
 //! passing items.
 //!
-//! Each kind of study says in its row what its items exercise, as a [`Topic`]. What an item is
+//! Each kind of study says in its row what its items exercise, as a `Topic`. What an item is
 //! about is data of its [`Subject`].
 
 use convergence_study::study::header::{Setting, study};

@@ -20,7 +20,9 @@
 use thermobeam::solve::Stopping;
 
 use super::curves::{Apart, Curves, Rows, Wanted, curves};
-use super::reference::{Reference, finer, impact, reference};
+use super::first::impact;
+use super::reference::{Reference, reference};
+use super::refine::finer;
 use super::{Cost, Reason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 
@@ -141,61 +143,113 @@ pub fn keep_scheme(
         return choose(scene, quantity, target, work);
     };
     let reference = reference(&scene, None, &quantity.wanted(TENTH * target), work)?;
-    let mut best = (f64::INFINITY, [f64::NAN; 2]);
-    let not_reached = |(reached, [space, time]): (f64, [f64; 2]), reason| Unreachable::NotReached {
+    let mut search = Search {
+        quantity,
         target,
-        reached,
-        space,
-        time,
-        reason,
+        reference,
+        parts: None,
+        best: (f64::INFINITY, [f64::NAN; 2]),
+        failures: 0,
     };
-    let mut parts: Option<Parts> = None;
-    let mut failures = 0;
     for _ in 0..ROUNDS {
-        let outcome = work
-            .leaves(size(&scene).iter().product())
-            .and_then(|()| Own::run(&scene, quantity, reference.scene.mesh.nodes(), work))
-            .and_then(|own| {
-                let error = own.error(&reference, work)?;
-                if parts.is_none() || error > target {
-                    parts = Some(Parts::of(&scene, &own, work)?);
-                }
-                Ok((own, error))
-            });
-        let refined = match (outcome, &mut parts) {
-            (Ok((own, error)), Some(parts)) if error <= target => {
-                return Ok(Choice {
-                    scene,
-                    parts: parts.errors,
-                    parts_by: "by runs with twice the elements and with half of dt".to_owned(),
-                    error,
-                    is_kept: true,
-                    run: own.curves.cost,
-                });
+        match search.round(&scene, work) {
+            Next::Reached(choice) => return Ok(*choice),
+            Next::Refine(factors) => {
+                let [elements, steps] = size(&scene);
+                scene = resized(&scene, [factors[0] * elements, factors[1] * steps])
+                    .ok_or_else(|| search.not_reached(Reason::Finest))?;
             }
-            (Ok((_, error)), Some(parts)) => {
-                if error < best.0 {
-                    best = (error, parts.errors);
-                }
-                // A run that is clearly too expensive is not started.
-                let least: f64 = size(&scene).iter().product();
-                work.leaves(0.5 * least * parts.growth(0.5 * target))
-                    .map_err(|reason| not_reached(best, reason))?;
-                parts.halve_larger()
-            }
-            // Coarse steps may fail although finer ones succeed.
-            (Err(Reason::Run(_)), _) if failures < FAILURES => {
-                failures += 1;
-                [2.0; 2]
-            }
-            (Err(reason), _) => return Err(not_reached(best, reason)),
-            (Ok(_), None) => return Err(not_reached(best, Reason::NotFinite)),
-        };
-        let [elements, steps] = size(&scene);
-        scene = resized(&scene, [refined[0] * elements, refined[1] * steps])
-            .ok_or_else(|| not_reached(best, Reason::Finest))?;
+            Next::GiveUp(reason) => return Err(search.not_reached(reason)),
+        }
     }
-    Err(not_reached(best, Reason::Rounds))
+    Err(search.not_reached(Reason::Rounds))
+}
+
+/// A search for the elements and steps of the scene's own scheme.
+struct Search {
+    quantity: Quantity,
+    target: f64,
+    reference: Reference,
+    /// The parts of space and time, once they are known.
+    parts: Option<Parts>,
+    /// The smallest error so far, and its parts.
+    best: (f64, [f64; 2]),
+    /// The number of failed runs.
+    failures: usize,
+}
+
+/// What a search does after a round.
+enum Next {
+    /// The error is small enough.
+    Reached(Box<Choice>),
+    /// By these factors of elements and of steps.
+    Refine([f64; 2]),
+    /// The target cannot be reached.
+    GiveUp(Reason),
+}
+
+impl Search {
+    /// Runs a scene, and decides what is next.
+    fn round(&mut self, scene: &Scene, work: &mut Work<'_>) -> Next {
+        match self.measure(scene, work) {
+            Ok((own, error)) => self.after(scene, &own, error, work),
+            // Coarse steps may fail although finer ones succeed.
+            Err(Reason::Run(_)) if self.failures < FAILURES => {
+                self.failures += 1;
+                Next::Refine([2.0; 2])
+            }
+            Err(reason) => Next::GiveUp(reason),
+        }
+    }
+
+    /// A run and its error; the parts of the error too, if they are needed.
+    fn measure(&mut self, scene: &Scene, work: &mut Work<'_>) -> Result<(Own, f64), Reason> {
+        work.leaves(size(scene).iter().product())?;
+        let nodes = self.reference.scene.mesh.nodes();
+        let own = Own::run(scene, self.quantity, nodes, work)?;
+        let error = own.error(&self.reference, work)?;
+        if self.parts.is_none() || error > self.target {
+            self.parts = Some(Parts::of(scene, &own, work)?);
+        }
+        Ok((own, error))
+    }
+
+    /// What follows from a run with this error.
+    fn after(&mut self, scene: &Scene, own: &Own, error: f64, work: &Work<'_>) -> Next {
+        let Some(parts) = &mut self.parts else {
+            return Next::GiveUp(Reason::NotFinite);
+        };
+        if error <= self.target {
+            return Next::Reached(Box::new(Choice {
+                scene: scene.clone(),
+                parts: parts.errors,
+                parts_by: "by runs with twice the elements and with half of dt".to_owned(),
+                error,
+                is_kept: true,
+                run: own.curves.cost,
+            }));
+        }
+        if error < self.best.0 {
+            self.best = (error, parts.errors);
+        }
+        // A run that is clearly too expensive is not started.
+        let least: f64 = size(scene).iter().product();
+        if let Err(reason) = work.leaves(0.5 * least * parts.growth(0.5 * self.target)) {
+            return Next::GiveUp(reason);
+        }
+        Next::Refine(parts.halve_larger())
+    }
+
+    fn not_reached(&self, reason: Reason) -> Unreachable {
+        let (reached, [space, time]) = self.best;
+        Unreachable::NotReached {
+            target: self.target,
+            reached,
+            space,
+            time,
+            reason,
+        }
+    }
 }
 
 /// The scene with its own one-step scheme on the coarsest level; `None` for a scene by dG.

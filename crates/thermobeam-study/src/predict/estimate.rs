@@ -12,7 +12,9 @@ use serde::Serialize;
 
 use super::curves::{Curves, Rows, Wanted, curves};
 use super::data::Data;
-use super::reference::{Reference, finer, first, reference};
+use super::first::first;
+use super::reference::{Reference, reference};
+use super::refine::finer;
 use super::{Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::Scene;

@@ -4,6 +4,7 @@
 //! * `data`: nodes where the initial data have features that a mesh would miss.
 //! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough.
 //!   Its error is the difference to degree p + 4 and to halved steps.
+//!   `first` and `refine` choose its elements, degrees and steps.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
 //! * [`choice`]: the cheapest run with the wanted error, and the needs of the scene's own scheme.
 //!
@@ -14,7 +15,9 @@ pub mod choice;
 mod curves;
 mod data;
 pub mod estimate;
+mod first;
 pub mod reference;
+mod refine;
 
 use std::ops::AddAssign;
 

@@ -10,7 +10,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 
 use super::snapshot::Snapshot;
-use super::{Motion, Report, RunError, Sample, Solves, Work};
+use super::{BALANCE, Loaded, Motion, Report, RunError, Sample, Solves, Work};
 use crate::exact::any_order;
 use crate::exact::defect::Defect;
 use crate::exact::solution::Manufactured;
@@ -21,6 +21,7 @@ pub(crate) struct DgMotion {
     simulation: dg::Simulation,
     theta_a: f64,
     obstacles: Option<Obstacles>,
+    is_loaded: bool,
     level: dg::Level,
     patience: Patience,
     wall: Duration,
@@ -33,7 +34,13 @@ impl DgMotion {
     /// [`SetupError`] if the solver refuses the scene's numbers.
     pub(crate) fn new(scene: &Scene, stepping: dg::Stepping) -> Result<Self, SetupError> {
         let simulation = dg::Simulation::new(scene.dg_problem(), stepping)?;
-        Ok(Self::of(simulation, &scene.beam, scene.obstacles, stepping))
+        Ok(Self::of(
+            simulation,
+            false,
+            &scene.beam,
+            scene.obstacles,
+            stepping,
+        ))
     }
 
     /// A manufactured solution at t = 0.
@@ -86,11 +93,12 @@ impl DgMotion {
                 any_order::load(exact, &theory.beam, theory.obstacles, space, defect)
             }),
         }?;
-        Ok(Self::of(simulation, &beam, obstacles, by))
+        Ok(Self::of(simulation, loads.is_some(), &beam, obstacles, by))
     }
 
-    fn of(
+    pub(super) fn of(
         simulation: dg::Simulation,
+        is_loaded: bool,
         beam: &Beam,
         obstacles: Option<Obstacles>,
         by: dg::Stepping,
@@ -102,6 +110,7 @@ impl DgMotion {
             simulation,
             theta_a: beam.theta_a,
             obstacles,
+            is_loaded,
             wall: Duration::ZERO,
         }
     }
@@ -167,8 +176,13 @@ impl Motion for DgMotion {
         self.simulation.tip_range()
     }
 
-    fn balance(&self) -> Balance {
-        self.simulation.balance()
+    fn is_loaded(&self) -> bool {
+        self.is_loaded
+    }
+
+    fn balance(&self) -> Result<Balance, Loaded> {
+        self.refuse_loads(BALANCE)?;
+        Ok(self.simulation.balance())
     }
 
     fn work(&self) -> Work {

@@ -12,7 +12,7 @@ use thermobeam::solve::{Level, StepReport};
 
 use super::snapshot::{EnergySize, Snapshot};
 use super::tally::EnergySummary;
-use super::{Motion, Report, RunError, Sample, Unsound, Work};
+use super::{BALANCE, Loaded, Motion, Report, RunError, Sample, Unsound, Work};
 
 /// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps
 /// a hundredth.
@@ -149,6 +149,7 @@ impl<'l> Driver<'l> {
             largest_increase,
             largest_balance_residual: 0.0,
             size,
+            is_loaded: false,
         };
         // Both energies are rounded, and contain the constant of Kirchhoff's term.
         let rounded = |now: EnergySize| EnergySize {
@@ -208,8 +209,13 @@ impl Motion for Driver<'_> {
         [self.new.u[self.new.u.len() - 1]; 2]
     }
 
-    fn balance(&self) -> Balance {
-        self.simulation.balance(&self.old, &self.new)
+    fn is_loaded(&self) -> bool {
+        self.is_loaded
+    }
+
+    fn balance(&self) -> Result<Balance, Loaded> {
+        self.refuse_loads(BALANCE)?;
+        Ok(self.simulation.balance(&self.old, &self.new))
     }
 
     fn work(&self) -> Work {

@@ -164,7 +164,7 @@ impl Watch for RunHistory {
     fn see(&mut self, motion: &mut AnyMotion, _: &Report) -> Result<ControlFlow<()>, RunError> {
         let is_drawn = !self.frames.times.is_empty();
         if is_drawn {
-            self.since_row += motion.balance();
+            self.since_row += motion.balance()?;
         }
         let times = motion.snapshot().parts(self.t_end, self.parts);
         for t in times {

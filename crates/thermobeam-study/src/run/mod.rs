@@ -122,6 +122,19 @@ pub enum RunError {
     /// The time limit of the case was reached.
     #[error(transparent)]
     TimeUp(#[from] TimeUp),
+    /// Something was asked for that a beam with loads does not have.
+    #[error(transparent)]
+    Loaded(#[from] Loaded),
+}
+
+/// A beam with loads does not have what was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error(
+    "{what}: found a beam with loads, whose work may raise its energy and keep it moving: expected a beam without loads"
+)]
+pub struct Loaded {
+    /// What was asked for, in words.
+    pub what: &'static str,
 }
 
 impl RunError {
@@ -162,6 +175,9 @@ pub enum Unsound {
 
 const EXPECTED: &str = "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
 
+/// What a beam with loads does not have, in the words of [`Loaded`].
+const BALANCE: &str = "a balance of the energy";
+
 /// Where a motion stands, and counts of the work done so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Work {
@@ -193,8 +209,29 @@ pub trait Motion {
     /// Smallest and largest u(1) in the last step; for a one-step scheme at its end.
     fn extremes(&self) -> [f64; 2];
 
-    /// The energy's balance over the last step.
-    fn balance(&self) -> Balance;
+    /// Whether loads act on the beam: its energy may then rise, its balance has the work of the
+    /// loads, and it need not come to rest at one of its steady states.
+    fn is_loaded(&self) -> bool;
+
+    /// The energy's balance over the last step, of a beam without loads.
+    ///
+    /// # Errors
+    /// [`Loaded`].
+    fn balance(&self) -> Result<Balance, Loaded>;
+
+    /// Refuses a beam with loads.
+    ///
+    /// * `what`: what such a beam does not have, in words.
+    ///
+    /// # Errors
+    /// [`Loaded`].
+    fn refuse_loads(&self, what: &'static str) -> Result<(), Loaded> {
+        if self.is_loaded() {
+            Err(Loaded { what })
+        } else {
+            Ok(())
+        }
+    }
 
     /// Where it stands, and the work so far.
     fn work(&self) -> Work;

@@ -148,6 +148,7 @@ fn failure(ended: &RunError) -> Failure {
         numbers,
     };
     match ended {
+        RunError::Loaded(_) => of("loaded", 0, 0.0, ended.to_string(), FailureNumbers::None {}),
         RunError::Setup(_) => of("setup", 0, 0.0, ended.to_string(), FailureNumbers::None {}),
         RunError::Step(StepError {
             step, t, failure, ..

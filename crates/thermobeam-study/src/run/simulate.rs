@@ -161,7 +161,8 @@ impl Simulator {
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.sample();
-        let mut sums = Run::start(first, motion.snapshot().energy_size().terms);
+        let size = motion.snapshot().energy_size().terms;
+        let mut sums = Run::start(first, size, motion.is_loaded());
         let start = motion.snapshot();
         let mut history = match recording {
             Recording::Summary => None,
@@ -195,7 +196,10 @@ impl Simulator {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Loaded;
+    use super::super::together::Together;
     use super::*;
+    use thermobeam::dg;
 
     #[test]
     fn a_run_keeps_extremes_and_is_read_at_the_times_given() {
@@ -214,5 +218,80 @@ mod tests {
             read.iter()
                 .all(|sample| (low..=high).contains(&sample.u_tip))
         );
+    }
+
+    /// A beam at rest under the constant load F_u = 1, by a one-step scheme or by dG.
+    fn pushed(time: &str) -> Simulator {
+        let text = format!("[mesh]\nelements = 4\n[time]\nt_end = 1.0\n{time}");
+        let mut scene = Scene::parse(&text, "pushed.toml").expect("a scene");
+        let motion: Box<dyn Motion> = match &mut scene.method {
+            Method::OneStep(stepping) => {
+                stepping.loaded = true;
+                // (1, χ): h for an inner node, half of it for the last one.
+                let fill = |_, load: &mut [[f64; 3]]| {
+                    let last = load.len() - 1;
+                    for (node, entry) in load.iter_mut().enumerate() {
+                        entry[0] = if node == last { 0.125 } else { 0.25 };
+                    }
+                };
+                Box::new(driver(&scene).expect("a driver").loaded(fill))
+            }
+            Method::Dg(stepping) => {
+                let stepping = *stepping;
+                let simulation = dg::Simulation::with_load(scene.dg_problem(), stepping, |space| {
+                    let points = dg::Space::gauss(12);
+                    let mut constant = vec![[0.0; 3]; space.blocks()];
+                    space.add_load(dg::Field::U, &points, |_| 1.0, &mut constant);
+                    Box::new(move |_, load| {
+                        for (sum, entry) in load.iter_mut().zip(&constant) {
+                            sum[0] += entry[0];
+                        }
+                    })
+                })
+                .expect("a simulation");
+                let motion = DgMotion::of(simulation, true, &scene.beam, None, stepping);
+                Box::new(motion)
+            }
+        };
+        Simulator { motion, t_end: 1.0 }
+    }
+
+    const METHODS: [&str; 2] = ["dt = 0.01", "scheme = \"dg\""];
+
+    #[test]
+    fn a_load_may_raise_the_energy() {
+        for time in METHODS {
+            let run = pushed(time).run(Recording::Summary, &mut |_, _| ());
+            assert_eq!((run.failure, run.last.t), (None, 1.0), "{time}");
+            assert!(run.last.u_tip > 0.05, "{time}: {:?}", run.last);
+            assert!(run.energy.largest_increase > 1e-3 && run.energy.last > 1e-3);
+            assert!(run.energy.largest_balance_residual.is_nan());
+        }
+    }
+
+    #[test]
+    fn a_beam_with_loads_has_no_balance_and_no_history_of_it() {
+        for time in METHODS {
+            let loaded = Loaded {
+                what: "a balance of the energy",
+            };
+            assert_eq!(pushed(time).motion.balance(), Err(loaded), "{time}");
+            let run = pushed(time).run(Recording::History, &mut |_, _| ());
+            assert_eq!(run.failure, Some(RunError::Loaded(loaded)), "{time}");
+            assert!(run.complaint().is_some_and(|words| {
+                words.starts_with("a balance of the energy: found a beam with loads")
+            }));
+        }
+    }
+
+    #[test]
+    fn a_beam_with_loads_runs_alone() {
+        let text = "[initial]\nu_t = \"x\"\n[time]\ndt = 0.1\nt_end = 2.0\n";
+        let mut scene = Scene::parse(text, "s.toml").expect("a scene");
+        assert!(Together::of(&scene).is_some());
+        if let Method::OneStep(stepping) = &mut scene.method {
+            stepping.loaded = true;
+        }
+        assert!(Together::of(&scene).is_none());
     }
 }

@@ -30,7 +30,10 @@ impl Together {
     /// For a scene; `None` if it can only run alone.
     pub fn of(scene: &Scene) -> Option<Self> {
         let Stepping {
-            scheme, settings, ..
+            scheme,
+            settings,
+            loaded,
+            ..
         } = scene.one_step().ok()?;
         let common = Self {
             elements: scene.mesh.elements(),
@@ -38,7 +41,8 @@ impl Together {
             scheme,
             settings,
         };
-        (settings.solver == Solver::Newton).then_some(common)
+        // Lanes have no loads.
+        (settings.solver == Solver::Newton && !loaded).then_some(common)
     }
 }
 
@@ -101,7 +105,7 @@ impl<'s> LaneRun<'s> {
         Self {
             k,
             scene,
-            run: Run::start(first, ensemble.cases()[k].energy_scale(level)),
+            run: Run::start(first, ensemble.cases()[k].energy_scale(level), false),
         }
     }
 

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::judge::verdict::{Reason, Verdict};
 use convergence_study::run::run_one;
-use convergence_study::study::{FromFile, Outcome};
+use convergence_study::study::{CaseFailure, Check, FromFile, Kind, Outcome, run_cases_here};
+use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::Convergence;
 
@@ -84,6 +85,50 @@ fn a_budget_ends_a_study_without_a_verdict() {
     );
     let told = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
     assert!(spent.summary.ends_with(told), "{}", spent.summary);
+}
+
+#[test]
+fn no_level_is_added_to_one_that_failed() {
+    let mut study = Orders::<Convergence>::read(file()).unwrap();
+    study.refine.elements = vec![8, 16, 32, 64];
+    study.refine.budget = Some(1e7);
+    study
+        .expect
+        .iter_mut()
+        .for_each(|(_, claim)| claim.tolerance = 0.005);
+    let mut runs: Vec<_> = run_cases_here(&study).into_iter().take(4).collect();
+    assert_eq!(study.more(&runs).map(|case| case.data), Some((128, 20)));
+    runs[1].found = Err(CaseFailure::new("planted"));
+    assert_eq!(study.more(&runs), None);
+    let outcome = study.judge(&runs);
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    assert!(
+        !outcome.summary.contains("decided after"),
+        "{}",
+        outcome.summary
+    );
+}
+
+#[test]
+fn on_a_grid_the_squares_of_both_errors_must_add() {
+    let mut study =
+        Orders::<Convergence>::read(file().with_file_name("theorem-3.4-grid.toml")).unwrap();
+    study.refine.elements = vec![8, 16, 32, 64];
+    study.refine.steps = vec![8, 16, 32, 64];
+    let mut runs = run_cases_here(&study);
+    let adds = |outcome: Outcome| {
+        let of_sum = |check: &&Check| check.subject.quantity == "sum of errors";
+        let checks: Vec<_> = outcome.checks.iter().filter(of_sum).cloned().collect();
+        assert_eq!(checks.len(), study.expect.len());
+        Verdict::worst(checks.iter().map(|check| check.verdict))
+    };
+    assert_eq!(adds(study.judge(&runs)), Verdict::Pass);
+    for run in &mut runs {
+        let (elements, steps) = run.case.data;
+        let sum = 1.0 / elements as f64 + 1.0 / steps as f64;
+        run.found = Ok(Norms::of(|_| sum));
+    }
+    assert_eq!(adds(study.judge(&runs)), Verdict::Fail);
 }
 
 #[test]

@@ -2,10 +2,10 @@
 //! fail proves nothing.
 
 mod any_order;
-mod any_order_controls;
 mod bifurcation;
-mod controls;
 mod convergence;
+mod detects;
+mod detects_any_order;
 mod energy;
 mod equilibrium;
 mod exact_experiments;

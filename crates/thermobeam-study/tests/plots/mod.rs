@@ -46,11 +46,6 @@ fn no_two_entries_of_a_legend_look_alike() {
 }
 
 #[test]
-fn curves_with_the_same_values_are_noted() {
-    laws::curves_with_the_same_values_are_noted(&figures::gallery());
-}
-
-#[test]
 fn the_same_data_give_the_same_bytes() {
     assert_eq!(figures::gallery(), figures::gallery());
 }

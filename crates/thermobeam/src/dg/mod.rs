@@ -22,9 +22,9 @@
 //! # The modules
 //!
 //! `element`, `space`, `forms`: the elements. `time`: integrals in time. `residual`: the equations
-//! above. `operator`, `block`, `factor`: their matrix and its elimination. `stages`: a step of
-//! given length. `phase`, `contact_event`, `lengths`: where steps end. `problem`, `simulation`,
-//! `observe`: the interface for users, with the balance of the energy.
+//! above. `operator`, `block`, `factor`: their matrix and its elimination. `stages`, `iteration`: a
+//! step of given length. `phase`, `contact_event`, `lengths`: where steps end. `problem`,
+//! `simulation`, `observe`: the interface for users, with the balance of the energy.
 //!
 //! ```
 //! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
@@ -53,6 +53,7 @@ mod contact_event;
 pub mod element;
 mod factor;
 mod forms;
+mod iteration;
 mod legendre;
 mod lengths;
 mod observe;

@@ -3,6 +3,7 @@
 use super::block::{Block, add_columns};
 use super::contact_event::Polynomial;
 use super::factor::Factor;
+use super::iteration::Iteration;
 use super::operator::Operator;
 use super::residual::{Equations, Terms};
 use super::space::{Field, Space};
@@ -16,13 +17,6 @@ use crate::parameters::Beam;
 /// Relative difference up to which lengths share a factorisation; the iteration then contracts by
 /// about this factor.
 const SAME_LENGTH: f64 = 5e-3;
-
-/// A factorisation is replaced if the iteration contracts more slowly than this and a better one is
-/// possible.
-const SLOW: f64 = 0.2;
-
-/// Increments below this many rounding errors of the solution cannot shrink further.
-const FLOOR: f64 = 16.0 * f64::EPSILON;
 
 /// Total memory of the factorisations in bytes, not counting two of them.
 const FACTOR_BYTES: usize = 64 << 20;
@@ -191,6 +185,68 @@ impl<const S: usize> DgStepper<S> {
         Ok(())
     }
 
+    /// One iteration: the residual of the trial polynomials, and their correction by a
+    /// factorisation, that of the iteration before or, in the first, a suitable one.
+    ///
+    /// # Errors
+    /// [`StepFailure::NonFinite`], or a factorisation that fails.
+    fn iterate(
+        &mut self,
+        task: &Equations<'_>,
+        before: &Iteration,
+    ) -> Result<Iteration, StepFailure> {
+        let number = before.number + 1;
+        let not_finite = StepFailure::NonFinite {
+            iterations: number,
+            increment: before.increment,
+        };
+        let n_value = self.defect(task);
+        if !n_value.is_finite() {
+            return Err(not_finite);
+        }
+        let slot = match before.slot {
+            Some(slot) => slot,
+            None => self.slot(task, n_value)?,
+        };
+        self.work.solves += 1;
+        let in_contact = task.phase != Phase::Free;
+        self.slots[slot]
+            .factor
+            .solve_in_place(task.space, in_contact, &mut self.residual);
+        let (increment, mut size) = self.correct();
+        if in_contact {
+            // The contact force amplifies rounding errors of the position; over the step they
+            // equal this velocity.
+            size += task.level.places[task.space.tip()][0].abs() / task.h;
+        }
+        if !increment.is_finite() {
+            return Err(not_finite);
+        }
+        Ok(Iteration {
+            number,
+            slot: Some(slot),
+            n_value,
+            increment,
+            size,
+            contraction: increment / before.increment,
+        })
+    }
+
+    /// Replaces the factorisation of an iteration, if it was made for another length or another
+    /// axial force.
+    fn replace(&mut self, task: &Equations<'_>, last: &Iteration) -> Result<(), StepFailure> {
+        let Some(index) = last.slot else {
+            return Ok(());
+        };
+        let slot = &self.slots[index];
+        let is_of_this_step = slot.h == task.h && slot.n_value == last.n_value;
+        if is_of_this_step {
+            Ok(())
+        } else {
+            self.factorize(index, task, last.n_value)
+        }
+    }
+
     /// Subtracts the correction in `residual` from the polynomials; returns their norms, as for
     /// velocities.
     fn correct(&mut self) -> (f64, f64) {
@@ -241,36 +297,6 @@ fn transform<const S: usize>(columns: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] 
     sum
 }
 
-/// An iteration that has just been done.
-struct Iteration {
-    number: usize,
-    increment: f64,
-    /// The ratio of this increment to the one before; NaN at the first.
-    contraction: f64,
-}
-
-impl Iteration {
-    /// * `size`: of the solution, in the norm of the increments.
-    fn has_converged(&self, tolerance: f64, size: f64) -> bool {
-        let Self {
-            number,
-            increment,
-            contraction,
-        } = *self;
-        // Once their ratio is known, the sum of the remaining increments is at most this.
-        let rest = if contraction < 0.5 {
-            increment * contraction / (1.0 - contraction)
-        } else {
-            increment
-        };
-        let is_known = number > 1 && rest <= tolerance;
-        // Round-off: further iterations change only the last digits.
-        let is_stagnant =
-            increment <= FLOOR * size || (contraction > 0.5 && increment <= 64.0 * FLOOR * size);
-        increment <= tolerance || is_known || is_stagnant
-    }
-}
-
 impl<const S: usize> Stages for DgStepper<S> {
     fn guess_constant(&mut self, level: &Level) {
         for (x, rates) in self.trial.x.iter_mut().zip(&level.rates) {
@@ -308,70 +334,25 @@ impl<const S: usize> Stages for DgStepper<S> {
         if let Some((forcing, load)) = self.forcing.as_mut().zip(load) {
             forcing.integrate(load, task.level.t, task.h);
         }
-        let mut index = None;
-        let (mut previous, mut contraction) = (f64::INFINITY, f64::NAN);
+        let mut last = Iteration::START;
         let mut replaced = false;
-        for iteration in 1..=by.max_iterations {
-            let n_value = self.defect(task);
-            if !n_value.is_finite() {
-                return Err(StepFailure::NonFinite {
-                    iterations: iteration,
-                    increment: previous,
-                });
-            }
-            let chosen = match index {
-                Some(index) => index,
-                None => self.slot(task, n_value)?,
-            };
-            index = Some(chosen);
-            self.work.solves += 1;
-            let in_contact = task.phase != Phase::Free;
-            self.slots[chosen]
-                .factor
-                .solve_in_place(task.space, in_contact, &mut self.residual);
-            let (increment, mut size) = self.correct();
-            if in_contact {
-                // The contact force amplifies rounding errors of the position; over the step they
-                // equal this velocity.
-                size += task.level.places[task.space.tip()][0].abs() / task.h;
-            }
-            if !increment.is_finite() {
-                return Err(StepFailure::NonFinite {
-                    iterations: iteration,
-                    increment: previous,
-                });
-            }
-            contraction = increment / previous;
-            let last = Iteration {
-                number: iteration,
-                increment,
-                contraction,
-            };
-            if last.has_converged(by.tolerance, size) {
+        while last.number < by.max_iterations {
+            last = self.iterate(task, &last)?;
+            if last.has_converged(by.tolerance) {
                 task.displace(&self.trial.x, &mut self.trial.terms);
-                return Ok(iteration);
+                return Ok(last.number);
             }
-            if contraction > SLOW && iteration > 1 && !replaced {
-                let slot = &self.slots[chosen];
-                let (other_length, other_force) = (slot.h != task.h, slot.n_value != n_value);
-                if other_length || other_force {
-                    self.factorize(chosen, task, n_value)?;
-                }
+            if last.is_slow() && !replaced {
+                self.replace(task, &last)?;
                 replaced = true;
-            } else if contraction >= 1.0 && iteration > 4 {
-                return Err(StepFailure::Diverged {
-                    iterations: iteration,
-                    increment,
-                    contraction,
-                    of: None,
-                });
+            } else if let Some(failure) = last.divergence() {
+                return Err(failure);
             }
-            previous = increment;
         }
         Err(StepFailure::IterationLimit {
             iterations: by.max_iterations,
-            increment: previous,
-            contraction,
+            increment: last.increment,
+            contraction: last.contraction,
         })
     }
 

@@ -100,7 +100,7 @@ impl FixedPoint {
         for iteration in 1..=iterations {
             self.iterate()?;
             let previous = increment;
-            increment = self.increment();
+            increment = self.increment(iteration);
             if !increment.is_finite() {
                 return Err(StepFailure::NonFinite {
                     iterations: iteration,
@@ -261,7 +261,9 @@ impl FixedPoint {
 
     /// Difference of the last two iterates of (û, u, φ̂, φ, θ) in the norm of (3.14); u and φ by
     /// (4.3).
-    fn increment(&mut self) -> f64 {
+    ///
+    /// * `iteration`: its number ℓ, from 1.
+    fn increment(&mut self, iteration: usize) -> f64 {
         let (dt, inertia) = (self.case.dt, self.case.scheme.inertia);
         let [v, u, w, phi, theta] = &mut self.difference;
         for i in 0..self.old.u.len() {
@@ -272,7 +274,7 @@ impl FixedPoint {
             phi[i] = dt * dw;
             theta[i] = 2.0 * (self.now.theta[i] - self.before.theta[i]);
         }
-        if self.u_before == self.old.u {
+        if iteration == 1 {
             // In the first iteration φ^{n,0} = φ^{n-1}, which is not φ^{n-1} + dt φ̂^{n,0}.
             for (phi, w) in phi.iter_mut().zip(&self.now.w) {
                 *phi = dt * w;

@@ -7,6 +7,7 @@ mod agreement;
 mod balance;
 mod contraction;
 mod dense;
+mod dense_iteration;
 mod dense_step;
 mod failure;
 mod linear;

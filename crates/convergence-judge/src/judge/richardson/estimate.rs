@@ -246,7 +246,8 @@ pub(crate) fn crossing(
     f: impl Fn(f64) -> Option<f64>,
     [mut low, mut high]: [f64; 2],
 ) -> Option<f64> {
-    let (mut above, mut below) = (f(low)?, f(high)?);
+    let mut above = f(low)?;
+    let mut below = f(high)?;
     let mut middle = low;
     for _ in 0..60 {
         let next = low + (high - low) * above / (above - below);
@@ -297,7 +298,8 @@ fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refus
                 .err()
                 .unwrap_or(Refusal::NotAsymptotic(judged.kind)));
         }
-        let (rate, order) = (observed_order(values)?, judged.order);
+        let rate = observed_order(values)?;
+        let order = judged.order;
         return Ok((
             rate,
             [
@@ -326,7 +328,8 @@ fn bar(
         return Err(Refusal::RateMayBeZero(rate_interval[0]));
     }
     let [before, finest] = [values[values.len() - 2], values[values.len() - 1]];
-    let (difference, ratio) = (before.value - finest.value, before.step / finest.step);
+    let difference = before.value - finest.value;
+    let ratio = before.step / finest.step;
     let size = |rate: f64| difference.abs() / growth(ratio, rate);
     // If the difference of two values scatters by S, the distance of Richardson's estimate from the
     // error scatters by this.

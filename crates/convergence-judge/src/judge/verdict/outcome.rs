@@ -110,8 +110,9 @@ impl RateVerdict {
     /// narrow; `None` without one. The levels follow unless all were used.
     ///
     /// * `most`: the largest number of decimals.
-    pub fn found(&self, most: usize) -> Option<String> {
-        let (fitted, interval) = (self.fitted?, self.interval?);
+    pub fn interval_in_words(&self, most: usize) -> Option<String> {
+        let fitted = self.fitted?;
+        let interval = self.interval?;
         let fitted = decimals(fitted, interval_places(interval, most));
         let interval = interval_text(interval, most);
         // A narrow interval begins with its middle.
@@ -206,7 +207,8 @@ impl RateVerdict {
             .find(|rate| rate.is_finite())
     }
 
-    /// Like [`found`](Self::found); without an interval, the rate between the finest levels.
+    /// Like [`interval_in_words`](Self::interval_in_words); without an interval, the rate between
+    /// the finest levels.
     ///
     /// * `most`: the largest number of decimals.
     pub fn rate_in_words(&self, most: usize) -> String {
@@ -218,14 +220,16 @@ impl RateVerdict {
                 )
             })
         };
-        self.found(most)
+        self.interval_in_words(most)
             .or_else(finest)
             .unwrap_or_else(|| "no rate".to_owned())
     }
 
     /// The levels that the fit used.
     fn levels_in_words(&self) -> String {
-        let (first, last, levels) = (self.used.start + 1, self.used.end, self.pairwise.len() + 1);
+        let first = self.used.start + 1;
+        let last = self.used.end;
+        let levels = self.pairwise.len() + 1;
         format!("from levels {first} to {last} of {levels}")
     }
 
@@ -235,7 +239,7 @@ impl RateVerdict {
     /// * `self`: the verdict on the levels with a result.
     /// * `names`: of all levels.
     /// * `has`: whether each of them has a result.
-    pub fn among(self, names: &[&str], has: &[bool]) -> Self {
+    pub fn over_all_levels(self, names: &[&str], has: &[bool]) -> Self {
         let present: Vec<usize> = (0..has.len()).filter(|level| has[*level]).collect();
         if present.len() == has.len() {
             return self;
@@ -317,10 +321,8 @@ impl RateVerdict {
         } else {
             ""
         };
-        let (levels, have) = (
-            counted(levels, "level"),
-            if missing.len() == 1 { "has" } else { "have" },
-        );
+        let levels = counted(levels, "level");
+        let have = if missing.len() == 1 { "has" } else { "have" };
         let lacking = format!(
             "{} of {levels} {have} no result: {named}{more}",
             missing.len()

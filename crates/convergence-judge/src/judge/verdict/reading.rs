@@ -188,7 +188,8 @@ fn unusable(levels: &[Level]) -> Option<Reason> {
 
 /// The interval against the band.
 fn compare([low, high]: [f64; 2], order: f64, tolerance: f64) -> Reason {
-    let (least, most) = (order - tolerance, order + tolerance);
+    let least = order - tolerance;
+    let most = order + tolerance;
     if least <= low && high <= most {
         Reason::Agrees
     } else if high < least {

@@ -32,8 +32,8 @@ const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
-    fn found(&self) -> String {
-        let found = match self.claim {
+    fn answer(&self) -> String {
+        let rate = match self.claim {
             Claim {
                 at_least: true,
                 order,
@@ -61,18 +61,17 @@ impl JudgedColumn<'_> {
                 let gci = gci.map_or(String::new(), |gci| {
                     format!(", GCI ± {}", short_text(gci.half_width))
                 });
-                found
-                    + &format!(
-                        "; limit {} ({low} to {high}){gci}",
-                        pair_text([bar.extrapolated, bar.limit[1]])[0]
-                    )
+                rate + &format!(
+                    "; limit {} ({low} to {high}){gci}",
+                    pair_text([bar.extrapolated, bar.limit[1]])[0]
+                )
             }
-            Some((Err(refusal), _)) => found + &format!("; no limit: {refusal}"),
-            None => found,
+            Some((Err(refusal), _)) => rate + &format!("; no limit: {refusal}"),
+            None => rate,
         }
     }
 
-    fn shown(&self) -> Shown<'_> {
+    fn column_with_rate(&self) -> Shown<'_> {
         let late = usize::from(self.estimate.is_some());
         Shown {
             name: &self.column.name,
@@ -85,14 +84,15 @@ impl JudgedColumn<'_> {
 
 /// The errors with their rates, a verdict for each column, advice, and the overall verdict.
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
-    let (table, columns) = (findings.table, &findings.columns);
+    let table = findings.table;
+    let columns = &findings.columns;
     let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
     let line = |judged: &JudgedColumn<'_>| {
         format!(
             "{}: {}: {}\n",
             judged.column.name,
             screen::verdict(judged.rate.verdict),
-            judged.found()
+            judged.answer()
         )
     };
     let last = format!(
@@ -114,7 +114,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
         } + &lines
             + &last;
     }
-    let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::shown).collect();
+    let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::column_with_rate).collect();
     let mut text = reading + &shown::table(&table.step, &shown, findings.judge.floor()) + "\n";
     text.extend(columns.iter().map(line));
     // Words common to several columns appear once.
@@ -141,7 +141,9 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
 /// What the reason means for a column, and what to do, using its numbers if they show more than the
 /// reason.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
-    let (rate, name, step) = (&judged.rate, &judged.column.name, &findings.table.step);
+    let rate = &judged.rate;
+    let name = &judged.column.name;
+    let step = &findings.table.step;
     let general = rate.advice().unwrap_or_default();
     let errors: Vec<f64> = judged
         .column
@@ -171,7 +173,8 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     {
         format!("The errors fall as `{step}` grows. Do they stand beside their own steps?")
     } else if let Some(level) = stop(&rate.pairwise) {
-        let (rate, error) = (rate.pairwise[level - 1], error_text(errors[level]));
+        let rate = rate.pairwise[level - 1];
+        let error = error_text(errors[level]);
         let causes = "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
         format!(
             "{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}"
@@ -206,11 +209,14 @@ fn stop(rates: &[f64]) -> Option<usize> {
 
 /// The level that would decide if the rates continued: their changes shrink as the last two did.
 fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
-    let (mut levels, rates) = (judged.column.levels.clone(), &judged.rate.pairwise);
+    let mut levels = judged.column.levels.clone();
+    let rates = &judged.rate.pairwise;
     let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else {
         return None;
     };
-    let (ratio, finest, mut rate) = (before.step / finest.step, finest.step, *last);
+    let ratio = before.step / finest.step;
+    let finest = finest.step;
+    let mut rate = *last;
     let changes: Vec<f64> = rates.windows(2).map(|two| two[1] - two[0]).collect();
     let mut change = *changes.last()?;
     let shrinks = changes.iter().rev().nth(1).map(|before| change / before);
@@ -232,11 +238,9 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
         if next.verdict == Verdict::Inconclusive {
             continue;
         }
-        let (name, step, parts) = (
-            &judged.column.name,
-            &findings.table.step,
-            ratio.powi(ahead) / finest,
-        );
+        let name = &judged.column.name;
+        let step = &findings.table.step;
+        let parts = ratio.powi(ahead) / finest;
         let is_part = step == "h" && (parts - parts.round()).abs() < 1e-9 * parts;
         let at = if is_part {
             format!("1/{}", parts.round())
@@ -338,7 +342,7 @@ pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
         (
             judged.column.name.clone() + &claim,
             judged.rate.verdict,
-            judged.found(),
+            judged.answer(),
         )
     };
     let mut cases: Vec<_> = findings

@@ -66,7 +66,8 @@ impl Cells<'_> {
     pub(super) fn regular(&self) -> Option<f64> {
         let mut values = self.values.clone();
         values.sort_by(f64::total_cmp);
-        let (least, most) = (*values.first()?, *values.last()?);
+        let least = *values.first()?;
+        let most = *values.last()?;
         let same = SAME.max(2.0 * self.widest_half() / least).min(0.02);
         let ratios: Vec<f64> = values.windows(2).map(|two| two[1] / two[0]).collect();
         let ratio = ratios.iter().copied().fold(f64::INFINITY, f64::min);
@@ -80,7 +81,8 @@ impl Cells<'_> {
 
     /// Whether two columns are the steps of one mesh in several directions, or of space and time.
     pub(super) fn is_in_proportion(&self, other: &Self) -> bool {
-        let (a, b) = (&self.values, &other.values);
+        let a = &self.values;
+        let b = &other.values;
         a.iter()
             .zip(b)
             .all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
@@ -114,7 +116,8 @@ impl Cells<'_> {
     ///
     /// * `steps`: of the rows, the coarsest first.
     pub(super) fn derived_from(&self, error: &Self, steps: &[f64]) -> Option<Derived> {
-        let (last, errors) = (steps.len() - 1, &error.values);
+        let last = steps.len() - 1;
+        let errors = &error.values;
         if last < 2 || !errors.iter().all(|value| *value > 0.0) || errors[last] >= 0.7 * errors[0] {
             return None;
         }
@@ -158,7 +161,8 @@ impl Cells<'_> {
             .copied()
             .filter(|value| !value.is_nan())
             .collect();
-        let (first, last) = (numbers[0], numbers[numbers.len() - 1]);
+        let first = numbers[0];
+        let last = numbers[numbers.len() - 1];
         let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count()
             >= numbers.len() - 1
             && last < first;

@@ -84,32 +84,29 @@ impl Word {
             .trim_start_matches('\\')
             .strip_prefix("log")
             .or_else(|| lower.strip_prefix("ln"));
-        match () {
-            () if argument.is_some_and(|argument| !argument.starts_with(char::is_alphabetic)) => {
-                Self::Logarithm
-            }
-            () if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") => {
-                Self::Rate
-            }
-            () if NORMS
-                .iter()
-                .any(|part| lower.contains(part) || joined.contains(part)) =>
-            {
-                Self::Error
-            }
-            () if STEPS.contains_key(joined.as_str()) => Self::Step,
-            () if has(&ERRORS) && !words().any(|word| word == "time") => Self::Error,
-            () if words().all(|word| COSTS.contains_key(word)) && words().next().is_some() => {
-                Self::Cost
-            }
-            () => count(&joined).map_or(
-                if has(&COSTS) {
-                    Self::Cost
-                } else {
-                    Self::Unknown
-                },
-                Self::Count,
-            ),
+        if argument.is_some_and(|argument| !argument.starts_with(char::is_alphabetic)) {
+            return Self::Logarithm;
+        }
+        if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") {
+            return Self::Rate;
+        }
+        let is_norm = |part: &&str| lower.contains(part) || joined.contains(part);
+        if NORMS.iter().any(is_norm) {
+            return Self::Error;
+        }
+        if STEPS.contains_key(joined.as_str()) {
+            return Self::Step;
+        }
+        if has(&ERRORS) && !words().any(|word| word == "time") {
+            return Self::Error;
+        }
+        if words().all(|word| COSTS.contains_key(word)) && words().next().is_some() {
+            return Self::Cost;
+        }
+        match count(&joined) {
+            Some(rank) => Self::Count(rank),
+            None if has(&COSTS) => Self::Cost,
+            None => Self::Unknown,
         }
     }
 

@@ -31,7 +31,8 @@ pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
             .max()
             .unwrap_or(0)
     };
-    let (plain, scaled) = (places(false), places(true));
+    let plain = places(false);
+    let scaled = places(true);
     let half = |number: &Option<Number>| match number.and_then(|number| number.place) {
         Some((_, None)) if plain > 0 => 0.5 * 10f64.powi(-plain),
         Some((_, Some(ten))) if number.is_some_and(|number| number.value != 0.0) => {

@@ -64,7 +64,11 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
 /// The pairs of a text, and how many lines begin with a nameless number.
 fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
     let (mut pairs, mut known): (Vec<Pair<'_>>, HashSet<&str>) = Default::default();
-    let (mut rows, mut is_row, mut depth, mut label, mut position) = (0, false, 0_usize, 0, 0);
+    let mut rows = 0;
+    let mut is_row = false;
+    let mut depth = 0_usize;
+    let mut label = 0;
+    let mut position = 0;
     while let Some(start) = text[position..]
         .find(|c| !is_mark(c))
         .map(|start| position + start)
@@ -72,7 +76,8 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
         position = text[start..]
             .find(is_mark)
             .map_or(text.len(), |end| start + end);
-        let (before, word) = (&text[label..start], &text[start..position]);
+        let before = &text[label..start];
+        let word = &text[start..position];
         let behind = text[position..].trim_start_matches([' ', '\t']);
         let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
         let is_marked = before

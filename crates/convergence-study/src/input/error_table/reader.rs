@@ -179,7 +179,8 @@ impl<'t> TableReader<'t> {
             let (name, word) = (name.clone(), Word::of(name));
             let may_count =
                 matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
-            let (is_claimed, is_index) = (claimed.contains(&k), may_count && counts_rows(&texts));
+            let is_claimed = claimed.contains(&k);
+            let is_index = may_count && counts_rows(&texts);
             let values = numbers
                 .iter()
                 .map(|number| number.map_or(f64::NAN, |number| number.value))
@@ -235,17 +236,14 @@ impl<'t> TableReader<'t> {
         } = &self.columns[column];
         is_number[row].then_some(values[row]).ok_or_else(|| {
             let cell = texts[row];
-            let more = match () {
-                () if cell.len() > 1 && cell.chars().all(|c| c == '*') => {
-                    "; Fortran writes stars where the field is too narrow"
-                }
-                () if self.table.decimal_comma && cell.contains(',') => {
-                    "; its comma may be that of decimals or of thousands"
-                }
-                () if number(cell, true).is_some() => {
-                    "; its point may be that of decimals or of thousands, for others have decimal commas"
-                }
-                () => "",
+            let more = if cell.len() > 1 && cell.chars().all(|c| c == '*') {
+                "; Fortran writes stars where the field is too narrow"
+            } else if self.table.decimal_comma && cell.contains(',') {
+                "; its comma may be that of decimals or of thousands"
+            } else if number(cell, true).is_some() {
+                "; its point may be that of decimals or of thousands, for others have decimal commas"
+            } else {
+                ""
             };
             self.error(cell, Some(name), &format!("a number{more}"), &format!("`{}`", shorten(cell)))
         })

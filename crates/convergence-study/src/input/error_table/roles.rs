@@ -233,7 +233,9 @@ impl TableReader<'_> {
         steps: &[f64],
         values: &[usize],
     ) -> Result<Vec<usize>, Refusal> {
-        let (mut errors, mut limits, mut doubtful) = (vec![], vec![], vec![]);
+        let mut errors = vec![];
+        let mut limits = vec![];
+        let mut doubtful = vec![];
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
             let (columns, why) = match self.holds(k, step.column, steps)? {
                 Holds::Error => (&mut errors, None),

@@ -48,7 +48,8 @@ impl TableReader<'_> {
             None if self.choice.ratio.is_some() => (self.levels()?, String::new()),
             None => self.natural_step()?,
         };
-        let (measure, name) = (self.measure(column)?, &self.columns[column].name);
+        let measure = self.measure(column)?;
+        let name = &self.columns[column].name;
         let label = match measure {
             Measure::Step => name.to_owned(),
             Measure::Count(1.0) => {

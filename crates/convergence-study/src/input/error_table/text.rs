@@ -51,13 +51,14 @@ pub(super) fn plain(text: &str) -> String {
     let is_list = |marks: &[char]| {
         text.trim_start().starts_with(marks) && !text.contains(['"', '\'', '=', '\\'])
     };
-    match () {
+    if is_list(&['{']) {
         // `{0.1: 1.6e-3, 0.05: 4e-4}`.
-        () if is_list(&['{']) => text.replace([',', '{', '}'], "\n").replace(':', " "),
-        () if is_list(&['[', '(']) && !text.contains('{') => text
-            .replace(['[', '(', ',', '\n'], " ")
-            .replace([']', ')'], "\n"),
-        () => text,
+        text.replace([',', '{', '}'], "\n").replace(':', " ")
+    } else if is_list(&['[', '(']) && !text.contains('{') {
+        text.replace(['[', '(', ',', '\n'], " ")
+            .replace([']', ')'], "\n")
+    } else {
+        text
     }
 }
 
@@ -158,7 +159,9 @@ fn sorted(text: &str) -> Lines<'_> {
     };
     let separator = separator(lines().filter(|line| !is_comment(line)));
     let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
-    let (mut heads, mut rows, mut quoted_names) = (vec![], vec![], None);
+    let mut heads = vec![];
+    let mut rows = vec![];
+    let mut quoted_names = None;
     let mut all = lines().peekable();
     while let Some(line) = all.next() {
         if rows.is_empty()
@@ -207,7 +210,8 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
         .strip_prefix('|')
         .filter(|_| separator == Some('|'));
     let line = framed.map_or(line, |line| line.strip_suffix('|').unwrap_or(line));
-    let (mut quoted, mut is_start) = (false, true);
+    let mut quoted = false;
+    let mut is_start = true;
     let separates = |c: char| {
         quoted ^= c == '"' && (quoted || is_start);
         let is_end =
@@ -249,7 +253,8 @@ fn names_in_quotes<'t>(
     let is_quoted = |line: &str, cell: &str| {
         line[..cell.as_ptr() as usize - line.as_ptr() as usize].ends_with('"')
     };
-    let (names, cells) = (split(line, separator), split(below, separator));
+    let names = split(line, separator);
+    let cells = split(below, separator);
     let is_above = |(name, cell): (&&str, &&str)| {
         is_number(name) && is_number(cell) && !is_quoted(below, cell)
     };
@@ -386,10 +391,8 @@ fn names<'t>(
     width: usize,
 ) -> Option<Vec<&'t str>> {
     let firsts: Vec<&str> = rows.iter().map(|row| row[0]).collect();
-    let (is_even, is_index) = (
-        rows.iter().all(|row| row.len() == width),
-        counts_rows(&firsts),
-    );
+    let is_even = rows.iter().all(|row| row.len() == width);
+    let is_index = counts_rows(&firsts);
     let ends = [&rows[0], &rows[rows.len() - 1]];
     let is_rate = |k: &usize| {
         ends.iter().any(|row| {

@@ -156,10 +156,11 @@ pub(super) fn contrast(votes: &[Vote]) -> Contrast {
             }
         }
     }
-    told(votes, &best, nothing.score)
+    described(votes, &best, nothing.score)
 }
 
-fn told(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
+/// The contrast of the best set, with what passes instead.
+fn described(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     let mut fails = [0, 0];
     let mut passes: Vec<(String, [usize; 2])> = vec![];
     for (vote, holds) in votes.iter().zip(&best.holds) {

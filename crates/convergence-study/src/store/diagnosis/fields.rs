@@ -5,6 +5,13 @@ use crate::run::Finished;
 use crate::store::{Change, Movement};
 use crate::study::Sort;
 
+/// The share of a field is this power of its weight over the largest of its study: half the weight
+/// is 1/256 of the share.
+const SHARPNESS: i32 = 8;
+
+/// The share of the only wrong field of a study, which does not show which field is first.
+const ALONE: f64 = 0.1;
+
 /// Fields by their share of the movement: within a study each is measured by its tolerance, on its
 /// finest level, where its own error has had the least time to mix with those of others.
 pub(super) fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
@@ -16,11 +23,10 @@ pub(super) fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
             .map(|field| field.weight)
             .fold(f64::MIN_POSITIVE, f64::max);
         for one in &moved {
-            // A study with one wrong field does not show which is first.
             let share = if moved.len() > 1 {
-                (one.weight / most).powi(8)
+                (one.weight / most).powi(SHARPNESS)
             } else {
-                0.1
+                ALONE
             };
             add(&mut fields, one, share);
         }

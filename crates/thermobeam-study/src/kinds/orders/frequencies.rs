@@ -192,7 +192,7 @@ impl Frequencies {
         let exact = frequencies(self.count).into_iter().skip(self.first - 1);
         for ((mode, omega), (column, (_, rate))) in (self.first..)
             .zip(exact)
-            .zip(series.levels.columns.iter().zip(&series.rates))
+            .zip(series.levels.columns.iter().zip(series.rates()))
         {
             let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
             // Known for linear elements only.

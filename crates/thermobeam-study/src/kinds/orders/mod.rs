@@ -16,7 +16,7 @@ use std::ops::{Deref, DerefMut};
 
 use convergence_study::study::LevelErrors;
 use convergence_study::study::grid::Grid;
-use convergence_study::study::levels::rate_table;
+use convergence_study::study::levels::{Rates, rate_table};
 use convergence_study::study::until_decided::{self, Next};
 
 use super::prelude::*;
@@ -94,13 +94,10 @@ pub struct Measured {
 pub struct Series {
     /// The errors, and the claims about them.
     pub levels: Levels,
-    /// Their rates with the verdicts.
-    pub rates: Vec<(String, RateVerdict)>,
     /// Whether the orders are claims; otherwise the rates are shown and decide nothing.
     pub is_claimed: bool,
-    /// On a grid of mesh widths and time steps, how the contributions add.
-    checks: Vec<Check>,
-    figures: Vec<Figure>,
+    /// Rates with their verdicts, errors, guarded numbers, figures.
+    judged: Outcome,
 }
 
 /// The next level of a study that adds levels.
@@ -176,39 +173,39 @@ impl<S: Source> Kind for Orders<S> {
 
     fn judge(&self, runs: &Runs<S>) -> Outcome {
         let measured = self.0.measured(runs);
-        let mut parts = Outcome::new("", vec![], vec![]);
+        // Every part can only worsen the verdict, and completion is always one of them.
+        let mut outcome = Outcome {
+            verdict: Verdict::Pass,
+            ..Outcome::new("", vec![], vec![])
+        };
         let mut not_claimed = vec![];
         for series in &measured.series {
-            add_levels(&mut parts.levels, series.levels.errors());
+            let mut judged = series.judged.clone();
+            add_levels(&mut outcome.levels, std::mem::take(&mut judged.levels));
             if series.is_claimed {
-                parts.extend(series.outcome());
+                outcome.extend(judged);
             } else {
-                not_claimed.extend(series.rates.clone());
+                not_claimed.extend(judged.rates);
             }
         }
-        let completion = completion(runs, |found| self.0.not_finite(found));
-        let checks = [parts.checks, vec![completion], measured.checks].concat();
-        let mut tables = vec![];
         if !not_claimed.is_empty() {
             let title = "Rates shown, not claimed: not needed for a pass";
-            tables.push(rate_table(title, &not_claimed));
+            outcome.tables.push(rate_table(title, &not_claimed));
         }
-        tables.extend(measured.tables);
-        let outcome = Outcome {
-            levels: parts.levels,
-            rate_subjects: parts.rate_subjects,
-            tables,
-            figures: [parts.figures, measured.figures].concat(),
-            quantities: [parts.quantities, measured.quantities].concat(),
-            ..Outcome::new(summary(&parts.rates), parts.rates, checks)
-        };
+        let mut checks = vec![completion(runs, |found| self.0.not_finite(found))];
+        checks.extend(measured.checks);
+        outcome.extend(Outcome {
+            tables: measured.tables,
+            figures: measured.figures,
+            quantities: measured.quantities,
+            ..Outcome::new("", vec![], checks)
+        });
         let Some(first) = measured.series.first() else {
-            return Outcome {
-                headline: measured.summary.clone(),
-                summary: measured.summary,
-                ..outcome
-            };
+            outcome.headline.clone_from(&measured.summary);
+            outcome.summary = measured.summary;
+            return outcome;
         };
+        outcome.summary = summary(&outcome.rates);
         let outcome = outcome.summed_up_by_rates("");
         match self.finer_of_complete(runs) {
             Some(finer) => {
@@ -239,37 +236,42 @@ impl<S: Source> Orders<S> {
 impl<D> Finer<D> {
     fn next(&self, series: &Series) -> Next {
         let levels = series.levels.refinements.len();
-        until_decided::next(&series.rates, levels, self.cost, self.spent, self.budget)
+        until_decided::next(series.rates(), levels, self.cost, self.spent, self.budget)
     }
 }
 
 impl Series {
     /// Judges errors over levels.
     pub fn new(levels: Levels) -> Self {
-        Self {
-            rates: levels.judge(),
-            levels,
-            is_claimed: true,
-            checks: vec![],
-            figures: vec![],
-        }
+        let judged = Outcome::new("", levels.judge(), vec![]);
+        Self::of(levels, judged)
     }
 
-    /// Judges the same errors on a grid of mesh widths and time steps, with figures.
+    /// Judges the same errors on a grid of mesh widths and time steps, and draws them.
     pub fn on_grid(levels: Levels, grid: &Grid) -> Self {
-        let Outcome { rates, checks, .. } = grid.judge();
         let label = |name: &str| {
             let mut columns = levels.columns.iter();
             let column = columns.find(|column| column.name == name);
             let symbol = column.and_then(|column| column.symbol.as_deref());
             format!("error, {}", symbol.unwrap_or(name))
         };
-        Self {
+        let judged = Outcome {
             figures: grid.figures(label),
+            ..grid.judge()
+        };
+        Self::of(levels, judged)
+    }
+
+    fn of(levels: Levels, judged: Outcome) -> Self {
+        Self {
+            judged: Outcome {
+                levels: levels.errors(),
+                rate_subjects: levels.subjects.clone(),
+                quantities: levels.quantities(&judged.rates),
+                ..judged
+            },
             levels,
-            rates,
             is_claimed: true,
-            checks,
         }
     }
 
@@ -277,21 +279,20 @@ impl Series {
     #[must_use]
     pub fn drawn(mut self, file: &str, subject: Option<&str>, caption: &str) -> Self {
         let subject = subject.map(str::to_owned);
-        let figure = self
-            .levels
-            .figure(file, subject, caption.to_owned(), &self.rates);
-        self.figures.push(figure);
+        let rates = self.rates();
+        let figure = self.levels.figure(file, subject, caption.to_owned(), rates);
+        self.judged.figures.push(figure);
         self
     }
 
-    /// Everything but the errors themselves.
-    fn outcome(&self) -> Outcome {
-        Outcome {
-            rate_subjects: self.levels.subjects.clone(),
-            figures: self.figures.clone(),
-            quantities: self.levels.quantities(&self.rates),
-            ..Outcome::new("", self.rates.clone(), self.checks.clone())
-        }
+    /// The verdict on all its rates.
+    pub fn verdict(&self) -> Verdict {
+        self.judged.verdict
+    }
+
+    /// The rates of the errors with claims, with their verdicts.
+    pub fn rates(&self) -> &Rates {
+        &self.judged.rates
     }
 }
 

@@ -286,6 +286,7 @@ fn quiet<M: Motion + ?Sized>(
     is_slow: impl Fn(&M) -> bool,
     level: impl Fn(&M) -> Level,
 ) -> Result<Option<(f64, Level)>, RunError> {
+    motion.refuse_loads("rest at a steady state")?;
     let mut moved = 0.0;
     let mut watch = |motion: &mut M, _: &Report| {
         let t = motion.work().t;
@@ -351,5 +352,28 @@ pub(crate) fn name_of(contact: Phase) -> &'static str {
         Phase::Free => "free",
         Phase::Upper => "on the upper obstacle",
         Phase::Lower => "on the lower obstacle",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_with_loads_is_refused() {
+        let text =
+            "[initial]\nu_t = \"0.1*x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 1.0\n";
+        let mut scene = Scene::parse(text, "s.toml").expect("a scene");
+        assert!(settle(&scene, 1e-2, 500.0).is_ok());
+        if let Method::OneStep(stepping) = &mut scene.method {
+            stepping.loaded = true;
+        }
+        let refused = settle(&scene, 1e-2, 500.0).expect_err("a refusal");
+        assert!(
+            refused
+                .reason
+                .starts_with("rest at a steady state: found a beam with loads"),
+            "{refused:?}"
+        );
     }
 }

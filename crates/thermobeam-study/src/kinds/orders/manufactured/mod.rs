@@ -38,6 +38,7 @@ use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
+use crate::kinds::detects::untested::untested;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{Refine, TERMS, control, expectations, manufactured, refine};
 pub use design::Prepared;
@@ -172,7 +173,11 @@ impl Source for Convergence {
     }
 
     fn untested(&self) -> Vec<Untested> {
-        design::untested(self)
+        let is_wrong_on_purpose = self.solver != self.theory;
+        if is_wrong_on_purpose || self.refine.grid {
+            return vec![];
+        }
+        untested(self, || design::range_of_the_tip(self))
     }
 }
 

@@ -49,6 +49,8 @@ mod report;
 mod rests;
 mod trace;
 
+use std::ops::ControlFlow;
+
 use super::side_by_side::SideBySide;
 use super::steady::{ToRest, compared, listed_scene};
 use super::{Findings, Results, RunStudy, Runs};
@@ -356,7 +358,11 @@ impl Experiments {
             let end = (windows * self.window).min(self.t_max);
             // Summed from differences: the round-off of the total would hide a slow fall.
             let mut fall = 0.0;
-            run_to(&mut *motion, end, |motion, _| fall -= recorder.add(motion))?;
+            let mut watch = |motion: &mut AnyMotion, _: &Report| {
+                fall -= recorder.add(motion)?;
+                Ok(ControlFlow::Continue(()))
+            };
+            run(&mut *motion, end, &[], &mut [&mut watch])?;
             if fall <= self.rate * self.window {
                 return measured(
                     &scene,
@@ -390,7 +396,7 @@ impl Experiments {
         let mut recorder = Recorder::new(observed, &mut both.fixed_point);
         for _ in 0..scene.steps() {
             both.step()?;
-            recorder.add(&mut both.fixed_point);
+            recorder.add(&mut both.fixed_point)?;
         }
         Ok(PaperRun {
             trace: recorder.finish(&both.fixed_point, scene.obstacles),

@@ -3,6 +3,7 @@
 use thermobeam::dg::ContactEvent;
 
 use super::*;
+use crate::run::Loaded;
 
 /// Intervals of a curve in a figure: more than the figure has columns.
 pub(super) const POINTS: usize = 4000;
@@ -96,14 +97,17 @@ impl Recorder {
     }
 
     /// Adds the last step; returns the change of the energy in it.
-    pub(super) fn add(&mut self, motion: &mut dyn Motion) -> f64 {
+    ///
+    /// # Errors
+    /// [`Loaded`]: a beam with loads has no balance of its energy.
+    pub(super) fn add(&mut self, motion: &mut dyn Motion) -> Result<f64, Loaded> {
         let Observed {
             t_end,
             t_max,
             levels,
             frames,
         } = self.observed;
-        let balance = motion.balance();
+        let balance = motion.balance()?;
         self.largest_increase = max_or_nan(self.largest_increase, balance.change);
         self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
         let times = motion.snapshot().parts(t_end, levels);
@@ -122,7 +126,7 @@ impl Recorder {
                 self.push_frame(motion, t);
             }
         }
-        balance.change
+        Ok(balance.change)
     }
 
     fn push(&mut self, sample: Sample) {

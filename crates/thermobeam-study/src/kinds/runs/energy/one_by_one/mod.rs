@@ -155,6 +155,7 @@ impl Runs for EnergyRuns {
     fn run(&self, place: &usize) -> Result<Found, CaseFailure> {
         let run = &self.runs[*place];
         let mut driver = Driver::new(run.problem.clone(), run.stepping)?;
+        driver.refuse_loads("a study of the energy")?;
         let mut recorder = Recorder::new(run, &driver);
         let until = run.steps as f64 * run.stepping.dt;
         let stepped = run_to(&mut driver, until, |driver, report| {
@@ -424,5 +425,44 @@ impl EnergyRun {
     /// The name without that of its scheme.
     fn scene(&self) -> &str {
         self.name.split(',').next().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_with_loads_is_refused() {
+        let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 1.0\n";
+        let scene = Scene::parse(text, "s.toml").expect("a scene");
+        let stepping = scene.one_step().expect("a one-step scheme");
+        let result = |loaded: bool| {
+            let run = EnergyRun {
+                name: "s".to_owned(),
+                problem: simulate::problem(&scene),
+                stepping: Stepping { loaded, ..stepping },
+                steps: 10,
+                claim: String::new(),
+                end: End::default(),
+                share: None,
+                drift: None,
+                is_bounded: false,
+                is_drawn: false,
+            };
+            let study = EnergyRuns {
+                runs: vec![run],
+                histories: false,
+            };
+            study.run(&0)
+        };
+        assert!(result(false).is_ok());
+        let refused = result(true).expect_err("a refusal");
+        assert!(
+            refused
+                .reason
+                .starts_with("a study of the energy: found a beam with loads"),
+            "{refused:?}"
+        );
     }
 }

@@ -8,10 +8,11 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use super::{RELATIVE, named_studies, relative};
+use super::fault::{RELATIVE, relative};
+use super::manufactured::named_studies;
+use super::plantable::Detector;
 use crate::kinds::orders::Orders;
 use crate::kinds::orders::manufactured::Convergence;
-use crate::kinds::orders::manufactured::design::Detector;
 use crate::kinds::prelude::*;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
@@ -51,12 +52,8 @@ impl Kind for Sensitivity {
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let cost = |spec: &Described<Orders<Convergence>>| -> f64 {
             let runs = BISECTIONS as f64 + 2.0;
-            spec.kind
-                .refine
-                .cases()
-                .iter()
-                .map(|&(n, steps)| n as f64 * (steps as f64 * runs * 4.0 + 50.0))
-                .sum()
+            let cases = spec.kind.cases();
+            cases.iter().map(|case| runs * case.cost).sum()
         };
         let of_study = |(study, spec): (usize, &Described<Orders<Convergence>>)| {
             let can_be_planted =
@@ -77,14 +74,8 @@ impl Kind for Sensitivity {
     }
 
     fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
-        let study = &self.studies[study].kind;
-        let mut detector = Detector::new(study)?;
-        let mut detects = |relative| {
-            study
-                .theory
-                .off(key, relative)
-                .is_some_and(|off| detector.detects(off))
-        };
+        let mut detector = Detector::new(&self.studies[study].kind.0)?;
+        let mut detects = |relative| detector.detects(key, relative) == Some(true);
         let [least, most] = self.range;
         if detects(least) || !detects(most) {
             return Ok(None);

@@ -1,15 +1,19 @@
+//! Laws of the matrix of faults in studies of manufactured solutions, and of the smallest faults
+//! that they detect.
+
 use std::sync::LazyLock;
 
 use convergence_study::judge::verdict::Verdict;
 use convergence_study::study::{CaseFailure, FromFile, Kind, run_cases_here};
-use thermobeam_study::kinds::controls::Controls;
-use thermobeam_study::kinds::controls::sensitivity::Sensitivity;
-use thermobeam_study::kinds::controls::{Fault, ROW};
+use thermobeam_study::kinds::detects::{Detects, Fault, ROW, Sensitivity};
+use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 use super::refused::refusal;
 use super::typed::{Runs, changed, counted, each_case_counts, leaves_one_out, report};
 use super::{file, text};
 use thermobeam_study::exact::norm::Norm;
+
+type Controls = Detects<Convergence>;
 
 fn controls() -> Controls {
     Controls::read(file("negative-controls.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -17,18 +21,42 @@ fn controls() -> Controls {
 
 static SOUND: LazyLock<Runs<Controls>> = LazyLock::new(|| run_cases_here(&controls()));
 
-/// The errors under one fault, replaced by those under another.
-fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
-    changed::<Controls>(&SOUND, |_, found| {
-        let errors = found
+/// The errors under one fault in these cases, replaced by those under another.
+fn replaced_where(is_meant: impl Fn(usize) -> bool, from: Fault, to: Fault) -> Runs<Controls> {
+    changed::<Controls>(&SOUND, |index, results| {
+        let errors = results
             .iter()
             .find(|(fault, _)| *fault == from)
-            .map(|(_, errors)| *errors);
-        let target = found.iter_mut().find(|(fault, _)| *fault == to);
-        if let (Some(errors), Some((_, planted))) = (errors, target) {
+            .map(|(_, errors)| errors.clone());
+        let target = results.iter_mut().find(|(fault, _)| *fault == to);
+        if let (true, Some(errors), Some((_, planted))) = (is_meant(index), errors, target) {
             *planted = errors;
         }
     })
+}
+
+fn replaced(from: Fault, to: Fault) -> Runs<Controls> {
+    replaced_where(|_| true, from, to)
+}
+
+/// A study that decides nothing under a fault has not detected it.
+#[test]
+fn an_open_verdict_is_no_detection() {
+    let study = controls();
+    let row = &study.judge(&SOUND).tables[0].rows[7];
+    assert_eq!(row[..3], ["g1", "fail", "inconclusive"]);
+    let all_but_the_second = |index: usize| SOUND[index].case.data.study != 1;
+    let runs = replaced_where(all_but_the_second, Fault::None, Fault::Coefficient("g1"));
+    let outcome = study.judge(&runs);
+    let check = outcome
+        .checks
+        .iter()
+        .find(|check| check.claim == "g1 is detected");
+    let check = check.expect("a check of g1");
+    assert_eq!(
+        (check.verdict, check.evidence.as_str()),
+        (Verdict::Fail, "0 of 4 studies notice it")
+    );
 }
 
 #[test]
@@ -80,7 +108,7 @@ fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
         assert!(report(&outcome).contains("planted"));
         let broken = changed::<Controls>(&SOUND, |index, found| {
             for (fault, errors) in found.iter_mut().filter(|_| index == case) {
-                if *fault == Fault::None {
+                if let (Fault::None, Ok(errors)) = (*fault, errors) {
                     errors[Norm::Theorem34] = f64::NAN;
                 }
             }

@@ -1,0 +1,124 @@
+//! The pictures of one run: its displacement over space and time, its motion, and its numbers over
+//! time.
+
+use convergence_study::plots::xy::Xy;
+use convergence_study::plots::{self, Axis, Guide, Phases, Series, SpaceTime};
+
+use super::{Animation, Frames, animation, energy_at_rest, obstacle_lines};
+use crate::run::Sample;
+use crate::run::history::RunHistory;
+use crate::run::simulate::Run;
+use crate::scene::Scene;
+
+impl Run {
+    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip
+    /// displacement with the obstacles, tip rotation, energy with its limit β²/(4ρ). None if no
+    /// frames were kept.
+    pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
+        let Some(history) = self
+            .history
+            .as_ref()
+            .filter(|history| !history.frames.times.is_empty())
+        else {
+            return vec![];
+        };
+        vec![
+            ("space-time.svg", space_time(scene, &history.frames)),
+            ("motion.svg", motion(scene, &history.frames)),
+            ("tip-displacement.svg", self.displacement(scene, history)),
+            ("tip-rotation.svg", rotation(scene, history)),
+            ("energy.svg", energy(scene, history)),
+        ]
+    }
+
+    fn displacement(&self, scene: &Scene, history: &RunHistory) -> String {
+        let curve = Quantity {
+            title: "displacement of the free end",
+            axis: "displacement u(1, t)",
+            label: "u(1, t)",
+            value: |sample| sample.u_tip,
+        };
+        Xy {
+            guides: obstacle_lines(scene.obstacles),
+            phases: Phases {
+                label: "in contact".into(),
+                intervals: self.contact_phases(),
+            },
+            ..curve.over_time(scene, history)
+        }
+        .draw()
+    }
+}
+
+fn title(scene: &Scene, what: &str) -> Option<String> {
+    Some(format!("{}: {what}", scene.name))
+}
+
+fn space_time(scene: &Scene, frames: &Frames) -> String {
+    plots::space_time(&SpaceTime {
+        title: title(scene, "displacement over space and time"),
+        label: "displacement u (dimensionless)".into(),
+        times: frames.times.clone(),
+        nodes: frames.points.clone(),
+        frames: frames.u.clone(),
+    })
+}
+
+fn motion(scene: &Scene, frames: &Frames) -> String {
+    animation(&Animation {
+        title: title(scene, "the beam between its obstacles"),
+        frames: frames.clone(),
+        obstacles: scene
+            .obstacles
+            .map(|obstacles| (obstacles.g1, obstacles.g2)),
+        seconds: 20.0,
+    })
+}
+
+/// A number of each step, and its words.
+struct Quantity {
+    title: &'static str,
+    axis: &'static str,
+    label: &'static str,
+    value: fn(&Sample) -> f64,
+}
+
+impl Quantity {
+    fn over_time(&self, scene: &Scene, history: &RunHistory) -> Xy {
+        let series = [Series::new(self.label, history.over_time(self.value))];
+        let axis = Axis::linear(format!("{} (dimensionless)", self.axis));
+        Xy {
+            title: title(scene, self.title),
+            ..plots::history(axis, &series)
+        }
+    }
+}
+
+fn rotation(scene: &Scene, history: &RunHistory) -> String {
+    Quantity {
+        title: "rotation of the free end",
+        axis: "rotation φ(1, t)",
+        label: "φ(1, t)",
+        value: |sample| sample.phi_tip,
+    }
+    .over_time(scene, history)
+    .draw()
+}
+
+fn energy(scene: &Scene, history: &RunHistory) -> String {
+    let curve = Quantity {
+        title: "energy",
+        axis: "energy E",
+        label: "E",
+        value: |sample| sample.energy,
+    };
+    let at_rest = energy_at_rest(&scene.beam).map(|value| Guide {
+        label: "β²/(4ρ)".into(),
+        value,
+    });
+    Xy {
+        guides: at_rest.into_iter().collect(),
+        ..curve.over_time(scene, history)
+    }
+    .draw()
+}

@@ -1,0 +1,72 @@
+//! The planted faults, and what each changes.
+
+use crate::exact::defect::Defect;
+use crate::kinds::prelude::*;
+
+/// The fault of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fault {
+    /// Nothing.
+    None,
+    /// A coefficient of the solver.
+    Coefficient(&'static str),
+    /// The sources.
+    Defect(Defect),
+}
+
+/// What a run is given in place of the study's own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Planted {
+    /// The solver's coefficients.
+    pub solver: Coefficients,
+    /// The mistake in the sources.
+    pub defect: Option<Defect>,
+}
+
+impl Fault {
+    /// No fault at all, then each coefficient and each defect.
+    pub(super) fn all() -> Vec<Self> {
+        let defects = Defect::ALL.map(|(defect, _)| Fault::Defect(defect));
+        [Fault::None]
+            .into_iter()
+            .chain(Coefficients::names().map(Fault::Coefficient))
+            .chain(defects)
+            .collect()
+    }
+
+    /// In words.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Fault::None => "none",
+            Fault::Coefficient(key) => key,
+            Fault::Defect(defect) => defect.name(),
+        }
+    }
+
+    /// What the fault changes; `None` if the study lacks what is wrong, or it is zero.
+    ///
+    /// * `theory`: coefficients from which the sources are derived.
+    /// * `relative`: relative error of a coefficient.
+    pub(super) fn plant(self, theory: Coefficients, relative: f64) -> Option<Planted> {
+        let solver = match self {
+            Fault::Coefficient(key) => theory.off(key, relative)?,
+            Fault::None | Fault::Defect(_) => theory,
+        };
+        let defect = match self {
+            Fault::Defect(defect) if defect.applies(&theory.beam, theory.obstacles.as_ref()) => {
+                Some(defect)
+            }
+            Fault::Defect(_) => return None,
+            Fault::None | Fault::Coefficient(_) => None,
+        };
+        Some(Planted { solver, defect })
+    }
+}
+
+/// In words, what a relative error is.
+pub(super) const RELATIVE: &str = "a number between 0 and 1";
+
+/// A relative error of a coefficient.
+pub(super) fn relative(field: &Field<'_>) -> Result<f64, InputError> {
+    field.number_where(RELATIVE, |r| r > 0.0 && r < 1.0)
+}

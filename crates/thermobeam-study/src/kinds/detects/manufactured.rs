@@ -1,0 +1,72 @@
+//! Faults in studies of manufactured solutions, by one-step schemes.
+
+use super::fault::{Fault, Planted, RELATIVE, relative};
+use super::matrix::{Detects, Needed};
+use super::plantable::Plantable;
+use crate::kinds::orders::Orders;
+use crate::kinds::orders::manufactured::{Convergence, Prepared};
+use crate::kinds::prelude::*;
+
+impl Plantable for Convergence {
+    /// The space vectors of a mesh.
+    type Shared<'a> = Prepared<'a>;
+
+    fn theory(&self) -> Coefficients {
+        self.theory
+    }
+
+    fn share(&self, &(elements, _): &(usize, usize)) -> Result<Prepared<'_>, CaseFailure> {
+        Ok(Prepared::new(self, elements)?)
+    }
+
+    fn run_planted(
+        shared: &mut Prepared<'_>,
+        &(_, steps): &(usize, usize),
+        planted: Planted,
+    ) -> Result<Norms, CaseFailure> {
+        shared.run(steps, planted.solver, planted.defect)
+    }
+
+    fn errors(errors: &Norms) -> Vec<(&'static str, f64)> {
+        errors
+            .iter()
+            .map(|(norm, error)| (norm.name(), error))
+            .collect()
+    }
+}
+
+impl FromFile for Detects<Convergence> {
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        let section = root.table("controls", &["relative", "studies", "elements"])?;
+        Ok(Self {
+            relative: relative(&section.require("relative", RELATIVE)?)?,
+            studies: named_studies(&section, folder)?,
+            faults: Fault::all(),
+            needed: Needed::One,
+        })
+    }
+}
+
+/// The studies that a section names, with the section's own levels if it has any.
+pub(super) fn named_studies(
+    section: &Section<'_>,
+    folder: &Path,
+) -> Result<Vec<Described<Orders<Convergence>>>, InputError> {
+    let file = |item: &Field<'_>| Described::<Orders<Convergence>>::read(item.file(folder)?);
+    let allowed = "a list of at least one study file beside this one";
+    let mut studies = section.list("studies", allowed, file, |list| !list.is_empty())?;
+    if section.get("elements").is_some() {
+        let levels = section.list(
+            "elements",
+            "a list of numbers of elements",
+            tables::elements,
+            |_| true,
+        )?;
+        if !levels.is_empty() {
+            studies
+                .iter_mut()
+                .for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
+        }
+    }
+    Ok(studies)
+}

@@ -1,0 +1,76 @@
+//! Planted faults: solver or sources are wrong on purpose, and a convergence study must fail.
+//!
+//! A check that cannot fail proves nothing. The study file asks its question by one of three
+//! tables:
+//!
+//! | table | question |
+//! | --- | --- |
+//! | `[controls]` | does some study fail for each coefficient with a given relative error, and for each defect of the sources? |
+//! | `[any-order]` | the same for studies of kind orders/any-order: does each fail for every coefficient and defect named? |
+//! | `[sensitivity]` | what is the smallest relative error of each coefficient for which a study fails? |
+//!
+//! And of any study that passes `untested` says which coefficients it does not test, by the same
+//! means.
+//!
+//! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while
+//! the sources keep the exact one; each [`Defect`] in turn is planted in the sources. Sources and
+//! solver share no function, so it stands for the same mistake in the solver. Without a fault every
+//! study must pass, since otherwise its failures would prove nothing.
+//!
+//! ```toml
+//! [controls]
+//! relative = 1e-4
+//! studies = ["theorem-3.4-space.toml"]    # files beside this one
+//! elements = [64, 128, 256]               # optional: levels in place of the studies' own
+//! ```
+
+mod any_order;
+mod fault;
+mod manufactured;
+mod matrix;
+mod plantable;
+mod smallest;
+pub(super) mod untested;
+
+pub use fault::{Fault, Planted};
+pub use matrix::{Detects, RunOf, UnderFaults};
+pub use plantable::Plantable;
+pub use smallest::Sensitivity;
+
+use super::orders::any_order::AnyOrder;
+use super::orders::manufactured::Convergence;
+use super::prelude::*;
+use crate::kinds::settings::has_table;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "detects",
+    read,
+    why: "A check that cannot fail proves nothing. Each coefficient of the solver in turn is put off a little from that of the \
+          sources, and each defect in turn is planted in the sources. A study that guards a coefficient detects an error in it \
+          from some size on; bisection finds that size.",
+    judged: "Every fault must make at least one of the studies fail; without a fault, all of them must pass. Of every \
+             coefficient some study must detect a relative error as small as the file says.",
+    failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
+              levels or its tolerance has grown.",
+    settings: |header, item| {
+        let is_any_order = has_table(header, "any-order.");
+        let method = if is_any_order {
+            ItemMethod::AnyOrder
+        } else {
+            ItemMethod::OneStep
+        };
+        Topic::of_solution(header, method).settings(header, item)
+    },
+};
+
+/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
+/// the file.
+fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
+    let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
+    match only_table(root, ["controls", "any-order", "sensitivity"], allowed)? {
+        "controls" => reader::<Detects<Convergence>>(header, root, folder),
+        "any-order" => reader::<Detects<AnyOrder>>(header, root, folder),
+        _ => reader::<Sensitivity>(header, root, folder),
+    }
+}

@@ -1,0 +1,103 @@
+//! Studies into which faults can be planted, and the runs of such a study with a fault.
+
+use super::fault::{Fault, Planted};
+use crate::kinds::orders::{Runs, Series, Source};
+use crate::kinds::prelude::*;
+
+/// A study of orders whose solver or sources can be wrong on purpose.
+pub trait Plantable: Source<Found: Clone> {
+    /// What the runs of a case share, whatever is planted.
+    type Shared<'a>
+    where
+        Self: 'a;
+
+    /// Coefficients from which the sources are derived.
+    fn theory(&self) -> Coefficients;
+
+    /// Computes what the runs of a case share.
+    ///
+    /// # Errors
+    /// [`CaseFailure`]: the case cannot be set up, whatever is planted.
+    fn share<'a>(&'a self, data: &Self::Data) -> Result<Self::Shared<'a>, CaseFailure>;
+
+    /// Runs a case with a fault.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] with the solver's message.
+    fn run_planted(
+        shared: &mut Self::Shared<'_>,
+        data: &Self::Data,
+        planted: Planted,
+    ) -> Result<Self::Found, CaseFailure>;
+
+    /// The errors of a run, each with its name.
+    fn errors(found: &Self::Found) -> Vec<(&'static str, f64)>;
+}
+
+/// The verdict of a study on the results of its cases.
+pub(super) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
+    let is_complete = |run: &Ran<S::Data, S::Found>| {
+        run.ok()
+            .is_some_and(|found| source.not_finite(found).is_empty())
+    };
+    if !runs.iter().all(is_complete) {
+        return Verdict::Fail;
+    }
+    let measured = source.measured(runs);
+    let checks = measured.checks.iter().map(|check| check.verdict);
+    let claimed = measured.series.iter().filter(|series| series.is_claimed);
+    Verdict::worst(checks.chain(claimed.map(Series::verdict)))
+}
+
+/// A case of a study, and what its runs share.
+struct Prepared<'a, S: Plantable + 'a> {
+    case: Case<S::Data>,
+    shared: S::Shared<'a>,
+}
+
+/// All cases of a study, prepared once for runs with many faults.
+pub(super) struct Detector<'a, S: Plantable> {
+    study: &'a S,
+    cases: Vec<Prepared<'a, S>>,
+}
+
+impl<'a, S: Plantable> Detector<'a, S> {
+    /// # Errors
+    /// [`CaseFailure`]: a case cannot be set up.
+    pub(super) fn new(study: &'a S) -> Result<Self, CaseFailure> {
+        let prepare = |case: Case<S::Data>| {
+            let shared = study.share(&case.data)?;
+            Ok(Prepared { case, shared })
+        };
+        let cases = study.cases().into_iter().map(prepare);
+        Ok(Self {
+            study,
+            cases: cases.collect::<Result<_, CaseFailure>>()?,
+        })
+    }
+
+    /// The results of all cases without a fault.
+    pub(super) fn without_a_fault(&mut self) -> Vec<Ran<S::Data, S::Found>> {
+        self.run(Planted {
+            solver: self.study.theory(),
+            defect: None,
+        })
+    }
+
+    /// The results of all cases with a fault.
+    fn run(&mut self, planted: Planted) -> Vec<Ran<S::Data, S::Found>> {
+        let run = |Prepared { case, shared }: &mut Prepared<'_, S>| Ran {
+            case: case.clone(),
+            found: S::run_planted(shared, &case.data, planted),
+        };
+        self.cases.iter_mut().map(run).collect()
+    }
+
+    /// Whether the study fails with a relative error in a coefficient; a run that breaks down is a
+    /// failure. `None` if the study lacks the coefficient, or it is zero.
+    pub(super) fn detects(&mut self, key: &'static str, relative: f64) -> Option<bool> {
+        let planted = Fault::Coefficient(key).plant(self.study.theory(), relative)?;
+        let ran = self.run(planted);
+        Some(verdict(self.study, &ran) == Verdict::Fail)
+    }
+}

@@ -1,0 +1,79 @@
+//! What a study that passes does not test.
+
+use super::plantable::{Detector, Plantable, verdict};
+use crate::kinds::prelude::*;
+
+/// Relative error of a coefficient that a study testing it must notice.
+const OFF: f64 = 1e-4;
+
+/// Errors that are round-off on every level.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What a study that passes does not test: coefficients whose error it would miss, and quantities
+/// without any error. The study is repeated with a small error in each coefficient of the solver;
+/// if it still passes, it does not test that coefficient.
+///
+/// * `range_of_the_tip`: smallest and largest u(1, t) of the exact solution.
+/// * Returns nothing if the study fails.
+pub(in crate::kinds) fn untested<S: Plantable>(
+    study: &S,
+    range_of_the_tip: impl Fn() -> [f64; 2],
+) -> Vec<Untested> {
+    let Ok(mut detector) = Detector::new(study) else {
+        return vec![];
+    };
+    let honest = detector.without_a_fault();
+    if !verdict(study, &honest).is_pass() {
+        return vec![];
+    }
+    let theory = study.theory();
+    let mut untested = vec![];
+    for key in Coefficients::names() {
+        let why = match detector.detects(key, OFF) {
+            Some(true) => continue,
+            Some(false) => contact(theory.obstacles, key, range_of_the_tip())
+                .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
+            None if tables::OBSTACLE_KEYS.contains(&key) && theory.obstacles.is_none() => {
+                "there are no obstacles".to_owned()
+            }
+            None => "it is zero".to_owned(),
+        };
+        untested.push(Untested {
+            what: key.to_owned(),
+            why,
+        });
+    }
+    untested.extend(without_error::<S>(&honest));
+    untested
+}
+
+/// Quantities whose error is round-off in every run.
+fn without_error<S: Plantable>(ran: &[Ran<S::Data, S::Found>]) -> Vec<Untested> {
+    let errors: Vec<Vec<(&str, f64)>> = ran.iter().filter_map(Ran::ok).map(S::errors).collect();
+    let names = errors.first().into_iter().flatten().map(|(name, _)| *name);
+    let is_exact = |name: &&str| {
+        let own = errors.iter().flatten().filter(|(other, _)| other == name);
+        own.map(|(_, error)| *error).fold(0.0, max_or_nan) <= ROUND_OFF
+    };
+    names
+        .filter(is_exact)
+        .map(|name| Untested {
+            what: name.to_owned(),
+            why: "its error is round-off on every level: the solution lies in the space of the scheme"
+                .to_owned(),
+        })
+        .collect()
+}
+
+/// Why an obstacle has no effect; `None` for other coefficients, and if the free end touches it.
+fn contact(obstacles: Option<Obstacles>, key: &str, [low, high]: [f64; 2]) -> Option<String> {
+    let Obstacles { g1, g2, .. } = obstacles?;
+    match key {
+        "g1" if low >= g1 => Some(format!("the free end stays above it: u(1) >= {low:.4}")),
+        "g2" if high <= g2 => Some(format!("the free end stays below it: u(1) <= {high:.4}")),
+        "epsilon" if low >= g1 && high <= g2 => Some(format!(
+            "the free end touches nothing: {low:.4} <= u(1) <= {high:.4}"
+        )),
+        _ => None,
+    }
+}

@@ -1,0 +1,140 @@
+//! The linearised fixed point from dense matrices of (4.2), and the solver's own linear map against
+//! it.
+
+use super::scenes::graded;
+use crate::p1_matrices::P1Matrices;
+use nalgebra::{DMatrix, DVector};
+use thermobeam::norms::max_or_nan;
+use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::scheme::{SCHEMES, Scheme};
+use thermobeam::simulation::{Initial, Problem};
+
+/// The linearised iteration from dense matrices of (4.2), and three of its loops alone.
+pub(super) struct DenseIteration {
+    /// All four loops, over (δV, δW).
+    pub(super) all: DMatrix<f64>,
+    /// Over δW.
+    pub(super) heat: DMatrix<f64>,
+    /// Over δV.
+    pub(super) contact: DMatrix<f64>,
+    /// Over δV.
+    pub(super) axial: DMatrix<f64>,
+}
+
+pub(super) fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
+    let values = matrix.complex_eigenvalues();
+    values
+        .iter()
+        .map(|value| value.norm())
+        .fold(0.0, max_or_nan)
+}
+
+/// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial
+/// force; the problem's u is both the old and the new level.
+pub(super) fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DenseIteration {
+    let P1Matrices {
+        mass: m,
+        stiffness: k,
+        coupling: c,
+        ..
+    } = P1Matrices::new(&problem.mesh);
+    let Problem {
+        beam,
+        obstacles,
+        initial,
+        ..
+    } = problem;
+    let n = m.nrows();
+    let (kappa, s) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
+    let u = DVector::from_column_slice(&initial.u[1..]);
+    let bent = &k * &u;
+    let axial_force = beam.beta + beam.rho * u.dot(&bent);
+    // θ vanishes at the free end too.
+    let of_theta = (&m * (2.0 / dt) + &k)
+        .view((0, 0), (n - 1, n - 1))
+        .into_owned();
+    let of_phi = (&m * (kappa + s) + &k * s).lu();
+    let of_u = (&m * kappa + &k * (s + 0.5 * dt * axial_force)).lu();
+    let theta_of_w = of_theta
+        .lu()
+        .solve(&(c.transpose().rows(0, n - 1) * -beam.a))
+        .unwrap();
+    let phi_of_v = of_phi.solve(&(c.transpose() * s)).unwrap();
+    let heat = of_phi
+        .solve(&(c.columns(0, n - 1) * theta_of_w * beam.a))
+        .unwrap();
+    let touches = |obstacles: &Obstacles| u[n - 1] > obstacles.g2 || u[n - 1] < obstacles.g1;
+    let slope = obstacles
+        .filter(touches)
+        .map_or(0.0, |obstacles| 1.0 / (scheme.inertia * obstacles.epsilon));
+    let mut force = DMatrix::zeros(n, n);
+    force[(n - 1, n - 1)] = dt * slope;
+    let contact = of_u.solve(&force).unwrap();
+    let axial = of_u
+        .solve(&(&bent * bent.transpose() * (beam.rho * dt)))
+        .unwrap();
+    let u_of_phi = of_u.solve(&(&c * s)).unwrap();
+    let mut all = DMatrix::zeros(2 * n, 2 * n);
+    all.view_mut((0, 0), (n, n))
+        .copy_from(&(&u_of_phi * &phi_of_v - &contact - &axial));
+    all.view_mut((0, n), (n, n)).copy_from(&(&u_of_phi * &heat));
+    all.view_mut((n, 0), (n, n)).copy_from(&phi_of_v);
+    all.view_mut((n, n), (n, n)).copy_from(&heat);
+    DenseIteration {
+        all,
+        heat,
+        contact,
+        axial,
+    }
+}
+
+/// All loops at once, on a graded mesh: contact, rotation, heat and axial force.
+fn coupled(scheme: &Scheme) -> Problem {
+    let mesh = graded(10);
+    let mut initial = Initial::at_rest(&mesh, 0.0);
+    initial.u = mesh.nodes().iter().map(|x| 0.15 * x * x).collect();
+    let beam = Beam {
+        a: 3.0,
+        rho: 500.0,
+        beta: 0.3,
+        ..Beam::default()
+    };
+    let epsilon = 2e-3 / scheme.inertia;
+    Problem {
+        beam,
+        obstacles: Some(Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        }),
+        mesh,
+        initial,
+    }
+}
+
+#[test]
+fn the_linearised_iteration_is_the_dense_matrix() {
+    for scheme in SCHEMES {
+        let (problem, dt) = (coupled(&scheme), 3e-3);
+        let expected = dense_iteration(&problem, &scheme, dt).all;
+        let mut map = problem
+            .case(scheme, dt)
+            .linearized_iteration(&problem.initial.u)
+            .unwrap();
+        let n = map.elements();
+        for column in 0..2 * n {
+            let mut errors = [vec![0.0; n + 1], vec![0.0; n + 1]];
+            errors[column / n][1 + column % n] = 1.0;
+            let [v, w] = &mut errors;
+            map.apply(v, w);
+            for row in 0..2 * n {
+                let found = errors[row / n][1 + row % n];
+                let difference = (found - expected[(row, column)]).abs();
+                assert!(
+                    difference <= 1e-12 * expected.amax(),
+                    "{}: {row}, {column}: {found}",
+                    scheme.name
+                );
+            }
+        }
+    }
+}

@@ -63,7 +63,7 @@ const FREQUENCIES: &str = r#"
 id = "frequencies"
 claim = "Frequencies converge at second order"
 tier = "quick"
-kind = "frequencies"
+kind = "orders/frequencies"
 
 [frequencies]
 count = 4
@@ -77,7 +77,7 @@ const ENERGY: &str = r#"
 id = "energy"
 claim = "The energy never rises, and its balance closes"
 tier = "quick"
-kind = "energy"
+kind = "runs/energy"
 
 [energy]
 scenes = ["scenes/paper-1-beta-0.toml", "scenes/paper-1-beta-5.toml"]
@@ -96,7 +96,7 @@ const CONTROLS: &str = r#"
 id = "controls"
 claim = "Each fault is noticed"
 tier = "quick"
-kind = "controls"
+kind = "detects"
 
 [controls]
 relative = 1e-2

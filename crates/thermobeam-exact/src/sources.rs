@@ -23,7 +23,7 @@ use crate::defect::{Defect, axial_force_with, contact_with};
 use crate::formulas::{SchemeFormulas, contact_force};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, FieldFactors, Manufactured, Product};
-use term::{Term, TimeWeights};
+use term::{Term, Terms};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -187,27 +187,6 @@ impl Sources {
         gram: Vec<f64>,
         tip_index: usize,
     ) -> Self {
-        let mut terms = vec![];
-        let mut add = |equation, product, weights, vector| {
-            terms.push(Term {
-                equation,
-                product,
-                weights,
-                vector,
-            });
-        };
-        let value = TimeWeights::VALUE;
-        let rate = TimeWeights::RATE;
-        let inertia = TimeWeights::ACCELERATION;
-        // T + ζ T' and (1 + N) T + ζ T'.
-        let damped = TimeWeights {
-            rate: beam.zeta,
-            ..TimeWeights::VALUE
-        };
-        let tension = TimeWeights {
-            has_axial_force: true,
-            ..damped
-        };
         let all =
             |products: &[Product]| products.iter().map(&vectors).collect::<Vec<[Vectors; 3]>>();
         let (u, phi) = (all(&exact.u), all(&exact.phi));
@@ -222,34 +201,19 @@ impl Sources {
             phi.iter().map(|[vectors, ..]| vectors.tip).collect(),
             slopes(&phi),
         ];
-        let scaled =
-            |factor: f64, vector: &[f64]| vector.iter().map(|s| factor * s).collect::<Vec<f64>>();
-        for (j, [in_u, in_phi, _]) in u.iter().enumerate() {
-            add(0, [0, j], inertia, in_u.value.clone());
-            add(0, [0, j], tension, in_u.curvature.clone());
-            add(1, [0, j], damped, scaled(-1.0, &in_phi.slope));
+        let mut terms = Terms::new(beam);
+        for (j, vectors) in u.iter().enumerate() {
+            terms.add_displacement(j, vectors);
         }
-        for (k, [in_u, in_phi, in_theta]) in phi.iter().enumerate() {
-            let turned = in_phi
-                .curvature
-                .iter()
-                .zip(&in_phi.value)
-                .map(|(c, y)| c + y)
-                .collect();
-            add(1, [1, k], damped, turned);
-            add(1, [1, k], inertia, in_phi.value.clone());
-            add(2, [1, k], rate, scaled(beam.a, &in_theta.slope));
-            add(0, [1, k], damped, in_u.slope.clone());
+        for (k, vectors) in phi.iter().enumerate() {
+            terms.add_rotation(k, vectors);
         }
-        for (l, [_, in_phi, in_theta]) in all(&exact.theta).iter().enumerate() {
-            add(1, [2, l], value, scaled(beam.a, &in_phi.slope));
-            // The test functions of θ vanish at both ends: no boundary load.
-            add(2, [2, l], value, in_theta.curvature.clone());
-            add(2, [2, l], rate, in_theta.value.clone());
+        for (l, vectors) in all(&exact.theta).iter().enumerate() {
+            terms.add_temperature(l, vectors);
         }
         Self {
             beam: *beam,
-            terms,
+            terms: terms.list,
             gram,
             tip,
             tip_index,

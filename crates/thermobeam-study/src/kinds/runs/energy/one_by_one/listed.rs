@@ -46,24 +46,12 @@ pub(super) fn runs(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun
         |item| Scene::read(item.file(folder)?),
         |_| true,
     )?;
-    let mut beams = vec![];
-    for scene in scenes {
-        let mesh = mesh.clone();
-        beams.push((
-            scene.name.clone(),
-            simulate::problem(&Scene { mesh, ..scene }),
-        ));
-    }
-    let of_scenes = beams.len();
-    for k in 0..random as u64 {
-        beams.push((format!("random-{k}"), smooth(&mesh, seed.wrapping_add(k))));
-    }
     let mut runs = vec![];
-    for (k, (name, problem)) in beams.into_iter().enumerate() {
+    for beam in beams(scenes, &mesh, random as u64, seed) {
         for &scheme in &schemes {
             runs.push(EnergyRun {
-                name: format!("{name}, {}", scheme.name),
-                problem: problem.clone(),
+                name: format!("{}, {}", beam.name, scheme.name),
+                problem: beam.problem.clone(),
                 stepping: Stepping {
                     scheme,
                     settings: solved(Settings::default()),
@@ -77,11 +65,40 @@ pub(super) fn runs(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun
                 drift: None,
                 is_bounded: false,
                 // Random beams and further schemes would crowd the figures.
-                is_drawn: k < of_scenes && scheme == schemes[0],
+                is_drawn: beam.is_scene && scheme == schemes[0],
             });
         }
     }
     Ok(runs)
+}
+
+/// A beam of the table, on its mesh.
+struct EnergyBeam {
+    name: String,
+    problem: Problem,
+    /// Whether a scene has it; otherwise its coefficients are random.
+    is_scene: bool,
+}
+
+/// The beams of the scenes, then the random ones.
+fn beams(scenes: Vec<Scene>, mesh: &Mesh, random: u64, seed: u64) -> Vec<EnergyBeam> {
+    let mut beams = vec![];
+    for scene in scenes {
+        let mesh = mesh.clone();
+        beams.push(EnergyBeam {
+            name: scene.name.clone(),
+            problem: simulate::problem(&Scene { mesh, ..scene }),
+            is_scene: true,
+        });
+    }
+    for k in 0..random {
+        beams.push(EnergyBeam {
+            name: format!("random-{k}"),
+            problem: smooth(mesh, seed.wrapping_add(k)),
+            is_scene: false,
+        });
+    }
+    beams
 }
 
 /// A number that may be left out, which is 0.

@@ -7,9 +7,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use convergence_calibration::kind;
-use convergence_study::cli::{command_line, ended};
-use convergence_study::project::Project;
-use convergence_study::study::KindRow;
+use convergence_harness::cli::{command_line, ended};
+use convergence_harness::project::Project;
+use convergence_harness::study::KindRow;
 use thermobeam_cli::{GROUPS, project};
 use thermobeam_study::kinds::{KINDS, settings};
 
@@ -70,7 +70,7 @@ fn main() -> ExitCode {
 mod tests {
     use std::path::Path;
 
-    use convergence_study::cli::{explain, workspace};
+    use convergence_harness::cli::{explain, workspace};
 
     use super::PROJECT;
 

@@ -14,13 +14,13 @@ mod planted;
 use std::io;
 use std::path::Path;
 
-use convergence_study::cli::exit::{self, Outcome, Unusable};
-use convergence_study::cli::running::LongRun;
-use convergence_study::cli::{screen, workspace};
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::report;
-use convergence_study::store::atomic;
-use convergence_study::study::outcome::Table;
+use convergence_harness::cli::exit::{self, Outcome, Unusable};
+use convergence_harness::cli::running::LongRun;
+use convergence_harness::cli::{screen, workspace};
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::report;
+use convergence_harness::store::atomic;
+use convergence_harness::study::outcome::Table;
 
 use judged::Judged;
 use list::Regression;

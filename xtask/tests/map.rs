@@ -74,7 +74,7 @@ fn every_file_is_on_the_map() {
     for (sources, least) in [
         ("crates/thermobeam/src", 10),
         ("crates/thermobeam-exact/src", 5),
-        ("crates/convergence-study/src", 10),
+        ("crates/convergence-harness/src", 10),
         ("crates/thermobeam-study/src", 6),
         ("crates/thermobeam-cli/src", 6),
         ("xtask/src", 1),

@@ -8,13 +8,13 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::project::Project;
-use convergence_study::run::{Finished, Item, not_passed, run};
-use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, diagnose};
-use convergence_study::store::{Baseline, Change};
-use convergence_study::study::outcome::settle;
-use convergence_study::study::{Study, StudyFile};
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::project::Project;
+use convergence_harness::run::{Finished, Item, not_passed, run};
+use convergence_harness::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, diagnose};
+use convergence_harness::store::{Baseline, Change};
+use convergence_harness::study::outcome::settle;
+use convergence_harness::study::{Study, StudyFile};
 use serde_json::Value;
 
 /// The keys of texts for people, in a study as JSON.

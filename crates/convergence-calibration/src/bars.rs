@@ -1,9 +1,9 @@
 //! Error bars of values whose limit is known: how often they hold the error, alongside the grid
 //! convergence index.
 
-use convergence_study::judge::fit::Level;
-use convergence_study::judge::richardson::{Estimator, Value};
-use convergence_study::judge::verdict::FEWEST_LEVELS;
+use convergence_harness::judge::fit::Level;
+use convergence_harness::judge::richardson::{Estimator, Value};
+use convergence_harness::judge::verdict::FEWEST_LEVELS;
 
 use crate::draw::{CalibrationError, Draw};
 use crate::intervals::{ALL, LEVEL_COUNTS, is_declared, steps};

@@ -1,7 +1,9 @@
 //! Claims other than an order, and wrong claims that few levels or a wrong limit suggest.
 
-use convergence_study::judge::claims;
-use convergence_study::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reason, Verdict};
+use convergence_harness::judge::claims;
+use convergence_harness::judge::verdict::{
+    DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reason, Verdict,
+};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{hidden_term, three_terms, wrong_limit};

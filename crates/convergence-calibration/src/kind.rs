@@ -16,11 +16,11 @@
 
 use std::path::Path;
 
-use convergence_study::input::{InputError, Section};
-use convergence_study::plots;
-use convergence_study::plots::xy::Xy;
-use convergence_study::study::kind::completion;
-use convergence_study::study::{
+use convergence_harness::input::{InputError, Section};
+use convergence_harness::plots;
+use convergence_harness::plots::xy::Xy;
+use convergence_harness::study::kind::completion;
+use convergence_harness::study::{
     Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
     Subject, Table, header, reader,
 };

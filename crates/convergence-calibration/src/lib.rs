@@ -71,7 +71,7 @@ pub mod rules;
 mod shapes;
 pub mod sheet;
 
-use convergence_study::judge::verdict::{Judge, JudgeError};
+use convergence_harness::judge::verdict::{Judge, JudgeError};
 
 use claims::{limits, other_claims, three};
 use draw::Draw;

@@ -1,8 +1,8 @@
 //! This rule next to those that people use, and with levels added: wrong and true claims, and
 //! hidden terms.
 
-use convergence_study::judge::fit::{Level, fit_line, pairwise_rates};
-use convergence_study::judge::verdict::{
+use convergence_harness::judge::fit::{Level, fit_line, pairwise_rates};
+use convergence_harness::judge::verdict::{
     DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading, Verdict,
 };
 

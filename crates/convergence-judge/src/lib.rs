@@ -1,13 +1,11 @@
-//! The judge of `convergence-study`: from steps and errors to a rate with an interval, and from a
-//! rate and a claim to a verdict.
-//!
-//! [`judge`] is the rule; it writes numbers with [`text`], and cases ask [`time_limit`] for the
-//! time left. `convergence-study` re-exports all three. It is a crate of its own because only this
-//! part is worth optimising: the rest of the harness reads, draws and writes.
+#![doc = include_str!("../README.md")]
 
+#[doc(hidden)]
 pub mod time_limit;
 
-/// From steps and errors to a rate with an interval, and from a rate and a claim to a verdict.
+/// From steps and errors to a rate with an interval, and from a rate and a claim to a verdict: all
+/// items, for the harness; the root of the crate has those for users.
+#[doc(hidden)]
 pub mod judge {
     pub mod claims;
     pub mod fit;
@@ -18,7 +16,8 @@ pub mod judge {
     pub mod verdict;
 }
 
-/// Numbers, columns and names as text.
+/// Numbers, columns and names as text, for the harness.
+#[doc(hidden)]
 pub mod text {
     pub mod columns;
     pub mod json;
@@ -28,3 +27,18 @@ pub mod text {
     pub mod number;
     pub mod visible;
 }
+
+#[doc = include_str!("judge/verdict/RULE.md")]
+pub mod rule {}
+
+#[doc(inline)]
+pub use judge::{
+    claims::Claim,
+    fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
+    grid::{Adding, GridErrors},
+    richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},
+    verdict::{
+        Aside, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, JudgeError, Level, PowerLaw,
+        RateVerdict, Reading, Reason, SetAside, Verdict, WIDEST_TOLERANCE, judge, judge_pairs,
+    },
+};

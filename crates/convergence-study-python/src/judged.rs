@@ -1,12 +1,12 @@
 //! Judges tables of errors.
 
-use convergence_study::input::error_table::{Choice, RateTable};
-use convergence_study::judge::fit::Level;
-use convergence_study::judge::richardson::{Estimate, Estimator, Value};
-use convergence_study::judge::shown::{self, Shown};
-use convergence_study::judge::verdict::RateVerdict;
-use convergence_study::study::levels::{ErrorColumn, Levels};
-use convergence_study::study::{Axis, Claim, Refinement};
+use convergence_harness::input::error_table::{Choice, RateTable};
+use convergence_harness::judge::fit::Level;
+use convergence_harness::judge::richardson::{Estimate, Estimator, Value};
+use convergence_harness::judge::shown::{self, Shown};
+use convergence_harness::judge::verdict::RateVerdict;
+use convergence_harness::study::over_levels::{ErrorColumn, Levels};
+use convergence_harness::study::{Axis, Claim, Refinement};
 use pyo3::exceptions::{PyAssertionError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

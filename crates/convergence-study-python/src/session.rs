@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::project::Project;
-use convergence_study::run::{self, Finished};
-use convergence_study::store::{Baseline, Record, atomic};
-use convergence_study::verify;
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::project::Project;
+use convergence_harness::run::{self, Finished};
+use convergence_harness::store::{Baseline, Record, atomic};
+use convergence_harness::verify;
 use pyo3::prelude::*;
 
 use crate::studied::Study;

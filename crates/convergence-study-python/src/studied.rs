@@ -4,14 +4,14 @@ use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use convergence_study::program;
-use convergence_study::run::Finished;
-use convergence_study::study::until_decided::{self, FIRST, Next};
-use convergence_study::study::{
+use convergence_harness::program;
+use convergence_harness::run::Finished;
+use convergence_harness::study::until_decided::{self, FIRST, Next};
+use convergence_harness::study::{
     Claim, ErrorsOverLevels, Header, Kind, NamedErrors, STEPS, header::is_name, levels,
     run_cases_here,
 };
-use convergence_study::verify;
+use convergence_harness::verify;
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -230,7 +230,7 @@ pub(crate) fn of_table(
     Ok(Study {
         finished: py.detach(|| {
             study
-                .counting("level", convergence_study::study::Axis::Space)
+                .counting("level", convergence_harness::study::Axis::Space)
                 .run()
         }),
     })

@@ -1,8 +1,8 @@
 //! Converts Python values to Rust; an invalid value is a `ValueError` that names the argument.
 
-use convergence_study::judge::claims::{Claim, order_from_text};
-use convergence_study::judge::fit::Level;
-use convergence_study::judge::verdict::Judge;
+use convergence_harness::judge::claims::{Claim, order_from_text};
+use convergence_harness::judge::fit::Level;
+use convergence_harness::judge::verdict::Judge;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};

@@ -3,11 +3,7 @@
 
 use std::{env, error::Error, f64::consts::PI, path::Path};
 
-use convergence_study::project::Project;
-use convergence_study::run::Finished;
-use convergence_study::study::{Header, levels};
-use convergence_study::text::number::max_or_nan;
-use convergence_study::verify::{VerificationError, report};
+use convergence_study::{Finished, Header, Project, VerificationError, levels, report};
 
 /// The errors at t = 1/8 on n cells; the exact solution is exp(-π² t) sin(π x).
 fn errors(n: usize) -> [(&'static str, f64); 2] {
@@ -21,7 +17,13 @@ fn errors(n: usize) -> [(&'static str, f64); 2] {
     let mean_square = (0..=n).map(|i| h * error(i).powi(2)).sum::<f64>().sqrt();
     [
         ("mean square", mean_square),
-        ("maximum", (0..=n).map(error).fold(0.0, max_or_nan)),
+        (
+            "maximum",
+            (0..=n)
+                .map(error)
+                .max_by(f64::total_cmp)
+                .unwrap_or(f64::NAN),
+        ),
     ]
 }
 
@@ -58,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 #[cfg(test)]
 mod tests {
     use super::run;
-    use convergence_study::judge::verdict::Verdict;
+    use convergence_study::Verdict;
 
     #[test]
     fn the_report_says_that_the_scheme_is_of_second_order() {

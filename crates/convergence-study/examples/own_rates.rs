@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p convergence-study --example own_rates`
 
-use convergence_study::judge::verdict::{RateVerdict, Verdict, judge_pairs};
+use convergence_study::{RateVerdict, Verdict, judge_pairs};
 
 /// A formula for the integral over an interval of midpoint m and width h.
 type Formula = fn(f64, f64) -> f64;

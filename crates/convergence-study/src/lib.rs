@@ -2,11 +2,10 @@
 //!
 //! # In a test
 //!
-//! [`assert_order`] judges existing errors; [`levels()`](levels()) makes a study of a function that
-//! computes them.
+//! [`assert_order`] judges errors that exist; [`levels`] makes a study of a function that computes
+//! them. The midpoint rule is of second order, and passes:
 //!
 //! ```
-//! // The midpoint rule for the integral of exp: of second order.
 //! let error = |n: usize| {
 //!     let h = 1.0 / n as f64;
 //!     let sum: f64 = (0..n).map(|i| h * ((i as f64 + 0.5) * h).exp()).sum();
@@ -15,56 +14,89 @@
 //! convergence_study::levels([4, 8, 16, 32, 64], error).claim("error", 2.0).assert_passes();
 //! ```
 //!
-//! [`judge`] is the rule: it knows neither norm nor scheme, only steps and errors.
-//! [`report`](verify::report) writes the report on a study that has run: see the example
-//! `heat_equation` and the README.
+//! A table that does not have the claimed order fails, with the rate, its interval and the reason:
 //!
-//! # From a file to a report
+//! ```
+//! use convergence_study::{Reason, Verdict, judge_pairs};
 //!
-//! ```text
-//! TOML ── StudyFile::read ──> Study ── run::run ──> Finished ── baseline, record, junit, report ──> verify
-//!           input               cases     threads      Outcome
+//! let h = [0.25, 0.125, 0.0625, 0.03125, 0.015625];
+//! let errors = h.map(|h| (h, 0.3 * h));
+//! let rate = judge_pairs(errors, 2.0, 0.1);
+//! assert_eq!((rate.verdict, rate.kind), (Verdict::Fail, Reason::TooLow));
 //! ```
 //!
-//! A study is data. A project writes its [`Kind`](study::Kind), which says what its cases compute
-//! and how their results are judged; all findings are an [`Outcome`](study::Outcome). A
-//! [`Project`](project::Project) names its kinds, [`verify`] runs, judges, compares with the
-//! baseline and writes the report, and [`cli`] is the command line for all of it.
+//! # A project that verifies itself
+//!
+//! A project names its kinds of study in a [`Project`] and calls [`main`]: its program then has
+//! all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs, judges,
+//! compares with the baseline and writes the report. The smallest one has no kind of its own: its
+//! studies are programs in any language.
+//!
+#![cfg_attr(feature = "command-line", doc = "```no_run")]
+#![cfg_attr(not(feature = "command-line"), doc = "```ignore")]
+//! use convergence_study::{PROGRAM, Project, main as command_line};
+//!
+//! const PROJECT: Project = Project {
+//!     kinds: &[PROGRAM],
+//!     ..Project::new("heat", "cargo xtask")
+//! };
+//!
+//! fn main() -> std::process::ExitCode {
+//!     command_line(&PROJECT)
+//! }
+//! ```
+//!
+//! The README has a project with a [`Kind`] of its own.
 //!
 //! # Features
 //!
-//! `default-features = false` leaves [`text`], [`judge`], [`study`] and [`run`]: verdicts, and
-//! studies on all threads, whose outcomes have no figures. The feature `files` adds [`input`] and
-//! studies described by files, `reports` all but the command line, `command-line` that.
+//! `default-features = false` leaves the rule and [`levels`]: verdicts in the tests of a solver, on
+//! all threads. `files` adds study files and tables of errors, `reports` plots, reports and the
+//! baseline, `command-line` the program (the default).
 //!
-//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`,
-//! `project`, `store`, `program`, `compare`, `report`, `explain`, `verify`, `cli`. The first two
-//! are the crate `convergence-judge`, with `run::time_limit`.
+//! # Stability
+//!
+//! What is listed here follows semantic versioning. It is a selection of the crate
+//! `convergence-harness`, which promises no stability of its own.
+
+#[doc(inline)]
+pub use convergence_harness::{
+    judge::{
+        claims::Claim,
+        richardson::{Estimator, Value},
+        verdict::{Judge, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs},
+    },
+    run::{Finished, RunError, assert_order, run_one},
+    study::{
+        Axis, Case, CaseFailure, Check, ErrorsOverLevels, Figure, Header, Kind, Outcome, Quantity,
+        Ran, Reading, Refinement, Study, Subject, Table, Tier, erased,
+        grid::{Grid, GridColumn},
+        kind::completion,
+        levels,
+    },
+};
+
+#[cfg(feature = "files")]
+#[doc(inline)]
+pub use convergence_harness::{
+    input::{
+        Field, InputError, Section,
+        error_table::{Choice, Column, RateTable},
+    },
+    study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, reader},
+};
+
+#[cfg(feature = "reports")]
+#[doc(inline)]
+pub use convergence_harness::{
+    program::{PROJECT as PROGRAMS, ROW as PROGRAM},
+    project::{Front, Project, Template, Term},
+    verify::{Request, Verification, VerificationError, report, verify},
+};
 
 #[cfg(feature = "command-line")]
-pub mod cli;
-#[cfg(feature = "reports")]
-pub mod compare;
-#[cfg(feature = "files")]
-pub mod input;
-#[cfg(feature = "reports")]
-pub mod plots;
-#[cfg(feature = "reports")]
-pub mod program;
-#[cfg(feature = "reports")]
-pub mod project;
-#[cfg(feature = "reports")]
-pub mod report;
-pub mod run;
-#[cfg(feature = "reports")]
-pub mod store;
-pub mod study;
-#[cfg(feature = "reports")]
-pub mod verify;
-
-pub use convergence_judge::{judge, text};
-pub use run::assert_order;
-pub use study::levels;
+#[doc(inline)]
+pub use convergence_harness::cli::main;
 
 /// The programs of the README are tests.
 #[cfg(all(doctest, feature = "command-line"))]

@@ -2,9 +2,6 @@
 
 use std::process::ExitCode;
 
-use convergence_study::cli;
-use convergence_study::program;
-
 fn main() -> ExitCode {
-    cli::main(&program::PROJECT)
+    convergence_study::main(&convergence_study::PROGRAMS)
 }

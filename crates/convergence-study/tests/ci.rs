@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use convergence_study::cli::program;
-use convergence_study::program::PROJECT;
+use convergence_harness::cli::program;
+use convergence_harness::program::PROJECT;
 use yaml_rust2::{Yaml, YamlLoader};
 
 fn text(name: &str) -> String {

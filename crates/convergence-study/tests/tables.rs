@@ -5,10 +5,10 @@
 
 use std::{env, fs, path::Path};
 
-use convergence_study::input::error_table::{Choice, Column, RateTable};
-use convergence_study::judge::claims::Claim;
-use convergence_study::judge::richardson::Estimator;
-use convergence_study::judge::verdict::{Judge, Verdict};
+use convergence_harness::input::error_table::{Choice, Column, RateTable};
+use convergence_harness::judge::claims::Claim;
+use convergence_harness::judge::richardson::Estimator;
+use convergence_harness::judge::verdict::{Judge, Verdict};
 
 /// The tolerance of all claims of the page.
 const TOLERANCE: f64 = 0.25;

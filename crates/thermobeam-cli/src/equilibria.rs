@@ -11,10 +11,10 @@ use thermobeam_exact::equilibrium::{
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
-use convergence_study::cli::exit::{Outcome, Unusable};
-use convergence_study::cli::flags::Flags;
-use convergence_study::cli::screen;
-use convergence_study::judge::verdict::Verdict;
+use convergence_harness::cli::exit::{Outcome, Unusable};
+use convergence_harness::cli::flags::Flags;
+use convergence_harness::cli::screen;
+use convergence_harness::judge::verdict::Verdict;
 
 /// List all steady states of a scene
 #[derive(Debug, Args)]

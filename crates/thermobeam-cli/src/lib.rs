@@ -1,6 +1,6 @@
 //! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
 //!
-//! The harness's commands come from `convergence_study::cli`, with the beam's kinds of study
+//! The harness's commands come from `convergence_harness::cli`, with the beam's kinds of study
 //! registered in [`project()`]. This file adds the beam's own commands and dispatches.
 
 mod equilibria;
@@ -10,8 +10,8 @@ mod run;
 mod sweep;
 
 use clap::{Parser, Subcommand};
-use convergence_study::cli::{self, exit};
-use convergence_study::project::Project;
+use convergence_harness::cli::{self, exit};
+use convergence_harness::project::Project;
 
 pub use project::project;
 

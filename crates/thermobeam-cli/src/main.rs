@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use convergence_study::cli::{command_line, ended};
+use convergence_harness::cli::{command_line, ended};
 use thermobeam_cli::{GROUPS, Thermobeam, project};
 
 fn main() -> ExitCode {

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use thermobeam_study::sweep;
 
-use convergence_study::cli::exit::{Outcome, Unusable};
-use convergence_study::cli::flags::Flags;
-use convergence_study::judge::verdict::Verdict;
+use convergence_harness::cli::exit::{Outcome, Unusable};
+use convergence_harness::cli::flags::Flags;
+use convergence_harness::judge::verdict::Verdict;
 
 /// Join the shares of a sweep into the file that one run would have written
 ///

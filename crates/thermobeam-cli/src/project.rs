@@ -1,7 +1,7 @@
 //! The beam as a project of the harness.
 
-use convergence_study::program;
-use convergence_study::project::{Front, Project, Template};
+use convergence_harness::program;
+use convergence_harness::project::{Front, Project, Template};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or
@@ -122,8 +122,8 @@ const TEMPLATES: [Template; 5] = [
 mod tests {
     use std::collections::BTreeSet;
 
-    use convergence_study::cli::explain;
-    use convergence_study::project::Project;
+    use convergence_harness::cli::explain;
+    use convergence_harness::project::Project;
 
     use super::project;
 

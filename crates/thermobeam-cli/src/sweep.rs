@@ -9,11 +9,11 @@ use clap::Args;
 use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
-use convergence_study::cli::exit::{self, Outcome};
-use convergence_study::cli::flags::Flags;
-use convergence_study::cli::running::{self, seconds};
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::run;
+use convergence_harness::cli::exit::{self, Outcome};
+use convergence_harness::cli::flags::Flags;
+use convergence_harness::cli::running::{self, seconds};
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::run;
 
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///

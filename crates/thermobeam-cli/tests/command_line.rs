@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use convergence_study::cli::command_line;
+use convergence_harness::cli::command_line;
 use convergence_study_tests::files::files_below;
 use thermobeam_cli::{GROUPS, Thermobeam, project};
 

@@ -8,10 +8,10 @@
 
 use std::error::Error;
 
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::run::run_one;
-use convergence_study::study::FromFile as _;
-use convergence_study::text::number::max_or_nan;
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::run::run_one;
+use convergence_harness::study::FromFile as _;
+use convergence_harness::text::number::max_or_nan;
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};

@@ -79,6 +79,7 @@
 //! ```
 
 mod block_tridiagonal;
+#[doc(hidden)]
 pub mod bracket;
 pub mod contact;
 pub mod contraction;
@@ -87,6 +88,7 @@ pub mod energy;
 pub mod ensemble;
 pub mod error;
 pub mod kirchhoff;
+#[doc(hidden)]
 pub mod lanes;
 pub mod linearized;
 pub mod mesh;
@@ -95,6 +97,7 @@ pub mod parameters;
 pub mod scheme;
 pub mod simulation;
 pub mod solve;
+#[doc(hidden)]
 pub mod tridiagonal;
 
 /// [energy]: crate::energy

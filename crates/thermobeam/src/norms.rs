@@ -14,6 +14,7 @@ pub(crate) fn element_product<T: Lane>(sixth: T, p: [T; 2], q: [T; 2]) -> T {
 }
 
 /// `‖y‖²` of a P1 function; `lengths` are the n element lengths, `y` the n + 1 nodal values.
+#[doc(hidden)]
 pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths
         .iter()
@@ -23,6 +24,7 @@ pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
+#[doc(hidden)]
 pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths
         .iter()
@@ -32,6 +34,7 @@ pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
+#[doc(hidden)]
 pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
     lengths
         .iter()
@@ -45,6 +48,7 @@ pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
 }
 
 /// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
+#[doc(hidden)]
 pub fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }

@@ -85,6 +85,7 @@ pub(crate) fn check_positive(name: &'static str, found: f64) -> Result<(), Param
 ///
 /// # Errors
 /// [`ParameterError`] with these words, unless `is_allowed`.
+#[doc(hidden)]
 pub fn check(
     name: &'static str,
     found: f64,

@@ -10,15 +10,15 @@ mod step_time;
 
 use std::path::{Path, PathBuf};
 
-use convergence_study::cli::exit::{Outcome, Unusable};
-use convergence_study::cli::running::LongRun;
-use convergence_study::cli::workspace;
-use convergence_study::input;
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::project::Project;
-use convergence_study::report;
-use convergence_study::store::atomic;
-use convergence_study::study::{Described, Table};
+use convergence_harness::cli::exit::{Outcome, Unusable};
+use convergence_harness::cli::running::LongRun;
+use convergence_harness::cli::workspace;
+use convergence_harness::input;
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::project::Project;
+use convergence_harness::report;
+use convergence_harness::store::atomic;
+use convergence_harness::study::{Described, Table};
 use serde::Deserialize;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{METHODS, NamedMethod};
@@ -206,7 +206,7 @@ fn add(
     method: NamedMethod,
     arguments: &Arguments,
 ) -> Result<(), Unusable> {
-    let unusable = |failure: convergence_study::study::CaseFailure| {
+    let unusable = |failure: convergence_harness::study::CaseFailure| {
         Unusable::because(&format!("{}: {}", problem.0, failure.reason))
     };
     let apart = problem.1.reference().map_err(unusable)?;

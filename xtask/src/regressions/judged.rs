@@ -4,10 +4,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use convergence_study::cli::exit::Unusable;
-use convergence_study::cli::workspace;
-use convergence_study::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, Known, diagnose};
-use convergence_study::study::header::Setting;
+use convergence_harness::cli::exit::Unusable;
+use convergence_harness::cli::workspace;
+use convergence_harness::store::diagnosis::{
+    Diagnosis, Fingerprint, Fingerprints, Known, diagnose,
+};
+use convergence_harness::study::header::Setting;
 
 use super::list::Regression;
 use super::planted::Found;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use convergence_study::cli::exit::Unusable;
+use convergence_harness::cli::exit::Unusable;
 use serde::Deserialize;
 
 /// The list.
@@ -133,8 +133,8 @@ impl Regression {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use convergence_study::cli::workspace;
-    use convergence_study::study::Tier;
+    use convergence_harness::cli::workspace;
+    use convergence_harness::study::Tier;
 
     /// Whether some source of the package has the test that the last argument names.
     fn has_test(root: &Path, arguments: &str) -> bool {

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use convergence_study::cli;
-use convergence_study::input::{InputError, Section};
-use convergence_study::program;
-use convergence_study::project::Project;
-use convergence_study::study::{Claim, Header, KindRow, Study, erased, header, levels};
+use convergence_harness::cli;
+use convergence_harness::input::{InputError, Section};
+use convergence_harness::program;
+use convergence_harness::project::Project;
+use convergence_harness::study::{Claim, Header, KindRow, Study, erased, header, levels};
 
 /// The order claimed instead of 1.
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";

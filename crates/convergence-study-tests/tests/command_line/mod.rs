@@ -7,7 +7,7 @@ mod rates;
 mod tables;
 mod visible;
 
-use convergence_study::cli;
+use convergence_harness::cli;
 use convergence_study_tests::{Ended, finished, output};
 use std::fs;
 use std::path::Path;

@@ -8,10 +8,10 @@ use std::path::Path;
 use std::process::Command;
 
 use blocks::{Printed, fenced, missing, printed};
-use convergence_study::judge::verdict::{Verdict, judge_pairs};
-use convergence_study::run::{Finished, Spent};
-use convergence_study::store::{Record, json};
-use convergence_study::study::{Header, LevelErrors, Outcome};
+use convergence_harness::judge::verdict::{Verdict, judge_pairs};
+use convergence_harness::run::{Finished, Spent};
+use convergence_harness::store::{Record, json};
+use convergence_harness::study::{Header, LevelErrors, Outcome};
 
 const README: &str = include_str!("../../README.md");
 

@@ -13,7 +13,7 @@ use crate::exact::errors::ErrorMeter;
 use crate::exact::norm::Norm;
 use crate::exact::solution::{Factors, Manufactured, Product};
 use crate::run::family::{Family, OnMesh};
-use convergence_study::study::CaseFailure;
+use convergence_harness::study::CaseFailure;
 use thermobeam::dg;
 use thermobeam::solve::Level;
 

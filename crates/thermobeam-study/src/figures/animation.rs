@@ -1,11 +1,11 @@
 //! Self-animating SVG of the beam moving between its obstacles.
 
-use convergence_study::plots::Scale;
-use convergence_study::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
-use convergence_study::plots::look::look;
-use convergence_study::plots::ruler::{Ruler, fixed, on_scale};
-use convergence_study::plots::style::elide;
-use convergence_study::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
+use convergence_harness::plots::Scale;
+use convergence_harness::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
+use convergence_harness::plots::look::look;
+use convergence_harness::plots::ruler::{Ruler, fixed, on_scale};
+use convergence_harness::plots::style::elide;
+use convergence_harness::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 
 pub use crate::run::history::Frames;
 use crate::run::snapshot::thinned;
@@ -153,7 +153,7 @@ impl Stage {
         }
         let power = match ticks.exponent {
             0 => String::new(),
-            e => format!(" / {}", convergence_study::plots::ruler::power_of_ten(e)),
+            e => format!(" / {}", convergence_harness::plots::ruler::power_of_ten(e)),
         };
         pen.text_upwards(
             &format!("displacement u (dimensionless){power}"),

@@ -2,22 +2,22 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_study::input::{Field, InputError, POSITIVE, Section};
-pub(crate) use convergence_study::judge::random::SplitMix;
-pub(crate) use convergence_study::judge::richardson;
-pub(crate) use convergence_study::judge::verdict::{Judge, RateVerdict, Verdict};
-pub(crate) use convergence_study::plots;
-pub(crate) use convergence_study::plots::xy::Xy;
-pub(crate) use convergence_study::run::time_limit::Patience;
-pub(crate) use convergence_study::study::coverage::NO_RESULT;
-pub(crate) use convergence_study::study::kind::completion;
-pub(crate) use convergence_study::study::levels::{ErrorColumn, Levels, summary};
-pub(crate) use convergence_study::study::{
+pub(crate) use convergence_harness::input::{Field, InputError, POSITIVE, Section};
+pub(crate) use convergence_harness::judge::random::SplitMix;
+pub(crate) use convergence_harness::judge::richardson;
+pub(crate) use convergence_harness::judge::verdict::{Judge, RateVerdict, Verdict};
+pub(crate) use convergence_harness::plots;
+pub(crate) use convergence_harness::plots::xy::Xy;
+pub(crate) use convergence_harness::run::time_limit::Patience;
+pub(crate) use convergence_harness::study::coverage::NO_RESULT;
+pub(crate) use convergence_harness::study::kind::completion;
+pub(crate) use convergence_harness::study::over_levels::{ErrorColumn, Levels, summary};
+pub(crate) use convergence_harness::study::{
     Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
     KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
     Untested, read_claim, reader, readings,
 };
-pub(crate) use convergence_study::text::number::{
+pub(crate) use convergence_harness::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
 };
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};

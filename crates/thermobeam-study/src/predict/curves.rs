@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use convergence_study::text::number::{max_or_nan, min_or_nan};
+use convergence_harness::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::{self, Field};
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use convergence_study::run::time_limit::Patience;
+use convergence_harness::run::time_limit::Patience;
 use thermobeam::dg::{self, Field, Phase};
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;

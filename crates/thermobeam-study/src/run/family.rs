@@ -15,7 +15,7 @@ use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::run::{Motion, Work};
 use crate::scene::{Coefficients, Scene, resampled};
-use convergence_study::study::CaseFailure;
+use convergence_harness::study::CaseFailure;
 use thermobeam::dg;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;

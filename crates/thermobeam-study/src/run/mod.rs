@@ -14,7 +14,7 @@ pub mod together;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use convergence_study::run::time_limit::TimeUp;
+use convergence_harness::run::time_limit::TimeUp;
 use serde::Serialize;
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};

@@ -1,6 +1,6 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
-use convergence_study::input::{InputError, POSITIVE, Section};
+use convergence_harness::input::{InputError, POSITIVE, Section};
 use thermobeam::dg::{self, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};

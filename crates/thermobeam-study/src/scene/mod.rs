@@ -54,8 +54,8 @@ pub use tables::Coefficients;
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
 
-use convergence_study::input::{self, Field, InputError, Section};
-use convergence_study::text::number::counted;
+use convergence_harness::input::{self, Field, InputError, Section};
+use convergence_harness::text::number::counted;
 
 /// The tables of a scene.
 pub(crate) const TABLES: [&str; 5] = ["beam", "obstacles", "initial", "mesh", "time"];

@@ -8,7 +8,7 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 
 use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
-use convergence_study::input::{Field, InputError, Misread, Section};
+use convergence_harness::input::{Field, InputError, Misread, Section};
 
 /// The keys of `[beam]`.
 pub(crate) const BEAM_KEYS: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];

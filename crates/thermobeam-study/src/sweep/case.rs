@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use convergence_study::store::content_hash;
+use convergence_harness::store::content_hash;
 
 /// A numeric key of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +135,7 @@ impl Share {
     /// The whole sweep.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
-    /// Whether it holds a case with this [`content_hash`](convergence_study::store::content_hash):
+    /// Whether it holds a case with this [`content_hash`](convergence_harness::store::content_hash):
     /// exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.of == self.number - 1

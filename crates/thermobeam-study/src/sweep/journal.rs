@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::lines::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
-use convergence_study::store::atomic;
+use convergence_harness::store::atomic;
 
 /// Identifies the sweep of the folder.
 const MANIFEST: &str = "sweep.json";

@@ -16,7 +16,7 @@ use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
-use convergence_study::run::time_limit;
+use convergence_harness::run::time_limit;
 
 /// Cases that run together: one group of lanes.
 const LANES: usize = 4;

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::input::error_table::{Choice, RateTable};
-use convergence_study::judge::{claims::Claim, verdict::Judge};
-use convergence_study::store::Baseline;
+use convergence_harness::input::error_table::{Choice, RateTable};
+use convergence_harness::judge::{claims::Claim, verdict::Judge};
+use convergence_harness::store::Baseline;
 use tempfile::TempDir;
 use thermobeam::dg;
 use thermobeam_study::run::simulate::Simulator;

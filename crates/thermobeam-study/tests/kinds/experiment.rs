@@ -1,6 +1,6 @@
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::kind::run_cases_here;
-use convergence_study::study::{Case, FromFile, Kind, Origin, Outcome};
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::study::kind::run_cases_here;
+use convergence_harness::study::{Case, FromFile, Kind, Origin, Outcome};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::experiment::{

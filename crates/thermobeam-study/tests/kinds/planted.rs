@@ -1,7 +1,7 @@
 //! One planted defect at a time.
 
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::Kind;
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::study::Kind;
 
 use super::typed::Runs;
 

@@ -1,6 +1,6 @@
-use convergence_study::judge::verdict::Verdict;
-use convergence_study::study::kind::run_cases_here;
-use convergence_study::study::{FromFile, Kind};
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::study::kind::run_cases_here;
+use convergence_harness::study::{FromFile, Kind};
 use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors, Refusal};
 
 use super::refused::refusal;

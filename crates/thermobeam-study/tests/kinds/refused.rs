@@ -1,7 +1,7 @@
 //! Study files with errors.
 
-use convergence_study::input;
-use convergence_study::study::{Header, KindRow};
+use convergence_harness::input;
+use convergence_harness::study::{Header, KindRow};
 
 use super::{file, text};
 

@@ -77,6 +77,7 @@ pub const MIDPOINT: Scheme = Scheme {
 pub const SCHEMES: [Scheme; 2] = [EULER_CRANK_NICOLSON, MIDPOINT];
 
 /// The scheme with the given name; `None` if there is none.
+#[doc(hidden)]
 pub fn by_name(name: &str) -> Option<Scheme> {
     SCHEMES.into_iter().find(|scheme| scheme.name == name)
 }

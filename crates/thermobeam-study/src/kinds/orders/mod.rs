@@ -14,10 +14,10 @@ pub mod vibration;
 
 use std::ops::{Deref, DerefMut};
 
-use convergence_study::study::LevelErrors;
-use convergence_study::study::grid::Grid;
-use convergence_study::study::levels::{Rates, rate_table};
-use convergence_study::study::until_decided::{self, Next};
+use convergence_harness::study::LevelErrors;
+use convergence_harness::study::grid::Grid;
+use convergence_harness::study::over_levels::{Rates, rate_table};
+use convergence_harness::study::until_decided::{self, Next};
 
 use super::prelude::*;
 

@@ -1,6 +1,6 @@
 //! The contraction factor of one step in contact, measured and predicted.
 
-use convergence_study::plots::Series;
+use convergence_harness::plots::Series;
 
 use super::spectrum::spectral_radius;
 use super::step::{by_fixed_point, factors};

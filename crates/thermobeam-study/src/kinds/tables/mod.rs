@@ -3,7 +3,7 @@
 
 mod refine;
 
-use convergence_study::project::Term;
+use convergence_harness::project::Term;
 use thermobeam::dg::Stepping as DgStepping;
 
 use super::prelude::*;

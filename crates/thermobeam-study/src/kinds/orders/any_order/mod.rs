@@ -27,7 +27,7 @@
 
 mod runs;
 
-use convergence_study::judge::fit::FLOOR_MARGIN;
+use convergence_harness::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::Stepping;
 
 use super::{Measured, Orders, Runs, Series, Source};

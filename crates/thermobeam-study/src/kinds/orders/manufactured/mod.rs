@@ -32,7 +32,7 @@
 
 pub(in crate::kinds) mod design;
 
-use convergence_study::study::grid::{Grid, GridColumn};
+use convergence_harness::study::grid::{Grid, GridColumn};
 
 use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};

@@ -1,7 +1,7 @@
 //! Orders in ε, claims about both solvers, tables, figures, and the numbers that the baseline
 //! guards.
 
-use convergence_study::text::number::rate_text;
+use convergence_harness::text::number::rate_text;
 
 use super::{RigidObstacles, RunOf, ShownImpact, peak_penetration};
 use crate::figures::{ContractionFactors, contraction, obstacle_lines};

@@ -1,0 +1,292 @@
+//! Values without an exact solution: the rates of their differences, and their limits.
+
+use super::{Program, Run};
+use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::study::over_levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
+use crate::study::{Claim, Figure, Outcome, Quantity, Subject, Table};
+use crate::text::number::{error_text, plain_text, rate_text};
+
+/// The findings on the values of a study: the rates of their differences, and the limits in a
+/// sentence.
+///
+/// * `refinements`: one for each of `ran`, with its step.
+pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcome {
+    let found: Vec<_> = ran
+        .iter()
+        .map(|ran| ran.ok().map(|answer| answer.values.as_slice()))
+        .collect();
+    let columns = ErrorColumn::of(&study.claims(true), &found);
+    let estimates: Vec<(&ErrorColumn, Estimate)> = columns
+        .iter()
+        .filter_map(|column| Some((column, estimate(column, refinements)?)))
+        .collect();
+    let rates: Vec<_> = estimates
+        .iter()
+        .map(|(column, estimate)| (name(column), estimate.judged.clone()))
+        .collect();
+    let value = |column: &ErrorColumn, level: usize| {
+        let value = name(column);
+        let label = &refinements[level].label;
+        Quantity::new(
+            format!("{value}, {label}"),
+            column.errors[level].unwrap_or(f64::NAN),
+            ERROR_TOLERANCE,
+        )
+        .about(Subject::of(value).at(label))
+    };
+    let guarded = (0..refinements.len())
+        .flat_map(|level| columns.iter().map(move |column| value(column, level)));
+    let summary = estimates
+        .iter()
+        .filter_map(|(column, estimate)| sentence(column, estimate))
+        .collect::<Vec<_>>();
+    let limits = (!estimates.is_empty()).then(|| limits(&estimates));
+    let values = (!columns.is_empty()).then(|| table_of_values(&columns, refinements));
+    let figure =
+        (!estimates.is_empty()).then(|| differences(study, &estimates, refinements, &rates));
+    Outcome {
+        tables: limits.into_iter().chain(values).collect(),
+        figures: figure.into_iter().collect(),
+        quantities: over_levels::rate_quantities(&rates, |name| Subject::of(name))
+            .chain(guarded)
+            .collect(),
+        ..Outcome::new(summary.join("; "), rates, vec![])
+    }
+}
+
+/// The name of a value among the rates: an error may have the same name.
+fn name(column: &ErrorColumn) -> String {
+    format!("value {}", column.name)
+}
+
+/// `None` if nothing is claimed about the value. A level without a result makes the verdict fail;
+/// the estimate uses the others.
+fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
+    let Claim {
+        order, tolerance, ..
+    } = column.claim?;
+    let level = |(level, value): (&Refinement, &Option<f64>)| {
+        Some(Value {
+            step: level.step,
+            value: (*value)?,
+        })
+    };
+    let values: Vec<Value> = refinements
+        .iter()
+        .zip(&column.errors)
+        .filter_map(level)
+        .collect();
+    let estimate = Estimator::new(tolerance).ok()?.estimate(&values, order);
+    let without = refinements
+        .iter()
+        .zip(&column.errors)
+        .filter(|(_, value)| value.is_none());
+    let missing: Vec<&str> = without.map(|(level, _)| level.label.as_str()).collect();
+    if missing.is_empty() {
+        return Some(estimate);
+    }
+    Some(Estimate {
+        judged: estimate.judged.without_result(refinements.len(), &missing),
+        ..estimate
+    })
+}
+
+/// The differences of neighbouring levels, each at the finer of its steps, with the lines of their
+/// rates.
+fn differences(
+    study: &Program,
+    estimates: &[(&ErrorColumn, Estimate)],
+    refinements: &[Refinement],
+    rates: &[(String, RateVerdict)],
+) -> Figure {
+    let column = |(column, _): &(&ErrorColumn, Estimate)| ErrorColumn {
+        name: name(column),
+        symbol: None,
+        errors: column
+            .errors
+            .windows(2)
+            .map(|pair| Some((pair[0]? - pair[1]?).abs()))
+            .collect(),
+        claim: column.claim,
+        look: column.look,
+    };
+    let levels = Levels::new(
+        study.refine.axis(),
+        refinements[1..].to_vec(),
+        estimates.iter().map(column),
+    );
+    let caption = "Differences of neighbouring levels, each at the finer of its steps.";
+    // A rate across a gap is fitted to other differences than those drawn.
+    let drawn: Vec<_> = rates
+        .iter()
+        .filter(|(_, rate)| rate.kind != Reason::NoResult)
+        .cloned()
+        .collect();
+    levels.figure("differences", None, caption.to_owned(), &drawn)
+}
+
+const HEAD: [&str; 9] = [
+    "value",
+    "finest",
+    "rate",
+    "limit",
+    "limit, 95 %",
+    "finest - limit",
+    "error, 95 %",
+    "GCI",
+    "GCI's order, factor",
+];
+
+/// Limit, error bar and grid convergence index of each value with a claimed order, or why they are
+/// missing.
+fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
+    let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
+        let finest = column
+            .errors
+            .iter()
+            .rev()
+            .copied()
+            .flatten()
+            .next()
+            .unwrap_or(f64::NAN);
+        let rate = estimate
+            .judged
+            .fitted
+            .or_else(|| estimate.judged.finest_rate());
+        let mut row = vec![
+            column.name.clone(),
+            digits(finest, width(estimate)),
+            rate_text(rate),
+        ];
+        row.extend(match &estimate.bar {
+            Ok(bar) => bar_cells(bar),
+            Err(refusal) => [
+                format!("none: {refusal}"),
+                "-".into(),
+                "-".into(),
+                "-".into(),
+            ],
+        });
+        row.extend(match &estimate.gci {
+            Ok(Gci {
+                half_width,
+                order,
+                factor,
+                ..
+            }) => [error_text(*half_width), format!("{order:.3}, {factor}")],
+            Err(refusal) => [format!("none: {refusal}"), "-".into()],
+        });
+        row
+    };
+    Table::new(
+        "Limits without an exact solution, and what the finest level is off them",
+        HEAD,
+        estimates.iter().map(row),
+    )
+}
+
+fn bar_cells(bar: &Bar) -> [String; 4] {
+    let width = bar.limit[1] - bar.limit[0];
+    let [low, high] = bar.limit.map(|end| digits(end, width));
+    let [least, most] = bar.error_interval.map(error_text);
+    [
+        digits(bar.extrapolated, width),
+        format!("{low} to {high}"),
+        error_text(bar.error),
+        format!("{least} to {most}"),
+    ]
+}
+
+/// The width of the interval of the limit; NaN if there is none.
+fn width(estimate: &Estimate) -> f64 {
+    estimate
+        .bar
+        .as_ref()
+        .map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
+}
+
+/// A number with enough decimals to show two digits of `width`; with an exponent if that takes more
+/// than 15.
+fn digits(value: f64, width: f64) -> String {
+    let places = 1.0 - width.log10().floor();
+    if (0.0..=15.0).contains(&places) {
+        return format!("{value:.*}", places as usize);
+    }
+    let after_the_first = value.abs().log10().floor() + places;
+    let is_plain =
+        (1e-3..1e6).contains(&value.abs()) && !(5.0..f64::INFINITY).contains(&after_the_first);
+    if value == 0.0 || !value.is_finite() || is_plain {
+        return plain_text(value);
+    }
+    // No more digits than a floating-point number has; six if the width is unknown.
+    let digits = if after_the_first.is_finite() {
+        after_the_first.clamp(1.0, 16.0)
+    } else {
+        5.0
+    };
+    format!("{value:.*e}", digits as usize)
+}
+
+/// The values, each with enough decimals to show its last change.
+fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
+    let last_change = |column: &ErrorColumn| match column
+        .errors
+        .iter()
+        .copied()
+        .flatten()
+        .collect::<Vec<_>>()[..]
+    {
+        [.., before, last] => (last - before).abs(),
+        _ => f64::NAN,
+    };
+    let row = |(level, refinement): (usize, &Refinement)| {
+        let value = |column: &ErrorColumn, value: f64| digits(value, last_change(column));
+        let values = columns
+            .iter()
+            .map(|column| column.errors[level].map_or("-".to_owned(), |at| value(column, at)));
+        [refinement.label.clone()]
+            .into_iter()
+            .chain(values)
+            .collect()
+    };
+    let head = ["level"]
+        .into_iter()
+        .chain(columns.iter().map(|column| column.name.as_str()));
+    Table::new("Values", head, refinements.iter().enumerate().map(row))
+}
+
+/// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates
+/// says what is wrong.
+fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
+    let bar = estimate
+        .bar
+        .as_ref()
+        .ok()
+        .filter(|_| estimate.judged.verdict == Verdict::Pass)?;
+    let width = bar.limit[1] - bar.limit[0];
+    let [low, high] = bar.limit.map(|end| digits(end, width));
+    Some(format!(
+        "{} tends to {} ({low} to {high})",
+        column.name,
+        digits(bar.extrapolated, width)
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_digits_of_the_interval_are_shown() {
+        assert_eq!(digits(3.123456789, 1.2e-4), "3.12346");
+        assert_eq!(digits(3.123456789, 9.0), "3.1");
+        assert_eq!(digits(3.123456789, f64::NAN), "3.12346");
+        assert_eq!(digits(31234.56789, 1e4), "31234.6");
+        assert_eq!(digits(3.123456789123e-200, 1.2e-209), "3.1234567891e-200");
+        assert_eq!(digits(-3.123456789123e20, 1.2e11), "-3.1234567891e20");
+        assert_eq!(digits(3.123456789123e-200, 0.0), "3.12346e-200");
+        assert_eq!(digits(0.0, 1e-209), "0");
+        assert_eq!(digits(3.125, 1e-18), "3.1250000000000000e0");
+    }
+}

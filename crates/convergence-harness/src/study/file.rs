@@ -1,0 +1,268 @@
+//! Studies described by files: the kinds that a project knows, what a kind reads, the table
+//! `[study]` of every file, and the claims of files about an error: `order = 2` or
+//! `order = ">= 2"`, optionally with `constant = [0.9, 1.1]`.
+
+use std::path::{Path, PathBuf};
+
+use super::header::{DEFAULT_KIND, Exercised, Header, NAME, Tier, is_kind, is_name};
+use super::kind::{Described, Kind, Study, erased};
+use super::over_levels::Claim;
+use crate::input::{self, Field, InputError, Section};
+use crate::judge::claims::order_from_text;
+use crate::judge::verdict::DEFAULT_TOLERANCE;
+use crate::text::visible;
+
+/// Reads a study of one kind from the document of its file.
+pub type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
+
+/// The reader of a kind.
+pub fn reader<K: FromFile + 'static>(
+    header: Header,
+    root: &Section<'_>,
+    folder: &Path,
+) -> Result<Box<dyn Study>, InputError> {
+    let kind = K::from_document(&header, root, folder)?;
+    Ok(erased(header, kind))
+}
+
+/// A kind of study: its name, its reader, and what it means in words.
+#[derive(Debug, Clone, Copy)]
+pub struct KindRow {
+    /// The value of `[study] kind`. Kinds that differ in the source of their numbers alone have the
+    /// same word before a `/`: `orders/vibration`.
+    pub name: &'static str,
+    /// Its reader.
+    pub read: Reader,
+    /// Why the claim should hold.
+    pub why: &'static str,
+    /// How it is judged.
+    pub judged: &'static str,
+    /// What a failure would mean.
+    pub failure: &'static str,
+    /// The settings that an item of such a study exercises: by these a diagnosis separates failing
+    /// from passing items.
+    pub settings: Exercised,
+}
+
+/// A study file, read once.
+pub struct StudyFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The study.
+    pub study: Box<dyn Study>,
+}
+
+impl StudyFile {
+    /// Reads a study file of any of these kinds.
+    pub fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
+        Self::read_after(&[], kinds, path)
+    }
+
+    /// Reads study files; ids must be unique.
+    ///
+    /// # Errors
+    /// As [`StudyFile::read`], and if two studies have the same id.
+    pub fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
+        let mut files: Vec<Self> = Vec::with_capacity(paths.len());
+        for path in paths {
+            files.push(Self::read_after(&files, kinds, path)?);
+        }
+        Ok(files)
+    }
+
+    /// Reads a study file whose id none of the `earlier` ones has.
+    fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
+        let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
+            let header = Header::from_document(root)?;
+            if let Some(earlier) = earlier
+                .iter()
+                .find(|earlier| earlier.study.header().id == header.id)
+            {
+                let found = format!(
+                    "\"{}\", which {} has too",
+                    header.id,
+                    visible::path(&earlier.path)
+                );
+                return Err(root.require("study", "a table")?.section()?.refuse(
+                    "id",
+                    found,
+                    "an id that no other study has",
+                ));
+            }
+            let row = row(kinds, root, &header)?;
+            (row.read)(header, root, folder)
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+            study,
+        })
+    }
+}
+
+fn row<'k>(
+    kinds: &'k [KindRow],
+    root: &Section<'_>,
+    header: &Header,
+) -> Result<&'k KindRow, InputError> {
+    if let Some(row) = kinds.iter().find(|row| row.name == header.kind) {
+        return Ok(row);
+    }
+    let names: Vec<String> = kinds
+        .iter()
+        .map(|row| format!("\"{}\"", row.name))
+        .collect();
+    let study = root.require("study", "a table")?.section()?;
+    // A file without kind has the default kind, which not every project knows.
+    study.require("kind", &names.join(", "))?;
+    let last_part_is_found = |row: &&KindRow| {
+        let parts = row.name.split_once('/');
+        parts.is_some_and(|(_, source)| source == header.kind)
+    };
+    let expected = kinds
+        .iter()
+        .find(last_part_is_found)
+        .map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
+    Err(study.refuse("kind", format!("\"{}\"", header.kind), expected))
+}
+
+/// A kind of study that a file describes.
+pub trait FromFile: Kind + Sized {
+    /// Reads the study from the document of its file.
+    ///
+    /// * `header`: the table `[study]`, already read.
+    /// * `root`: the document.
+    /// * `folder`: the folder of the file; names of other files are relative to it.
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError>;
+
+    /// Reads a study from `text`; messages name `file`, and other files are searched for next to
+    /// it.
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        Ok(Described::parse(text, file)?.kind)
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// As [`FromFile::parse`], and if the file cannot be read.
+    fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Ok(Described::read(file)?.kind)
+    }
+}
+
+impl<K: FromFile> Described<K> {
+    /// As [`FromFile::parse`], with the header.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, |root, folder| {
+            let header = Header::from_document(root)?;
+            Ok(Self {
+                kind: K::from_document(&header, root, folder)?,
+                header,
+            })
+        })
+    }
+
+    /// As [`FromFile::read`], with the header.
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
+    }
+}
+
+impl Header {
+    /// Reads `[study]` of a document, and records every value of the document.
+    pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+        let study = root
+            .require("study", "a table with id, claim and tier")?
+            .section()?;
+        study.allow(&["id", "claim", "tier", "kind", "group"])?;
+        let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
+        let kind = if study.get("kind").is_some() {
+            name(&study, "kind", is_kind)?
+        } else {
+            DEFAULT_KIND.to_owned()
+        };
+        Ok(Self {
+            id: name(&study, "id", is_name)?,
+            claim: line(&study, "claim")?,
+            tier: study
+                .require("tier", "\"quick\" or \"full\"")?
+                .choice(&tiers)?,
+            group: if study.get("group").is_some() {
+                line(&study, "group")?
+            } else {
+                kind.clone()
+            },
+            kind,
+            settings: root.settings(),
+        })
+    }
+}
+
+fn name(
+    study: &Section<'_>,
+    key: &str,
+    is_allowed: fn(&str) -> bool,
+) -> Result<String, InputError> {
+    let field = study.require(key, NAME)?;
+    let text = field.text()?;
+    if is_allowed(text) {
+        Ok(text.to_owned())
+    } else {
+        Err(field.refuse_as_written(NAME))
+    }
+}
+
+/// One line of text, without control characters: it is printed to terminals and logs.
+fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+    let allowed = "one line of text without control characters";
+    let field = study.require(key, allowed)?;
+    let text = field.text()?;
+    let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
+    if is_line {
+        Ok(text.to_owned())
+    } else {
+        Err(field.refuse_as_written(allowed))
+    }
+}
+
+/// The claim of a table, with the default tolerance: each kind decides which claims its studies
+/// allow.
+///
+/// * `key`: the key of the order, or of a number written in the same way.
+///
+/// # Errors
+/// An invalid order or constant.
+pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError> {
+    let allowed = "a number > 0, or a text such as \">= 2\"";
+    let field = section.require(key, allowed)?;
+    let (order, at_least) = match field.text() {
+        Ok(text) => order_from_text(text)
+            .filter(|(_, least)| *least)
+            .ok_or_else(|| field.refuse_as_written(allowed))?,
+        Err(_) => (field.positive()?, false),
+    };
+    Ok(Claim {
+        at_least,
+        constant: constant(section)?,
+        ..Claim::new(order, DEFAULT_TOLERANCE)
+    })
+}
+
+fn constant(section: &Section<'_>) -> Result<Option<[f64; 2]>, InputError> {
+    let Some(field) = section.get("constant") else {
+        return Ok(None);
+    };
+    let allowed = "two numbers > 0, the smaller first, beside order";
+    let ends: Vec<f64> = field
+        .items(allowed)?
+        .iter()
+        .map(Field::positive)
+        .collect::<Result<_, _>>()?;
+    match ends[..] {
+        [least, most] if least < most && section.get("order").is_some() => Ok(Some([least, most])),
+        _ => Err(field.refuse_as_written(allowed)),
+    }
+}

@@ -1,0 +1,225 @@
+//! Errors over a grid of mesh widths and time steps: both orders are judged, drawn and guarded in
+//! one way.
+
+#[cfg(feature = "reports")]
+use super::outcome::Figure;
+use super::outcome::{Check, Outcome};
+use super::over_levels::{Claim, summary};
+use super::subject::Subject;
+use crate::judge::grid::{Adding, GridErrors};
+use crate::judge::verdict::Verdict;
+#[cfg(feature = "reports")]
+use crate::plots::{self, ErrorSeries, xy::Xy};
+use crate::text::number::plain_text;
+#[cfg(feature = "reports")]
+use crate::text::number::{order_text, short_text};
+
+/// Root mean square misfit in log e up to which contributions are considered to add.
+const MISFIT: f64 = 0.1;
+/// Steps with a smaller relative difference are equal.
+const SAME_STEP: f64 = 1e-9;
+
+/// One error on a grid, and the claim about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GridColumn {
+    /// Its name.
+    pub name: String,
+    /// The order in h; its tolerance applies to both orders.
+    pub space: Claim,
+    /// The order in dt.
+    pub time: f64,
+    /// The errors, for each point of the grid; NaN without a result: the fit then uses the others,
+    /// and a check fails.
+    pub errors: Vec<f64>,
+}
+
+/// Errors on all pairs of mesh widths and time steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Mesh widths and time steps of all points, time steps first; both coarse to fine.
+    pub points: Vec<[f64; 2]>,
+    /// The number of time steps for each mesh width.
+    pub times: usize,
+    /// The errors.
+    pub columns: Vec<GridColumn>,
+    /// Whether theory says that the squares of the contributions of space and time add, which are
+    /// then orthogonal; otherwise it is not known, and they or their squares are taken to add,
+    /// whichever describes the errors better.
+    pub squares_add: bool,
+}
+
+impl Grid {
+    /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
+    /// [`judge::grid`](crate::judge::grid); for each error a check of how the contributions add.
+    pub fn judge(&self) -> Outcome {
+        let [h, dt] = self.steps();
+        if let Some(different) = self.off_grid(&h, &dt) {
+            let claim = "every mesh width is combined with the same time steps".to_owned();
+            let check = Check {
+                verdict: Verdict::Inconclusive,
+                ..Check::that(false, claim, different).about(Subject::of("steps"))
+            };
+            return Outcome::new("", vec![], vec![check]);
+        }
+        let mut rates = vec![];
+        let mut checks = vec![];
+        for column in &self.columns {
+            let errors = GridErrors {
+                h: &h,
+                dt: &dt,
+                errors: &column.errors,
+            };
+            let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
+            let squares = self.squares_add || misfits[1] <= misfits[0];
+            let adding = if squares {
+                Adding::Squares
+            } else {
+                Adding::Plain
+            };
+            let Claim {
+                order, tolerance, ..
+            } = column.space;
+            let missing = self.without_result(column);
+            let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
+            match errors.judge(adding, [order, column.time], tolerance) {
+                Ok(judged) => rates.extend(names.into_iter().zip(judged).map(|(name, rate)| {
+                    let all = missing.is_empty();
+                    (
+                        name,
+                        if all {
+                            rate
+                        } else {
+                            rate.without_result(self.points.len(), &missing)
+                        },
+                    )
+                })),
+                // Readers of study files have already refused such a tolerance.
+                Err(error) => {
+                    checks.extend(names.map(|name| {
+                        let subject = Subject::of(&name);
+                        Check::that(false, name, error.to_string()).about(subject)
+                    }));
+                }
+            }
+            checks.push(self.judge_model(&column.name, misfits));
+        }
+        Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
+    }
+
+    /// The points without a result.
+    fn without_result(&self, column: &GridColumn) -> Vec<String> {
+        let missing = self
+            .points
+            .iter()
+            .zip(&column.errors)
+            .filter(|(_, error)| error.is_nan());
+        missing
+            .map(|([h, dt], _)| format!("h = {}, dt = {}", plain_text(*h), plain_text(*dt)))
+            .collect()
+    }
+
+    /// The mesh widths at the finest time step, and the time steps on the finest mesh.
+    fn steps(&self) -> [Vec<f64>; 2] {
+        let times = self.times.max(1);
+        let finest = self.points.chunks(times).last().unwrap_or_default();
+        [
+            self.points
+                .chunks(times)
+                .filter_map(|row| row.last())
+                .map(|[h, _]| *h)
+                .collect(),
+            finest.iter().map(|[_, dt]| *dt).collect(),
+        ]
+    }
+
+    /// The first point whose mesh width or time step differs from that of its row and column.
+    fn off_grid(&self, h: &[f64], dt: &[f64]) -> Option<String> {
+        let differ = |one: f64, other: f64| (one / other - 1.0).abs() > SAME_STEP;
+        self.points.iter().enumerate().find_map(|(index, point)| {
+            let expected = [
+                h[index / self.times.max(1)],
+                *dt.get(index % self.times.max(1))?,
+            ];
+            let off = differ(point[0], expected[0]) || differ(point[1], expected[1]);
+            off.then(|| {
+                format!(
+                    "expected h = {}, dt = {}, found h = {}, dt = {}",
+                    expected[0], expected[1], point[0], point[1]
+                )
+            })
+        })
+    }
+
+    #[cfg(feature = "reports")]
+    /// Each error over the mesh width, with a line for each time step, as a picture
+    /// `over-h-<name>.svg`.
+    ///
+    /// * `label`: an error, by its name, as the vertical axis shows it.
+    pub fn figures(&self, label: impl Fn(&str) -> String) -> Vec<Figure> {
+        let figure = |column: &GridColumn| {
+            let xy = Xy {
+                title: Some("Errors fall with h until the error of dt is left".to_owned()),
+                y: plots::Axis::log(label(&column.name)),
+                ..Xy::of_errors("mesh width h")
+            };
+            let lines: Vec<ErrorSeries> = (0..self.times).map(|k| self.line(column, k)).collect();
+            let plain = |c: char| {
+                if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') {
+                    c
+                } else {
+                    '-'
+                }
+            };
+            let name: String = column.name.chars().map(plain).collect();
+            let caption = format!(
+                "Error `{}` over the mesh width, with a line for each time step: of order {} (triangle) where the error \
+                 of the time step is small.",
+                column.name,
+                order_text(column.space.order)
+            );
+            let svg = plots::convergence(xy, &lines, &[column.space.order]);
+            Figure::new(&format!("over-h-{name}"), caption, svg)
+        };
+        self.columns.iter().map(figure).collect()
+    }
+
+    /// The errors at the k-th time step of each mesh.
+    #[cfg(feature = "reports")]
+    fn line(&self, column: &GridColumn, k: usize) -> ErrorSeries {
+        let points = self.points.iter().zip(&column.errors);
+        let of_step = points.skip(k).step_by(self.times.max(1));
+        let dt = self.points.get(k).map_or(f64::NAN, |[_, dt]| *dt);
+        ErrorSeries {
+            label: format!("dt = {}", short_text(dt)),
+            points: of_step.map(|([h, _], error)| (*h, *error)).collect(),
+            ..ErrorSeries::default()
+        }
+    }
+
+    fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
+        let evidence = format!(
+            "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"
+        );
+        let subject = Subject::of("sum of errors").in_case(name);
+        if self.squares_add {
+            let claim = "the squares of space and time error add";
+            let holds = squares < plain && squares <= MISFIT;
+            return Check::that(holds, claim, evidence).about(subject);
+        }
+        // Nobody claimed it: if it does not hold, the orders are unknown.
+        let verdict = if plain.min(squares) <= MISFIT {
+            Verdict::Pass
+        } else {
+            Verdict::Inconclusive
+        };
+        Check {
+            verdict,
+            ..Check::that(
+                false,
+                "the errors of space and time add, or their squares",
+                evidence,
+            )
+            .about(subject)
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! A study: what it claims, its cases, and what it found.
+//!
+//! A study is a TOML file: data. Its [`Kind`] says what its cases are (pure computations, run on
+//! any thread in any order) and how their results become an [`Outcome`]: checks with verdicts,
+//! rates, tables, figures, and the numbers that the baseline guards. Only the runner uses threads,
+//! and only the report writes Markdown.
+
+pub mod coverage;
+mod errors_over_levels;
+#[cfg(feature = "files")]
+mod file;
+pub mod grid;
+pub mod header;
+pub mod kind;
+pub mod outcome;
+pub mod over_levels;
+pub mod readings;
+pub mod subject;
+pub mod until_decided;
+
+pub use coverage::Coverage;
+pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
+#[cfg(feature = "files")]
+pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};
+pub use header::{Exercised, Header, Tier};
+pub use kind::{
+    Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here,
+};
+pub use outcome::{Check, Figure, LevelErrors, Origin, Outcome, Quantity, Table};
+pub use over_levels::{Axis, Claim, Refinement};
+pub use readings::Reading;
+pub use subject::{Sort, Subject};

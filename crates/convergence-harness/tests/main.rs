@@ -1,0 +1,21 @@
+//! The tests of the harness, in one program.
+
+mod asserted;
+mod circles;
+#[cfg(feature = "reports")]
+mod compare;
+#[cfg(feature = "files")]
+mod error_table;
+#[cfg(feature = "command-line")]
+mod explain;
+mod fit;
+mod grid;
+mod layering;
+#[cfg(feature = "reports")]
+mod plots;
+mod richardson;
+mod verdict_laws;
+mod verdict_rule;
+mod verdict_tables;
+#[cfg(feature = "reports")]
+mod verification;

@@ -1,0 +1,272 @@
+//! The whole way, on disk.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::project::Project;
+use convergence_harness::study::{Study, Tier};
+use convergence_harness::verify::{Blessing, Request, Scope, Verification, verify};
+
+use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
+
+fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
+    verify(&PROJECT, &studies, request, &|_| {}).unwrap()
+}
+
+/// The files directly in a folder and in its figures, except the page, which belongs to one run.
+fn committed(reports: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = |folder: &Path| {
+        let entries = fs::read_dir(folder)
+            .into_iter()
+            .flatten()
+            .map(|entry| entry.unwrap().path());
+        entries
+            .filter(|path| {
+                path.is_file() && path.file_name().is_some_and(|name| name != "index.html")
+            })
+            .map(|path| (path.display().to_string(), fs::read(&path).unwrap()))
+            .collect::<Vec<_>>()
+    };
+    files(reports)
+        .into_iter()
+        .chain(files(&reports.join("figures")))
+        .collect()
+}
+
+#[test]
+fn a_run_that_is_new_fails_until_it_is_blessed() {
+    let root = tempfile::tempdir().unwrap();
+    let plain = request(root.path(), &["a"]);
+    let unknown = run(vec![study("a", Does::Converge)], &plain);
+    assert_eq!(
+        (unknown.record.verdict, unknown.record.moves().len()),
+        (Verdict::Fail, 1)
+    );
+    let blessed = run(
+        vec![study("a", Does::Converge)],
+        &Request {
+            bless: true,
+            ..plain.clone()
+        },
+    );
+    assert_eq!(
+        (blessed.record.verdict, blessed.blessing),
+        (Verdict::Pass, Blessing::Taken)
+    );
+    assert_eq!(
+        run(vec![study("a", Does::Converge)], &plain).record.verdict,
+        Verdict::Pass
+    );
+    let moved = Fake {
+        scale: 1.5,
+        ..fake("a", Does::Converge)
+    };
+    let moved = run(vec![moved.erased()], &plain);
+    assert_eq!(
+        (
+            moved.record.studies[0].outcome.verdict,
+            moved.record.verdict
+        ),
+        (Verdict::Pass, Verdict::Fail)
+    );
+    assert!(
+        fs::read_to_string(root.path().join("reports/README.md"))
+            .unwrap()
+            .contains("by +50 %")
+    );
+}
+
+#[test]
+fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let bless = Request {
+        bless: true,
+        ..request(root.path(), &["a"])
+    };
+    let twice = Project {
+        front_pictures: &[("a-errors.svg", "README.md")],
+        ..PROJECT
+    };
+    let failed = verify(&twice, &[study("a", Does::Converge)], &bless, &|_| {})
+        .unwrap_err()
+        .to_string();
+    assert!(
+        failed.contains("reports: the reports cannot be written: "),
+        "{failed}"
+    );
+    assert!(!root.path().join("studies/baseline.json").exists());
+}
+
+#[test]
+fn a_blessing_does_not_turn_a_failing_study_green() {
+    let root = tempfile::tempdir().unwrap();
+    let bless = Request {
+        bless: true,
+        ..request(root.path(), &["a"])
+    };
+    run(vec![study("a", Does::Converge)], &bless);
+    let file = root.path().join("studies/baseline.json");
+    let before = fs::read(&file).unwrap();
+    let failing = run(vec![study("a", Does::Stay)], &bless);
+    assert_eq!(failing.record.verdict, Verdict::Fail);
+    assert!(matches!(failing.blessing, Blessing::Refused(_)));
+    assert_eq!(fs::read(&file).unwrap(), before);
+    // Nor does it with a selection of its numbers.
+    let selected = Request {
+        only: vec!["a:*".to_owned()],
+        reason: Some("meant".to_owned()),
+        ..bless
+    };
+    let failing = run(vec![study("a", Does::Stay)], &selected);
+    assert!(matches!(failing.blessing, Blessing::Refused(_)));
+    assert_eq!(fs::read(&file).unwrap(), before);
+    // Nor does a baseline that agrees with what the failing study finds.
+    let agreeing = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": 1.0, "tolerance": 0.001 } } } }"#;
+    fs::write(&file, agreeing).unwrap();
+    let agreed = run(vec![study("a", Does::Stay)], &request(root.path(), &["a"]));
+    assert_eq!(
+        (agreed.record.moves().len(), agreed.record.verdict),
+        (0, Verdict::Fail)
+    );
+}
+
+#[test]
+fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let studies = || {
+        vec![
+            study("a", Does::Converge),
+            study("b", Does::Panic),
+            study("c", Does::NotANumber),
+        ]
+    };
+    let mut request = request(root.path(), &["a", "b", "c"]);
+    run(studies(), &request);
+    let first = committed(&reports);
+    // Six files of the set, the picture of all rates, one figure for each study.
+    assert_eq!(first.len(), 6 + 1 + 3);
+    for count in [1, 4] {
+        request.effort = jobs(count).into();
+        run(studies(), &request);
+        assert_eq!(committed(&reports), first, "{count} threads");
+    }
+    let provenance = fs::read_to_string(reports.join("local/provenance.json")).unwrap();
+    let provenance: serde_json::Value = serde_json::from_str(&provenance).unwrap();
+    assert_eq!(
+        (&provenance["jobs"], &provenance["command"]),
+        (&4.into(), &"cargo xtask verify".into())
+    );
+    assert_eq!(provenance["studies"].as_array().unwrap().len(), 3);
+    let page = fs::read_to_string(reports.join("index.html")).unwrap();
+    for known in [
+        format!("4 of {} threads.", provenance["threads_available"]),
+        "UTC.".to_owned(),
+        "rustc ".to_owned(),
+    ] {
+        assert!(page.contains(&known), "{known}");
+    }
+}
+
+#[test]
+fn a_part_does_not_replace_the_report_on_the_whole() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let quick = request(root.path(), &["a", "b"]);
+    run(
+        vec![study("a", Does::Converge), study("b", Does::Converge)],
+        &quick,
+    );
+    let whole = committed(&reports);
+    let asked = vec!["a".to_owned(), "b*".to_owned()];
+    let part = run(
+        vec![study("a", Does::Stay)],
+        &Request {
+            scope: Scope::Selection(asked),
+            ..quick.clone()
+        },
+    );
+    assert_eq!(part.reports, reports.join("local/partial"));
+    assert_eq!(committed(&reports), whole);
+    let page = fs::read_to_string(part.reports.join("README.md")).unwrap();
+    assert!(
+        page.contains("Written by `cargo xtask verify a 'b*'`"),
+        "{page}"
+    );
+
+    let full = Request {
+        scope: Scope::Tier(Tier::Full, ids(&["a", "b"])),
+        ..quick.clone()
+    };
+    run(vec![study("a", Does::Converge)], &full);
+    assert_eq!(committed(&reports), whole);
+    assert!(reports.join("full/figures/a-errors.svg").is_file());
+    // From now on the quick report links to the full one, and does not change again.
+    run(vec![study("a", Does::Converge)], &quick);
+    let page = fs::read_to_string(reports.join("README.md")).unwrap();
+    assert!(
+        page.contains("[the report on the full tier](full/README.md)"),
+        "{page}"
+    );
+}
+
+#[test]
+fn a_selection_blesses_itself_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let quick = request(root.path(), &["a", "b"]);
+    let both = || vec![study("a", Does::Converge), study("b", Does::Converge)];
+    run(
+        both(),
+        &Request {
+            bless: true,
+            ..quick.clone()
+        },
+    );
+    let scope = Scope::Selection(vec!["a".to_owned()]);
+    let moved: Vec<Box<dyn Study>> = vec![
+        Fake {
+            scale: 2.0,
+            ..fake("a", Does::Converge)
+        }
+        .erased(),
+    ];
+    assert_eq!(
+        run(
+            moved,
+            &Request {
+                bless: true,
+                scope,
+                ..quick.clone()
+            }
+        )
+        .record
+        .verdict,
+        Verdict::Pass
+    );
+    let after = run(both(), &quick);
+    assert_eq!(
+        after
+            .record
+            .moves()
+            .iter()
+            .map(|change| change.study.as_str())
+            .collect::<Vec<_>>(),
+        ["a"]
+    );
+}
+
+#[test]
+fn an_unusable_baseline_stops_everything_before_it_starts() {
+    let root = tempfile::tempdir().unwrap();
+    fs::create_dir_all(root.path().join("studies")).unwrap();
+    fs::write(root.path().join("studies/baseline.json"), "{").unwrap();
+    let studies = [study("a", Does::Converge)];
+    let stopped = verify(&PROJECT, &studies, &request(root.path(), &["a"]), &|_| {
+        panic!("nothing may run")
+    })
+    .unwrap_err();
+    assert!(stopped.to_string().contains("baseline.json: "), "{stopped}");
+    assert!(!root.path().join("reports").exists());
+}

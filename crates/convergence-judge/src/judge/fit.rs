@@ -22,6 +22,10 @@
 mod interval;
 mod range;
 
+use std::sync::LazyLock;
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 pub use interval::{
     CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION,
     rate_interval,
@@ -39,49 +43,26 @@ pub struct Level {
     pub error: f64,
 }
 
-/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom, as statistics
-/// libraries compute them.
-const STUDENT: [f64; 30] = [
-    12.70620473617469,
-    4.302652729749467,
-    3.1824463052837046,
-    2.776445105197795,
-    2.570581835636315,
-    2.4469118511449652,
-    2.364624251592785,
-    2.3060041352041707,
-    2.2621571627982036,
-    2.2281388519862744,
-    2.200985160091634,
-    2.1788128296672054,
-    2.1603686564628095,
-    2.1447866879177897,
-    2.131449545559734,
-    2.1199052992212404,
-    2.109815577833272,
-    2.1009220402409565,
-    2.0930240544082417,
-    2.0859634472657946,
-    2.0796138447275436,
-    2.0738730679038766,
-    2.068657610418929,
-    2.0638985616278602,
-    2.059538552753143,
-    2.0555294386426555,
-    2.0518305164800905,
-    2.048407141795102,
-    2.0452296421323903,
-    2.042272456301077,
-];
+/// Degrees of freedom for which quantiles are computed.
+const MOST_DEGREES: usize = 30;
+
+/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom. They are computed
+/// once, because the rule asks for one in every fit.
+static STUDENT: LazyLock<[f64; MOST_DEGREES]> = LazyLock::new(|| {
+    std::array::from_fn(|k| {
+        let law = StudentsT::new(0.0, 1.0, (k + 1) as f64);
+        // 97.5 % lie below the upper end of an interval that holds 95 %.
+        law.map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+    })
+});
 
 /// `t` such that a Student variable with `dof` degrees of freedom lies in [-t, t] at 95 %
 /// confidence; infinite if `dof` is 0.
 ///
-/// Above 30 degrees of freedom it returns the last entry of the table, which is larger and
-/// therefore safe.
+/// Above 30 degrees of freedom it returns the value for 30, which is larger and therefore safe.
 pub fn student_t(dof: usize) -> f64 {
     dof.checked_sub(1)
-        .map_or(f64::INFINITY, |above| STUDENT[above.min(STUDENT.len() - 1)])
+        .map_or(f64::INFINITY, |above| STUDENT[above.min(MOST_DEGREES - 1)])
 }
 
 /// Rate between each level and the next: `(log e_k - log e_{k+1}) / (log h_k - log h_{k+1})`.

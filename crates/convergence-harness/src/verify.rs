@@ -152,6 +152,7 @@ impl Blessing {
 
 /// The result of a verification.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Verification {
     /// The record of the run, with all digits and times: the studies in the order given; no changes
     /// after a blessing.
@@ -164,6 +165,7 @@ pub struct Verification {
 
 /// Why there is no verification.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum VerificationError {
     /// The studies cannot be run.
     #[error(transparent)]

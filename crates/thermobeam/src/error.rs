@@ -9,6 +9,7 @@ use thiserror::Error;
 /// A step that failed. The simulation stays at the previous time level.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("step {step} (from t = {t}, length {dt:e}): {failure}")]
+#[non_exhaustive]
 pub struct StepError {
     /// Number n of the step, counted from 1.
     pub step: usize,
@@ -129,6 +130,7 @@ fn advice(pivot: f64) -> &'static str {
 
 /// A simulation that cannot be set up.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SetupError {
     /// A coefficient, a time step, a degree, a tolerance or an iteration limit out of range.
     #[error(transparent)]

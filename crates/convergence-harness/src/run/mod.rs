@@ -80,6 +80,7 @@ pub struct Spent {
 
 /// Why nothing was run.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// Two studies have the same id, which baseline and report need to be unique.
     #[error("found two studies with the id `{0}`; expected an id of its own for each study")]

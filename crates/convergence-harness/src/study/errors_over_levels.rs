@@ -54,6 +54,7 @@ impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
 /// that the baseline guards. Errors without a claim are only recorded. If a level fails, or lacks
 /// an error that others have, the study fails.
 #[derive(Debug, Clone)]
+#[must_use = "levels are computed and judged by `run` or `assert_passes`"]
 pub struct ErrorsOverLevels<F> {
     pub(crate) header: Header,
     axis: Axis,

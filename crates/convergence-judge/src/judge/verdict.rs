@@ -36,6 +36,7 @@ pub const LEAST_SPAN: f64 = 1.5;
 
 /// A setting of [`Judge`] that would make every verdict meaningless.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
 pub enum JudgeError {
     /// See [`WIDEST_TOLERANCE`].
     #[error("tolerance = {0}: the tolerance is too wide to tell anything, expected less than 0.5")]

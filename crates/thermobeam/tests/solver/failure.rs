@@ -54,6 +54,7 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                             t,
                             dt,
                             failure,
+                            ..
                         } = error;
                         assert_eq!((step, t, dt), (4, 3.0 * stepping.dt, stepping.dt));
                         assert!(

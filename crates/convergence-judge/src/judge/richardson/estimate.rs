@@ -33,6 +33,7 @@ pub struct Value {
 
 /// Why there is no error bar.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Refusal {
     /// Fewer than three.
     #[error("{0} values; three are the fewest that tell an order")]
@@ -72,6 +73,7 @@ pub enum Refusal {
 
 /// The error bar of the finest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Bar {
     /// Observed rate at h → 0.
     pub rate: f64,

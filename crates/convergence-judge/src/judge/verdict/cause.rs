@@ -16,6 +16,7 @@ const EXPLAINED_LEVELS: std::ops::RangeInclusive<usize> = 4..=30;
 /// A law that explains the errors and the order claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Cause {
     /// `e = |C (h^p + b h^(p + r))|`, whose terms cancel between two levels.
     SignChange,

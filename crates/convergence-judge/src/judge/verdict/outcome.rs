@@ -48,6 +48,7 @@ pub fn judged_in_words(rate: &str, claim: &str, why: &str) -> String {
 
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[must_use = "a verdict that is not read lets a lost order pass"]
 pub struct RateVerdict {
     /// What theory claims.
     #[serde(deserialize_with = "nan")]

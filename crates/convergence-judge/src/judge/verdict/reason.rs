@@ -7,6 +7,7 @@ use super::words::Verdict;
     Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize,
 )]
 #[serde(into = "&'static str", try_from = "String")]
+#[non_exhaustive]
 pub enum Reason {
     /// The whole interval lies in the band about the order.
     #[default]

@@ -56,6 +56,7 @@ pub struct SetAside {
 /// Why a level was set aside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Aside {
     /// Coarse: the rates there are still too far from the finest one.
     #[serde(alias = "outlier")]

@@ -61,7 +61,7 @@ fn known(root: &Path) -> BTreeSet<String> {
         "thermobeam",
         "thermobeam-exact",
         "thermobeam-study",
-        "convergence-study",
+        "convergence-harness",
     ] {
         for folder in ["src", "tests"] {
             files(

@@ -152,12 +152,21 @@ impl<'r> Report<'r> {
 
     fn print(&self) -> io::Result<()> {
         let table = screen::table(&HEAD, &self.table.rows);
-        screen::print(&format!("{table}{}{}\n", self.scores, self.sentence))
+        let diagnoses = judged::diagnoses(&self.judged);
+        screen::print(&format!(
+            "{table}{}{diagnoses}{}\n",
+            self.scores, self.sentence
+        ))
     }
 
     /// Writes the page and the fingerprints.
     fn write(&self, root: &Path, ended: &str) -> io::Result<()> {
-        let page = page(&self.table, &self.sentence, ended) + "\n" + &self.scores;
+        let rows = self.judged.iter().map(|one| {
+            let found = &one.found;
+            summary(one.regression, found.is_named_by(one.regression))
+        });
+        let table = Table::new("", SUMMARY, rows);
+        let page = page(&table, &self.sentence, ended) + "\n" + &self.scores;
         atomic::write(&root.join(REPORT), page)?;
         let prints = serde_json::to_string(&judged::fingerprints(&self.judged))?;
         let lines = prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n";
@@ -226,6 +235,22 @@ const HEAD: [&str; 4] = [
     "named by its study or test",
 ];
 
+/// The columns of the page.
+const SUMMARY: [&str; 3] = ["mistake", "file", "noticed by"];
+
+/// A row of the page: short enough for a window.
+fn summary(regression: &Regression, is_named: bool) -> Vec<String> {
+    let by = regression.noticed_by();
+    // A test is known by its name, which has underscores: `cargo test NAME` runs it.
+    let by = by.rsplit_once("::").map_or(by, |(_, name)| name).to_owned();
+    let file = &regression.file;
+    vec![
+        regression.name.clone(),
+        file.strip_prefix("crates/").unwrap_or(file).to_owned(),
+        if is_named { by } else { format!("not {by}") },
+    ]
+}
+
 fn first_words(regression: &Regression, found: &Found) -> String {
     let said = found.said();
     match said.first() {
@@ -272,4 +297,92 @@ fn page(table: &Table, sentence: &str, ended: &str) -> String {
         list::FILE,
         report::markdown(table)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use convergence_study::store::diagnosis::Fingerprints;
+
+    use super::*;
+
+    fn root() -> std::path::PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    }
+
+    fn listed() -> Vec<Regression> {
+        list::read(&root()).unwrap_or_else(|error| panic!("{}", error.message()))
+    }
+
+    #[test]
+    fn no_line_of_the_page_is_wider_than_a_window() {
+        let rows = listed()
+            .iter()
+            .map(|one| summary(one, false))
+            .collect::<Vec<_>>();
+        let page = report::markdown(&Table::new("", SUMMARY, rows));
+        let widest = page.lines().map(|line| line.chars().count()).max();
+        assert!(widest.is_some_and(|widest| widest <= 200), "{widest:?}");
+        assert!(page.len() < 40_000, "{}", page.len());
+    }
+
+    /// What is committed of each mistake finds it again, and names its module as often as all that
+    /// moves and fails with it.
+    #[test]
+    fn the_items_that_are_kept_find_the_mistakes() {
+        let text = std::fs::read_to_string(root().join(FINGERPRINTS)).expect("fingerprints");
+        let full: Fingerprints = serde_json::from_str(&text).expect("fingerprints");
+        let kept = serde_json::to_string(&full).expect("fingerprints");
+        assert!(kept.len() <= 100_000, "{}", kept.len());
+        let kept: Fingerprints = serde_json::from_str(&kept).expect("fingerprints");
+        let all = listed();
+        let mut own = BTreeSet::new();
+        let mut modules = [0, 0];
+        for one in &full.known {
+            let nearest = kept.nearest(&one.items);
+            // Two mistakes may have the same effect: then either is first.
+            assert_eq!(nearest[0].likeness, 1.0, "{}", one.mistake);
+            if nearest.iter().any(|like| like.mistake == one.mistake) {
+                own.insert(&one.mistake);
+            }
+            let place = |name: &str| {
+                all.iter()
+                    .find(|listed| listed.name == name)
+                    .map(|listed| listed.place(&root()))
+            };
+            let own_place = place(&one.mistake);
+            let others = |from: &Fingerprints| {
+                let others = from.known.iter();
+                Fingerprints {
+                    threshold: 0.0,
+                    known: others
+                        .filter(|other| place(&other.mistake) != own_place)
+                        .cloned()
+                        .collect(),
+                }
+            };
+            let module = one.file.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let nearest = [
+                others(&full).nearest_by_all(&one.items),
+                others(&kept).nearest(&one.items),
+            ];
+            for (count, nearest) in modules.iter_mut().zip(nearest) {
+                *count += usize::from(
+                    nearest
+                        .first()
+                        .is_some_and(|first| first.file.starts_with(module)),
+                );
+            }
+        }
+        let [before, after] = modules;
+        println!(
+            "{} of {} first; module {before} before, {after} after",
+            own.len(),
+            full.known.len()
+        );
+        assert!(100 * own.len() >= 98 * full.known.len(), "{}", own.len());
+        assert!(2 * before > full.known.len(), "{before}");
+        assert!(100 * after >= 97 * before, "{before} before, {after} after");
+    }
 }

@@ -15,6 +15,11 @@ printf '%s\n' "$@" >arguments
 if [ "$STATUS" -le 1 ]; then
     mkdir -p "$PLACE/figures" reports/local
     echo new >"$PLACE/README.md"
+    if [ "$PLACE" = reports/full ]; then
+        mkdir -p reports/figures
+        echo above >reports/figures/c.svg
+        echo '![c](../figures/c.svg)' >"$PLACE/README.md"
+    fi
     echo new >"$PLACE/figures/a b.svg"
     printf 'README.md\nfigures/a b.svg\n' >"$PLACE/manifest.txt"
     echo new >reports/local/provenance.json
@@ -92,7 +97,16 @@ fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
             );
             let report = Path::new(ran.report().unwrap());
             assert!(report.starts_with(ran.folder.path()));
-            for new in ["README.md", "figures/a b.svg", "provenance.json"] {
+            // The full report's pictures of the quick tier are in the copy.
+            let readme = fs::read_to_string(report.join("README.md")).unwrap();
+            let picture = fs::read_to_string(report.join("figures/c.svg")).ok();
+            if tier == "full" {
+                assert_eq!(readme, "![c](figures/c.svg)\n");
+                assert_eq!(picture.as_deref(), Some("above\n"));
+            } else {
+                assert_eq!((readme.as_str(), picture), ("new\n", None));
+            }
+            for new in ["figures/a b.svg", "provenance.json"] {
                 assert_eq!(
                     fs::read_to_string(report.join(new)).unwrap(),
                     "new\n",

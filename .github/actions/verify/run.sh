@@ -30,6 +30,12 @@ if [ "$status" -le 1 ]; then
         mkdir -p "$(dirname "$copy/$file")"
         cp "$report/$file" "$copy/$file"
     done <"$report/manifest.txt"
+    # The report on the full tier links to figures of the quick one. In the copy they are its own.
+    for figure in $(grep --only-matching '](\.\./figures/[^)]*' "$copy/README.md" | sort --unique); do
+        mkdir -p "$copy/figures"
+        cp "$report/${figure#](}" "$copy/figures"
+    done
+    sed -i 's|](\.\./figures/|](figures/|g' "$copy/README.md"
     cp reports/local/provenance.json "$copy"
     echo "report=$copy" >>"$GITHUB_OUTPUT"
 fi

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{FULL, Findings};
+use crate::report::{FULL, Findings, shared};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
@@ -73,12 +73,15 @@ impl Scope {
         let workshop = local.join("workshop").join(self.name());
         let folder = match self {
             Self::Tier(Tier::Quick, _) => reports.to_owned(),
-            Self::Tier(Tier::Full, _) => reports.join("full"),
+            Self::Tier(Tier::Full, _) => reports.join(FULL_FOLDER),
             Self::Selection(_) => local.join("partial"),
         };
         ReportFolder { folder, workshop }
     }
 }
+
+/// The folder of the report on the full tier, in that of the report on the quick tier.
+const FULL_FOLDER: &str = "full";
 
 /// A verification to be done.
 #[derive(Debug, Clone)]
@@ -248,7 +251,7 @@ pub fn verify(
         }
     }
     let target = request.scope.report_folder(folder);
-    target.publish(&files).map_err(unwritable(folder))?;
+    shared::publish(&target, files, &tiers(folder)).map_err(unwritable(folder))?;
     atomic::write(&folder.join("local").join("provenance.json"), provenance)
         .map_err(unwritable(folder))?;
     Ok(Verification {
@@ -385,22 +388,38 @@ pub fn rebuild(
     let publish = || {
         let reports = reports_around(folder);
         let _lock = lock(&lock_file(&reports))?;
-        let target = ReportFolder {
+        let rebuilt = ReportFolder {
             folder: folder.to_owned(),
             workshop: reports.join("local/workshop/rebuilt"),
         };
+        let own = scopes().map(|scope| scope.report_folder(&reports));
+        let target = own.into_iter().find(|own| own.folder == folder);
+        let target = target.unwrap_or(rebuilt);
         let see_also = see_also(&record, folder);
-        target.publish(
-            &Findings {
-                project,
-                record: &record,
-                see_also,
-                provenance,
-            }
-            .files()?,
-        )
+        let findings = Findings {
+            project,
+            record: &record,
+            see_also,
+            provenance,
+        };
+        shared::publish(&target, findings.files()?, &tiers(&reports))
     };
     Ok(publish().map_err(unwritable(folder))?)
+}
+
+/// The folders of the reports on both tiers, the quick one first.
+fn tiers(reports: &Path) -> [ReportFolder; 2] {
+    let [quick, full, _] = scopes().map(|scope| scope.report_folder(reports));
+    [quick, full]
+}
+
+/// One of each kind: the quick tier, the full one, a selection.
+fn scopes() -> [Scope; 3] {
+    [
+        Scope::Tier(Tier::Quick, vec![]),
+        Scope::Tier(Tier::Full, vec![]),
+        Scope::Selection(vec![]),
+    ]
 }
 
 /// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`;
@@ -432,13 +451,7 @@ fn tidy(request: &Request) -> io::Result<()> {
         atomic::remove_leftovers(&local.join("provenance.json"))?;
         // Left by a run that was killed while it tested the folder.
         atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
-        let whole = |tier| Scope::Tier(tier, vec![]);
-        let scopes = [
-            whole(Tier::Quick),
-            whole(Tier::Full),
-            Scope::Selection(vec![]),
-        ];
-        scopes
+        scopes()
             .iter()
             .try_for_each(|scope| scope.report_folder(reports).tidy())
     };

@@ -7,7 +7,7 @@ use std::path::Path;
 use convergence_harness::cli::exit::Unusable;
 use convergence_harness::cli::workspace;
 use convergence_harness::store::diagnosis::{
-    Diagnosis, Fingerprint, Fingerprints, Known, diagnose,
+    Diagnosis, Fingerprint, Fingerprints, Known, Resembling, diagnose,
 };
 use convergence_harness::study::header::Setting;
 
@@ -149,7 +149,7 @@ pub(super) fn fingerprints(all: &[Judged<'_>]) -> Fingerprints {
     known(all, threshold(all), "")
 }
 
-/// The scores for written mistakes and for randomly drawn ones, and the diagnosis of each.
+/// The scores for written mistakes and for randomly drawn ones.
 ///
 /// * `passing`: seconds of a run without a mistake.
 pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
@@ -160,8 +160,36 @@ pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
     });
     let mut page = "## How well causes are named\n\n| mistakes | noticed | method | term or field | module | commonest answers | lines, at most | times a passing run, median | worst |\n| --- | --: | --: | --: | --: | --- | --: | --: | --: |\n".to_owned();
     page += &(scores("written", &written, passing) + &scores("drawn at random", &drawn, passing));
-    page += "\nRight are those of which the diagnosis names what was declared beside the mistake. \"Commonest answers\" is the score of always giving the commonest one.\n\n## What is said of each\n\n";
-    page + &all.iter().map(said).collect::<String>()
+    page += "\nRight are those of which the diagnosis names what was declared beside the mistake. \"Commonest answers\" is the score of always giving the commonest one.\n";
+    let [every, kept] = [Fingerprints::nearest_by_all, Fingerprints::nearest].map(|nearest| {
+        all.iter()
+            .filter(|one| is_module_found(all, one, nearest))
+            .count()
+    });
+    page + &format!(
+        "\nThe most similar mistake in another function is in the same module for {every} of {} mistakes, compared by all items; for {kept}, by those that `{}` keeps.\n",
+        all.len(),
+        super::FINGERPRINTS
+    )
+}
+
+/// Whether the mistake nearest to one, except those in its own function, is in its module.
+fn is_module_found(
+    all: &[Judged<'_>],
+    one: &Judged<'_>,
+    nearest: fn(&Fingerprints, &Fingerprint) -> Vec<Resembling>,
+) -> bool {
+    let others = known(all, 0.0, &one.place);
+    let found = nearest(&others, &one.print);
+    found
+        .first()
+        .is_some_and(|first| first.file.starts_with(one.regression.module()))
+}
+
+/// The diagnosis of each, for the terminal.
+pub(super) fn diagnoses(all: &[Judged<'_>]) -> String {
+    let each: String = all.iter().map(said).collect();
+    format!("\n## What is said of each\n\n{each}")
 }
 
 fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {

@@ -10,7 +10,7 @@ use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use super::screen;
 use crate::project::Project;
-use crate::report::sentence;
+use crate::report::{sentence, shared};
 use crate::store::{FIGURES, MANIFEST, Provenance, Record};
 use crate::text::visible;
 use crate::verify::{rebuild, reports_around};
@@ -78,7 +78,7 @@ fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusa
             let is_name = Path::new(&figure.file)
                 .file_name()
                 .is_some_and(|name| *name == *figure.file);
-            let path = beside.join(FIGURES).join(&figure.file);
+            let path = shared::picture(beside, &figure.file)?;
             match fs::read_to_string(&path) {
                 Ok(svg) if is_name => {
                     figure.svg = svg;

@@ -17,6 +17,7 @@ use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon,
 pub use plotters::style::text_anchor::HPos as Anchor;
 use plotters::style::text_anchor::{Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Plotters divides font sizes by this before it writes them.
@@ -177,6 +178,20 @@ fn without_ballast(fragment: &str) -> String {
     )
 }
 
+/// Intervals without those that touch the one before: these become one.
+fn joined(mut intervals: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    intervals.sort_by(|one, next| one.0.total_cmp(&next.0));
+    let mut joined: Vec<(f64, f64)> = vec![];
+    for (from, to) in intervals {
+        match joined.last_mut() {
+            // A gap below the page's grid is round-off.
+            Some(last) if from < last.1 + 0.1 => last.1 = last.1.max(to),
+            _ => joined.push((from, to)),
+        }
+    }
+    joined
+}
+
 /// Draws shapes and text, in px.
 pub struct Pen<'a> {
     page: Rect,
@@ -263,17 +278,26 @@ impl Pen<'_> {
         self.line(&[from, to], style::INK, style::THIN);
     }
 
-    /// Diagonal strokes over a rectangle, continuing those of its neighbours.
-    pub fn hatch(&self, r: Rect) {
+    /// Diagonal strokes over rectangles; where two of these touch, a stroke goes on.
+    pub fn hatch(&self, rectangles: &[Rect]) {
         const SPACING: f64 = 9.0;
-        // Strokes lie where x + y is a multiple of the spacing.
-        let first = ((r.left + r.top) / SPACING).ceil() as i32;
-        let last = ((r.right + r.bottom) / SPACING).floor() as i32;
-        for k in first..=last {
+        // Strokes lie where x + y is a multiple of the spacing: of each, the intervals of x.
+        let mut strokes: BTreeMap<i32, Vec<(f64, f64)>> = BTreeMap::new();
+        for r in rectangles {
+            let first = ((r.left + r.top) / SPACING).ceil() as i32;
+            let last = ((r.right + r.bottom) / SPACING).floor() as i32;
+            for k in first..=last {
+                let sum = f64::from(k) * SPACING;
+                let x0 = (sum - r.bottom).max(r.left);
+                let x1 = (sum - r.top).min(r.right);
+                if x1 > x0 {
+                    strokes.entry(k).or_default().push((x0, x1));
+                }
+            }
+        }
+        for (k, intervals) in strokes {
             let sum = f64::from(k) * SPACING;
-            let x0 = (sum - r.bottom).max(r.left);
-            let x1 = (sum - r.top).min(r.right);
-            if x1 > x0 {
+            for (x0, x1) in joined(intervals) {
                 self.line(&[(x0, sum - x0), (x1, sum - x1)], style::MUTED, 1.1);
             }
         }

@@ -277,16 +277,18 @@ fn boundary_look(k: usize) -> Look {
 }
 
 fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usize) -> Rect) {
-    sheet.canvas.draw(Layer::clipped(sheet.plot), |pen| {
-        for (k, row) in marked.iter().enumerate() {
-            for (from, to, _) in runs(row).into_iter().filter(|(.., marked)| *marked) {
-                pen.hatch(Rect {
-                    right: place(k, to).right,
-                    ..place(k, from)
-                });
-            }
+    let mut marks = vec![];
+    for (k, row) in marked.iter().enumerate() {
+        for (from, to, _) in runs(row).into_iter().filter(|(.., marked)| *marked) {
+            marks.push(Rect {
+                right: place(k, to).right,
+                ..place(k, from)
+            });
         }
-    });
+    }
+    sheet
+        .canvas
+        .draw(Layer::clipped(sheet.plot), |pen| pen.hatch(&marks));
 }
 
 /// All rims before all lines: if two boundaries agree, the other shows through the gaps of the
@@ -351,6 +353,31 @@ mod tests {
             in_order(Scale::Log, &[10.0, -1.0, 1.0, f64::NAN, 1.0]),
             [(0.0, 2), (1.0, 0)]
         );
+    }
+
+    /// Each stroke of a hatch is one line, however many cells it crosses, and ends at a cell that
+    /// is not marked.
+    #[test]
+    fn strokes_go_on_from_one_marked_cell_to_the_next() {
+        let drawn = |cells: usize, marked: fn(usize) -> bool| {
+            let values: Vec<f64> = (0..cells)
+                .map(|k| (k as f64 + 0.5) / cells as f64)
+                .collect();
+            let figure = Surface {
+                values: vec![vec![f64::NAN; cells]; cells],
+                marked: (0..cells)
+                    .map(|k| vec![marked(k * 4 / cells); cells])
+                    .collect(),
+                x_values: values.clone(),
+                y_values: values,
+                ..Default::default()
+            };
+            surface(&figure).matches("stroke=\"#606060\"").count()
+        };
+        let [few, many] = [4, 60].map(|cells| drawn(cells, |_| true));
+        assert!(few > 50 && many.abs_diff(few) <= 2, "{few}, {many}");
+        let interrupted = drawn(60, |quarter| quarter != 1);
+        assert!(interrupted > many + 20, "{many}, {interrupted}");
     }
 
     #[test]

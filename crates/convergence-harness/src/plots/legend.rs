@@ -84,7 +84,7 @@ pub(super) fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, widt
         }),
         Swatch::Hatch(colour) => canvas.draw(Layer::default(), |pen| {
             pen.rect(patch, colour);
-            pen.hatch(patch);
+            pen.hatch(&[patch]);
             write(pen);
         }),
     }

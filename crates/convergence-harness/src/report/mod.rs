@@ -11,6 +11,7 @@ mod html;
 mod markdown;
 mod page;
 mod section;
+pub(crate) mod shared;
 mod tables;
 mod words;
 
@@ -19,7 +20,8 @@ use std::io;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{FIGURES, Provenance, Record, ReportSet, json, junit};
+use crate::store::{Provenance, Record, ReportSet, json, junit};
+use crate::study::Tier;
 use crate::study::outcome::Figure;
 use crate::text::lists::distinct;
 use crate::text::number::committed;
@@ -61,7 +63,8 @@ impl Findings<'_> {
             project, record, ..
         } = self;
         let mut set = ReportSet::default();
-        set.add("README.md", self.readme())?;
+        let readme = self.readme();
+        set.add(shared::README, readme.as_str())?;
         set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;
@@ -70,13 +73,15 @@ impl Findings<'_> {
             junit(project.name, record).map_err(io::Error::other)?,
         )?;
         set.add("errors.csv", self.errors_csv())?;
-        for (file, name) in self.project.front_pictures {
+        // A project's own pages show those of the quick tier.
+        let is_full = self.record.scope == Tier::Full.name();
+        for (file, name) in self.project.front_pictures.iter().filter(|_| !is_full) {
             if let Some(figure) = self.figures().find(|figure| figure.file == *file) {
                 set.add(*name, figure.svg.as_str())?;
             }
         }
         for figure in self.rates().iter().chain(self.figures()) {
-            set.add(format!("{FIGURES}/{}", figure.file), figure.svg.as_str())?;
+            set.add(shared::path(&readme, &figure.file), figure.svg.as_str())?;
         }
         Ok(set)
     }

@@ -17,13 +17,13 @@ const MOST_ROWS: usize = 12;
 /// Most tables shown of a passing study: rates, checks, errors, and one of its own.
 const MOST_TABLES: usize = 4;
 
-/// Most figures shown of a passing study; the others are linked.
+/// Most figures shown of a passing study; the others are on the page.
 const MOST_FIGURES: usize = 3;
 
 /// The section of a study in the Markdown report; short if it passes.
 ///
 /// * `again`: the command that runs it again.
-/// * `seen`: captions of figures shown earlier: a twin of such a figure is linked, not shown.
+/// * `seen`: captions of figures shown earlier: a twin of such a figure is only named.
 pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'f str>) -> String {
     let Finished {
         header, outcome, ..
@@ -51,25 +51,24 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
     elsewhere.dedup();
     if !elsewhere.is_empty() {
         parts.push(format!(
-            "On the page, and in [results.json](results.json): {}\n",
+            "On the page, and in `results.json`: {}\n",
             elsewhere.join("; ")
         ));
     }
     let is_twin =
         |figure: &Figure| outcome.figures.len() == 1 && seen.contains(&figure.caption.as_str());
-    let (shown, linked): (Vec<_>, Vec<_>) = outcome
+    let (shown, unshown): (Vec<_>, Vec<_>) = outcome
         .figures
         .iter()
         .enumerate()
         .partition(|(k, figure)| *k < MOST_FIGURES && !is_twin(figure));
     parts.extend(shown.into_iter().map(|(_, shown)| figure(shown)));
-    if !linked.is_empty() {
-        let link =
-            |(_, Figure { file, .. }): &(usize, &Figure)| format!("[{file}](figures/{file})");
-        parts.push(format!(
-            "Figures: {}\n",
-            linked.iter().map(link).collect::<Vec<_>>().join(", ")
-        ));
+    if !unshown.is_empty() {
+        let names: Vec<String> = unshown
+            .iter()
+            .map(|(_, figure)| text(&figure.file))
+            .collect();
+        parts.push(format!("Figures on the page: {}\n", names.join(", ")));
     }
     seen.extend(outcome.figures.iter().map(|figure| figure.caption.as_str()));
     head + &parts.join("\n")

@@ -12,7 +12,7 @@
 //! that others write to it meanwhile.) A lock, which the operating system releases even after a
 //! crash, keeps two runs apart.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -64,9 +64,33 @@ impl ReportSet {
             .map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
     }
 
-    fn manifest(&self) -> String {
-        self.files.keys().map(|path| format!("{path}\n")).collect()
+    /// The bytes of a file.
+    pub(crate) fn get(&self, path: &str) -> Option<&Vec<u8>> {
+        self.files.get(path)
     }
+
+    /// The text of a file; `None` also if it is none.
+    pub(crate) fn text(&self, path: &str) -> Option<String> {
+        String::from_utf8(self.get(path)?.clone()).ok()
+    }
+
+    /// Takes a file out.
+    pub(crate) fn remove(&mut self, path: &str) {
+        self.files.remove(path);
+    }
+
+    /// Gives a file other content.
+    pub(crate) fn replace(&mut self, path: &str, bytes: impl Into<Vec<u8>>) {
+        self.files.insert(path.to_owned(), bytes.into());
+    }
+
+    fn manifest(&self) -> String {
+        manifest(self.files.keys())
+    }
+}
+
+fn manifest<'p>(paths: impl IntoIterator<Item = &'p String>) -> String {
+    paths.into_iter().map(|path| format!("{path}\n")).collect()
 }
 
 /// Whether a relative path leads to a file below the folder.
@@ -118,6 +142,57 @@ impl ReportFolder {
         write_new(&staging.join(MANIFEST), manifest.as_bytes())?;
         fs::rename(&staging, self.pending())?;
         self.complete_interrupted()
+    }
+
+    /// The paths that the manifest lists; none without a manifest.
+    ///
+    /// # Errors
+    /// The manifest cannot be read.
+    pub(crate) fn stored(&self) -> io::Result<BTreeSet<String>> {
+        let manifest = if_there(store::read_to_string(&self.folder.join(MANIFEST)))?;
+        let paths = manifest.iter().flat_map(|manifest| manifest.lines());
+        Ok(paths.map(str::to_owned).collect())
+    }
+
+    /// The bytes of a file; `None` if it does not exist.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(crate) fn read(&self, path: &str) -> io::Result<Option<Vec<u8>>> {
+        if_there(store::read(&self.folder.join(path)))
+    }
+
+    /// The text of a file; `None` if it does not exist.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no text.
+    pub(crate) fn text(&self, path: &str) -> io::Result<Option<String>> {
+        if_there(store::read_to_string(&self.folder.join(path)))
+    }
+
+    /// Writes some files of the set, in the order of their paths reversed, then removes others.
+    /// The caller must hold the [`lock`].
+    ///
+    /// A file may refer to those behind it in the order of paths: they are written before it. The
+    /// manifest lists whatever exists, before, after and in between.
+    ///
+    /// # Errors
+    /// The error of the operating system. Each file is then the old or the new one.
+    pub(crate) fn amend(&self, changed: &ReportSet, removed: &BTreeSet<String>) -> io::Result<()> {
+        let _writing = atomic::begin_write();
+        let mut listed = self.stored()?;
+        listed.extend(changed.files.keys().cloned());
+        atomic::write(&self.folder.join(MANIFEST), manifest(&listed))?;
+        for (path, bytes) in changed.files.iter().rev() {
+            let path = self.folder.join(path);
+            path.parent().map_or(Ok(()), fs::create_dir_all)?;
+            atomic::write(&path, bytes)?;
+        }
+        for path in removed {
+            self.remove_stale(&self.folder.join(path))?;
+        }
+        listed.retain(|path| !removed.contains(path));
+        atomic::write(&self.folder.join(MANIFEST), manifest(&listed))
     }
 
     /// Whether a file already has its new content: it is then left alone.

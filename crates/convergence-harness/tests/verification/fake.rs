@@ -143,7 +143,12 @@ impl Kind for Fake {
             head: vec!["a|b".into()],
             rows: vec![vec!["c|d".into()]],
         };
-        let figure = Figure::new("errors", "errors | h", "<svg/>".into());
+        let svg = if self.scale == 1.0 {
+            "<svg/>".to_owned()
+        } else {
+            format!("<svg>{}</svg>", self.scale)
+        };
+        let figure = Figure::new("errors", "errors | h", svg);
         Outcome {
             levels: errors.iter().enumerate().map(level).collect(),
             quantities: vec![quantity],

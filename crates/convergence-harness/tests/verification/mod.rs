@@ -11,6 +11,7 @@ mod page;
 mod record;
 mod report;
 mod runner;
+mod shared;
 mod tables_of_errors;
 mod texts;
 mod whole;

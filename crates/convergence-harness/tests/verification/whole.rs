@@ -202,7 +202,7 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
     };
     run(vec![study("a", Does::Converge)], &full);
     assert_eq!(committed(&reports), whole);
-    assert!(reports.join("full/figures/a-errors.svg").is_file());
+    assert!(reports.join("full/figures/rates.svg").is_file());
     // From now on the quick report links to the full one, and does not change again.
     run(vec![study("a", Does::Converge)], &quick);
     let page = fs::read_to_string(reports.join("README.md")).unwrap();

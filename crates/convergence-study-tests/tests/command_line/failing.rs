@@ -249,3 +249,27 @@ fn the_page_links_to_what_is_there_of_the_full_tier() {
     assert!(without.contains("href=\"full/README.md\"") && !without.contains("full/index.html"));
     assert_eq!(same, committed);
 }
+
+/// The report on the full tier is made anew from its record with the figures that it shares with
+/// the one on the quick tier.
+#[test]
+fn the_full_report_is_made_anew_with_the_figures_of_the_quick_one() {
+    let root = workspace(false);
+    run(&root, &["verify", "--bless"]);
+    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
+    let full = root.path().join("reports/full");
+    let read = || {
+        ["README.md", "index.html", "manifest.txt"]
+            .map(|name| fs::read_to_string(full.join(name)).unwrap())
+    };
+    let before = read();
+    assert!(
+        before[0].contains("](../figures/one-errors.svg)"),
+        "{}",
+        before[0]
+    );
+    fs::remove_file(full.join("index.html")).unwrap();
+    let (status, out, err) = run(&root, &["report", "reports/full/results.json"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert_eq!(read(), before);
+}

@@ -126,7 +126,7 @@ impl Stage {
             ..PLOT
         };
         pen.rect(wall, style::MINOR_GRID);
-        pen.hatch(wall);
+        pen.hatch(&[wall]);
         pen.line(
             &[(wall.right, wall.top), (wall.right, wall.bottom)],
             style::INK,
@@ -177,7 +177,7 @@ impl Stage {
                 bottom: near.max(far),
             };
             pen.rect(block, style::SHADE);
-            pen.hatch(block);
+            pen.hatch(&[block]);
             pen.line(&[(left, near), (right, near)], style::INK, 2.4);
             pen.text(
                 name,

@@ -1,0 +1,261 @@
+//! Where the Markdown of a report finds its figures, and figures that two reports have in common.
+//!
+//! The full tier contains the quick one, and the report on it lies one folder below. A figure with
+//! the same bytes in both is stored once, in the folder of the quick tier: the report on the full
+//! tier links to `../figures/NAME`, and to `figures/NAME` where the bytes differ.
+//!
+//! | what is written | step | if it is killed there |
+//! | --- | --- | --- |
+//! | the full tier | [`share`] on its set, before the set is published | the old set, or the next run completes the new one |
+//! | the quick tier, before | [`keep`]: the full report gets its own copy of each figure that the new set changes or lacks | each link has its figure |
+//! | the quick tier, after | [`merge`]: copies that the new set equals are removed | likewise; a copy may be left, which the next report on the full tier removes |
+//!
+//! A link of the full report thus leads to the bytes of its own run, whatever ran since. In which
+//! order the tiers were written makes no difference. Only Markdown has links: a page has its
+//! figures in it.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::store::{self, FIGURES, ReportFolder, ReportSet, if_there};
+
+/// The report in Markdown.
+pub(super) const README: &str = "README.md";
+
+/// The figures that only the page shows, next to the others in [`FIGURES`]; they need not be
+/// committed.
+const ONLY_ON_PAGE: &str = "page";
+
+/// The folder of the link to a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// That of the report itself.
+    Own,
+    /// That of the report one folder above.
+    Above,
+}
+
+impl Place {
+    /// How a link begins.
+    fn link(self) -> String {
+        match self {
+            Self::Own => format!("]({FIGURES}/"),
+            Self::Above => format!("](../{FIGURES}/"),
+        }
+    }
+
+    /// The figures to which a report links there.
+    fn figures(self, readme: &str) -> BTreeSet<String> {
+        let link = self.link();
+        readme
+            .split(&link)
+            .skip(1)
+            .filter_map(|rest| rest.split_once(')'))
+            .map(|(name, _)| name.to_owned())
+            .filter(|name| is_file_name(name))
+            .collect()
+    }
+
+    /// The report with the link to a figure there and no longer at the other place.
+    fn of(self, name: &str, readme: &str) -> String {
+        let other = match self {
+            Self::Own => Self::Above,
+            Self::Above => Self::Own,
+        };
+        let [old, new] = [other, self].map(|place| format!("{}{name})", place.link()));
+        readme.replace(&old, &new)
+    }
+}
+
+fn is_file_name(name: &str) -> bool {
+    Path::new(name).file_name().is_some_and(|own| own == name)
+}
+
+/// The path of a figure in a set of files, by the links of the Markdown report in it.
+pub(super) fn path(readme: &str, name: &str) -> String {
+    if readme.contains(&format!("{}{name})", Place::Own.link())) {
+        format!("{FIGURES}/{name}")
+    } else {
+        format!("{FIGURES}/{ONLY_ON_PAGE}/{name}")
+    }
+}
+
+/// Where the picture of a figure is.
+///
+/// * `folder`: that of the report.
+///
+/// # Errors
+/// The report in Markdown exists but cannot be read.
+pub(crate) fn picture(folder: &Path, name: &str) -> io::Result<PathBuf> {
+    let own = folder.join(FIGURES).join(name);
+    let only_on_page = folder.join(FIGURES).join(ONLY_ON_PAGE).join(name);
+    let readme = if_there(store::read_to_string(&folder.join(README)))?.unwrap_or_default();
+    Ok(if only_on_page.exists() {
+        only_on_page
+    } else if Place::Above.figures(&readme).contains(name) {
+        folder.join("..").join(FIGURES).join(name)
+    } else {
+        own
+    })
+}
+
+/// Replaces the files of a report. The caller must hold the lock.
+///
+/// * `tiers`: the folders of the reports on the quick tier and on the full one; others share
+///   nothing.
+///
+/// # Errors
+/// A file that cannot be read or written.
+pub(crate) fn publish(
+    target: &ReportFolder,
+    mut files: ReportSet,
+    [quick, full]: &[ReportFolder; 2],
+) -> io::Result<()> {
+    if target == full {
+        share(&mut files, quick)?;
+        return full.publish(&files);
+    }
+    if target != quick {
+        return target.publish(&files);
+    }
+    keep(full, quick, &files)?;
+    quick.publish(&files)?;
+    merge(full, quick)
+}
+
+/// Leaves the figures out of a set that the report above has with the same bytes, and links to
+/// those.
+///
+/// # Errors
+/// A file of the report above that cannot be read.
+fn share(set: &mut ReportSet, above: &ReportFolder) -> io::Result<()> {
+    above.tidy()?;
+    let stored = above.stored()?;
+    let Some(readme) = set.text(README) else {
+        return Ok(());
+    };
+    let mut linked = readme.clone();
+    for name in Place::Own.figures(&readme) {
+        let path = format!("{FIGURES}/{name}");
+        let own = set.get(&path);
+        if own.is_some() && stored.contains(&path) && own == above.read(&path)?.as_ref() {
+            set.remove(&path);
+            linked = Place::Above.of(&name, &linked);
+        }
+    }
+    set.replace(README, linked);
+    Ok(())
+}
+
+/// Copies the figures that a new set of files of the report above changes or lacks into the report
+/// that links to them. Comes before the new set is published.
+///
+/// # Errors
+/// A file that cannot be read or written.
+fn keep(below: &ReportFolder, above: &ReportFolder, new: &ReportSet) -> io::Result<()> {
+    below.tidy()?;
+    let Some(readme) = below.text(README)? else {
+        return Ok(());
+    };
+    let mut linked = readme.clone();
+    let mut copies = ReportSet::default();
+    for name in Place::Above.figures(&readme) {
+        let path = format!("{FIGURES}/{name}");
+        let now = above.read(&path)?;
+        if let Some(bytes) = now.filter(|bytes| new.get(&path) != Some(bytes)) {
+            copies.add(path, bytes)?;
+            linked = Place::Own.of(&name, &linked);
+        }
+    }
+    if linked == readme {
+        return Ok(());
+    }
+    copies.add(README, linked)?;
+    below.amend(&copies, &BTreeSet::new())
+}
+
+/// Removes the figures of a report that the report above has with the same bytes, and links to
+/// those. Comes after the set of the report above is published.
+///
+/// # Errors
+/// A file that cannot be read or written.
+fn merge(below: &ReportFolder, above: &ReportFolder) -> io::Result<()> {
+    let Some(readme) = below.text(README)? else {
+        return Ok(());
+    };
+    let mut linked = readme.clone();
+    let stored = above.stored()?;
+    let mut removed = BTreeSet::new();
+    for name in Place::Own.figures(&readme) {
+        let path = format!("{FIGURES}/{name}");
+        let own = below.read(&path)?;
+        if own.is_some() && stored.contains(&path) && own == above.read(&path)? {
+            linked = Place::Above.of(&name, &linked);
+            removed.insert(path);
+        }
+    }
+    if removed.is_empty() {
+        return Ok(());
+    }
+    let mut changed = ReportSet::default();
+    changed.add(README, linked)?;
+    below.amend(&changed, &removed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_link_moves_and_its_like_stay() {
+        let text = "![a](figures/a.svg) [b](figures/aa.svg) ![c](../figures/c.svg) figures/a.svg";
+        let moved = Place::Above.of("a.svg", text);
+        assert_eq!(
+            moved,
+            "![a](../figures/a.svg) [b](figures/aa.svg) ![c](../figures/c.svg) figures/a.svg"
+        );
+        assert_eq!(Place::Own.of("a.svg", &moved), text);
+        let names = |place: Place| place.figures(text).into_iter().collect::<Vec<_>>();
+        assert_eq!(names(Place::Own), ["a.svg", "aa.svg"]);
+        assert_eq!(names(Place::Above), ["c.svg"]);
+    }
+
+    /// Another process was killed after its set of the quick tier counted, and before the first
+    /// file was in its place.
+    #[test]
+    fn figures_are_compared_with_the_set_that_counts() {
+        let root = tempfile::tempdir().unwrap();
+        let above = ReportFolder {
+            folder: root.path().join("reports"),
+            workshop: root.path().join("workshop"),
+        };
+        let set = |svg: &str| {
+            let mut set = ReportSet::default();
+            set.add(README, "![a](figures/a.svg)").unwrap();
+            set.add("figures/a.svg", svg).unwrap();
+            set
+        };
+        above.publish(&set("old")).unwrap();
+        let pending = above.workshop.join("pending");
+        std::fs::create_dir_all(pending.join(FIGURES)).unwrap();
+        std::fs::write(pending.join("figures/a.svg"), "new").unwrap();
+        std::fs::write(
+            pending.join(store::MANIFEST),
+            format!("{README}\nfigures/a.svg\n"),
+        )
+        .unwrap();
+        let [mut old, mut new] = ["old", "new"].map(set);
+        share(&mut old, &above).unwrap();
+        share(&mut new, &above).unwrap();
+        assert_eq!(old, set("old"));
+        assert_eq!(new.text(README).unwrap(), "![a](../figures/a.svg)");
+        assert!(new.get("figures/a.svg").is_none());
+    }
+
+    #[test]
+    fn a_link_that_leaves_the_folder_of_figures_is_no_figure() {
+        let text = "![a](../figures/../../b.svg) ![c](../figures/d/e.svg) ![f](../figures/..)";
+        assert!(Place::Above.figures(text).is_empty());
+    }
+}

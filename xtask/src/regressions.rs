@@ -303,7 +303,7 @@ fn page(table: &Table, sentence: &str, ended: &str) -> String {
 mod tests {
     use std::collections::BTreeSet;
 
-    use convergence_study::store::diagnosis::Fingerprints;
+    use convergence_harness::store::diagnosis::Fingerprints;
 
     use super::*;
 

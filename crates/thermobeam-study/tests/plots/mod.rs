@@ -312,12 +312,20 @@ fn branches_end_inside_the_frame() {
 }
 
 /// Every picture of both tiers, with the name of its file; of a page with several panels, each.
+/// Those that only the pages show are there once `verify` has run.
 fn of_the_reports() -> Vec<(&'static str, String)> {
     let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports");
     let mut figures = vec![];
-    for folder in ["figures", "full/figures"] {
+    let of_the_page = ["figures/page", "full/figures/page"];
+    let of_the_page = of_the_page
+        .into_iter()
+        .filter(|folder| reports.join(folder).is_dir());
+    for folder in ["figures", "full/figures"].into_iter().chain(of_the_page) {
         for entry in std::fs::read_dir(reports.join(folder)).expect(folder) {
             let path = entry.expect(folder).path();
+            if path.is_dir() {
+                continue;
+            }
             let name: &'static str = path.display().to_string().leak();
             let svg = std::fs::read_to_string(&path).expect("a picture");
             figures.extend(panels(&svg).into_iter().map(|panel| (name, panel)));

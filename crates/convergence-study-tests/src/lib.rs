@@ -1,4 +1,5 @@
-//! Programs under test: started, interrupted, and waited for with a limit; files of the source tree.
+//! Programs under test: started, interrupted, and waited for with a limit; files of the source
+//! tree.
 
 pub mod files;
 

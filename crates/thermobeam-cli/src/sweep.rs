@@ -90,7 +90,9 @@ fn to_folder(
         .collect();
     let begun = pending.len();
     let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
-    let (counted, before, place) = (bar.clone(), cases - begun, folder.display().to_string());
+    let counted = bar.clone();
+    let before = cases - begun;
+    let place = folder.display().to_string();
     exit::say(move || {
         let done = before + counted.position() as usize;
         format!("{done} of {cases} cases are saved in {place}; continue with --resume")

@@ -20,11 +20,9 @@ pub fn load(
     space: &Space,
     defect: Option<Defect>,
 ) -> Box<Load> {
-    let (sources, exact, mut factors) = (
-        Sources::any_order(exact, beam, space),
-        exact.clone(),
-        Factors::default(),
-    );
+    let sources = Sources::any_order(exact, beam, space);
+    let exact = exact.clone();
+    let mut factors = Factors::default();
     Box::new(move |t, load| {
         factors.at(&exact, t);
         sources.fill(
@@ -158,7 +156,9 @@ impl<'a> ErrorMeter<'a> {
     /// * `theta_a`: temperature of the clamped end in the initial data.
     pub fn slope_moments(&mut self, level: &Level, theta_a: f64) -> f64 {
         self.factors.at(self.exact, level.t);
-        let (degree, nodes, mut largest) = (self.space.degree(), self.space.mesh().nodes(), 0.0);
+        let degree = self.space.degree();
+        let nodes = self.space.mesh().nodes();
+        let mut largest = 0.0;
         let of_element = degree + EXTRA_POINTS;
         let mut moments = vec![[0.0; Field::ALL.len()]; degree];
         for (element, ends) in nodes.windows(2).enumerate() {

@@ -324,7 +324,8 @@ impl Sources {
 
     /// σ(1, t).
     fn tip_stress(&self, factors: &Factors, n_value: f64) -> f64 {
-        let (Factors { u, phi, .. }, zeta) = (factors, self.beam.zeta);
+        let Factors { u, phi, .. } = factors;
+        let zeta = self.beam.zeta;
         let tension = |j: usize| (1.0 + n_value) * u.value[j] + zeta * u.rate[j];
         let rotation = |k: usize| phi.value[k] + zeta * phi.rate[k];
         let [u_slopes, phi_values, _] = &self.boundary;

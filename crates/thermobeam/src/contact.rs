@@ -202,7 +202,9 @@ impl Obstacles {
         // root >= 0. F computed from p would lose the digits common to p² and q². It is the smaller
         // root of c (2ε + c) F² - 2 b F + (s - q) (s + q) = 0, 2 b = 2ε (s + d) + 2 c s, with the
         // same discriminant as p.
-        let (d, s, q) = (-p0, r - self.g2, (self.g1 - u0).max(0.0));
+        let d = -p0;
+        let s = r - self.g2;
+        let q = (self.g1 - u0).max(0.0);
         let p = positive_root(
             double + c,
             double * (d - s),

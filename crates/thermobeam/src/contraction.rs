@@ -83,8 +83,9 @@ impl Case {
     ///
     /// * Returns infinity if A_u is not positive definite.
     pub fn coupling_contraction(&self, n_value: f64) -> f64 {
-        let (n, lengths, (kappa, sigma)) =
-            (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
+        let lengths = &self.lengths;
+        let n = lengths.len();
+        let (kappa, sigma) = self.kappa_and_sigma();
         let of_u = Operator::new(n, lengths, kappa, sigma + 0.5 * self.dt * n_value);
         let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
         of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| {
@@ -101,8 +102,9 @@ impl Case {
     /// `a² dt/(√I + √(2σ))²` with the inertia I: larger than that of rotation and displacement
     /// where `a² > σ (1 + √(2σ))²/2` (I = 1), and above 1 for a large a.
     pub fn heat_contraction(&self) -> f64 {
-        let (n, lengths, (kappa, sigma)) =
-            (self.lengths.len(), &self.lengths, self.kappa_and_sigma());
+        let lengths = &self.lengths;
+        let n = lengths.len();
+        let (kappa, sigma) = self.kappa_and_sigma();
         if n == 1 || self.beam.a == 0.0 {
             return 0.0;
         }

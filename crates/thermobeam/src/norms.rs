@@ -113,13 +113,11 @@ mod tests {
         let lengths = [1.0];
         // ‖û‖² = 3, ‖u_x - φ‖² = 27, ‖φ̂‖² = 12, ‖φ_x‖² = 0, ‖θ‖² = 48, from linear functions 3x
         // and the like.
-        let (v, u, w, phi, theta) = (
-            [0.0, 3.0],
-            [0.0, 0.0],
-            [0.0, 6.0],
-            [27.0_f64.sqrt(); 2],
-            [0.0, 12.0],
-        );
+        let v = [0.0, 3.0];
+        let u = [0.0, 0.0];
+        let w = [0.0, 6.0];
+        let phi = [27.0_f64.sqrt(); 2];
+        let theta = [0.0, 12.0];
         let squares = TheoremSquares::of(&lengths, &v, &u, &w, &phi, &theta);
         let found = [
             squares.velocity,

@@ -62,7 +62,9 @@ impl Timed {
     /// The best of several runs.
     fn time(&self) -> Result<StepTime, SetupError> {
         let elements = self.problem.mesh.elements();
-        let (mut best, mut done, mut work) = (f64::INFINITY, 1, Work::default());
+        let mut best = f64::INFINITY;
+        let mut done = 1;
+        let mut work = Work::default();
         for _ in 0..REPEATS {
             let seconds;
             (seconds, done, work) = self.run((RUN / elements).max(20))?;

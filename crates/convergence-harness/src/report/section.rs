@@ -114,7 +114,8 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
 
 /// A table under its title; a long one is folded, except in a study that does not pass.
 fn titled(table: &Table, passes: bool) -> String {
-    let (Table { title, rows, .. }, lines) = (table, markdown(table));
+    let Table { title, rows, .. } = table;
+    let lines = markdown(table);
     if rows.len() <= MOST_ROWS {
         return format!("**{}**\n\n{lines}", text(title));
     }

@@ -19,7 +19,8 @@ fn levels(steps: &[f64], error: impl Fn(f64) -> f64) -> Vec<Level> {
 const HALVED: [f64; 6] = [0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625];
 const UNEVEN: [f64; 6] = [0.5, 0.3, 0.14, 0.1, 0.04, 0.03];
 
-/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom: as printed tables have them, with more digits.
+/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom: as printed tables have
+/// them, with more digits.
 const STUDENT: [f64; 30] = [
     12.70620473617469,
     4.302652729749467,

@@ -211,7 +211,8 @@ impl GridErrors<'_> {
         if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
             return Ok(both);
         }
-        let ([rest, known], power) = (self.rest(adding, &both), adding.power());
+        let [rest, known] = self.rest(adding, &both);
+        let power = adding.power();
         let [none, most, limit] = REST;
         let kind = match rest.abs() {
             small if small <= most && small <= known.max(none) => return Ok(both),

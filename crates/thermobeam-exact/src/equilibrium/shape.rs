@@ -68,7 +68,10 @@ impl Shape {
         if self.is_line() {
             return self.moment * self.moment;
         }
-        let (x, alpha, c, d) = (self.x(), self.alpha, self.stress, self.d());
+        let x = self.x();
+        let alpha = self.alpha;
+        let c = self.stress;
+        let d = self.d();
         if self.q > 0.0 {
             let cc = 0.5 * (1.0 + c1(4.0 * x));
             let cw = 2.0 * c3(4.0 * x) - c3(x);

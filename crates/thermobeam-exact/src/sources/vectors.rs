@@ -30,7 +30,9 @@ impl Vectors {
     pub(super) fn strong(product: &Product, mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
         let zeros = vec![0.0; nodes.len()];
-        let (mut value, mut slope, mut curvature) = (zeros.clone(), zeros.clone(), zeros);
+        let mut value = zeros.clone();
+        let mut slope = zeros.clone();
+        let mut curvature = zeros;
         for (i, ends) in nodes.windows(2).enumerate() {
             let h = ends[1] - ends[0];
             for (s, weight) in RULE {

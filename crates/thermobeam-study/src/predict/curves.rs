@@ -287,7 +287,9 @@ fn by_dg(
     let mut curves = Curves::new(rows, motion.extremes());
     let mut level = motion.simulation().level().clone();
     let located = rows.located(motion.simulation().space());
-    let (mut passed, mut long, mut solves) = (0, 0_usize, 0);
+    let mut passed = 0;
+    let mut long = 0_usize;
+    let mut solves = 0;
     let early = stepping.restart_dt / (stepping.growth - 1.0);
     let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
     let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
@@ -368,7 +370,9 @@ fn by_one_step(
     let tip = driver.level().u[elements];
     let mut curves = Curves::new(rows, [tip; 2]);
     let mut read = |driver: &mut Driver<'_>| {
-        let (simulation, new, n) = (driver.simulation(), driver.level(), driver.work().steps);
+        let simulation = driver.simulation();
+        let new = driver.level();
+        let n = driver.work().steps;
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {

@@ -107,7 +107,8 @@ const OBSERVABLES: [(&str, Kind, usize); 8] = [
 /// Estimates the errors of a scene by any method.
 ///
 /// # Errors
-/// [`Unreachable`]: the scene's own run fails, no reference is accurate enough, or a finer run contradicts it.
+/// [`Unreachable`]: the scene's own run fails, no reference is accurate enough, or a finer run
+/// contradicts it.
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
     let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();

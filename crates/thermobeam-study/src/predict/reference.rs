@@ -245,7 +245,8 @@ impl Search<'_, '_> {
 
     /// Records the result of a round; stops if refinement has reached round-off.
     fn judge(&mut self, space: f64, time: f64) -> Result<(), Reason> {
-        let ([best_space, best_time], found) = (self.best, space + time);
+        let [best_space, best_time] = self.best;
+        let found = space + time;
         let stalled = !(found <= STALLED * (best_space + best_time));
         if found < best_space + best_time {
             self.best = [space, time];

@@ -248,7 +248,9 @@ impl OnMesh<'_> {
         let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else {
             return Ok(driver);
         };
-        let (sources, exact, obstacles) = (sources.clone(), exact.clone(), self.of.obstacles);
+        let sources = sources.clone();
+        let exact = exact.clone();
+        let obstacles = self.of.obstacles;
         let mut factors = Factors::default();
         Ok(driver.loaded(move |t, load| {
             factors.at(&exact, t);

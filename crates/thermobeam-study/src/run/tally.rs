@@ -185,7 +185,9 @@ impl Run {
         self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
         // Not the difference of two totals, which would lose the digits that separate a small fall
         // from a small rise.
-        let (change, residual, energy) = (balance.change, balance.residual.abs(), &mut self.energy);
+        let change = balance.change;
+        let residual = balance.residual.abs();
+        let energy = &mut self.energy;
         energy.largest_increase = if self.steps == 0 {
             change
         } else {

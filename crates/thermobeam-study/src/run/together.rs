@@ -114,7 +114,9 @@ impl<'s> LaneRun<'s> {
         if self.run.failure.is_some() {
             return;
         }
-        let (k, dt, step) = (self.k, self.scene.dt(), ensemble.step());
+        let k = self.k;
+        let dt = self.scene.dt();
+        let step = ensemble.step();
         let outcome = ensemble.report(k).map_err(RunError::from).and_then(|done| {
             let in_contact = ensemble.contact_force(k) != 0.0;
             let report = Report {

@@ -150,7 +150,8 @@ impl Place {
 /// * `check`: an additional check of a line, which returns what is wrong with it.
 ///
 /// # Errors
-/// [`SweepError`]: a file that cannot be read, a line that has been changed, or a second line of a case.
+/// [`SweepError`]: a file that cannot be read, a line that has been changed, or a second line of a
+/// case.
 pub(super) fn places(
     files: &[PathBuf],
     cases: usize,

@@ -58,7 +58,9 @@ pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
 /// `Σ_j c_j L_j(s)`, with `L_j(s) = P_j(2s - 1)` the Legendre polynomials of [0, 1].
 pub(super) fn sum(coefficients: &[f64], s: f64) -> f64 {
     let x = 2.0 * s - 1.0;
-    let (mut previous, mut value, mut sum) = (0.0, 1.0, 0.0);
+    let mut previous = 0.0;
+    let mut value = 1.0;
+    let mut sum = 0.0;
     for (n, coefficient) in coefficients.iter().enumerate() {
         sum += coefficient * value;
         let n = n as f64;

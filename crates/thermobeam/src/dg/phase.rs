@@ -180,7 +180,9 @@ impl Simulation {
         fall: Fall,
         next: Phase,
     ) -> Result<(f64, usize, Option<Phase>), StepError> {
-        let (mut low, mut high, mut beyond) = (0.0, fall.below * whole, false);
+        let mut low = 0.0;
+        let mut high = fall.below * whole;
+        let mut beyond = false;
         let (mut h, mut solved) = (fall.crossing * whole, whole);
         // The previous attempt: length and miss.
         let mut before: Option<(f64, f64)> = None;

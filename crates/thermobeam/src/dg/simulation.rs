@@ -139,7 +139,9 @@ impl Simulation {
     /// # Errors
     /// [`StepError`] with step, time and numbers; the simulation then remains at its old level.
     pub fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
-        let (phase, events, crowd) = (self.phase, self.events.len(), self.crowd);
+        let phase = self.phase;
+        let events = self.events.len();
+        let crowd = self.crowd;
         let rung = self.lengths.next;
         let mut first = None;
         loop {

@@ -54,11 +54,9 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         };
         let count = self.elements.len();
         // Slices of equal length, so the compiler removes the bounds checks in the loop.
-        let (elements, old, new) = (
-            &self.elements[..count],
-            &self.new[..count],
-            &self.old[..count],
-        );
+        let elements = &self.elements[..count];
+        let old = &self.new[..count];
+        let new = &self.old[..count];
         let (before, velocity) = (&before[..count], &velocity[..count]);
         Sums::over_cases(count - 1, 1.0 / self.cases[0].scheme.inertia, |i| Element {
             length: T::from_fn(|k| self.cases[k].lengths[i]),

@@ -172,7 +172,9 @@ impl FixedPoint {
 
     /// Third equation of (4.2), for Θ.
     fn solve_theta(&mut self) {
-        let (lengths, a, two_over_dt) = (&self.case.lengths, self.case.beam.a, 2.0 / self.case.dt);
+        let lengths = &self.case.lengths;
+        let a = self.case.beam.a;
+        let two_over_dt = 2.0 / self.case.dt;
         let n = lengths.len();
         let theta = &mut self.now.theta;
         theta.fill(0.0);
@@ -227,7 +229,9 @@ impl FixedPoint {
             obstacles,
             scheme,
         } = &self.case;
-        let (n, kappa, s) = (lengths.len(), scheme.inertia / dt, beam.zeta + 0.5 * dt);
+        let n = lengths.len();
+        let kappa = scheme.inertia / dt;
+        let s = beam.zeta + 0.5 * dt;
         let force = |u: &[f64]| beam.axial_force(slope_squared(lengths, u));
         let m = 0.5 * (force(&self.u_before) + force(&self.old.u));
         self.work.factorizations += 1;

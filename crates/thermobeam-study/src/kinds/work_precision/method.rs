@@ -322,7 +322,9 @@ impl Degrees {
         };
         let mut level = motion.simulation().level().clone();
         let mut errors = Errors::default();
-        let (mut index, mut seconds, mut begun) = (0, 0.0, clock());
+        let mut index = 0;
+        let mut seconds = 0.0;
+        let mut begun = clock();
         run_to(&mut motion, family.t_end, |motion, _| {
             if motion.work().t < time(index + 1) {
                 return;

@@ -16,9 +16,9 @@
 
 use std::collections::BTreeSet;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::store::{self, FIGURES, ReportFolder, ReportSet, if_there};
+use crate::store::{FIGURES, ReportFolder, ReportSet};
 
 /// The report in Markdown.
 pub(super) const README: &str = "README.md";
@@ -87,10 +87,13 @@ pub(super) fn path(readme: &str, name: &str) -> String {
 ///
 /// # Errors
 /// The report in Markdown exists but cannot be read.
-pub(crate) fn picture(folder: &Path, name: &str) -> io::Result<PathBuf> {
+#[cfg(feature = "command-line")]
+pub(crate) fn picture(folder: &Path, name: &str) -> io::Result<std::path::PathBuf> {
+    use crate::store::{if_there, read_to_string};
+
     let own = folder.join(FIGURES).join(name);
     let only_on_page = folder.join(FIGURES).join(ONLY_ON_PAGE).join(name);
-    let readme = if_there(store::read_to_string(&folder.join(README)))?.unwrap_or_default();
+    let readme = if_there(read_to_string(&folder.join(README)))?.unwrap_or_default();
     Ok(if only_on_page.exists() {
         only_on_page
     } else if Place::Above.figures(&readme).contains(name) {
@@ -206,6 +209,7 @@ fn merge(below: &ReportFolder, above: &ReportFolder) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::store;
 
     #[test]
     fn a_link_moves_and_its_like_stay() {

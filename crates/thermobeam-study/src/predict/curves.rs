@@ -376,7 +376,7 @@ fn by_one_step(
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
         let is_read = match at {
-            None => n % every == 0 || n == steps,
+            None => n.is_multiple_of(every) || n == steps,
             // Up to rounding, steps of half the length end there.
             Some(at) => at
                 .get(curves.times.len())

@@ -71,7 +71,7 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     let mut read = 0;
     for name in [
         "convergence-judge",
-        "convergence-study",
+        "convergence-harness",
         "thermobeam",
         "thermobeam-exact",
         "thermobeam-study",

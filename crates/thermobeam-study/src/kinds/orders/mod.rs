@@ -96,8 +96,21 @@ pub struct Series {
     pub levels: Levels,
     /// Whether the orders are claims; otherwise the rates are shown and decide nothing.
     pub is_claimed: bool,
-    /// Rates with their verdicts, errors, guarded numbers, figures.
+    /// Rates with their verdicts, errors, guarded numbers.
     judged: Outcome,
+    picture: Option<Picture>,
+}
+
+/// How a series is drawn: planted faults and further levels need its verdict alone.
+enum Picture {
+    /// Over the levels; the arguments are those of [`Levels::figure`].
+    OverLevels {
+        file: String,
+        subject: Option<String>,
+        caption: String,
+    },
+    /// On a grid of mesh widths and time steps.
+    OnGrid(Grid),
 }
 
 /// The next level of a study that adds levels.
@@ -180,7 +193,7 @@ impl<S: Source> Kind for Orders<S> {
         };
         let mut not_claimed = vec![];
         for series in &measured.series {
-            let mut judged = series.judged.clone();
+            let mut judged = series.drawn_outcome();
             add_levels(&mut outcome.levels, std::mem::take(&mut judged.levels));
             if series.is_claimed {
                 outcome.extend(judged);
@@ -247,19 +260,14 @@ impl Series {
         Self::of(levels, judged)
     }
 
-    /// Judges the same errors on a grid of mesh widths and time steps, and draws them.
-    pub fn on_grid(levels: Levels, grid: &Grid) -> Self {
-        let label = |name: &str| {
-            let mut columns = levels.columns.iter();
-            let column = columns.find(|column| column.name == name);
-            let symbol = column.and_then(|column| column.symbol.as_deref());
-            format!("error, {}", symbol.unwrap_or(name))
-        };
-        let judged = Outcome {
-            figures: grid.figures(label),
-            ..grid.judge()
-        };
-        Self::of(levels, judged)
+    /// Judges the same errors on a grid of mesh widths and time steps, which is also how they are
+    /// drawn.
+    pub fn on_grid(levels: Levels, grid: Grid) -> Self {
+        let judged = grid.judge();
+        Self {
+            picture: Some(Picture::OnGrid(grid)),
+            ..Self::of(levels, judged)
+        }
     }
 
     fn of(levels: Levels, judged: Outcome) -> Self {
@@ -272,17 +280,51 @@ impl Series {
             },
             levels,
             is_claimed: true,
+            picture: None,
         }
     }
 
     /// The same with a figure; the arguments are those of [`Levels::figure`].
     #[must_use]
-    pub fn drawn(mut self, file: &str, subject: Option<&str>, caption: &str) -> Self {
-        let subject = subject.map(str::to_owned);
-        let rates = self.rates();
-        let figure = self.levels.figure(file, subject, caption.to_owned(), rates);
-        self.judged.figures.push(figure);
-        self
+    pub fn drawn(self, file: &str, subject: Option<&str>, caption: &str) -> Self {
+        Self {
+            picture: Some(Picture::OverLevels {
+                file: file.to_owned(),
+                subject: subject.map(str::to_owned),
+                caption: caption.to_owned(),
+            }),
+            ..self
+        }
+    }
+
+    /// Rates, errors and guarded numbers, with the figures.
+    fn drawn_outcome(&self) -> Outcome {
+        let mut outcome = self.judged.clone();
+        match &self.picture {
+            None => {}
+            Some(Picture::OverLevels {
+                file,
+                subject,
+                caption,
+            }) => outcome.figures.push(self.levels.figure(
+                file,
+                subject.clone(),
+                caption.clone(),
+                self.rates(),
+            )),
+            Some(Picture::OnGrid(grid)) => outcome
+                .figures
+                .extend(grid.figures(|name| self.axis_of(name))),
+        }
+        outcome
+    }
+
+    /// The axis of an error in the figures of a grid.
+    fn axis_of(&self, name: &str) -> String {
+        let mut columns = self.levels.columns.iter();
+        let column = columns.find(|column| column.name == name);
+        let symbol = column.and_then(|column| column.symbol.as_deref());
+        format!("error, {}", symbol.unwrap_or(name))
     }
 
     /// The verdict on all its rates.

@@ -141,7 +141,7 @@ impl Source for Convergence {
         let errors = runs.iter().map(|run| (run.case.data, run.ok()));
         let levels = levels(&self.refine, &self.expect, step, errors);
         let series = if self.refine.grid {
-            Series::on_grid(levels, &self.grid(runs))
+            Series::on_grid(levels, self.grid(runs))
         } else {
             Series::new(levels).drawn("rates", None, &caption)
         };

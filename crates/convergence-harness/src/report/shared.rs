@@ -134,21 +134,49 @@ pub(crate) fn publish(
 /// A file of the report above that cannot be read.
 fn share(set: &mut ReportSet, above: &ReportFolder) -> io::Result<()> {
     above.tidy()?;
-    let stored = above.stored()?;
     let Some(readme) = set.text(README) else {
         return Ok(());
     };
-    let mut linked = readme.clone();
-    for name in Place::Own.figures(&readme) {
-        let path = format!("{FIGURES}/{name}");
-        let own = set.get(&path);
-        if own.is_some() && stored.contains(&path) && own == above.read(&path)?.as_ref() {
-            set.remove(&path);
-            linked = Place::Above.of(&name, &linked);
-        }
-    }
-    set.replace(README, linked);
+    let common = Common::find(&readme, above, |path| Ok(set.get(path).cloned()))?;
+    common.paths.iter().for_each(|path| set.remove(path));
+    set.replace(README, common.linked);
     Ok(())
+}
+
+/// Figures of a report that the report above has with the same bytes.
+struct Common {
+    /// Their paths.
+    paths: BTreeSet<String>,
+    /// The Markdown with links to those above.
+    linked: String,
+}
+
+impl Common {
+    /// * `readme`: the report in Markdown.
+    /// * `own`: the bytes of its file at a path; `None` if it has none.
+    ///
+    /// # Errors
+    /// A file of either report that cannot be read.
+    fn find(
+        readme: &str,
+        above: &ReportFolder,
+        own: impl Fn(&str) -> io::Result<Option<Vec<u8>>>,
+    ) -> io::Result<Self> {
+        let stored = above.stored()?;
+        let mut common = Self {
+            paths: BTreeSet::new(),
+            linked: readme.to_owned(),
+        };
+        for name in Place::Own.figures(readme) {
+            let path = format!("{FIGURES}/{name}");
+            let bytes = own(&path)?;
+            if bytes.is_some() && stored.contains(&path) && bytes == above.read(&path)? {
+                common.linked = Place::Above.of(&name, &common.linked);
+                common.paths.insert(path);
+            }
+        }
+        Ok(common)
+    }
 }
 
 /// Copies the figures that a new set of files of the report above changes or lacks into the report
@@ -187,23 +215,13 @@ fn merge(below: &ReportFolder, above: &ReportFolder) -> io::Result<()> {
     let Some(readme) = below.text(README)? else {
         return Ok(());
     };
-    let mut linked = readme.clone();
-    let stored = above.stored()?;
-    let mut removed = BTreeSet::new();
-    for name in Place::Own.figures(&readme) {
-        let path = format!("{FIGURES}/{name}");
-        let own = below.read(&path)?;
-        if own.is_some() && stored.contains(&path) && own == above.read(&path)? {
-            linked = Place::Above.of(&name, &linked);
-            removed.insert(path);
-        }
-    }
-    if removed.is_empty() {
+    let common = Common::find(&readme, above, |path| below.read(path))?;
+    if common.paths.is_empty() {
         return Ok(());
     }
     let mut changed = ReportSet::default();
-    changed.add(README, linked)?;
-    below.amend(&changed, &removed)
+    changed.add(README, common.linked)?;
+    below.amend(&changed, &common.paths)
 }
 
 #[cfg(test)]

@@ -73,17 +73,18 @@ impl<'a> Section<'a> {
         self.sequence((key, &allowed, least), read, ("a number <", decreases))
     }
 
-    /// A list of at least `least` whole numbers without a default, each a greater multiple of the
-    /// one before.
+    /// A list of at least two whole numbers without a default, each a greater multiple of the one
+    /// before.
+    ///
+    /// * `allowed`: what is allowed, in words.
     pub fn multiples(
         &self,
         key: &str,
-        least: usize,
+        allowed: &str,
         read: impl Fn(&Field<'a>) -> Result<usize, InputError>,
     ) -> Result<Vec<usize>, InputError> {
-        let allowed = list_of(least, "whole numbers, each a multiple of the one before");
         let follows = |before: usize, level: usize| level > before && level.is_multiple_of(before);
-        self.sequence((key, &allowed, least), read, ("a multiple of", follows))
+        self.sequence((key, allowed, 2), read, ("a multiple of", follows))
     }
 
     /// The tables `[[key]]`, at least one, each by `read`.
@@ -132,8 +133,10 @@ mod tests {
                 root.get("down")
                     .map(|_| root.decreasing("down", 1, count))
                     .transpose()?;
+                let allowed =
+                    "a list of at least 2 whole numbers, each a multiple of the one before";
                 root.get("by")
-                    .map(|_| root.multiples("by", 2, count))
+                    .map(|_| root.multiples("by", allowed, count))
                     .transpose()
             });
             read.map_or_else(|error| error.to_string(), |_| "read".to_owned())

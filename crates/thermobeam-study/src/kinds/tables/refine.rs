@@ -300,14 +300,7 @@ pub(crate) fn nested(
     read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
 ) -> Result<Vec<usize>, InputError> {
     let allowed = "a list of at least two whole numbers, each a multiple of the one before";
-    let relation = "a multiple of";
-    section.sequence(
-        (key, allowed, 2),
-        read,
-        (relation, |before, level| {
-            level > before && level.is_multiple_of(before)
-        }),
-    )
+    section.multiples(key, allowed, read)
 }
 
 fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {

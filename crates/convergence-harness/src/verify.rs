@@ -1,6 +1,8 @@
 //! Verification, without command line and terminal: run, judge, compare with the baseline, bless,
 //! write the report.
 
+mod folder;
+
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,7 +21,9 @@ use crate::store::{
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
-use crate::text::visible;
+
+pub(crate) use folder::reports_around;
+use folder::{lock_file, lock_reports, unwritable};
 
 /// Which studies to run. This decides where the report goes: a report on a selection never replaces
 /// one on a tier.
@@ -422,18 +426,6 @@ fn scopes() -> [Scope; 3] {
     ]
 }
 
-/// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`;
-/// otherwise the folder itself.
-pub(crate) fn reports_around(folder: &Path) -> PathBuf {
-    let has_lock = |folder: &&Path| lock_file(folder).is_file();
-    folder
-        .ancestors()
-        .take(3)
-        .find(has_lock)
-        .unwrap_or(folder)
-        .to_owned()
-}
-
 /// Completes or removes what killed runs of any scope have left.
 fn tidy(request: &Request) -> io::Result<()> {
     let reports = &request.reports;
@@ -456,28 +448,6 @@ fn tidy(request: &Request) -> io::Result<()> {
             .try_for_each(|scope| scope.report_folder(reports).tidy())
     };
     tidy().map_err(unwritable(reports))
-}
-
-/// Waits for other processes that write to a folder of reports, and then blocks them.
-fn lock_reports(folder: &Path) -> io::Result<File> {
-    lock(&lock_file(folder)).map_err(unwritable(folder))
-}
-
-/// For `map_err`: the same error, preceded by the folder of the reports.
-fn unwritable(reports: &Path) -> impl Fn(io::Error) -> io::Error {
-    move |error| {
-        io::Error::new(
-            error.kind(),
-            format!(
-                "{}: the reports cannot be written: {error}",
-                visible::path(reports)
-            ),
-        )
-    }
-}
-
-fn lock_file(reports: &Path) -> PathBuf {
-    reports.join("local").join("lock")
 }
 
 /// The worst verdict of all studies; fail if the baseline differs.

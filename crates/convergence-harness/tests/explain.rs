@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use convergence_harness::cli::explain::{contents, meant, study, term, terms};
+use convergence_harness::cli::explain::{contents, nearest_name, study, term, terms};
 use convergence_harness::input::{InputError, Section};
 use convergence_harness::project::{Project, Term};
 use convergence_harness::study::{Axis, Claim, Header, KindRow, Study, erased, header, levels};
@@ -123,12 +123,15 @@ fn a_study_is_explained_by_its_claim_its_kind_and_its_details() {
 #[test]
 fn a_misspelt_name_is_recognised_among_ids_and_terms() {
     assert_eq!(
-        meant(&PROJECT, ["left-rule"], "left-rul").as_deref(),
+        nearest_name(&PROJECT, ["left-rule"], "left-rul").as_deref(),
         Some("left-rule")
     );
     assert_eq!(
-        meant(&PROJECT, ["left-rule"], "too-lwo").as_deref(),
+        nearest_name(&PROJECT, ["left-rule"], "too-lwo").as_deref(),
         Some("too-low")
     );
-    assert_eq!(meant(&PROJECT, ["left-rule"], "completely-different"), None);
+    assert_eq!(
+        nearest_name(&PROJECT, ["left-rule"], "completely-different"),
+        None
+    );
 }

@@ -145,7 +145,7 @@ mod tests {
             );
         }
         assert_eq!(
-            explain::meant(&PROJECT, [], "superclosed").as_deref(),
+            explain::nearest_name(&PROJECT, [], "superclosed").as_deref(),
             Some("superclose")
         );
     }

@@ -219,12 +219,13 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
         arguments.flags.quiet,
     );
     let (done, t_end) = (Arc::new(AtomicUsize::new(0)), scene.t_end);
-    let (told, shown) = (Arc::clone(&done), bar.clone());
+    let steps_done = Arc::clone(&done);
+    let shown = bar.clone();
     exit::say(move || {
         let percent = 100.0 * shown.position() as f64 / TICKS;
         format!(
             "{} steps were done, {percent} % of the time; nothing is kept of them",
-            told.load(Ordering::Relaxed)
+            steps_done.load(Ordering::Relaxed)
         )
     });
     let mut tell = |step, t: f64| {

@@ -52,8 +52,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
             let named = files.iter().find(|file| file.study.header().id == name);
             named.map(|file| of_study(project, file)).ok_or_else(|| {
                 let ids = files.iter().map(|file| file.study.header().id.as_str());
-                let meant = meant(project, ids, name);
-                Unusable::because(&unknown(project, name, &folder, meant))
+                let nearest = nearest_name(project, ids, name);
+                Unusable::because(&unknown(project, name, &folder, nearest))
             })?
         }
     };
@@ -79,15 +79,15 @@ fn of_study(project: &Project, file: &StudyFile) -> String {
     study(project, file.study.as_ref()).unwrap_or_default()
 }
 
-fn unknown(project: &Project, name: &str, folder: &Path, meant: Option<String>) -> String {
-    let hint = meant.map_or_else(
+fn unknown(project: &Project, name: &str, folder: &Path, nearest: Option<String>) -> String {
+    let hint = nearest.map_or_else(
         || {
             format!(
                 "`{} explain` lists all that can be explained",
                 project.command
             )
         },
-        |meant| format!("did you mean {meant}?"),
+        |name| format!("did you mean {name}?"),
     );
     format!(
         "found no study, term, reason or kind `{}` in {}; {hint}",
@@ -196,7 +196,7 @@ pub fn study(project: &Project, study: &dyn Study) -> Option<String> {
 }
 
 /// The id or term closest to a misspelt one.
-pub fn meant<'i>(
+pub fn nearest_name<'i>(
     project: &Project,
     ids: impl IntoIterator<Item = &'i str>,
     name: &str,

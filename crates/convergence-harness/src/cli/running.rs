@@ -99,9 +99,14 @@ pub(super) fn watched<T>(
         .map(|study| study.header().id.as_str())
         .collect();
     let done: Arc<Mutex<Vec<String>>> = Arc::default();
-    let told = Arc::clone(&done);
+    let completed = Arc::clone(&done);
     let count = ids.len();
-    exit::say(move || sentence(&told.lock().unwrap_or_else(PoisonError::into_inner), count));
+    exit::say(move || {
+        sentence(
+            &completed.lock().unwrap_or_else(PoisonError::into_inner),
+            count,
+        )
+    });
     let target = if quiet {
         ProgressDrawTarget::hidden()
     } else {

@@ -131,11 +131,11 @@ impl<'a> Field<'a> {
                 .iter()
                 .map(|(name, _)| format!("\"{name}\""))
                 .collect();
-            let meant = self
+            let suggestion = self
                 .value
                 .as_str()
                 .and_then(|name| nearest(name, choices.iter().map(|(name, _)| *name)));
-            let hint = meant
+            let hint = suggestion
                 .map(|name| format!(" (did you mean \"{name}\"?)"))
                 .unwrap_or_default();
             self.refuse(format!("{}{hint}", self.as_written()), names.join(", "))

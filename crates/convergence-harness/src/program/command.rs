@@ -254,10 +254,10 @@ fn name_in_braces(text: &str) -> Option<&str> {
 
 fn unknown(name: &str, values: &[Parameter]) -> String {
     let known = || values.iter().map(|(name, _)| *name);
-    let meant = did_you_mean(&nearest(name, known()).map(str::to_owned));
+    let hint = did_you_mean(&nearest(name, known()).map(str::to_owned));
     let known: Vec<String> = known().map(|name| format!("{{{name}}}")).collect();
     format!(
-        "found the placeholder {{{name}}}{meant}; expected one that `refine` gives a value, {}, or {{{{{name}}}}} for the text {{{name}}}",
+        "found the placeholder {{{name}}}{hint}; expected one that `refine` gives a value, {}, or {{{{{name}}}}} for the text {{{name}}}",
         known.join(", ")
     )
 }
@@ -292,8 +292,8 @@ mod tests {
     fn an_unknown_placeholder_is_refused_at_its_place() {
         let misread = filled("--dt={dt}", &KNOWN).unwrap_err();
         assert_eq!(misread.offset, 5);
-        let told = "found the placeholder {dt}; expected one that `refine` gives a value, {n}, {h}, or {{dt}} for the text {dt}";
-        assert_eq!(misread.reason, told);
+        let message = "found the placeholder {dt}; expected one that `refine` gives a value, {n}, {h}, or {{dt}} for the text {dt}";
+        assert_eq!(misread.reason, message);
         assert!(
             filled("{N}", &KNOWN)
                 .unwrap_err()
@@ -324,9 +324,9 @@ mod tests {
             ("L2", "done in 3.5", "0.0015"),
             ("L2", "L2 is nan", "0.0015"),
         ] {
-            let told = example(last, &expected(name));
+            let message = example(last, &expected(name));
             assert_eq!(
-                told,
+                message,
                 format!("expected a last line such as {{\"errors\": {{\"{name}\": {number}}}}}"),
                 "{last}"
             );

@@ -39,7 +39,7 @@ pub(super) fn read(
     section.allow(&["command", "directory", "timeout"])?;
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
-    let words = words(&section, &refine.resolutions()[0].told)?;
+    let words = words(&section, &refine.resolutions()[0].parameters)?;
     let timeout = section.get("timeout").map_or(Ok(TIMEOUT), |field| {
         let allowed = "a number of seconds > 0";
         let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;

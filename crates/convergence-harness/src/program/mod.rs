@@ -114,11 +114,11 @@ type Run = Ran<Resolution, Answer>;
 impl Program {
     /// The claims about rates, of errors or of values.
     fn claims(&self, of_values: bool) -> Vec<(String, Claim)> {
-        let meant = self
+        let expectations = self
             .expect
             .iter()
             .filter(|expected| expected.is_value == of_values && expected.exact.is_none());
-        meant
+        expectations
             .map(|expected| (expected.name.clone(), expected.claim))
             .collect()
     }
@@ -126,8 +126,9 @@ impl Program {
     /// The command of a case. Without placeholders the program reads the case from standard input.
     fn invocation(&self, case: &Resolution) -> Invocation {
         // The reader of the file has refused words whose placeholders have no value.
-        let fill =
-            |word: &String| filled(word, &case.told).unwrap_or_else(|_| (word.clone(), false));
+        let fill = |word: &String| {
+            filled(word, &case.parameters).unwrap_or_else(|_| (word.clone(), false))
+        };
         let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
         let has_placeholder = placeholders.contains(&true);
         Invocation {

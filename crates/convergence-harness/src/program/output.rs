@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn an_answer_that_is_no_whole_object_is_not_replaced_by_an_earlier_one() {
         let hint = "print it with json.dumps(...) on one line";
-        for (last, told) in [
+        for (last, words) in [
             ("{\"errors\": {\"L2\": 1e5 }", hint),
             ("{\n  \"errors\": {\n    \"L2\": 1e5\n  }\n}", hint),
             ("  {  \n\"errors\": 1}", hint),
@@ -162,7 +162,7 @@ mod tests {
             let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes())
                 .unwrap_err()
                 .reason;
-            assert!(reason.contains(told), "{last}: {reason}");
+            assert!(reason.contains(words), "{last}: {reason}");
             let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes());
             assert!(
                 answered.is_ok_and(|object| object.contains_key("late")),

@@ -62,7 +62,7 @@ pub struct Resolution {
     /// The values listed in `[refine]`.
     pub listed: Vec<Parameter>,
     /// These, the nominal steps of counts, and the number of the case.
-    pub told: Vec<Parameter>,
+    pub parameters: Vec<Parameter>,
     /// Nominal mesh width, or NaN.
     pub h: f64,
     /// Nominal time step, or NaN.
@@ -130,11 +130,11 @@ impl Refine {
             .iter()
             .map(|(sequence, value)| (sequence.name, *value))
             .collect();
-        let mut told: Vec<Parameter> = given
+        let mut parameters: Vec<Parameter> = given
             .iter()
             .flat_map(|(sequence, value)| sequence.parameters(*value))
             .collect();
-        told.push(("level", level as f64));
+        parameters.push(("level", level as f64));
         let step = |sequence: &Option<Sequence>, value: Option<f64>| {
             sequence
                 .as_ref()
@@ -148,7 +148,7 @@ impl Refine {
         Resolution {
             label: label.join(", "),
             listed,
-            told,
+            parameters,
             h: step(&self.space, in_space),
             dt: step(&self.time, in_time),
         }
@@ -183,7 +183,7 @@ impl Resolution {
     /// decimal point.
     pub(super) fn json(&self) -> String {
         let entries: Vec<String> = self
-            .told
+            .parameters
             .iter()
             .map(|(name, value)| format!("\"{name}\": {value}"))
             .collect();
@@ -298,7 +298,7 @@ mod tests {
         parse(&format!("[refine]\n{text}\n"), "a.toml", refine).map_err(|error| error.to_string())
     }
 
-    fn told(text: &str) -> Vec<String> {
+    fn parameters(text: &str) -> Vec<String> {
         read(text)
             .unwrap()
             .resolutions()
@@ -310,18 +310,18 @@ mod tests {
     #[test]
     fn a_case_is_told_its_values_and_the_nominal_steps_of_counts() {
         assert_eq!(
-            told("n = [8, 16]")[1],
+            parameters("n = [8, 16]")[1],
             r#"{"n": 16, "h": 0.0625, "level": 1}"#
         );
         assert_eq!(
-            told("h = [0.5, 1e-7]")[1],
+            parameters("h = [0.5, 1e-7]")[1],
             r#"{"h": 0.0000001, "level": 1}"#
         );
         assert_eq!(
-            told("steps = [4]"),
+            parameters("steps = [4]"),
             [r#"{"steps": 4, "dt": 0.25, "level": 0}"#]
         );
-        let both = told("h = [0.5, 0.25]\ndt = [0.1, 0.05]");
+        let both = parameters("h = [0.5, 0.25]\ndt = [0.1, 0.05]");
         assert_eq!(
             both,
             [

@@ -286,8 +286,9 @@ mod tests {
     fn rates_and_checks_that_do_not_pass_are_counted() {
         let checks = vec![Check::that(false, "c", "e"), Check::that(true, "d", "e")];
         let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(1.5, 2.0)], checks);
-        let told = "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";
-        assert_eq!(key_numbers(&outcome), told);
+        let expected =
+            "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";
+        assert_eq!(key_numbers(&outcome), expected);
         let headline = "largest residual 1e-16".to_owned();
         let own = Outcome {
             headline,

@@ -272,14 +272,14 @@ mod tests {
     fn no_write_begins_after_closing() {
         static CLOSED: RwLock<()> = RwLock::new(());
         close_of(&CLOSED, Duration::ZERO);
-        let (tell, told) = mpsc::channel();
+        let (sender, receiver) = mpsc::channel();
         // It waits for the end of the process.
         thread::spawn(move || {
             drop(CLOSED.read());
-            tell.send(())
+            sender.send(())
         });
         assert_eq!(
-            told.recv_timeout(SHORT),
+            receiver.recv_timeout(SHORT),
             Err(mpsc::RecvTimeoutError::Timeout)
         );
     }

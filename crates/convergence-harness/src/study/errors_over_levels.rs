@@ -354,8 +354,8 @@ mod tests {
             "{:?}",
             failed.checks
         );
-        let told = "e 2.0000 (order 2): 1 of 5 levels has no result: cells = 8; 2.0000 ± 0.00005 from levels 1 to 5 of 5";
-        assert!(failed.summary.starts_with(told), "{}", failed.summary);
+        let expected = "e 2.0000 (order 2): 1 of 5 levels has no result: cells = 8; 2.0000 ± 0.00005 from levels 1 to 5 of 5";
+        assert!(failed.summary.starts_with(expected), "{}", failed.summary);
         let rate = &failed.rates[0].1;
         assert_eq!(
             (rate.kind, rate.set_aside.len(), rate.set_aside[0].level),

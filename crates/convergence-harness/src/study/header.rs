@@ -117,7 +117,7 @@ pub fn study(header: &Header) -> Setting {
 /// * `subject`: what the item is about; its quantity is known.
 pub fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
-    let told = |path: &str| !path.starts_with("study.") && !path.contains('[');
+    let is_own = |path: &str| !path.starts_with("study.") && !path.contains('[');
     let own = [
         study(header),
         pair("field", &subject.quantity),
@@ -137,7 +137,7 @@ pub fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
     let of_file = header
         .settings
         .iter()
-        .filter(|(path, _)| told(path))
+        .filter(|(path, _)| is_own(path))
         .flat_map(entries);
     own.into_iter().chain(of_file).collect()
 }

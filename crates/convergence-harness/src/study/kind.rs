@@ -381,8 +381,8 @@ mod tests {
 
     #[test]
     fn a_reason_is_told_once_and_its_cases_are_counted() {
-        let told = by_reason([("a", "lost"), ("b", "NaN"), ("c", "lost"), ("d", "lost")]);
-        assert_eq!(told, ["a and 2 more: lost", "b: NaN"]);
+        let lines = by_reason([("a", "lost"), ("b", "NaN"), ("c", "lost"), ("d", "lost")]);
+        assert_eq!(lines, ["a and 2 more: lost", "b: NaN"]);
         assert!(by_reason([]).is_empty());
     }
 

@@ -59,8 +59,8 @@ fn search<T>(
         arguments.flags.quiet,
     );
     exit::say(|| "the error was not known yet".to_owned());
-    let mut told = |part: f64| bar.set_position((TICKS * part) as u64);
-    let mut work = Work::new(limit, &mut told);
+    let mut show_part = |part: f64| bar.set_position((TICKS * part) as u64);
+    let mut work = Work::new(limit, &mut show_part);
     let (found, _) = time_limit::within(arguments.time_limit, || find(&mut work));
     let spent = work.spent();
     bar.finish_and_clear();

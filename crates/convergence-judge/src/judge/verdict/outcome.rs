@@ -164,8 +164,8 @@ impl RateVerdict {
         judged_in_words(&rate, &self.claim(), &self.because)
     }
 
-    /// The same for whoever claims only this: a pass says what it excludes, and a rate without a
-    /// claim that there is none.
+    /// The same where nothing else is claimed: a pass says which orders it excludes, and a rate
+    /// without a claim says that there is none.
     ///
     /// * `most`: the largest number of decimals.
     pub fn answer(&self, most: usize) -> String {

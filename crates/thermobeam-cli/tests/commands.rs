@@ -72,7 +72,23 @@ fn a_source_in_place_of_a_kind_is_refused_with_the_name_of_the_kind() {
                 "error: studies/a.toml:5:8: study.kind: found \"{source}\"; expected \"{kind}\"\n"
             ),
         );
+        unusable(
+            &root,
+            &["explain", source],
+            &format!("did you mean {kind}?"),
+        );
     }
+}
+
+#[test]
+fn a_kind_may_have_a_source_after_a_slash_but_no_empty_one() {
+    let root = workspace(&[("a.toml", &study("a", "orders/"))]);
+    unusable(
+        &root,
+        &["verify"],
+        "study.kind: found the text \"orders/\"; expected 1 to 100 lowercase letters, digits, `.` or `-`, the first a \
+         letter or digit; a source like this may follow a `/`",
+    );
 }
 
 #[test]

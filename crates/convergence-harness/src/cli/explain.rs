@@ -195,13 +195,15 @@ pub fn study(project: &Project, study: &dyn Study) -> Option<String> {
     ))
 }
 
-/// The id or term closest to a misspelt one.
+/// The id or term closest to a misspelt one, or the kind with this source.
 pub fn nearest_name<'i>(
     project: &Project,
     ids: impl IntoIterator<Item = &'i str>,
     name: &str,
 ) -> Option<String> {
-    nearest(name, ids.into_iter().chain(terms(project))).map(str::to_owned)
+    let kind = KindRow::with_source(project.kinds, name).map(|kind| kind.name);
+    kind.or_else(|| nearest(name, ids.into_iter().chain(terms(project))))
+        .map(str::to_owned)
 }
 
 /// * `details`: paragraphs on one study, each with its title.

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::header::{DEFAULT_KIND, Exercised, Header, NAME, Tier, is_kind, is_name};
+use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::{Described, Kind, Study, erased};
 use super::over_levels::Claim;
 use crate::input::{self, Field, InputError, Section};
@@ -42,6 +42,18 @@ pub struct KindRow {
     /// The settings that an item of such a study exercises: by these a diagnosis separates failing
     /// from passing items.
     pub settings: Exercised,
+}
+
+impl KindRow {
+    /// The first kind whose numbers come from this source, which is named without the kind:
+    /// `vibration` for `orders/vibration`.
+    pub fn with_source<'k>(kinds: &'k [Self], source: &str) -> Option<&'k Self> {
+        let has_source = |row: &&Self| {
+            let parts = row.name.split_once('/');
+            parts.is_some_and(|(_, own)| own == source)
+        };
+        kinds.iter().find(has_source)
+    }
 }
 
 /// A study file, read once.
@@ -114,13 +126,7 @@ fn row<'k>(
     let study = root.require("study", "a table")?.section()?;
     // A file without kind has the default kind, which not every project knows.
     study.require("kind", &names.join(", "))?;
-    let last_part_is_found = |row: &&KindRow| {
-        let parts = row.name.split_once('/');
-        parts.is_some_and(|(_, source)| source == header.kind)
-    };
-    let expected = kinds
-        .iter()
-        .find(last_part_is_found)
+    let expected = KindRow::with_source(kinds, &header.kind)
         .map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
     Err(study.refuse("kind", format!("\"{}\"", header.kind), expected))
 }
@@ -180,12 +186,12 @@ impl Header {
         study.allow(&["id", "claim", "tier", "kind", "group"])?;
         let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
         let kind = if study.get("kind").is_some() {
-            name(&study, "kind", is_kind)?
+            name(&study, "kind", is_kind, KIND)?
         } else {
             DEFAULT_KIND.to_owned()
         };
         Ok(Self {
-            id: name(&study, "id", is_name)?,
+            id: name(&study, "id", is_name, NAME)?,
             claim: line(&study, "claim")?,
             tier: study
                 .require("tier", "\"quick\" or \"full\"")?
@@ -205,13 +211,14 @@ fn name(
     study: &Section<'_>,
     key: &str,
     is_allowed: fn(&str) -> bool,
+    allowed: &str,
 ) -> Result<String, InputError> {
-    let field = study.require(key, NAME)?;
+    let field = study.require(key, allowed)?;
     let text = field.text()?;
     if is_allowed(text) {
         Ok(text.to_owned())
     } else {
-        Err(field.refuse_as_written(NAME))
+        Err(field.refuse_as_written(allowed))
     }
 }
 

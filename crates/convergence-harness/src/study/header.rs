@@ -82,6 +82,10 @@ impl Header {
 pub const NAME: &str =
     "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
 
+/// What [`is_kind`] requires.
+#[cfg(feature = "files")]
+pub(super) const KIND: &str = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit; a source like this may follow a `/`";
+
 /// Whether a text can be the name of a kind: parts as in an id, with a `/` between them.
 #[cfg(feature = "files")]
 pub(super) fn is_kind(text: &str) -> bool {

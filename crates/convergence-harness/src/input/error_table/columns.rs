@@ -71,10 +71,9 @@ impl Cells<'_> {
         let same = SAME.max(2.0 * self.widest_half() / least).min(0.02);
         let ratios: Vec<f64> = values.windows(2).map(|two| two[1] / two[0]).collect();
         let ratio = ratios.iter().copied().fold(f64::INFINITY, f64::min);
-        let is_whole = |multiple: f64| (multiple / multiple.round() - 1.0).abs() < SAME;
         let is_regular = ratios.iter().all(|one| (one / ratio - 1.0).abs() < same)
-            || values.iter().all(|value| is_whole(most / value))
-            || values.iter().all(|value| is_whole(value / least));
+            || values.iter().all(|value| is_almost_whole(most / value))
+            || values.iter().all(|value| is_almost_whole(value / least));
         (ratios.len() > 1 && is_regular && ratio > 1.0 && ratio.is_finite() && least > 0.0)
             .then_some(ratio)
     }
@@ -90,16 +89,17 @@ impl Cells<'_> {
 
     /// Whether this column counts what the other one measures.
     pub(super) fn is_inverse(&self, other: &Self) -> bool {
-        let products = || {
-            self.values
-                .iter()
-                .zip(&other.values)
-                .map(|(count, step)| count * step)
-        };
-        let least = products().fold(f64::INFINITY, f64::min);
+        let products = self
+            .values
+            .iter()
+            .zip(&other.values)
+            .map(|(count, step)| count * step);
+        let least = products.clone().fold(f64::INFINITY, f64::min);
         self.is_whole()
             && !other.is_whole()
-            && products().all(|product| product / least - 1.0 < SAME)
+            && products
+                .into_iter()
+                .all(|product| product / least - 1.0 < SAME)
     }
 
     /// The number of steps in which both fall or both grow, minus those in which one falls and the
@@ -122,38 +122,32 @@ impl Cells<'_> {
             return None;
         }
         let half = 1.2 * self.widest_half();
-        let is_same = |k: usize, found: f64, derived: Derived| {
-            let reduction = errors[k] / errors[k + 1];
-            let doubt = error.halves[k] / errors[k] + error.halves[k + 1] / errors[k + 1];
-            let (value, doubt) = match derived {
-                Derived::Factors => (reduction, doubt * reduction),
-                Derived::RatesOfHalvedSteps => (reduction.log2(), doubt / LN_2),
-                Derived::Rates => {
-                    let ratio = (steps[k] / steps[k + 1]).ln();
-                    (reduction.ln() / ratio, doubt / ratio)
-                }
-            };
-            (found - value).abs() <= (half + doubt).min(0.25) + SAME * value.abs()
-        };
-        let matches =
-            |shift: usize, derived| (0..last).all(|k| is_same(k, self.values[k + shift], derived));
-        // Three rates are proof enough; two need a name, or an end without one.
-        let is_end =
-            |row: usize| !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row]);
-        let may = |shift: &usize| {
-            last > 2 || self.word == Word::Rate || is_end(if *shift == 1 { 0 } else { last })
-        };
-        let shifts: Vec<usize> = [1, 0].into_iter().filter(may).collect();
+        // Three rates are proof enough; two need a name, or an end without a rate.
+        let is_proof = last > 2 || self.word == Word::Rate;
+        // Each rate stands on the finer level of its pair, or on the coarser one.
+        let finer = is_proof || self.has_no_rate(0);
+        let coarser = is_proof || self.has_no_rate(last);
         [
             Derived::Rates,
             Derived::RatesOfHalvedSteps,
             Derived::Factors,
         ]
         .into_iter()
-        .find(|derived| shifts.iter().any(|shift| matches(*shift, *derived)))
+        .find(|derived| {
+            let agree = |printed: &[f64]| {
+                let mut rows = printed.iter().enumerate();
+                rows.all(|(k, value)| derived.value(error, steps, k).is_near(*value, half))
+            };
+            finer && agree(&self.values[1..]) || coarser && agree(&self.values[..last])
+        })
     }
 
-    /// Whether the error of no name that is known falls, tends to a limit, or does neither.
+    /// Whether a cell holds no rate, or what tables print in its place.
+    fn has_no_rate(&self, row: usize) -> bool {
+        !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row])
+    }
+
+    /// Whether a column of unknown name falls, tends to a limit, or does neither.
     pub(super) fn trend(&self, step: &Self) -> Trend {
         let numbers: Vec<f64> = self
             .values
@@ -166,17 +160,30 @@ impl Cells<'_> {
         let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count()
             >= numbers.len() - 1
             && last < first;
+        if self.is_constant() {
+            return Trend::Doubtful("the same in each row");
+        }
         let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
+        if is_whole && numbers.windows(2).all(|two| two[0] < two[1]) {
+            return Trend::Grows;
+        }
+        if is_whole && !falls {
+            return Trend::Doubtful("whole numbers that do not fall");
+        }
+        if step.is_in_proportion(self) {
+            return Trend::Doubtful("in proportion to the step");
+        }
         match limit(&numbers).filter(|_| !is_whole) {
-            _ if self.is_constant() => Trend::Doubtful("the same in each row"),
-            _ if is_whole && numbers.windows(2).all(|two| two[0] < two[1]) => Trend::Grows,
-            _ if is_whole && !falls => Trend::Doubtful("whole numbers that do not fall"),
-            _ if step.is_in_proportion(self) => Trend::Doubtful("in proportion to the step"),
             Some(limit) => Trend::Limit(limit),
             None if falls => Trend::Falls,
             None => Trend::Doubtful("growing or standing still where the step falls"),
         }
     }
+}
+
+/// Whether a number is a whole one, but for its digits.
+fn is_almost_whole(number: f64) -> bool {
+    (number / number.round() - 1.0).abs() < SAME
 }
 
 /// What somebody has computed from the errors of another column.
@@ -188,6 +195,48 @@ pub(super) enum Derived {
     RatesOfHalvedSteps,
     /// `e_k / e_(k+1)`.
     Factors,
+}
+
+/// A number that is computed from the errors of two levels.
+struct DerivedValue {
+    value: f64,
+    /// By how much the digits of the errors may have changed it.
+    doubt: f64,
+}
+
+impl DerivedValue {
+    /// Whether a printed number agrees with it.
+    ///
+    /// * `half`: of the last printed place.
+    fn is_near(&self, printed: f64, half: f64) -> bool {
+        (printed - self.value).abs() <= (half + self.doubt).min(0.25) + SAME * self.value.abs()
+    }
+}
+
+impl Derived {
+    /// What levels k and k + 1 of an error give.
+    fn value(self, error: &Cells<'_>, steps: &[f64], k: usize) -> DerivedValue {
+        let errors = &error.values;
+        let reduction = errors[k] / errors[k + 1];
+        let doubt = error.halves[k] / errors[k] + error.halves[k + 1] / errors[k + 1];
+        match self {
+            Self::Factors => DerivedValue {
+                value: reduction,
+                doubt: doubt * reduction,
+            },
+            Self::RatesOfHalvedSteps => DerivedValue {
+                value: reduction.log2(),
+                doubt: doubt / LN_2,
+            },
+            Self::Rates => {
+                let ratio = (steps[k] / steps[k + 1]).ln();
+                DerivedValue {
+                    value: reduction.ln() / ratio,
+                    doubt: doubt / ratio,
+                }
+            }
+        }
+    }
 }
 
 /// How the numbers of a column go on as the step falls.
@@ -208,9 +257,10 @@ pub fn limit(numbers: &[f64]) -> Option<f64> {
     } else {
         c
     };
-    let sizes = || numbers.iter().map(|value| value.abs());
-    let is_near =
-        sizes().fold(0.0, f64::max) < NEAR * sizes().fold(f64::INFINITY, f64::min) && b != c;
+    let sizes = numbers.iter().map(|value| value.abs());
+    let largest = sizes.clone().fold(0.0, f64::max);
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    let is_near = largest < NEAR * smallest && b != c;
     let settles = b != a && shrinks.abs() < 0.95 && limit / c > 0.7;
     (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite())
         .then_some(limit)

@@ -34,9 +34,7 @@ impl Column {
             .last()
             .copied()
             .unwrap_or(0.0);
-        let share = |k: usize| {
-            self.half(k, finest_rate) / self.levels[k].error.abs().max(f64::MIN_POSITIVE)
-        };
+        let share = |k: usize| self.share(k, finest_rate);
         let is_exact = (0..self.levels.len()).all(|k| share(k) < NOTHING);
         let finest = self.levels[..used].windows(2).enumerate().next_back();
         let doubt = finest.map_or(0.0, |(k, pair)| {
@@ -48,27 +46,26 @@ impl Column {
             doubt
         };
         let mut judged = claim.judge_rounded(judge, &self.levels, doubt);
-        let is_told = matches!(
+        let needs_no_digits = matches!(
             judged.kind,
             Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels
         );
-        if is_exact || is_told || claim.order.is_nan() || judged.verdict == Verdict::Pass {
+        if is_exact || needs_no_digits || claim.order.is_nan() || judged.verdict == Verdict::Pass {
             return judged;
         }
         judged.cause = judged
             .cause
             .or_else(|| Cause::of(&self.levels[..used], claim.order, share));
-        let corners = self.corners(finest_rate);
-        let may_be = |verdict: Verdict| {
-            corners
-                .iter()
-                .any(|levels| claim.judge(judge, levels).verdict == verdict)
-        };
+        let possible: Vec<Verdict> = self
+            .corners(finest_rate)
+            .iter()
+            .map(|levels| claim.judge(judge, levels).verdict)
+            .collect();
         let is_undone = judged.verdict == Verdict::Inconclusive
             && claim.judge(judge, &self.levels).verdict != Verdict::Inconclusive;
         let is_poor = doubt > judge.tolerance()
-            && (judged.verdict != Verdict::Fail || may_be(Verdict::Inconclusive));
-        if is_undone || is_poor || may_be(Verdict::Pass) {
+            && (judged.verdict != Verdict::Fail || possible.contains(&Verdict::Inconclusive));
+        if is_undone || is_poor || possible.contains(&Verdict::Pass) {
             self.without_digits(judged)
         } else {
             judged
@@ -77,25 +74,22 @@ impl Column {
 
     /// Judges the differences of the values, and estimates their limit.
     pub fn estimate(&self, estimator: &Estimator, order: f64) -> Estimate {
-        let estimate = |levels: &Vec<Level>| {
-            let value = |level: &Level| Value {
-                step: level.step,
-                value: level.error,
-            };
-            estimator.estimate(&levels.iter().map(value).collect::<Vec<_>>(), order)
-        };
-        let mut found = estimate(&self.levels);
-        let rate = found.judged.finest_rate().unwrap_or(0.0);
-        let corners: Vec<Estimate> = self.corners(rate).iter().map(estimate).collect();
-        let verdict = found.judged.verdict;
+        let mut estimate = estimator.estimate(&as_values(&self.levels), order);
+        let rate = estimate.judged.finest_rate().unwrap_or(0.0);
+        let corners: Vec<Estimate> = self
+            .corners(rate)
+            .iter()
+            .map(|levels| estimator.estimate(&as_values(levels), order))
+            .collect();
+        let verdict = estimate.judged.verdict;
         if !order.is_nan()
             && corners
                 .iter()
                 .any(|corner| corner.judged.verdict != verdict)
         {
-            found.judged = self.without_digits(found.judged);
+            estimate.judged = self.without_digits(estimate.judged);
         }
-        if let Ok(bar) = &mut found.bar {
+        if let Ok(bar) = &mut estimate.bar {
             for other in corners.iter().filter_map(|corner| corner.bar.as_ref().ok()) {
                 bar.limit = [
                     bar.limit[0].min(other.limit[0]),
@@ -103,12 +97,17 @@ impl Column {
                 ];
             }
         }
-        found
+        estimate
     }
 
-    /// Uncertainty from the last places of an error and of its step, in the unit of the error.
+    /// The uncertainty of an error from its last place and that of its step, relative to the error.
+    fn share(&self, k: usize, rate: f64) -> f64 {
+        self.half(k, rate) / self.levels[k].error.abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// The uncertainty from the last places of an error and of its step, in the unit of the error.
     ///
-    /// * `rate`: with which the error changes with the step.
+    /// * `rate`: how fast the error changes with the step.
     fn half(&self, k: usize, rate: f64) -> f64 {
         let Level { step, error } = self.levels[k];
         self.halves[k] + error.abs() * rate.max(0.0) * self.step_halves[k] / step
@@ -120,13 +119,11 @@ impl Column {
         let mut corners = vec![self.levels.clone()];
         for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {
             let half = self.half(k, rate);
-            let moved = |by: f64| {
-                let mut levels = corners.clone();
-                levels.iter_mut().for_each(|levels| levels[k].error += by);
-                levels
-            };
             if half > NOTHING * self.levels[k].error.abs() && half.is_finite() {
-                corners = [moved(0.0), moved(-half), moved(half)].concat();
+                corners = [0.0, -half, half]
+                    .into_iter()
+                    .flat_map(|change| with_change(&corners, k, change))
+                    .collect();
             }
         }
         corners
@@ -145,4 +142,24 @@ impl Column {
         };
         judged.with_reason(Reason::Digits, &format!("{what}: print more"))
     }
+}
+
+/// Lists of levels whose k-th error is changed by this much.
+fn with_change(lists: &[Vec<Level>], k: usize, change: f64) -> Vec<Vec<Level>> {
+    let mut lists = lists.to_vec();
+    for levels in &mut lists {
+        levels[k].error += change;
+    }
+    lists
+}
+
+/// Levels that hold values in place of errors.
+fn as_values(levels: &[Level]) -> Vec<Value> {
+    levels
+        .iter()
+        .map(|level| Value {
+            step: level.step,
+            value: level.error,
+        })
+        .collect()
 }

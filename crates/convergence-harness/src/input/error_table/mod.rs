@@ -106,32 +106,33 @@ impl RateTable {
 
     /// The column of errors of this name, with or without its unit.
     pub fn column(&self, name: &str) -> Option<&Column> {
-        let at = names::position(self.columns.iter().map(|column| column.name.as_str()), name)?;
-        self.columns.get(at)
+        let names = self.columns.iter().map(|column| column.name.as_str());
+        self.columns.get(names::position(names, name)?)
     }
+}
+
+/// The names in a list of the command line; `None` without any.
+fn list(names: &[String]) -> Option<String> {
+    Some(names.join(",")).filter(|list| !list.is_empty())
 }
 
 impl Choice {
     /// The command with this choice.
     fn line(&self) -> String {
-        let list = |list: &[String]| Some(list.join(",")).filter(|list| !list.is_empty());
-        let [names, columns] =
-            [&self.names, &self.columns].map(|names| names.as_deref().and_then(list));
-        let [dim, ratio] =
-            [self.dim, self.ratio].map(|number| number.map(|number| number.to_string()));
         let options = [
-            ("names", names),
+            ("names", list(self.names.as_deref().unwrap_or_default())),
             ("step", self.step.clone()),
-            ("dim", dim),
-            ("ratio", ratio),
-            ("columns", columns),
+            ("dim", self.dim.map(|dim| dim.to_string())),
+            ("ratio", self.ratio.map(|ratio| ratio.to_string())),
+            ("columns", list(self.columns.as_deref().unwrap_or_default())),
             ("values", list(&self.values)),
         ];
-        let given = options
-            .into_iter()
-            .filter_map(|(name, value)| Some((name, quoted(&value?))));
-        given.fold(self.command.clone(), |line, (name, value)| {
-            format!("{line} --{name} {value}")
-        })
+        let mut line = self.command.clone();
+        for (name, value) in options {
+            if let Some(value) = value {
+                line += &format!(" --{name} {}", quoted(&value));
+            }
+        }
+        line
     }
 }

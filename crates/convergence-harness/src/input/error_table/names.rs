@@ -74,12 +74,11 @@ impl Word {
             .chars()
             .filter(|c| c.is_alphanumeric() || *c == '∆')
             .collect();
-        let words = || {
-            lower
-                .split(|c: char| !c.is_alphanumeric())
-                .filter(|word| !word.is_empty())
-        };
-        let has = |list: &Words| words().any(|word| list.contains_key(word));
+        let words: Vec<&str> = lower
+            .split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty())
+            .collect();
+        let has = |list: &Words| words.iter().any(|word| list.contains_key(word));
         let argument = lower
             .trim_start_matches('\\')
             .strip_prefix("log")
@@ -90,17 +89,19 @@ impl Word {
         if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") {
             return Self::Rate;
         }
-        let is_norm = |part: &&str| lower.contains(part) || joined.contains(part);
-        if NORMS.iter().any(is_norm) {
+        if NORMS
+            .iter()
+            .any(|part| lower.contains(part) || joined.contains(part))
+        {
             return Self::Error;
         }
         if STEPS.contains_key(joined.as_str()) {
             return Self::Step;
         }
-        if has(&ERRORS) && !words().any(|word| word == "time") {
+        if has(&ERRORS) && !words.contains(&"time") {
             return Self::Error;
         }
-        if words().all(|word| COSTS.contains_key(word)) && words().next().is_some() {
+        if !words.is_empty() && words.iter().all(|word| COSTS.contains_key(word)) {
             return Self::Cost;
         }
         match count(&joined) {
@@ -125,13 +126,9 @@ impl Word {
 
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
-    let rank = |name: &str| COUNTS.get(name).copied();
-    let prefixes = ["numberof", "number", "num", "nr", "no", "n", "total"];
-    rank(name).or_else(|| {
-        prefixes
-            .iter()
-            .find_map(|prefix| rank(name.strip_prefix(prefix)?))
-    })
+    ["", "numberof", "number", "num", "nr", "no", "n", "total"]
+        .iter()
+        .find_map(|prefix| COUNTS.get(name.strip_prefix(prefix)?).copied())
 }
 
 /// Whether values are those of one row above the other: 1/h counts, 1/N is a step.
@@ -143,7 +140,7 @@ pub(super) fn reciprocal(name: &str) -> Option<&str> {
 }
 
 /// A name without the markup of mathematics.
-pub(super) fn shown(text: &str) -> String {
+pub(super) fn without_markup(text: &str) -> String {
     let text = text
         .trim_matches(|c: char| c.is_whitespace() || "*`$".contains(c))
         .replace('$', "");
@@ -179,14 +176,15 @@ pub(crate) fn position<'n>(
     names: impl Iterator<Item = &'n str> + Clone,
     wanted: &str,
 ) -> Option<usize> {
-    let numbered = format!("column {wanted}");
-    let same = |text: &str| names.clone().position(|name| name == text);
-    same(wanted).or_else(|| same(&numbered)).or_else(|| {
-        let mut same = names
-            .clone()
-            .enumerate()
-            .filter(|(_, name)| without_unit(name) == wanted)
-            .map(|(k, _)| k);
-        same.next().filter(|_| same.next().is_none())
-    })
+    for name in [wanted, &format!("column {wanted}")] {
+        let position = names.clone().position(|other| other == name);
+        if position.is_some() {
+            return position;
+        }
+    }
+    let mut without_their_unit = names
+        .enumerate()
+        .filter(|(_, name)| without_unit(name) == wanted);
+    let (position, _) = without_their_unit.next()?;
+    without_their_unit.next().is_none().then_some(position)
 }

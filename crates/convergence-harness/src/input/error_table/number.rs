@@ -13,8 +13,16 @@ const DRESS: &str =
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Number {
     pub(super) value: f64,
-    /// Decimals, and the power of ten after them; `None` for fractions and powers, which are exact.
-    place: Option<(i32, Option<i32>)>,
+    /// `None` for fractions and powers, which are exact.
+    place: Option<Place>,
+}
+
+/// The last printed place of a number.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    decimals: i32,
+    /// The power of ten after the decimals, if there is one.
+    exponent: Option<i32>,
 }
 
 /// Half a unit of the last printed place of each number of a column; 0 for whole and for exact
@@ -23,24 +31,33 @@ pub(super) struct Number {
 /// The row with the most decimals shows the place to which all are printed: a program that prints
 /// 0.25 and 0.0625 omits zeros.
 pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
-    let places = |scaled: bool| {
-        let places = column.iter().flatten().filter_map(|number| number.place);
-        places
-            .filter(|place| place.1.is_some() == scaled)
-            .map(|place| place.0)
-            .max()
-            .unwrap_or(0)
-    };
-    let plain = places(false);
-    let scaled = places(true);
-    let half = |number: &Option<Number>| match number.and_then(|number| number.place) {
-        Some((_, None)) if plain > 0 => 0.5 * 10f64.powi(-plain),
-        Some((_, Some(ten))) if number.is_some_and(|number| number.value != 0.0) => {
-            0.5 * 10f64.powi(ten - scaled)
+    let mut plain_decimals = 0;
+    let mut scaled_decimals = 0;
+    for place in column.iter().flatten().filter_map(|number| number.place) {
+        let decimals = match place.exponent {
+            None => &mut plain_decimals,
+            Some(_) => &mut scaled_decimals,
+        };
+        *decimals = place.decimals.max(*decimals);
+    }
+    let mut halves = vec![0.0; column.len()];
+    for (half, number) in halves.iter_mut().zip(column) {
+        let Some(Number {
+            value,
+            place: Some(place),
+        }) = number
+        else {
+            continue;
+        };
+        match place.exponent {
+            None if plain_decimals > 0 => *half = 0.5 * 10f64.powi(-plain_decimals),
+            Some(exponent) if *value != 0.0 => {
+                *half = 0.5 * 10f64.powi(exponent - scaled_decimals);
+            }
+            _ => {}
         }
-        _ => 0.0,
-    };
-    column.iter().map(half).collect()
+    }
+    halves
 }
 
 /// Whether a cell says that it has no number.
@@ -53,22 +70,13 @@ pub(super) fn is_dash(cell: &str) -> bool {
 /// * `decimal_comma`: whether `0,1` may be a number, because commas do not separate cells. `1,024`
 ///   is refused: it may be 1024.
 pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
-    // Most cells that are no number are words, perhaps a hundred thousand; two numbers are not one.
-    let is_other = || {
-        let starts = cell.is_empty() || cell.starts_with(char::is_alphabetic);
-        starts
-            || cell
-                .split_whitespace()
-                .filter(|word| word.parse::<f64>().is_ok())
-                .count()
-                > 1
-    };
     if let Some(number) = real(cell).or_else(|| {
         cell.strip_prefix('(')
             .and_then(|cell| real(cell.strip_suffix(')')?))
     }) {
         return Some(number);
-    } else if is_other() {
+    }
+    if is_no_number(cell) {
         return None;
     }
     let (edge, others) = cell.split_once(['x', '×']).unwrap_or((cell, ""));
@@ -101,10 +109,23 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     }
 }
 
+/// Whether a cell, which is not a number as it stands, is a word or several numbers. A text may have
+/// a hundred thousand words: they are recognised without more work.
+fn is_no_number(cell: &str) -> bool {
+    let words = cell.split_whitespace();
+    cell.is_empty()
+        || cell.starts_with(char::is_alphabetic)
+        || words.filter(|word| word.parse::<f64>().is_ok()).count() > 1
+}
+
+/// A whole number, perhaps in parentheses.
+fn integer(text: &str) -> Option<i32> {
+    text.trim_matches(['(', ')']).parse().ok()
+}
+
 /// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number
 /// 0.1 twice.
 fn value(text: &str) -> Option<Number> {
-    let integer = |text: &str| text.trim_matches(['(', ')']).parse::<i32>().ok();
     if let Some((above, below)) = text
         .split_once('/')
         .filter(|(_, below)| !below.contains('/'))
@@ -137,33 +158,53 @@ fn value(text: &str) -> Option<Number> {
 /// A number of C or Fortran; Fortran's exponents begin with D or, with three digits, with their
 /// sign.
 fn real(text: &str) -> Option<Number> {
-    let decimals = |text: &str| {
-        text.split_once('.')
-            .map_or(0, |(_, decimals)| decimals.len() as i32)
-    };
-    let signed = || {
-        let (_, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
-        let is_exponent =
-            exponent.starts_with(['+', '-']) && exponent[1..].bytes().all(|c| c.is_ascii_digit());
-        is_exponent.then_some([text.len() - 4; 2])
-    };
-    let exponent = text
-        .find(['e', 'E', 'D', 'd', 'Q', 'q'])
-        .map(|at| [at, at + 1])
-        .or_else(signed);
-    if let Some([end, start]) = exponent
-        && text[..end].ends_with(|c: char| c.is_ascii_digit() || c == '.')
-    {
-        let (mantissa, ten): (&str, i32) = (&text[..end], text[start..].parse().ok()?);
-        let value = format!("{mantissa}e{ten}").parse().ok()?;
+    if let Some(Scaled { mantissa, exponent }) = split_exponent(text) {
+        let exponent: i32 = exponent.parse().ok()?;
         return Some(Number {
-            value,
-            place: Some((decimals(mantissa), Some(ten))),
+            value: format!("{mantissa}e{exponent}").parse().ok()?,
+            place: Some(Place {
+                decimals: decimals(mantissa),
+                exponent: Some(exponent),
+            }),
         });
     }
     let value: f64 = text.parse().ok()?;
     Some(Number {
         value,
-        place: value.is_finite().then_some((decimals(text), None)),
+        place: value.is_finite().then_some(Place {
+            decimals: decimals(text),
+            exponent: None,
+        }),
     })
+}
+
+/// A number as printed, before and after the mark of its exponent.
+struct Scaled<'t> {
+    mantissa: &'t str,
+    exponent: &'t str,
+}
+
+/// The parts of a number with an exponent; `None` without one.
+fn split_exponent(text: &str) -> Option<Scaled<'_>> {
+    let (mantissa, exponent) = match text.split_once(['e', 'E', 'D', 'd', 'Q', 'q']) {
+        Some(parts) => parts,
+        // Three digits after a sign: Fortran has no room for the letter.
+        None => {
+            let (mantissa, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
+            let digits = exponent.strip_prefix(['+', '-'])?;
+            if !digits.bytes().all(|c| c.is_ascii_digit()) {
+                return None;
+            }
+            (mantissa, exponent)
+        }
+    };
+    mantissa
+        .ends_with(|c: char| c.is_ascii_digit() || c == '.')
+        .then_some(Scaled { mantissa, exponent })
+}
+
+/// The number of digits after the decimal point.
+fn decimals(text: &str) -> i32 {
+    text.split_once('.')
+        .map_or(0, |(_, decimals)| decimals.len() as i32)
 }

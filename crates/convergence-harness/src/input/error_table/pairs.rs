@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::names::Word;
 use super::number::{is_dash, number};
+use super::reader::LeftOut;
 use crate::text::number::counted;
 
 /// A table as written. Names and cells are slices of the text, which give their places.
@@ -14,8 +15,8 @@ pub(super) struct RawTable<'t> {
     pub(super) rows: Vec<Vec<&'t str>>,
     /// Whether a comma in a cell is a decimal comma.
     pub(super) decimal_comma: bool,
-    /// What is not a column of the table, with the reason.
-    pub(super) left_out: Vec<(String, String)>,
+    /// What is not a column of the table.
+    pub(super) left_out: Vec<LeftOut>,
 }
 
 /// Longest text in which a name is looked for before its number, in bytes.
@@ -44,14 +45,15 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     if must_mark && !text.contains([':', '=']) {
         return None;
     }
-    let (pairs, rows) = pairs(text);
+    let PairedText { pairs, rows } = find_pairs(text);
     let marked = pairs.iter().filter(|pair| pair.is_marked).count();
     let longest = pairs.iter().map(|pair| pair.values.len()).max()?;
-    if if must_mark {
+    let is_table_of_rows = if must_mark {
         marked < 2 || marked <= rows
     } else {
         rows > 0
-    } {
+    };
+    if is_table_of_rows {
         return None;
     }
     Some(if longest > 1 {
@@ -61,9 +63,17 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     })
 }
 
-/// The pairs of a text, and how many lines begin with a nameless number.
-fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
-    let (mut pairs, mut known): (Vec<Pair<'_>>, HashSet<&str>) = Default::default();
+/// What a text holds.
+struct PairedText<'t> {
+    pairs: Vec<Pair<'t>>,
+    /// The number of lines that begin with a nameless number.
+    rows: usize,
+}
+
+/// Finds the pairs of a text.
+fn find_pairs(text: &str) -> PairedText<'_> {
+    let mut pairs: Vec<Pair<'_>> = vec![];
+    let mut known: HashSet<&str> = HashSet::new();
     let mut rows = 0;
     let mut is_row = false;
     let mut depth = 0_usize;
@@ -84,11 +94,11 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
             .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
             .ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        let is_number = (begins || is_last) && number(word, false).is_some();
         // After a name that has a number elsewhere, a word means that the number is missing.
-        let is_word = || is_dash(word) || known.contains(name_before(before));
-        if !((begins || is_last) && number(word, false).is_some()
-            || is_marked && is_last && is_word())
-        {
+        let is_value = is_number
+            || is_marked && is_last && (is_dash(word) || known.contains(name_before(before)));
+        if !is_value {
             continue;
         }
         let marks = &before[before.trim_end_matches(is_mark).len()..];
@@ -100,21 +110,23 @@ fn pairs(text: &str) -> (Vec<Pair<'_>>, usize) {
         let has_name =
             name.contains(char::is_alphabetic) && is_near && !marks.contains(['(', ',', ';', '{']);
         is_row = !has_name && (is_first || is_row);
-        match pairs.last_mut() {
-            _ if has_name => {
-                pairs.push(Pair {
-                    name,
-                    values: vec![word],
-                    is_marked,
-                });
-                known.insert(name);
-            }
-            Some(last) if depth > 0 || !is_row => last.values.push(word),
-            _ => rows += usize::from(is_first),
+        if has_name {
+            pairs.push(Pair {
+                name,
+                values: vec![word],
+                is_marked,
+            });
+            known.insert(name);
+        } else if let Some(last) = pairs.last_mut()
+            && (depth > 0 || !is_row)
+        {
+            last.values.push(word);
+        } else {
+            rows += usize::from(is_first);
         }
         label = position;
     }
-    (pairs, rows)
+    PairedText { pairs, rows }
 }
 
 /// The name that a text ends with, before marks.
@@ -122,15 +134,18 @@ fn name_before(text: &str) -> &str {
     let words = text.trim_end_matches(is_mark);
     // The search for a name is bounded, because a text may have a hundred thousand words before its
     // next number.
-    let start =
-        (words.len().saturating_sub(LONGEST_LABEL)..).find(|at| words.is_char_boundary(*at));
-    let words = words[start.unwrap_or(0)..]
-        .rsplit('\n')
-        .next()
-        .unwrap_or_default();
+    let mut start = words.len().saturating_sub(LONGEST_LABEL);
+    while !words.is_char_boundary(start) {
+        start += 1;
+    }
+    let words = words[start..].rsplit('\n').next().unwrap_or_default();
     // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
-    let cuts = |c: char| matches!(c, ',' | ';' | '{' | '\t') || (c == '(' && !words.contains(')'));
-    let name = words.rsplit(cuts).next().unwrap_or_default();
+    let separators: &[char] = if words.contains(')') {
+        &[',', ';', '{', '\t']
+    } else {
+        &[',', ';', '{', '\t', '(']
+    };
+    let name = words.rsplit(separators).next().unwrap_or_default();
     let name = name
         .trim_matches(is_mark)
         .trim_start_matches(['-', '>', ' ']);
@@ -158,64 +173,81 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
         }
         if pair.values.len() == longest {
             grid.names.push(pair.name);
-            grid.rows
-                .iter_mut()
-                .zip(pair.values)
-                .for_each(|(row, value)| row.push(value));
+            for (row, value) in grid.rows.iter_mut().zip(pair.values) {
+                row.push(value);
+            }
         } else {
-            let why = format!(
-                "{} instead of {longest}",
-                counted(pair.values.len(), "number")
-            );
-            grid.left_out.push((pair.name.to_owned(), why));
+            grid.left_out.push(LeftOut {
+                name: pair.name.to_owned(),
+                reason: format!(
+                    "{} instead of {longest}",
+                    counted(pair.values.len(), "number")
+                ),
+            });
         }
     }
     grid
 }
 
+/// How often a text has a name before a number.
+struct Repetition<'t> {
+    name: &'t str,
+    count: usize,
+}
+
+/// The names of a text in order of occurrence.
+fn count_names<'t>(pairs: &[Pair<'t>]) -> Vec<Repetition<'t>> {
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    let mut repetitions: Vec<Repetition<'_>> = vec![];
+    for Pair { name, .. } in pairs {
+        let place = *places.entry(name).or_insert(repetitions.len());
+        if place == repetitions.len() {
+            repetitions.push(Repetition { name, count: 0 });
+        }
+        repetitions[place].count += 1;
+    }
+    repetitions
+}
+
+/// The number of levels: the count of the step, or else the one that most names share.
+fn count_levels(repetitions: &[Repetition<'_>]) -> usize {
+    let step = repetitions.iter().find(|Repetition { name, count }| {
+        *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_))
+    });
+    if let Some(step) = step {
+        return step.count;
+    }
+    let mut frequencies: HashMap<usize, usize> = HashMap::new();
+    for Repetition { count, .. } in repetitions {
+        *frequencies.entry(*count).or_default() += 1;
+    }
+    let common = repetitions
+        .iter()
+        .max_by_key(|Repetition { count, .. }| (frequencies[count], *count));
+    common.map_or(0, |repetition| repetition.count)
+}
+
 /// A row for each repetition of the names. Names that a solver prints more often than the step are
 /// left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
-    let mut places: HashMap<&str, usize> = HashMap::new();
-    let mut counts: Vec<(&'t str, usize)> = vec![];
-    for pair in pairs {
-        let place = *places.entry(pair.name).or_insert(counts.len());
-        if place == counts.len() {
-            counts.push((pair.name, 0));
+    let repetitions = count_names(pairs);
+    let levels = count_levels(&repetitions);
+    let mut names = vec![];
+    let mut left_out = vec![];
+    let mut first = None;
+    for Repetition { name, count } in repetitions {
+        if count > levels || 2 * count < levels {
+            left_out.push(LeftOut {
+                name: name.to_owned(),
+                reason: format!("printed {count} times for {levels} levels"),
+            });
+            continue;
         }
-        counts[place].1 += 1;
+        if count == levels && first.is_none() {
+            first = Some(name);
+        }
+        names.push(name);
     }
-    let mut alike: HashMap<usize, usize> = HashMap::new();
-    counts
-        .iter()
-        .for_each(|(_, count)| *alike.entry(*count).or_default() += 1);
-    let is_step = |(name, count): &&(&str, usize)| {
-        *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_))
-    };
-    let common = || {
-        counts
-            .iter()
-            .max_by_key(|(_, count)| (alike[count], *count))
-    };
-    let levels = counts
-        .iter()
-        .find(is_step)
-        .or_else(common)
-        .map_or(0, |(_, count)| *count);
-    let (kept, others): (Vec<_>, Vec<_>) = counts
-        .iter()
-        .partition(|(_, count)| *count <= levels && 2 * count >= levels);
-    let why = |(name, count): (&str, usize)| {
-        (
-            name.to_owned(),
-            format!("printed {count} times for {levels} levels"),
-        )
-    };
-    let first = kept
-        .iter()
-        .find(|(_, count)| *count == levels)
-        .map(|(name, _)| *name);
-    let names: Vec<&str> = kept.iter().map(|(name, _)| *name).collect();
     let columns: HashMap<&str, usize> = names
         .iter()
         .enumerate()
@@ -233,7 +265,7 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
     RawTable {
         names,
         rows,
-        left_out: others.into_iter().map(why).collect(),
+        left_out,
         ..RawTable::default()
     }
 }

@@ -24,8 +24,15 @@ pub(super) struct TableReader<'t> {
     pub(super) choice: &'t Choice,
     table: &'t RawTable<'t>,
     pub(super) columns: Vec<Cells<'t>>,
-    /// What is not an error, with the reason.
-    pub(super) left_out: Vec<(String, String)>,
+    /// What is not an error.
+    pub(super) left_out: Vec<LeftOut>,
+}
+
+/// A column, or a list of numbers, that is not an error.
+#[derive(Debug, Clone)]
+pub(super) struct LeftOut {
+    pub(super) name: String,
+    pub(super) reason: String,
 }
 
 /// A table that cannot be used, and choices that may read it.
@@ -79,7 +86,7 @@ impl<'t> TableReader<'t> {
             columns: vec![],
             left_out: table.left_out.clone(),
         };
-        reader.columns = reader.filled()?;
+        reader.columns = reader.columns()?;
         Ok(reader)
     }
 
@@ -94,7 +101,7 @@ impl<'t> TableReader<'t> {
     }
 
     /// The columns; refuses a text without a table, and names that do not fit its columns.
-    fn filled(&self) -> Result<Vec<Cells<'t>>, Refusal> {
+    fn columns(&self) -> Result<Vec<Cells<'t>>, Refusal> {
         let RawTable { names, rows, .. } = self.table;
         let width = rows.iter().map(Vec::len).max().unwrap_or(0);
         if width == 0 {
@@ -109,8 +116,13 @@ impl<'t> TableReader<'t> {
             let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
             return Err(self.refuse(expected, &found).into());
         }
-        let shown = || names.iter().map(|name| names::shown(name)).collect();
-        let names: Vec<String> = self.choice.names.clone().unwrap_or_else(shown);
+        let names: Vec<String> = match &self.choice.names {
+            Some(names) => names.clone(),
+            None => names
+                .iter()
+                .map(|name| names::without_markup(name))
+                .collect(),
+        };
         if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
             let example = (1..=width).map(|k| format!("c{k}")).collect();
             let offer = self.offer(|choice| choice.names = Some(example));
@@ -148,14 +160,14 @@ impl<'t> TableReader<'t> {
             decimal_comma,
             ..
         } = self.table;
-        let numbered = |(k, name): (usize, String)| {
-            if name.is_empty() {
-                format!("column {}", k + 1)
-            } else {
-                name
-            }
-        };
-        let names: Vec<String> = names.into_iter().enumerate().map(numbered).collect();
+        let mut names = names;
+        for (k, name) in names
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, name)| name.is_empty())
+        {
+            *name = format!("column {}", k + 1);
+        }
         let Choice {
             columns,
             claimed,
@@ -167,62 +179,55 @@ impl<'t> TableReader<'t> {
             claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
         let claimed: HashSet<usize> = claimed.collect();
         // With decimal commas, `1.024` may be 1024.
-        let is_comma =
-            |cell: &&str| *decimal_comma && cell.contains(',') && number(cell, true).is_some();
-        let has_comma = rows.iter().flatten().any(is_comma);
-        let value = |text: &&str| {
-            number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')))
-        };
-        let column = |(k, name): (usize, &String)| {
+        let has_comma = *decimal_comma
+            && rows
+                .iter()
+                .flatten()
+                .any(|cell| cell.contains(',') && number(cell, true).is_some());
+        let mut columns = Vec::with_capacity(names.len());
+        for (k, name) in names.into_iter().enumerate() {
             let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
-            let numbers: Vec<_> = texts.iter().map(value).collect();
-            let (name, word) = (name.clone(), Word::of(name));
+            let numbers: Vec<_> = texts
+                .iter()
+                .map(|text| {
+                    number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')))
+                })
+                .collect();
+            let word = Word::of(&name);
             let may_count =
                 matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
-            let is_claimed = claimed.contains(&k);
-            let is_index = may_count && counts_rows(&texts);
-            let values = numbers
-                .iter()
-                .map(|number| number.map_or(f64::NAN, |number| number.value))
-                .collect();
-            let is_number = numbers.iter().map(Option::is_some).collect();
-            Cells {
+            columns.push(Cells {
                 name,
                 word,
-                texts,
-                values,
-                is_number,
+                values: numbers
+                    .iter()
+                    .map(|number| number.map_or(f64::NAN, |number| number.value))
+                    .collect(),
+                is_number: numbers.iter().map(Option::is_some).collect(),
                 halves: halves(&numbers),
-                is_claimed,
-                is_index,
-            }
-        };
-        names.iter().enumerate().map(column).collect()
+                is_claimed: claimed.contains(&k),
+                is_index: may_count && counts_rows(&texts),
+                texts,
+            });
+        }
+        columns
     }
 
     /// The column with that name, or with that number from 1.
     pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
-        let names = || self.columns.iter().map(|column| column.name.as_str());
-        let numbered = || {
-            wanted
-                .parse::<usize>()
-                .ok()?
-                .checked_sub(1)
-                .filter(|column| *column < self.columns.len())
-        };
-        names::position(names(), wanted)
-            .or_else(numbered)
-            .ok_or_else(|| {
-                let suggestion = nearest(wanted, names().take(LISTED)).map(str::to_owned);
-                let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
-                self.refuse(
-                    &format!(
-                        "a column for {option}: {}",
-                        listed(names().map(str::to_owned))
-                    ),
-                    &found,
-                )
-            })
+        let names = self.columns.iter().map(|column| column.name.as_str());
+        if let Some(column) = names::position(names.clone(), wanted) {
+            return Ok(column);
+        }
+        if let Ok(number @ 1..) = wanted.parse::<usize>()
+            && number <= self.columns.len()
+        {
+            return Ok(number - 1);
+        }
+        let suggestion = nearest(wanted, names.clone().take(LISTED)).map(str::to_owned);
+        let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
+        let list = listed(names.map(str::to_owned));
+        Err(self.refuse(&format!("a column for {option}: {list}"), &found))
     }
 
     /// The number of a cell that must hold one.

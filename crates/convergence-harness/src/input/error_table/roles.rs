@@ -7,20 +7,27 @@ use std::hash::Hash;
 use super::columns::{Cells, Derived, Trend};
 use super::names::Word;
 use super::pairs::RawTable;
-use super::reader::{NEIGHBOURS, Refusal, TableReader, listed};
+use super::reader::{LeftOut, NEIGHBOURS, Offer, Refusal, TableReader, listed};
 use super::step::{Measure, Step};
 use super::{Choice, Column, RateTable, names, text};
 use crate::input::{Complaint, InputError, shorten};
 use crate::judge::verdict::Level;
 use crate::text::number::plain_text;
 
-/// What an unchosen column holds; if it is not an error, why.
-enum Holds {
+/// What a column holds that nobody has chosen; if it is not an error, why.
+enum Content {
     Error,
     Value(String),
     Other(String),
     /// Possibly an error that does not fall.
     Doubtful(String),
+}
+
+impl Content {
+    /// No error, for this reason.
+    fn other(reason: &str) -> Self {
+        Self::Other(reason.to_owned())
+    }
 }
 
 /// The first key whose name an earlier key has. Tables may have many thousand columns: no name is
@@ -37,31 +44,15 @@ fn repeated<K: Copy, N: Eq + Hash>(
 /// its claimed columns.
 pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
     let table = text::read(text);
-    let reads = |choice: &Choice| {
-        let read = attempt(text, file, choice, &table).ok();
-        let has = |read: &RateTable, name: &str| {
-            let names = read
-                .columns
-                .iter()
-                .chain(&read.values)
-                .map(|column| column.name.as_str());
-            names::position(names, name).is_some()
-        };
-        read.is_some_and(|read| choice.claimed.iter().all(|name| has(&read, name)))
-    };
     attempt(text, file, choice, &table).map_err(|Refusal { error, offers }| {
-        let offers = offers
-            .iter()
-            .filter(|offer| !offer.choice.command.is_empty() && reads(&offer.choice));
-        let comment = |comment: &str| {
-            if comment.is_empty() {
-                String::new()
-            } else {
-                format!("  # {comment}")
-            }
-        };
         let commands: String = offers
-            .map(|offer| format!("\n  {}{}", offer.choice.line(), comment(offer.comment)))
+            .iter()
+            .filter(|offer| !offer.choice.command.is_empty())
+            .filter(|offer| {
+                attempt(text, file, &offer.choice, &table)
+                    .is_ok_and(|read| has_claimed_columns(&read, choice))
+            })
+            .map(command_line)
             .collect();
         if commands.is_empty() {
             return error;
@@ -74,6 +65,24 @@ pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable,
     })
 }
 
+/// Whether a table has each column with an order claimed by name.
+fn has_claimed_columns(table: &RateTable, choice: &Choice) -> bool {
+    let columns = table.columns.iter().chain(&table.values);
+    let names = columns.map(|column| column.name.as_str());
+    let mut claimed = choice.claimed.iter();
+    claimed.all(|name| names::position(names.clone(), name).is_some())
+}
+
+/// The line of a message with the command of an offer, and its comment.
+fn command_line(offer: &Offer) -> String {
+    let command = format!("\n  {}", offer.choice.line());
+    if offer.comment.is_empty() {
+        command
+    } else {
+        format!("{command}  # {}", offer.comment)
+    }
+}
+
 /// The k-th column over the steps.
 ///
 /// * `step_halves`: half the last digit of each step as printed; 0 where it is known exactly.
@@ -84,16 +93,16 @@ fn column(
     step_halves: &[f64],
 ) -> Result<Column, InputError> {
     let Cells { name, halves, .. } = &reader.columns[k];
-    let level = |(row, step): (usize, &f64)| {
-        Ok(Level {
+    let mut levels = Vec::with_capacity(steps.len());
+    for (row, step) in steps.iter().enumerate() {
+        levels.push(Level {
             step: *step,
             error: reader.must(row, k)?,
-        })
-    };
-    let levels = steps.iter().enumerate().map(level);
+        });
+    }
     Ok(Column {
         name: name.clone(),
-        levels: levels.collect::<Result<_, InputError>>()?,
+        levels,
         halves: halves.clone(),
         step_halves: step_halves.to_vec(),
     })
@@ -109,16 +118,14 @@ fn attempt(
     let mut reader = TableReader::new(text, file, choice, table)?;
     let step = reader.step()?;
     let steps = reader.sort(&step)?;
-    let [errors, values] = reader.chosen(step.column)?;
-    let (errors, others) = match choice.columns {
-        Some(_) => (errors, vec![]),
-        None => (
-            reader.found(&step, &steps, &values)?,
-            std::mem::take(&mut reader.left_out),
-        ),
-    };
-    if let Some(&twice) = repeated(errors.iter().chain(&values), |k| &reader.columns[*k].name) {
-        return Err(reader.twice(twice));
+    let ChosenColumns { mut errors, values } = reader.chosen_columns(step.column)?;
+    let mut others = vec![];
+    if choice.columns.is_none() {
+        errors = reader.error_columns(&step, &steps, &values)?;
+        others = std::mem::take(&mut reader.left_out);
+    }
+    if let Some(&second) = repeated(errors.iter().chain(&values), |k| &reader.columns[*k].name) {
+        return Err(reader.refuse_repetition(second));
     }
     let is_exact = step.measure != Measure::Step || reader.columns[step.column].regular().is_some();
     let step_halves = if is_exact {
@@ -126,40 +133,46 @@ fn attempt(
     } else {
         reader.columns[step.column].halves.clone()
     };
-    let column = |&k: &usize| column(&reader, k, &steps, &step_halves);
+    let columns = |list: &[usize]| -> Result<Vec<Column>, InputError> {
+        list.iter()
+            .map(|k| column(&reader, *k, &steps, &step_halves))
+            .collect()
+    };
     let parts = [
         ("errors", reader.quoted(&errors)),
         ("values", reader.quoted(&values)),
         ("left out", reasons(&others)),
     ];
-    let parts = parts
-        .iter()
-        .filter(|(_, list)| !list.is_empty())
-        .map(|(what, list)| format!("; {what}: {list}"));
+    let mut reading = format!("step: `{}`{}", step.label, step.how);
+    for (what, list) in parts.iter().filter(|(_, list)| !list.is_empty()) {
+        reading += &format!("; {what}: {list}");
+    }
     Ok(RateTable {
-        reading: format!(
-            "step: `{}`{}{}",
-            step.label,
-            step.how,
-            parts.collect::<String>()
-        ),
-        columns: errors
-            .iter()
-            .map(column)
-            .collect::<Result<_, InputError>>()?,
-        values: values
-            .iter()
-            .map(column)
-            .collect::<Result<_, InputError>>()?,
-        not_errors: others,
+        reading,
+        columns: columns(&errors)?,
+        values: columns(&values)?,
+        not_errors: others
+            .into_iter()
+            .map(|LeftOut { name, reason }| (name, reason))
+            .collect(),
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })
 }
 
 /// Columns that are not errors, each with the reason.
-fn reasons(others: &[(String, String)]) -> String {
-    listed(others.iter().map(|(name, why)| format!("`{name}` ({why})")))
+fn reasons(others: &[LeftOut]) -> String {
+    listed(
+        others
+            .iter()
+            .map(|LeftOut { name, reason }| format!("`{name}` ({reason})")),
+    )
+}
+
+/// The columns that the user has chosen.
+struct ChosenColumns {
+    errors: Vec<usize>,
+    values: Vec<usize>,
 }
 
 impl TableReader<'_> {
@@ -171,15 +184,14 @@ impl TableReader<'_> {
         }: &Step,
     ) -> Result<Vec<f64>, InputError> {
         let cells = &self.columns[*column];
-        let step = |row: usize| {
-            measure.step(self.must(row, *column)?).map_err(|expected| {
-                let found = format!("`{}`", shorten(cells.texts[row]));
-                self.error(cells.texts[row], Some(&cells.name), expected, &found)
-            })
-        };
-        let steps = (0..cells.texts.len())
-            .map(step)
-            .collect::<Result<Vec<f64>, _>>()?;
+        let mut steps = Vec::with_capacity(cells.texts.len());
+        for (row, cell) in cells.texts.iter().enumerate() {
+            let step = measure.step(self.must(row, *column)?).map_err(|expected| {
+                let found = format!("`{}`", shorten(cell));
+                self.error(cell, Some(&cells.name), expected, &found)
+            })?;
+            steps.push(step);
+        }
         let mut order: Vec<usize> = (0..steps.len()).collect();
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]));
         if let Some(two) = order.windows(2).find(|two| steps[two[0]] == steps[two[1]]) {
@@ -199,35 +211,37 @@ impl TableReader<'_> {
     }
 
     /// The columns chosen as errors and as values.
-    fn chosen(&self, step: usize) -> Result<[Vec<usize>; 2], InputError> {
-        let find = |wanted: &[String], option: &str| {
-            wanted
-                .iter()
-                .map(|name| self.find(name, option))
-                .collect::<Result<Vec<usize>, _>>()
-        };
-        let values = find(&self.choice.values, "--values")?;
-        let errors = find(
-            self.choice.columns.as_deref().unwrap_or_default(),
-            "--columns",
-        )?;
-        let mut seen = HashSet::from([step]);
+    fn chosen_columns(&self, step: usize) -> Result<ChosenColumns, InputError> {
+        let values = self.find_all(&self.choice.values, "--values")?;
+        let names = self.choice.columns.as_deref().unwrap_or_default();
+        let errors = self.find_all(names, "--columns")?;
+        let mut earlier = HashSet::new();
         for k in errors.iter().chain(&values) {
-            let (expected, what) = match self.columns[*k].word {
-                _ if *k == step => ("errors for --columns", "the step "),
-                _ if !seen.insert(*k) => ("each column of --columns and --values once", "twice "),
-                Word::Logarithm => ("the values, not their logarithms", ""),
-                _ => continue,
-            };
-            return Err(self.refuse(expected, &format!("{what}`{}`", self.columns[*k].name)));
+            let Cells { name, word, .. } = &self.columns[*k];
+            if *k == step {
+                return Err(self.refuse("errors for --columns", &format!("the step `{name}`")));
+            }
+            if !earlier.insert(*k) {
+                let expected = "each column of --columns and --values once";
+                return Err(self.refuse(expected, &format!("twice `{name}`")));
+            }
+            if *word == Word::Logarithm {
+                let expected = "the values, not their logarithms";
+                return Err(self.refuse(expected, &format!("`{name}`")));
+            }
         }
-        Ok([errors, values])
+        Ok(ChosenColumns { errors, values })
+    }
+
+    /// The columns of these names, which an option selects.
+    fn find_all(&self, names: &[String], option: &str) -> Result<Vec<usize>, InputError> {
+        names.iter().map(|name| self.find(name, option)).collect()
     }
 
     /// The columns of errors; the others are left out, each with the reason. Refuses to judge
     /// without errors, or if a column may be an error but does not fall and no name says which
     /// columns are errors.
-    fn found(
+    fn error_columns(
         &mut self,
         step: &Step,
         steps: &[f64],
@@ -237,63 +251,97 @@ impl TableReader<'_> {
         let mut limits = vec![];
         let mut doubtful = vec![];
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
-            let (columns, why) = match self.holds(k, step.column, steps)? {
-                Holds::Error => (&mut errors, None),
-                Holds::Value(why) => (&mut limits, Some(why)),
-                Holds::Doubtful(why) => (&mut doubtful, Some(why)),
-                Holds::Other(why) => (&mut vec![], Some(why)),
+            let reason = match self.content(k, step.column, steps)? {
+                Content::Error => {
+                    errors.push(k);
+                    continue;
+                }
+                Content::Value(reason) => {
+                    limits.push(k);
+                    reason
+                }
+                Content::Doubtful(reason) => {
+                    doubtful.push(k);
+                    reason
+                }
+                Content::Other(reason) => reason,
             };
-            columns.push(k);
-            self.left_out
-                .extend(why.map(|why| (self.columns[k].name.clone(), why)));
+            let name = self.columns[k].name.clone();
+            self.left_out.push(LeftOut { name, reason });
         }
-        let others = &self.left_out;
-        let with_columns =
-            |columns: &[usize]| self.offer(|choice| choice.columns = Some(self.names(columns)));
+        if !values.is_empty() {
+            return Ok(errors);
+        }
+        if errors.is_empty() {
+            return Err(self.refuse_without_errors(&limits, &doubtful)?);
+        }
         let is_sure =
             |k: &usize| self.columns[*k].word == Word::Error || self.columns[*k].is_claimed;
-        match doubtful.first() {
-            _ if errors.is_empty() && values.is_empty() => {
-                let is_open =
-                    |column: &Cells<'_>| column.word.noun().is_none() && !column.is_number[0];
-                if let Some(k) = self.columns.iter().position(is_open) {
-                    self.must(0, k)?;
-                }
-                let offer = match doubtful.first() {
-                    _ if !limits.is_empty() => {
-                        Some(self.offer(|choice| choice.values = self.names(&limits)))
-                    }
-                    Some(first) => Some(with_columns(&[*first])),
-                    None => None,
-                };
-                let refusal =
-                    self.refuse("a column of errors, or --columns LIST", &reasons(others));
-                Err(Refusal::from(refusal).offering(offer))
-            }
-            Some(first) if values.is_empty() && !errors.iter().any(is_sure) => {
-                let name = &self.columns[*first].name;
-                let why = others
-                    .iter()
-                    .find(|(other, _)| other == name)
-                    .map_or("", |(_, why)| why);
-                let found = format!("`{name}`, which is {why}");
-                let refusal = self.refuse("--columns LIST to say which columns are errors", &found);
-                let all = [errors.as_slice(), &doubtful].concat();
-                Err(Refusal::from(refusal).offering([with_columns(&errors), with_columns(&all)]))
-            }
-            _ => Ok(errors),
+        if doubtful.is_empty() || errors.iter().any(is_sure) {
+            return Ok(errors);
         }
+        Err(self.refuse_doubtful(&errors, &doubtful))
+    }
+
+    /// The refusal of a table without errors and without chosen values: it offers the columns with
+    /// a limit as values, or else the first doubtful column as errors.
+    fn refuse_without_errors(
+        &self,
+        limits: &[usize],
+        doubtful: &[usize],
+    ) -> Result<Refusal, InputError> {
+        let mut columns = self.columns.iter();
+        let unknown =
+            columns.position(|column| column.word.noun().is_none() && !column.is_number[0]);
+        if let Some(k) = unknown {
+            self.must(0, k)?;
+        }
+        let offer = if limits.is_empty() {
+            doubtful.first().map(|first| self.with_columns(&[*first]))
+        } else {
+            Some(self.offer(|choice| choice.values = self.names(limits)))
+        };
+        let expected = "a column of errors, or --columns LIST";
+        let refusal = self.refuse(expected, &reasons(&self.left_out));
+        Ok(Refusal::from(refusal).offering(offer))
+    }
+
+    /// The refusal of a table with columns that may be errors but do not fall, where no name says
+    /// which columns are errors.
+    fn refuse_doubtful(&self, errors: &[usize], doubtful: &[usize]) -> Refusal {
+        let name = &self.columns[doubtful[0]].name;
+        let mut others = self.left_out.iter();
+        let reason = others
+            .find(|other| other.name == *name)
+            .map_or("", |other| &other.reason);
+        let found = format!("`{name}`, which is {reason}");
+        let refusal = self.refuse("--columns LIST to say which columns are errors", &found);
+        let all = [errors, doubtful].concat();
+        Refusal::from(refusal).offering([self.with_columns(errors), self.with_columns(&all)])
+    }
+
+    /// The command with these columns as errors.
+    fn with_columns(&self, columns: &[usize]) -> Offer {
+        self.offer(|choice| choice.columns = Some(self.names(columns)))
     }
 
     /// What a column holds, by its numbers and then by its name.
-    fn holds(&self, k: usize, step: usize, steps: &[f64]) -> Result<Holds, InputError> {
+    fn content(&self, k: usize, step: usize, steps: &[f64]) -> Result<Content, InputError> {
         let column = &self.columns[k];
         let numbers = column
             .is_number
             .iter()
             .filter(|is_number| **is_number)
             .count();
-        let other = |why: &str| Ok(Holds::Other(why.to_owned()));
+        if column.is_claimed {
+            return Ok(Content::Error);
+        }
+        if numbers == 0 {
+            return Ok(Content::other("no number"));
+        }
+        if column.is_index {
+            return Ok(Content::other("the number of the row"));
+        }
         // Errors before it, the nearest first, and those after it.
         let near = (k.saturating_sub(NEIGHBOURS)..k)
             .rev()
@@ -303,47 +351,55 @@ impl TableReader<'_> {
             .map(|near| &self.columns[near]);
         let derived = near.find_map(|error| Some((error, column.derived_from(error, steps)?)));
         match (derived, column.word.noun()) {
-            _ if column.is_claimed => Ok(Holds::Error),
-            _ if numbers == 0 => other("no number"),
-            _ if column.is_index => other("the number of the row"),
             // Errors that are halved have the rate 1 and the factor 2.
-            (Some((error, Derived::Factors)), _) if column.word == Word::Rate => other(&format!(
-                "factors by which `{}` falls, not its rates",
-                error.name
-            )),
-            (_, Some(_)) if column.is_constant() => other("the same in each row"),
-            (Some((error, _)), _) => other(&format!("the rates of `{}`", error.name)),
-            _ if column.word == Word::Rate && column.is_steep() => Ok(Holds::Error),
-            (None, Some(noun)) => other(noun),
-            _ if numbers < steps.len() => match column.word {
-                Word::Unknown if !column.is_number[0] && numbers + 1 == steps.len() => {
-                    other("no number on the coarsest level")
-                }
-                Word::Unknown if 2 * numbers < steps.len() => other("words"),
-                _ => {
-                    (0..steps.len()).try_for_each(|row| self.must(row, k).map(|_| ()))?;
-                    Ok(Holds::Error)
-                }
-            },
-            _ if column.word == Word::Error
-                || numbers < 3
-                || column.values.iter().any(|value| value.is_nan()) =>
-            {
-                Ok(Holds::Error)
+            (Some((error, Derived::Factors)), _) if column.word == Word::Rate => {
+                let reason = format!("factors by which `{}` falls, not its rates", error.name);
+                Ok(Content::Other(reason))
             }
-            _ => Ok(match column.trend(&self.columns[step]) {
-                Trend::Falls => Holds::Error,
-                Trend::Grows => Holds::Other("whole numbers that do not fall".to_owned()),
-                Trend::Limit(limit) => Holds::Value(format!(
+            (_, Some(_)) if column.is_constant() => Ok(Content::other("the same in each row")),
+            (Some((error, _)), _) => Ok(Content::Other(format!("the rates of `{}`", error.name))),
+            (None, Some(_)) if column.word == Word::Rate && column.is_steep() => Ok(Content::Error),
+            (None, Some(noun)) => Ok(Content::other(noun)),
+            (None, None) if numbers < steps.len() => self.content_with_gaps(k, numbers),
+            (None, None)
+                if column.word == Word::Error
+                    || numbers < 3
+                    || column.values.iter().any(|value| value.is_nan()) =>
+            {
+                Ok(Content::Error)
+            }
+            (None, None) => Ok(match column.trend(&self.columns[step]) {
+                Trend::Falls => Content::Error,
+                Trend::Grows => Content::other("whole numbers that do not fall"),
+                Trend::Limit(limit) => Content::Value(format!(
                     "tends to {}: a value, not an error",
                     plain_text(limit)
                 )),
-                Trend::Doubtful(why) => Holds::Doubtful(why.to_owned()),
+                Trend::Doubtful(reason) => Content::Doubtful(reason.to_owned()),
             }),
         }
     }
 
-    fn twice(&self, column: usize) -> Refusal {
+    /// What a column holds whose name says nothing, or errors, and which lacks some numbers.
+    fn content_with_gaps(&self, k: usize, numbers: usize) -> Result<Content, InputError> {
+        let column = &self.columns[k];
+        let rows = column.texts.len();
+        if column.word == Word::Unknown {
+            if !column.is_number[0] && numbers + 1 == rows {
+                return Ok(Content::other("no number on the coarsest level"));
+            }
+            if 2 * numbers < rows {
+                return Ok(Content::other("words"));
+            }
+        }
+        for row in 0..rows {
+            self.must(row, k)?;
+        }
+        Ok(Content::Error)
+    }
+
+    /// The refusal of a name that two of the columns have; it offers names with numbers.
+    fn refuse_repetition(&self, column: usize) -> Refusal {
         let mut seen = HashSet::new();
         let numbered = self
             .columns

@@ -41,11 +41,36 @@ impl Measure {
     }
 }
 
+/// A column that is the step, or gives it.
+struct StepColumn {
+    column: usize,
+    /// How it was identified, if its name does not say so.
+    how: String,
+}
+
+impl StepColumn {
+    /// A column that needs no explanation.
+    fn certain(column: usize) -> Self {
+        Self {
+            column,
+            how: String::new(),
+        }
+    }
+}
+
+/// A column with a constant ratio of its numbers.
+struct RegularColumn {
+    column: usize,
+    ratio: f64,
+}
+
 impl TableReader<'_> {
+    /// The step: the column chosen for it, the levels, or the column that its name or its numbers
+    /// identify.
     pub(super) fn step(&self) -> Result<Step, Refusal> {
-        let (column, how) = match &self.choice.step {
-            Some(wanted) => (self.find(wanted, "--step")?, String::new()),
-            None if self.choice.ratio.is_some() => (self.levels()?, String::new()),
+        let StepColumn { column, how } = match &self.choice.step {
+            Some(wanted) => StepColumn::certain(self.find(wanted, "--step")?),
+            None if self.choice.ratio.is_some() => StepColumn::certain(self.levels()?),
             None => self.natural_step()?,
         };
         let measure = self.measure(column)?;
@@ -68,37 +93,35 @@ impl TableReader<'_> {
 
     /// The column that numbers the levels: one named so rather than any that counts the rows.
     fn levels(&self) -> Result<usize, Refusal> {
-        let counts = |is_named: bool| {
-            self.columns
-                .iter()
-                .position(|column| column.is_index && (column.word == Word::Cost || !is_named))
-        };
-        counts(true).or_else(|| counts(false)).ok_or_else(|| {
-            let found = listed(
-                self.columns
-                    .iter()
-                    .map(|column| format!("`{}`", column.name)),
-            );
+        let indices: Vec<usize> = (0..self.columns.len())
+            .filter(|k| self.columns[*k].is_index)
+            .collect();
+        let named = indices
+            .iter()
+            .find(|k| self.columns[**k].word == Word::Cost);
+        named.or(indices.first()).copied().ok_or_else(|| {
+            let columns = self.columns.iter();
+            let names = listed(columns.map(|column| format!("`{}`", column.name)));
             let expected = "a column of levels 0, 1, 2, ... for --ratio, or --step COLUMN";
-            Refusal::from(self.refuse(expected, &found))
+            Refusal::from(self.refuse(expected, &names))
                 .offering([self.offer(|choice| choice.ratio = None)])
         })
     }
 
-    /// The columns that may be the step, by what their names say.
-    fn free(&self, wanted: impl Fn(usize, Word) -> bool) -> Vec<usize> {
-        let is_free = |column: &Cells<'_>| !column.is_claimed && !column.is_constant();
+    /// The columns that may be the step, of those that `accepts` selects by number and name.
+    fn candidates(&self, accepts: impl Fn(usize, Word) -> bool) -> Vec<usize> {
         let columns = self.columns.iter().enumerate();
         columns
-            .filter(|(k, column)| is_free(column) && wanted(*k, column.word))
+            .filter(|(_, column)| !column.is_claimed && !column.is_constant())
+            .filter(|(k, column)| accepts(*k, column.word))
             .map(|(k, _)| k)
             .collect()
     }
 
     /// The step by its name, else the count closest to it, else the column that falls by regular
     /// ratios.
-    fn natural_step(&self) -> Result<(usize, String), Refusal> {
-        let steps = self.free(|k, word| word == Word::Step || self.is_misnamed(k));
+    fn natural_step(&self) -> Result<StepColumn, Refusal> {
+        let steps = self.candidates(|k, word| word == Word::Step || self.is_misnamed(k));
         if let [first, others @ ..] = &steps[..] {
             if let Some(other) = others
                 .iter()
@@ -112,25 +135,18 @@ impl TableReader<'_> {
                     Refusal::from(refusal).offering([*first, *other].map(|k| self.with_step(k)))
                 );
             }
-            let alike = format!(", in proportion to {}", self.quoted(others));
-            return Ok((
-                *first,
-                if others.is_empty() {
-                    String::new()
-                } else {
-                    alike
-                },
-            ));
-        }
-        let rank = |k: &usize| {
-            if let Word::Count(rank) = self.columns[*k].word {
-                rank
+            let how = if others.is_empty() {
+                String::new()
             } else {
-                usize::MAX
-            }
-        };
-        let counts = self.free(|_, word| matches!(word, Word::Count(_)));
-        match counts.into_iter().min_by_key(rank) {
+                format!(", in proportion to {}", self.quoted(others))
+            };
+            return Ok(StepColumn {
+                column: *first,
+                how,
+            });
+        }
+        let counts = self.candidates(|_, word| matches!(word, Word::Count(_)));
+        match counts.into_iter().min_by_key(|k| self.rank(*k)) {
             Some(count) if self.choice.dim.is_none() && self.falls_like_a_step(count) => {
                 let name = &self.columns[count].name;
                 let found =
@@ -142,54 +158,59 @@ impl TableReader<'_> {
                 let edge = self.offer(|choice| choice.dim = Some(1.0));
                 Err(Refusal::from(refusal).offering([self.with_step(count), edge]))
             }
-            Some(count) => Ok((count, String::new())),
+            Some(count) => Ok(StepColumn::certain(count)),
             None => self.regular_step(),
+        }
+    }
+
+    /// The rank of a column of counts among those that may give the step.
+    fn rank(&self, column: usize) -> usize {
+        match self.columns[column].word {
+            Word::Count(rank) => rank,
+            _ => usize::MAX,
         }
     }
 
     /// The only column of unknown name that falls by regular ratios; of several the first, unless
     /// another has a smaller ratio.
-    fn regular_step(&self) -> Result<(usize, String), Refusal> {
+    fn regular_step(&self) -> Result<StepColumn, Refusal> {
         let first = self.columns.iter().position(|column| !column.is_index);
-        let unknown = self.free(|k, word| word == Word::Unknown && !self.columns[k].is_index);
-        let regular: Vec<_> = unknown
+        let unknown = self.candidates(|k, word| word == Word::Unknown && !self.columns[k].is_index);
+        let regular: Vec<RegularColumn> = unknown
             .iter()
-            .filter_map(|k| Some((*k, self.columns[*k].regular()?)))
+            .filter_map(|k| {
+                let ratio = self.columns[*k].regular()?;
+                Some(RegularColumn { column: *k, ratio })
+            })
             .collect();
-        if let [(k, ratio), others @ ..] = &regular[..]
+        if let [RegularColumn { column, ratio }, others @ ..] = &regular[..]
             && (others.is_empty()
-                || Some(*k) == first && others.iter().all(|(_, other)| other >= ratio))
+                || Some(*column) == first && others.iter().all(|other| other.ratio >= *ratio))
         {
-            // A count beside its own step: `4 0.25`.
-            let inverse =
-                |other: &&(usize, f64)| self.columns[*k].is_inverse(&self.columns[other.0]);
-            let k = others.iter().find(inverse).map_or(*k, |(other, _)| *other);
-            return Ok((
-                k,
-                format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4)),
-            ));
+            // A count next to its own step: `4 0.25`.
+            let count = &self.columns[*column];
+            let inverse = others
+                .iter()
+                .find(|other| count.is_inverse(&self.columns[other.column]));
+            return Ok(StepColumn {
+                column: inverse.map_or(*column, |other| other.column),
+                how: format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4)),
+            });
         }
-        let described = |column: &Cells<'_>| {
-            let why = match column.word {
-                _ if column.is_index => " (the number of the row)",
-                Word::Logarithm => " (give the values, not their logarithms)",
-                Word::Step => " (the same in each row)",
-                _ => "",
-            };
-            format!("`{}`{why}", column.name)
-        };
-        let is_level = |column: &Cells<'_>| column.is_index && column.word == Word::Cost;
-        let halved = Offer {
-            comment: "if each level halves the step",
-            ..self.offer(|choice| choice.ratio = Some(2.0))
-        };
-        let named = first
+        let with_first = first
             .filter(|k| unknown.contains(k))
             .map(|k| self.with_step(k));
-        let halved = self.columns.iter().any(is_level).then_some(halved);
-        let found = listed(self.columns.iter().map(described));
-        let refusal = self.refuse("a column of steps: add `h`, or name it with --step", &found);
-        Err(Refusal::from(refusal).offering(named.into_iter().chain(halved)))
+        let has_levels = self
+            .columns
+            .iter()
+            .any(|column| column.is_index && column.word == Word::Cost);
+        let with_levels = has_levels.then(|| Offer {
+            comment: "if each level halves the step",
+            ..self.offer(|choice| choice.ratio = Some(2.0))
+        });
+        let names = listed(self.columns.iter().map(name_with_reason));
+        let refusal = self.refuse("a column of steps: add `h`, or name it with --step", &names);
+        Err(Refusal::from(refusal).offering(with_first.into_iter().chain(with_levels)))
     }
 
     /// The command with a column as the step.
@@ -208,10 +229,11 @@ impl TableReader<'_> {
         let is_edge =
             reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
         let is_count = self.is_count(step);
+        if *word == Word::Logarithm {
+            let refusal = self.refuse("the values, not their logarithms", &format!("`{name}`"));
+            return Err(Refusal::from(refusal).offering([self.offer(|choice| choice.dim = None)]));
+        }
         let (expected, found) = match (self.choice.dim, self.choice.ratio) {
-            _ if *word == Word::Logarithm => {
-                ("the values, not their logarithms", format!("`{name}`"))
-            }
             (Some(_), Some(_)) => ("one of --dim and --ratio", "both".to_owned()),
             (None, Some(ratio)) => return Ok(Measure::Level(ratio)),
             (Some(dim), None) if is_count && is_edge && dim != 1.0 => (
@@ -236,12 +258,10 @@ impl TableReader<'_> {
     /// offered first.
     fn without_dimension(&self, count: usize) -> Refusal {
         let Cells { name, word, .. } = &self.columns[count];
-        let is_step =
-            |k: &usize| *k != count && self.columns[*k].regular().is_some() && !self.is_count(*k);
         let steps = self
-            .free(|_, word| word == Word::Unknown)
+            .candidates(|_, word| word == Word::Unknown)
             .into_iter()
-            .filter(is_step);
+            .filter(|k| *k != count && self.columns[*k].regular().is_some() && !self.is_count(*k));
         let comments: &[&str] = if *word == Word::Step {
             &[""]
         } else {
@@ -263,25 +283,35 @@ impl TableReader<'_> {
     /// fall.
     fn is_count(&self, column: usize) -> bool {
         let cells = &self.columns[column];
-        // The number of columns that fall with it, minus those that grow or, like it, are
-        // undecided.
-        let alike = |other: &Cells<'_>| match other.is_whole()
-            || other.values.iter().any(|value| !(*value > 0.0))
-        {
-            true => -1.0,
-            false => cells.together(other).signum(),
-        };
-        let near = self
-            .near(column)
-            .filter(|other| !other.is_number.contains(&false));
-        let together = || near.map(alike).sum::<f64>();
-        match cells.word {
-            Word::Count(_) if self.choice.dim.is_some() => !self.is_misnamed(column),
-            Word::Count(_) => !self.is_misnamed(column) && !self.falls_like_a_step(column),
-            _ if !cells.is_whole() || cells.values.iter().all(|value| *value == 1.0) => false,
-            Word::Step => together() < 1.0,
-            _ => together() <= 1.0,
+        if let Word::Count(_) = cells.word {
+            return !self.is_misnamed(column)
+                && (self.choice.dim.is_some() || !self.falls_like_a_step(column));
         }
+        if !cells.is_whole() || cells.values.iter().all(|value| *value == 1.0) {
+            return false;
+        }
+        let surplus = self.surplus_of_falling(column);
+        if cells.word == Word::Step {
+            surplus < 1.0
+        } else {
+            surplus <= 1.0
+        }
+    }
+
+    /// The number of columns that fall with a column, minus those that grow or, like it, are
+    /// undecided.
+    fn surplus_of_falling(&self, column: usize) -> f64 {
+        let cells = &self.columns[column];
+        self.near(column)
+            .filter(|other| !other.is_number.contains(&false))
+            .map(|other| {
+                if other.is_whole() || other.values.iter().any(|value| !(*value > 0.0)) {
+                    -1.0
+                } else {
+                    cells.together(other).signum()
+                }
+            })
+            .sum()
     }
 
     /// Whether a column has the name of a count and numbers of a step: they fall with the errors,
@@ -305,22 +335,24 @@ impl TableReader<'_> {
     /// The number of columns of errors, by name or else of unknown name, that fall with a column,
     /// minus those that do not.
     fn with_errors(&self, column: usize) -> f64 {
-        let cells = &self.columns[column];
-        let is_error =
-            |word: Word| move |other: &&Cells<'_>| other.word == word && !other.is_whole();
-        let signs = |word: Word| -> Vec<f64> {
-            let others = self.near(column).filter(is_error(word));
-            let others = others.filter(|other| other.values.iter().all(|value| *value > 0.0));
-            others.map(|other| cells.together(other).signum()).collect()
-        };
-        let named = signs(Word::Error);
-        if named.is_empty() {
-            signs(Word::Unknown)
+        let by_name = self.signs(column, Word::Error);
+        let signs = if by_name.is_empty() {
+            self.signs(column, Word::Unknown)
         } else {
-            named
-        }
-        .iter()
-        .sum()
+            by_name
+        };
+        signs.iter().sum()
+    }
+
+    /// For each column of positive errors with such a name: 1 if it falls with a column, -1 if it
+    /// grows.
+    fn signs(&self, column: usize, word: Word) -> Vec<f64> {
+        let cells = &self.columns[column];
+        self.near(column)
+            .filter(|other| other.word == word && !other.is_whole())
+            .filter(|other| other.values.iter().all(|value| *value > 0.0))
+            .map(|other| cells.together(other).signum())
+            .collect()
     }
 
     /// The columns that are searched for errors of a step, without the step.
@@ -329,4 +361,15 @@ impl TableReader<'_> {
         near.filter(move |(k, _)| *k != column)
             .map(|(_, cells)| cells)
     }
+}
+
+/// The name of a column in a message, with the reason why it is not the step.
+fn name_with_reason(column: &Cells<'_>) -> String {
+    let reason = match column.word {
+        _ if column.is_index => " (the number of the row)",
+        Word::Logarithm => " (give the values, not their logarithms)",
+        Word::Step => " (the same in each row)",
+        _ => "",
+    };
+    format!("`{}`{reason}", column.name)
 }

@@ -26,40 +26,56 @@ const TYPES: [&str; 8] = [
 const FULL: usize = 4;
 
 /// A text without colours, and a line for each of nested lists without names.
+
 pub(super) fn plain(text: &str) -> String {
     let marked = MARKS
         .iter()
         .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
-    let mut parts = marked.split("\x1b[");
-    let first = parts.next().unwrap_or_default().to_owned();
-    // A colour ends after its first letter, a number of NumPy with its parenthesis.
-    let text = parts.fold(first, |text, part| {
-        text + part
-            .split_once(char::is_alphabetic)
-            .map_or("", |(_, rest)| rest)
-    });
-    let mut parts = text.split("np.float64(");
-    let first = parts.next().unwrap_or_default().to_owned();
-    let text = parts.fold(first, |text, part| text + &part.replacen(')', "", 1));
-    let line = |line: &str| match line.find("\\\\").filter(|_| line.contains('&')) {
-        // A row of LaTeX has an end; Jira writes `||h||L2||` above `|0.1|1.6e-3|`.
-        Some(end) => line[..end].to_owned() + "\n",
-        None if line.ends_with("||") => line.replace("||", "|") + "\n",
-        None => line.to_owned() + "\n",
-    };
-    let text: String = text.lines().map(line).collect();
-    let is_list = |marks: &[char]| {
-        text.trim_start().starts_with(marks) && !text.contains(['"', '\'', '=', '\\'])
-    };
-    if is_list(&['{']) {
+
+    let text = without_numpy_types(&without_colours(&marked));
+    let text: String = text.lines().map(plain_line).collect();
+    if is_list(&text, &['{']) {
         // `{0.1: 1.6e-3, 0.05: 4e-4}`.
         text.replace([',', '{', '}'], "\n").replace(':', " ")
-    } else if is_list(&['[', '(']) && !text.contains('{') {
+    } else if is_list(&text, &['[', '(']) && !text.contains('{') {
         text.replace(['[', '(', ',', '\n'], " ")
             .replace([']', ')'], "\n")
     } else {
         text
     }
+}
+
+/// A text without the codes of a terminal's colours. A code ends after its first letter.
+fn without_colours(text: &str) -> String {
+    let mut parts = text.split("\x1b[");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        text + part
+            .split_once(char::is_alphabetic)
+            .map_or("", |(_, rest)| rest)
+    })
+}
+
+/// A text with `0.1` in place of NumPy's `np.float64(0.1)`.
+fn without_numpy_types(text: &str) -> String {
+    let mut parts = text.split("np.float64(");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| text + &part.replacen(')', "", 1))
+}
+
+/// A line without the end of a row of LaTeX, and with single bars in place of Jira's double ones:
+/// it writes `||h||L2||` above `|0.1|1.6e-3|`.
+fn plain_line(line: &str) -> String {
+    match line.find("\\\\").filter(|_| line.contains('&')) {
+        Some(end) => line[..end].to_owned() + "\n",
+        None if line.ends_with("||") => line.replace("||", "|") + "\n",
+        None => line.to_owned() + "\n",
+    }
+}
+
+/// Whether a text is a list without names that begins with one of these brackets.
+fn is_list(text: &str, brackets: &[char]) -> bool {
+    text.trim_start().starts_with(brackets) && !text.contains(['"', '\'', '=', '\\'])
 }
 
 /// Finds the table in a text that has been made [`plain`]: names with numbers after them, or rows
@@ -73,7 +89,7 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
         mut rows,
         quoted_names,
         separator,
-    } = sorted(text);
+    } = sort_lines(text);
     // A comment has the names only if no other line does.
     heads.sort_by_key(|line| !is_comment(line));
     heads
@@ -101,7 +117,7 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
         .or_else(|| numbered(&heads, width))
         .or_else(|| names(&heads, &rows, separator, width))
     {
-        None if is_turned(&rows) => turned(&rows, width, table),
+        None if is_turned(&rows) => transpose(&rows, width, table),
         names => {
             // If the number of words is not that of the columns, it says how many columns there
             // should be.
@@ -120,17 +136,18 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
 }
 
 /// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
-fn turned<'t>(rows: &[Vec<&'t str>], width: usize, table: RawTable<'t>) -> RawTable<'t> {
-    let named = usize::from(number(rows[0][0], true).is_none());
-    let column = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
-    let names = if named == 1 {
-        column(0)
+fn transpose<'t>(rows: &[Vec<&'t str>], width: usize, table: RawTable<'t>) -> RawTable<'t> {
+    let mut columns: Vec<Vec<&str>> = (0..width)
+        .map(|k| rows.iter().map(|row| row[k]).collect())
+        .collect();
+    let names = if number(rows[0][0], true).is_none() {
+        columns.remove(0)
     } else {
         vec![&rows[0][0][..0]; rows.len()]
     };
     RawTable {
         names,
-        rows: (named..width).map(column).collect(),
+        rows: columns,
         ..table
     }
 }
@@ -151,21 +168,24 @@ fn is_comment(line: &&str) -> bool {
     line.trim_start().starts_with(['#', '%', '!'])
 }
 
-/// Tells rows of numbers from lines above them.
-fn sorted(text: &str) -> Lines<'_> {
-    let lines = || {
-        text.lines()
-            .filter(|line| !line.trim().is_empty() && !is_rule(line))
-    };
-    let separator = separator(lines().filter(|line| !is_comment(line)));
-    let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
+/// Whether a cell holds a number, in a table with this separator.
+fn is_number(cell: &str, separator: Option<char>) -> bool {
+    number(cell, separator != Some(',')).is_some()
+}
+
+/// Separates rows of numbers from the lines above them.
+fn sort_lines(text: &str) -> Lines<'_> {
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !is_rule(line));
+    let separator = separator(lines.clone().filter(|line| !is_comment(line)));
     let mut heads = vec![];
     let mut rows = vec![];
     let mut quoted_names = None;
-    let mut all = lines().peekable();
-    while let Some(line) = all.next() {
+    let mut lines = lines.peekable();
+    while let Some(line) = lines.next() {
         if rows.is_empty()
-            && let Some(below) = all.peek()
+            && let Some(below) = lines.peek()
             && let Some(names) = names_in_quotes(line, below, separator)
         {
             quoted_names = Some(names);
@@ -173,24 +193,13 @@ fn sorted(text: &str) -> Lines<'_> {
         }
         // A row without the comment after it.
         let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
-        let numbers = cells.iter().filter(|cell| is_number(cell)).count();
-        let is_row = match separator {
-            _ if cells.first().is_some_and(is_number) => true,
-            None => numbers > 1 && numbers + 1 >= cells.len(),
-            Some(_) => numbers > 0 && cells.len() > 1,
-        };
-        let begins = cells
-            .iter()
-            .filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit()))
-            .count();
-        match rows.is_empty() {
-            _ if is_row && !is_comment(&line) => rows.push((line, cells)),
-            // A row with a word in place of a number is one, so that the word is refused.
-            false if begins > 0 && 2 * begins >= cells.len() && !is_comment(&line) => {
-                rows.push((line, cells));
-            }
-            true => heads.push(line),
-            false => {}
+        let is_first = rows.is_empty();
+        if !is_comment(&line)
+            && (is_row(&cells, separator) || !is_first && is_row_with_words(&cells))
+        {
+            rows.push((line, cells));
+        } else if is_first {
+            heads.push(line);
         }
     }
     Lines {
@@ -199,6 +208,31 @@ fn sorted(text: &str) -> Lines<'_> {
         quoted_names,
         separator,
     }
+}
+
+/// Whether cells begin with a number, or are numbers but for one word.
+fn is_row(cells: &[&str], separator: Option<char>) -> bool {
+    if cells.first().is_some_and(|cell| is_number(cell, separator)) {
+        return true;
+    }
+    let numbers = cells
+        .iter()
+        .filter(|cell| is_number(cell, separator))
+        .count();
+    match separator {
+        None => numbers > 1 && numbers + 1 >= cells.len(),
+        Some(_) => numbers > 0 && cells.len() > 1,
+    }
+}
+
+/// Whether at least half of the cells begin with a digit. Such a line is a row with a word in place
+/// of a number, and the word will be refused.
+fn is_row_with_words(cells: &[&str]) -> bool {
+    let begin_with_digit = cells
+        .iter()
+        .filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit()))
+        .count();
+    begin_with_digit > 0 && 2 * begin_with_digit >= cells.len()
 }
 
 /// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
@@ -219,15 +253,19 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
         is_start = is_end || (is_start && c.is_whitespace());
         is_end
     };
-    let two = |cell| match str::split_once(cell, " (") {
+    line.split(separates)
+        .map(cell)
+        .filter(|cell| separator.is_some() || !cell.is_empty())
+        .flat_map(split_parenthesis)
+        .collect()
+}
+
+/// The two cells of `0.1 (2.0)`; any other cell alone.
+fn split_parenthesis(cell: &str) -> Vec<&str> {
+    match cell.split_once(" (") {
         Some((one, two)) if number(one, false).is_some() => vec![one, two.trim_end_matches(')')],
         _ => vec![cell],
-    };
-    let cells = line
-        .split(separates)
-        .map(cell)
-        .filter(|cell| separator.is_some() || !cell.is_empty());
-    cells.flat_map(two).collect()
+    }
 }
 
 /// A cell without surrounding blanks and quotes; the end of a text of blanks alone.
@@ -249,51 +287,64 @@ fn names_in_quotes<'t>(
     if !line.contains('"') {
         return None;
     }
-    let is_number = |cell: &&str| number(cell, separator != Some(',')).is_some();
-    let is_quoted = |line: &str, cell: &str| {
-        line[..cell.as_ptr() as usize - line.as_ptr() as usize].ends_with('"')
-    };
     let names = split(line, separator);
     let cells = split(below, separator);
-    let is_above = |(name, cell): (&&str, &&str)| {
-        is_number(name) && is_number(cell) && !is_quoted(below, cell)
-    };
     let is_head = names
         .iter()
-        .filter(|name| is_number(name))
+        .filter(|name| is_number(name, separator))
         .all(|name| is_quoted(line, name));
-    (is_head && names.iter().rev().zip(cells.iter().rev()).any(is_above)).then_some(names)
+    let is_above_number = names
+        .iter()
+        .rev()
+        .zip(cells.iter().rev())
+        .any(|(name, cell)| {
+            is_number(name, separator) && is_number(cell, separator) && !is_quoted(below, cell)
+        });
+    (is_head && is_above_number).then_some(names)
+}
+
+/// Whether a quote stands before a cell in its line.
+fn is_quoted(line: &str, cell: &str) -> bool {
+    line[..place(line, cell)].ends_with('"')
+}
+
+/// The byte at which a cell begins in its line.
+fn place(line: &str, cell: &str) -> usize {
+    cell.as_ptr() as usize - line.as_ptr() as usize
 }
 
 /// The separator of a table: the first that leaves no two numbers in one cell of its first row;
 /// `None` for blanks.
 fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) -> Option<char> {
-    let is_number = |text: &str| number(text, true).is_some();
-    let leads = |line: &&str| {
-        let line = line.trim_start_matches(|c: char| c.is_whitespace() || "|\"$".contains(c));
-        is_number(
-            line.split(|c: char| c.is_whitespace() || ";,&|\"$".contains(c))
-                .next()
-                .unwrap_or_default(),
-        )
-    };
-    let line = lines.clone().find(leads).or_else(|| lines.next_back())?;
-    let holds_two = |cell: &&str| {
-        let words: Vec<&str> = cell.split_whitespace().collect();
-        words
-            .windows(2)
-            .any(|two| is_number(two[0]) && is_number(two[1]))
-    };
-    let separates = |c: &char| line.contains(*c) && !split(line, Some(*c)).iter().any(holds_two);
-    ['&', '|', ';', '\t', ','].into_iter().find(separates)
+    let line = lines
+        .clone()
+        .find(begins_with_number)
+        .or_else(|| lines.next_back())?;
+    ['&', '|', ';', '\t', ',']
+        .into_iter()
+        .find(|c| line.contains(*c) && !split(line, Some(*c)).iter().any(holds_two_numbers))
+}
+
+/// Whether the first word of a line is a number.
+fn begins_with_number(line: &&str) -> bool {
+    let line = line.trim_start_matches(|c: char| c.is_whitespace() || "|\"$".contains(c));
+    let first = line
+        .split(|c: char| c.is_whitespace() || ";,&|\"$".contains(c))
+        .next();
+    number(first.unwrap_or_default(), true).is_some()
+}
+
+/// Whether a cell holds two numbers next to each other.
+fn holds_two_numbers(cell: &&str) -> bool {
+    let words: Vec<&str> = cell.split_whitespace().collect();
+    words
+        .windows(2)
+        .any(|two| two.iter().all(|word| number(word, true).is_some()))
 }
 
 /// A line of dashes, or the border of a box.
 fn is_rule(line: &str) -> bool {
-    let drawn = |c: char| {
-        c.is_whitespace() || "-=_~+|:".contains(c) || ('\u{2500}'..='\u{257f}').contains(&c)
-    };
-    line.chars().all(drawn)
+    line.chars().all(is_drawn)
         && line
             .chars()
             .filter(|c| !c.is_whitespace() && *c != '|')
@@ -301,15 +352,35 @@ fn is_rule(line: &str) -> bool {
             > 2
 }
 
-/// Cells of a row that is shorter than others, for a blank in place of a rate, go into the columns
-/// below which they stand.
+/// Whether rules and boxes are drawn with a character.
+fn is_drawn(c: char) -> bool {
+    c.is_whitespace() || "-=_~+|:".contains(c) || ('\u{2500}'..='\u{257f}').contains(&c)
+}
+
+/// The first byte of a cell in its line, and the byte after its last one.
+fn span(line: &str, cell: &str) -> [usize; 2] {
+    let start = place(line, cell);
+    [start, start + cell.len()]
+}
+
+/// The column below which a cell stands.
+///
+/// * `spans`: of the columns. Starts and ends grow from column to column.
+fn column_above(line: &str, cell: &str, spans: &[[usize; 2]]) -> Option<usize> {
+    let [start, end] = span(line, cell);
+    let column = spans.partition_point(|column| column[1] <= start);
+    spans
+        .get(column)
+        .is_some_and(|column| column[0] < end)
+        .then_some(column)
+}
+
+/// Moves the cells of short rows into the columns below which they stand: a blank in place of a
+/// rate makes a row shorter than the others.
 ///
 /// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many
 /// times as long as the text.
 fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
-    let span = |line: &str, cell: &str| {
-        [0, cell.len()].map(|end| cell.as_ptr() as usize - line.as_ptr() as usize + end)
-    };
     let width = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let mut spans = vec![[usize::MAX, 0]; width];
     for (line, cells) in rows.iter().filter(|(_, cells)| cells.len() == width) {
@@ -324,23 +395,16 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
         .iter_mut()
         .filter(|(_, cells)| (width..FULL * width).contains(&(FULL * cells.len())))
     {
-        // Starts and ends grow from column to column.
-        let below = |cell: &&str| {
-            let [start, end] = span(line, cell);
-            let column = spans.partition_point(|column| column[1] <= start);
-            spans
-                .get(column)
-                .is_some_and(|column| column[0] < end)
-                .then_some(column)
-        };
-        let places: Vec<usize> = cells.iter().filter_map(below).collect();
-        if places.len() == cells.len() && places.is_sorted_by(|a, b| a < b) {
-            let mut filled = vec![&line[line.len()..]; width];
-            places
-                .iter()
-                .zip(cells.iter())
-                .for_each(|(place, cell)| filled[*place] = cell);
-            *cells = filled;
+        let columns: Vec<usize> = cells
+            .iter()
+            .filter_map(|cell| column_above(line, cell, &spans))
+            .collect();
+        if columns.len() == cells.len() && columns.is_sorted_by(|a, b| a < b) {
+            let mut all = vec![&line[line.len()..]; width];
+            for (column, cell) in columns.into_iter().zip(cells.iter()) {
+                all[column] = cell;
+            }
+            *cells = all;
         }
     }
 }
@@ -394,15 +458,17 @@ fn names<'t>(
     let is_even = rows.iter().all(|row| row.len() == width);
     let is_index = counts_rows(&firsts);
     let ends = [&rows[0], &rows[rows.len() - 1]];
-    let is_rate = |k: &usize| {
-        ends.iter().any(|row| {
-            row.get(*k)
-                .is_some_and(|cell| !cell.is_empty() && is_dash(cell))
+    let is_rate: Vec<bool> = (0..width)
+        .map(|k| {
+            ends.iter().any(|row| {
+                row.get(k)
+                    .is_some_and(|cell| !cell.is_empty() && is_dash(cell))
+            })
         })
-    };
-    let masks = [(0, false), (0, true), (1, false), (1, true)].map(|(first, without)| {
+        .collect();
+    let masks = [(0, false), (0, true), (1, false), (1, true)].map(|(first, without_rates)| {
         (first..width)
-            .filter(|k| !(without && is_rate(k)))
+            .filter(|k| !(without_rates && is_rate[*k]))
             .collect::<Vec<usize>>()
     });
     let mut first = "";
@@ -416,7 +482,7 @@ fn names<'t>(
                 || mask
                     .iter()
                     .zip(*cells)
-                    .all(|(k, cell)| !is_rate(k) || Word::of(cell) == Word::Rate);
+                    .all(|(k, cell)| !is_rate[*k] || Word::of(cell) == Word::Rate);
             cells.len() == mask.len()
                 && is_sure
                 && !cells.iter().all(is_type)
@@ -431,9 +497,9 @@ fn names<'t>(
             if let Some(cells) = splits.iter().find(|cells| fits(mask, cells)) {
                 let mut names = vec![&line[..0]; width];
                 names[0] = first;
-                mask.iter()
-                    .zip(cells)
-                    .for_each(|(k, cell)| names[*k] = cell);
+                for (k, cell) in mask.iter().zip(cells) {
+                    names[*k] = cell;
+                }
                 return Some(names);
             }
         }
@@ -446,26 +512,29 @@ fn names<'t>(
     None
 }
 
+/// Whether numbers have a constant ratio, as those of a step do.
+fn has_constant_ratio(cells: &[&str]) -> bool {
+    let numbers: Vec<f64> = cells
+        .iter()
+        .filter_map(|cell| Some(number(cell, true)?.value))
+        .collect();
+    numbers.len() > 2
+        && numbers
+            .windows(3)
+            .all(|three| (three[0] * three[2] / three[1].powi(2) - 1.0).abs() < 1e-3)
+}
+
 /// Whether columns stand as rows: words before them and none above, two rows of numbers, or the
 /// steps in the first one.
 fn is_turned(rows: &[Vec<&str>]) -> bool {
-    // Numbers with a constant ratio are those of a step.
-    let is_even = |cells: &[&str]| {
-        let numbers: Vec<f64> = cells
-            .iter()
-            .filter_map(|cell| Some(number(cell, true)?.value))
-            .collect();
-        numbers.len() > 2
-            && numbers
-                .windows(3)
-                .all(|three| (three[0] * three[2] / three[1].powi(2) - 1.0).abs() < 1e-3)
-    };
-    let firsts: Vec<&str> = rows.iter().filter_map(|row| row.first().copied()).collect();
-    let is_even_across = || rows.len() == 2 || is_even(&rows[0]) && !is_even(&firsts);
-    rows.iter()
-        .all(|row| row.len() == rows[0].len() && row.len() > 2)
-        && rows.len() > 1
-        && (firsts.iter().all(|cell| number(cell, true).is_none()) || is_even_across())
+    let width = rows[0].len();
+    if rows.len() < 2 || rows.iter().any(|row| row.len() != width || row.len() < 3) {
+        return false;
+    }
+    let firsts: Vec<&str> = rows.iter().map(|row| row[0]).collect();
+    firsts.iter().all(|cell| number(cell, true).is_none())
+        || rows.len() == 2
+        || has_constant_ratio(&rows[0]) && !has_constant_ratio(&firsts)
 }
 
 /// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.

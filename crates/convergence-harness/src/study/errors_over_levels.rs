@@ -130,42 +130,27 @@ impl<F> ErrorsOverLevels<F> {
         format!("{} = {count}", self.counted)
     }
 
-    /// The levels found so far, which [`until_decided`](super::until_decided) judges as they grow.
+    /// The levels computed so far, which [`until_decided`](super::until_decided) judges as they
+    /// grow.
     pub fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
-        let own = |ran: &Ran<_, NamedErrors>| {
-            ran.ok()
-                .and_then(|found| found.iter().find(|(name, _)| is_step(name)).cloned())
-        };
-        let has_own = ran.iter().any(|ran| own(ran).is_some());
-        let refinement = |ran: &Ran<usize, NamedErrors>| {
+        let has_steps = ran.iter().any(|ran| reported_step(ran).is_some());
+        let refinements = ran.iter().map(|ran| {
+            let count = ran.case.data;
             // If some levels report their step, 1/n cannot stand in for that of the others.
-            let other = if has_own {
+            let default = if has_steps {
                 f64::NAN
             } else {
-                1.0 / ran.case.data as f64
+                1.0 / count as f64
             };
-            let step = own(ran).map_or(other, |(_, step)| step);
-            Refinement::new(
-                ran.case.label.clone(),
-                &[(&self.counted, ran.case.data)],
-                step,
-            )
-        };
-        let errors = |ran: &Ran<_, NamedErrors>| {
-            ran.ok().map(|found| {
-                found
-                    .iter()
-                    .filter(|(name, _)| !is_step(name))
-                    .cloned()
-                    .collect::<NamedErrors>()
-            })
-        };
-        let found: Vec<_> = ran.iter().map(errors).collect();
-        let found: Vec<_> = found.iter().map(Option::as_deref).collect();
+            let step = reported_step(ran).unwrap_or(default);
+            Refinement::new(ran.case.label.clone(), &[(&self.counted, count)], step)
+        });
+        let errors: Vec<Option<NamedErrors>> = ran.iter().map(without_step).collect();
+        let errors: Vec<_> = errors.iter().map(Option::as_deref).collect();
         Levels::new(
             self.axis,
-            ran.iter().map(refinement),
-            ErrorColumn::of(&self.claims, &found),
+            refinements,
+            ErrorColumn::of(&self.claims, &errors),
         )
     }
 }
@@ -174,8 +159,20 @@ fn is_step(name: &str) -> bool {
     STEPS.contains(&name)
 }
 
+/// The step that a level reports among its errors.
+fn reported_step(ran: &Ran<usize, NamedErrors>) -> Option<f64> {
+    let step = ran.ok()?.iter().find(|(name, _)| is_step(name));
+    step.map(|(_, step)| *step)
+}
+
+/// The errors of a level; `None` if it failed.
+fn without_step(ran: &Ran<usize, NamedErrors>) -> Option<NamedErrors> {
+    let errors = ran.ok()?.iter();
+    Some(errors.filter(|(name, _)| !is_step(name)).cloned().collect())
+}
+
 /// The error of that name; NaN if there is none.
-fn named(errors: &NamedErrors, name: &str) -> f64 {
+fn error_of(errors: &NamedErrors, name: &str) -> f64 {
     errors
         .iter()
         .find(|(known, _)| *known == name)
@@ -192,8 +189,10 @@ where
 
     /// A finer level is assumed to cost more.
     fn cases(&self) -> Vec<Case<usize>> {
-        let case = |&count: &usize| Case::new(self.label(count), count as f64, count);
-        self.counts.iter().map(case).collect()
+        self.counts
+            .iter()
+            .map(|&count| Case::new(self.label(count), count as f64, count))
+            .collect()
     }
 
     fn run(&self, count: &usize) -> Result<NamedErrors, CaseFailure> {
@@ -202,16 +201,19 @@ where
 
     fn judge(&self, ran: &[Ran<usize, NamedErrors>]) -> Outcome {
         let levels = self.levels(ran);
-        let found = levels
+        let names: Vec<&str> = levels
             .columns
             .iter()
-            .filter(|column| column.errors.iter().any(Option::is_some));
-        let names: Vec<&str> = found.map(|column| column.name.as_str()).collect();
-        let not_finite = |errors: &NamedErrors| {
-            let names = names.iter().filter(|name| !named(errors, name).is_finite());
+            .filter(|column| column.has_some_result())
+            .map(|column| column.name.as_str())
+            .collect();
+        let completion = completion(ran, |errors| {
+            let names = names
+                .iter()
+                .filter(|name| !error_of(errors, name).is_finite());
             names.map(|name| format!("the error `{name}`")).collect()
-        };
-        let mut checks = vec![completion(ran, not_finite)];
+        });
+        let mut checks = vec![completion];
         if self.claims.is_empty() {
             let claim = "an order is claimed".to_owned();
             let evidence = "no order of any error is claimed".to_owned();
@@ -225,8 +227,10 @@ where
 
     fn details(&self) -> Vec<(String, String)> {
         let labels: Vec<String> = self.counts.iter().map(|count| self.label(*count)).collect();
-        let order = |(name, claim): &(String, Claim)| format!("{name} {claim}");
-        let orders: Vec<String> = self.claims.iter().map(order).collect();
+        let claims = self.claims.iter();
+        let orders: Vec<String> = claims
+            .map(|(name, claim)| format!("{name} {claim}"))
+            .collect();
         vec![
             ("orders claimed".to_owned(), orders.join(", ")),
             ("levels".to_owned(), labels.join(", ")),

@@ -48,11 +48,10 @@ impl KindRow {
     /// The first kind whose numbers come from this source, which is named without the kind:
     /// `vibration` for `orders/vibration`.
     pub fn with_source<'k>(kinds: &'k [Self], source: &str) -> Option<&'k Self> {
-        let has_source = |row: &&Self| {
+        kinds.iter().find(|row| {
             let parts = row.name.split_once('/');
             parts.is_some_and(|(_, own)| own == source)
-        };
-        kinds.iter().find(has_source)
+        })
     }
 }
 

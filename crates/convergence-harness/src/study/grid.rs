@@ -19,6 +19,11 @@ const MISFIT: f64 = 0.1;
 /// Steps with a smaller relative difference are equal.
 const SAME_STEP: f64 = 1e-9;
 
+/// Whether two steps are not equal.
+fn differ(one: f64, other: f64) -> bool {
+    (one / other - 1.0).abs() > SAME_STEP
+}
+
 /// One error on a grid, and the claim about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridColumn {
@@ -82,17 +87,14 @@ impl Grid {
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
             match errors.judge(adding, [order, column.time], tolerance) {
-                Ok(judged) => rates.extend(names.into_iter().zip(judged).map(|(name, rate)| {
-                    let all = missing.is_empty();
-                    (
-                        name,
-                        if all {
-                            rate
-                        } else {
-                            rate.without_result(self.points.len(), &missing)
-                        },
-                    )
-                })),
+                Ok(judged) => {
+                    for (name, mut rate) in names.into_iter().zip(judged) {
+                        if !missing.is_empty() {
+                            rate = rate.without_result(self.points.len(), &missing);
+                        }
+                        rates.push((name, rate));
+                    }
+                }
                 // Readers of study files have already refused such a tolerance.
                 Err(error) => {
                     checks.extend(names.map(|name| {
@@ -134,7 +136,6 @@ impl Grid {
 
     /// The first point whose mesh width or time step differs from that of its row and column.
     fn off_grid(&self, h: &[f64], dt: &[f64]) -> Option<String> {
-        let differ = |one: f64, other: f64| (one / other - 1.0).abs() > SAME_STEP;
         self.points.iter().enumerate().find_map(|(index, point)| {
             let expected = [
                 h[index / self.times.max(1)],
@@ -156,46 +157,49 @@ impl Grid {
     ///
     /// * `label`: an error, by its name, as the vertical axis shows it.
     pub fn figures(&self, label: impl Fn(&str) -> String) -> Vec<Figure> {
-        let figure = |column: &GridColumn| {
-            let xy = Xy {
-                title: Some("Errors fall with h until the error of dt is left".to_owned()),
-                y: plots::Axis::log(label(&column.name)),
-                ..Xy::of_errors("mesh width h")
-            };
-            let lines: Vec<ErrorSeries> = (0..self.times).map(|k| self.line(column, k)).collect();
-            let plain = |c: char| {
-                if c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_') {
-                    c
-                } else {
-                    '-'
-                }
-            };
-            let name: String = column.name.chars().map(plain).collect();
-            let caption = format!(
-                "Error `{}` over the mesh width, with a line for each time step: of order {} (triangle) where the error \
-                 of the time step is small.",
-                column.name,
-                order_text(column.space.order)
-            );
-            let svg = plots::convergence(xy, &lines, &[column.space.order]);
-            Figure::new(&format!("over-h-{name}"), caption, svg)
+        self.columns
+            .iter()
+            .map(|column| self.figure(column, label(&column.name)))
+            .collect()
+    }
+
+    #[cfg(feature = "reports")]
+    /// An error over the mesh width.
+    ///
+    /// * `label`: of the vertical axis.
+    fn figure(&self, column: &GridColumn, label: String) -> Figure {
+        let xy = Xy {
+            title: Some("Errors fall with h until the error of dt is left".to_owned()),
+            y: plots::Axis::log(label),
+            ..Xy::of_errors("mesh width h")
         };
-        self.columns.iter().map(figure).collect()
+        let lines: Vec<ErrorSeries> = (0..self.times).map(|k| self.line(column, k)).collect();
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
+        let name = column.name.replace(|c: char| !is_plain(c), "-");
+        let caption = format!(
+            "Error `{}` over the mesh width, with a line for each time step: of order {} (triangle) where the error \
+             of the time step is small.",
+            column.name,
+            order_text(column.space.order)
+        );
+        let svg = plots::convergence(xy, &lines, &[column.space.order]);
+        Figure::new(&format!("over-h-{name}"), caption, svg)
     }
 
     /// The errors at the k-th time step of each mesh.
     #[cfg(feature = "reports")]
     fn line(&self, column: &GridColumn, k: usize) -> ErrorSeries {
         let points = self.points.iter().zip(&column.errors);
-        let of_step = points.skip(k).step_by(self.times.max(1));
+        let points = points.skip(k).step_by(self.times.max(1));
         let dt = self.points.get(k).map_or(f64::NAN, |[_, dt]| *dt);
         ErrorSeries {
             label: format!("dt = {}", short_text(dt)),
-            points: of_step.map(|([h, _], error)| (*h, *error)).collect(),
+            points: points.map(|([h, _], error)| (*h, *error)).collect(),
             ..ErrorSeries::default()
         }
     }
 
+    /// Judges whether the contributions of space and time add as the fit assumes.
     fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
         let evidence = format!(
             "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"

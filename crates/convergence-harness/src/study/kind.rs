@@ -77,17 +77,17 @@ impl<E: std::error::Error> From<E> for CaseFailure {
 
 /// The reasons of failed cases; the first case with advice has it behind its reason.
 pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
-    let advised = failures
-        .iter()
-        .position(|failure| !failure.advice.is_empty());
-    let reason = |(k, CaseFailure { reason, advice }): (usize, CaseFailure)| {
-        if Some(k) == advised {
-            format!("{reason}; {advice}")
+    let mut has_advice = false;
+    let mut reasons = vec![];
+    for CaseFailure { reason, advice } in failures {
+        if advice.is_empty() || has_advice {
+            reasons.push(reason);
         } else {
-            reason
+            reasons.push(format!("{reason}; {advice}"));
+            has_advice = true;
         }
-    };
-    failures.into_iter().enumerate().map(reason).collect()
+    }
+    reasons
 }
 
 /// Cases without a result in words, `label: reason`; those with the same reason share one line,
@@ -96,9 +96,10 @@ pub(crate) fn reasons(failures: Vec<CaseFailure>) -> Vec<String> {
 /// * `failed`: label and reason of each.
 fn by_reason<'f>(failed: impl IntoIterator<Item = (&'f str, &'f str)>) -> Vec<String> {
     let reasons = grouped(failed.into_iter().map(|(label, reason)| (reason, label)));
-    let line =
-        |(reason, labels): (&str, Vec<&str>)| format!("{}: {reason}", cases_in_words(&labels));
-    reasons.into_iter().map(line).collect()
+    reasons
+        .into_iter()
+        .map(|(reason, labels)| format!("{}: {reason}", cases_in_words(&labels)))
+        .collect()
 }
 
 /// The first of several cases, and how many more there are.
@@ -164,32 +165,39 @@ pub struct Untested {
 
 /// Runs all cases on this thread, one after the other.
 pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
-    let run = |case: Case<K::Data>| Ran {
-        found: kind.run(&case.data),
-        case,
-    };
-    let mut ran: Vec<_> = kind.cases().into_iter().map(run).collect();
+    let mut ran = vec![];
+    for case in kind.cases() {
+        ran.push(run_here(kind, case));
+    }
     while let Some(case) = kind.more(&ran) {
-        ran.push(run(case));
+        ran.push(run_here(kind, case));
     }
     ran
+}
+
+fn run_here<K: Kind>(kind: &K, case: Case<K::Data>) -> Ran<K::Data, K::Found> {
+    Ran {
+        found: kind.run(&case.data),
+        case,
+    }
 }
 
 /// Judges the results of a study, and counts its cases in addition to what its kind counts.
 ///
 /// * `ran`: one result for each case, in the order of [`Kind::cases`].
 pub fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
-    // A result counts as a failed case where part of it is missing.
-    let is_complete = |found: &K::Found| kind.failure(found).is_none();
-    let left_out = |ran: &Ran<_, _>| (!ran.ok().is_some_and(is_complete)).then_some(NO_RESULT);
     let mut outcome = kind.judge(ran);
-    let cases = Coverage::of("cases", ran.iter().map(left_out));
-    outcome.coverage.push(cases);
+    let left_out = ran.iter().map(|ran| match ran.ok() {
+        // A result counts as a failed case where part of it is missing.
+        Some(result) if kind.failure(result).is_none() => None,
+        _ => Some(NO_RESULT),
+    });
+    outcome.coverage.push(Coverage::of("cases", left_out));
     outcome
 }
 
-/// Number of reasons that a check of completion lists.
-const SHOWN: usize = 8;
+/// Most reasons that a check of completion lists.
+const MOST_REASONS: usize = 8;
 
 /// Fails unless every case has a result with finite numbers only.
 ///
@@ -219,12 +227,11 @@ pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String
     }
     let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
     let mut evidence = format!("{completed} of {} cases completed", ran.len());
-    complaints
-        .iter()
-        .take(SHOWN)
-        .for_each(|complaint| evidence += &format!("; {complaint}"));
-    if complaints.len() > SHOWN {
-        evidence += &format!("; and {} more", complaints.len() - SHOWN);
+    for complaint in complaints.iter().take(MOST_REASONS) {
+        evidence += &format!("; {complaint}");
+    }
+    if complaints.len() > MOST_REASONS {
+        evidence += &format!("; and {} more", complaints.len() - MOST_REASONS);
     }
     Check::that(
         complaints.is_empty() && !ran.is_empty(),
@@ -338,8 +345,11 @@ fn never_run() -> CaseFailure {
 
 impl<K: Kind> Plan for Typed<'_, K> {
     fn cases(&self) -> Vec<Case<()>> {
-        let case = |ran: &Ran<_, _>| Case::new(ran.case.label.clone(), ran.case.cost, ());
-        self.ran().iter().map(case).collect()
+        let mut cases = vec![];
+        for Ran { case, .. } in self.ran().iter() {
+            cases.push(Case::new(case.label.clone(), case.cost, ()));
+        }
+        cases
     }
 
     fn more(&self) -> Option<usize> {

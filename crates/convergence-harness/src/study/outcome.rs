@@ -202,17 +202,20 @@ mod rates {
 impl Outcome {
     /// What a rate is about: by default the error of its name.
     pub fn subject_of_rate(&self, name: &str) -> Subject {
-        let known = self.rate_subjects.iter().find(|(of, _)| of == name);
-        known.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
+        let mut subjects = self.rate_subjects.iter();
+        let entry = subjects.find(|(rate, _)| rate == name);
+        entry.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
     }
 
     /// The errors of that name over their steps; NaN on a level without one.
     pub fn levels_of(&self, name: &str) -> Vec<Level> {
-        let level = |level: &LevelErrors| Level {
-            step: level.step.unwrap_or(f64::NAN),
-            error: level.error(name),
-        };
-        self.levels.iter().map(level).collect()
+        self.levels
+            .iter()
+            .map(|level| Level {
+                step: level.step.unwrap_or(f64::NAN),
+                error: level.error(name),
+            })
+            .collect()
     }
 
     /// Builds an outcome; the verdict is the worst of all rates and checks.
@@ -286,40 +289,45 @@ impl Outcome {
 
     /// Every number that JSON cannot hold.
     pub fn not_finite(&self) -> Vec<NotFinite> {
-        let mut found = Vec::new();
-        let mut look = |at: String, value: f64| {
-            if !value.is_finite() {
-                found.push(NotFinite {
-                    at,
-                    value: value.to_string(),
-                });
-            }
-        };
+        let mut list = NotFiniteList::default();
         for (i, level) in self.levels.iter().enumerate() {
-            level
-                .errors
-                .iter()
-                .for_each(|(norm, error)| look(format!("levels[{i}].errors.{norm}"), *error));
+            for (norm, error) in &level.errors {
+                list.check(*error, || format!("levels[{i}].errors.{norm}"));
+            }
         }
         for (i, (_, rate)) in self.rates.iter().enumerate() {
-            rate.pairwise
-                .iter()
-                .enumerate()
-                .for_each(|(j, rate)| look(format!("rates[{i}].pairwise[{j}]"), *rate));
-            let interval = rate.interval.into_iter().flatten();
-            interval
-                .enumerate()
-                .for_each(|(j, end)| look(format!("rates[{i}].interval[{j}]"), end));
-            rate.fitted
-                .into_iter()
-                .for_each(|fitted| look(format!("rates[{i}].fitted"), fitted));
-            rate.extrapolated
-                .into_iter()
-                .for_each(|rate| look(format!("rates[{i}].extrapolated"), rate));
+            for (j, rate) in rate.pairwise.iter().enumerate() {
+                list.check(*rate, || format!("rates[{i}].pairwise[{j}]"));
+            }
+            for (j, end) in rate.interval.into_iter().flatten().enumerate() {
+                list.check(end, || format!("rates[{i}].interval[{j}]"));
+            }
+            if let Some(fitted) = rate.fitted {
+                list.check(fitted, || format!("rates[{i}].fitted"));
+            }
+            if let Some(extrapolated) = rate.extrapolated {
+                list.check(extrapolated, || format!("rates[{i}].extrapolated"));
+            }
         }
         for (i, quantity) in self.quantities.iter().enumerate() {
-            look(format!("quantities[{i}].value"), quantity.value);
+            list.check(quantity.value, || format!("quantities[{i}].value"));
         }
-        found
+        list.0
+    }
+}
+
+/// The numbers of an outcome that JSON cannot hold.
+#[derive(Default)]
+struct NotFiniteList(Vec<NotFinite>);
+
+impl NotFiniteList {
+    /// Adds a number, with its place in the study, if JSON cannot hold it.
+    fn check(&mut self, value: f64, place: impl FnOnce() -> String) {
+        if !value.is_finite() {
+            self.0.push(NotFinite {
+                at: place(),
+                value: value.to_string(),
+            });
+        }
     }
 }

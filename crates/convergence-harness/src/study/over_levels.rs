@@ -67,6 +67,11 @@ pub struct ErrorColumn {
 }
 
 impl ErrorColumn {
+    /// Whether any level has a result.
+    pub(super) fn has_some_result(&self) -> bool {
+        self.errors.iter().any(Option::is_some)
+    }
+
     /// An error with a claim, called by its name in figures.
     ///
     /// * `errors`: coarse to fine; `None` without a result.
@@ -84,43 +89,38 @@ impl ErrorColumn {
         }
     }
 
-    /// A column for every error claimed or found: claimed ones first, then the others in order of
-    /// occurrence.
+    /// A column for every error claimed or computed: claimed ones first, then the others in order
+    /// of occurrence.
     ///
-    /// * `found`: the errors of each level by name, coarse to fine; `None` if the case failed.
+    /// * `levels`: the errors of each level by name, coarse to fine; `None` if the case failed.
     pub fn of<N: AsRef<str>, M: AsRef<str>>(
         claims: &[(N, Claim)],
-        found: &[Option<&[(M, f64)]>],
+        levels: &[Option<&[(M, f64)]>],
     ) -> Vec<Self> {
-        let found_names = found
-            .iter()
-            .copied()
-            .flatten()
-            .flatten()
-            .map(|(name, _)| name.as_ref());
-        let names = distinct(
-            claims
-                .iter()
-                .map(|(name, _)| name.as_ref())
-                .chain(found_names),
-        );
-        let error = |errors: &Option<&[(M, f64)]>, name: &str| {
-            let named =
-                errors.and_then(|errors| errors.iter().find(|(known, _)| known.as_ref() == name));
-            named.map(|(_, error)| *error)
-        };
-        let column = |(look, name): (usize, &str)| Self {
-            name: name.to_owned(),
-            symbol: None,
-            errors: found.iter().map(|errors| error(errors, name)).collect(),
-            claim: claims
-                .iter()
-                .find(|(known, _)| known.as_ref() == name)
-                .map(|(_, claim)| *claim),
-            look,
-        };
-        names.into_iter().enumerate().map(column).collect()
+        let claimed_names = claims.iter().map(|(name, _)| name.as_ref());
+        let computed = levels.iter().copied().flatten().flatten();
+        let computed_names = computed.map(|(name, _)| name.as_ref());
+        distinct(claimed_names.chain(computed_names))
+            .into_iter()
+            .enumerate()
+            .map(|(look, name)| Self {
+                name: name.to_owned(),
+                symbol: None,
+                errors: levels
+                    .iter()
+                    .map(|errors| value_of(errors.as_deref()?, name))
+                    .collect(),
+                claim: value_of(claims, name),
+                look,
+            })
+            .collect()
     }
+}
+
+/// The value of that name in a list; `None` if it is not there.
+fn value_of<N: AsRef<str>, T: Copy>(list: &[(N, T)], name: &str) -> Option<T> {
+    let entry = list.iter().find(|(other, _)| other.as_ref() == name);
+    entry.map(|(_, value)| *value)
 }
 
 /// One level of refinement.
@@ -196,80 +196,83 @@ impl Levels {
     }
 
     fn subject(&self, name: &str) -> Subject {
-        let known = self.subjects.iter().find(|(of, _)| of == name);
-        known.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
+        let mut subjects = self.subjects.iter();
+        let entry = subjects.find(|(error, _)| error == name);
+        entry.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
     }
 
+    /// The errors of a column over their steps, without levels that lack a result.
     fn points(&self, column: &ErrorColumn) -> Vec<Level> {
-        let level = |(i, level): (usize, &Refinement)| {
-            Some(Level {
-                step: level.step,
-                error: at(&column.errors, i)?,
+        let levels = self.refinements.iter().enumerate();
+        levels
+            .filter_map(|(i, level)| {
+                Some(Level {
+                    step: level.step,
+                    error: result_at(&column.errors, i)?,
+                })
             })
-        };
-        self.refinements
-            .iter()
-            .enumerate()
-            .filter_map(level)
             .collect()
     }
 
     /// For each level whether it has a result.
     fn has_result(&self, column: &ErrorColumn) -> Vec<bool> {
         (0..self.refinements.len())
-            .map(|i| at(&column.errors, i).is_some())
+            .map(|i| result_at(&column.errors, i).is_some())
             .collect()
     }
 
     /// One verdict for each error with a claimed order. A level without a result makes it fail; the
     /// rate is that of the others.
     pub fn judge(&self) -> Vec<(String, RateVerdict)> {
+        let mut verdicts = vec![];
+        for column in &self.columns {
+            if let Some(claim) = &column.claim {
+                verdicts.push((column.name.clone(), self.verdict(column, claim)));
+            }
+        }
+        verdicts
+    }
+
+    /// The verdict on the claim about an error.
+    fn verdict(&self, column: &ErrorColumn, claim: &Claim) -> RateVerdict {
+        let points = self.points(column);
+        // No verdict can be based on such a tolerance; readers of study files have already refused
+        // it.
+        let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
+        let judged = judge
+            .map(|judge| claim.judge(&judge, &points))
+            .unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
         let labels: Vec<&str> = self
             .refinements
             .iter()
             .map(|level| level.label.as_str())
             .collect();
-        let known = self
+        let judged = judged.over_all_levels(&labels, &self.has_result(column));
+        let names: Vec<&str> = self
             .columns
             .iter()
-            .filter(|column| column.errors.iter().any(Option::is_some));
-        let known: Vec<&str> = known.map(|column| column.name.as_str()).collect();
-        let verdict = |column: &ErrorColumn| {
-            let claim = column.claim?;
-            let points = self.points(column);
-            // No verdict can be based on such a tolerance; readers of study files have already
-            // refused it.
-            let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
-            let judged = judge.map(|judge| claim.judge(&judge, &points));
-            let judged =
-                judged.unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
-            let judged = judged.over_all_levels(&labels, &self.has_result(column));
-            let is_unknown = !column.errors.iter().any(Option::is_some) && !known.is_empty();
-            let unknown = || {
-                format!(
-                    "no level has an error `{}`; there are {}",
-                    column.name,
-                    known.join(", ")
-                )
-            };
-            let judged = if is_unknown {
-                judged.with_reason(Reason::NoResult, &unknown())
-            } else {
-                judged
-            };
-            Some((column.name.clone(), judged))
-        };
-        self.columns.iter().filter_map(verdict).collect()
+            .filter(|other| other.has_some_result())
+            .map(|other| other.name.as_str())
+            .collect();
+        if column.has_some_result() || names.is_empty() {
+            return judged;
+        }
+        let unknown = format!(
+            "no level has an error `{}`; there are {}",
+            column.name,
+            names.join(", ")
+        );
+        judged.with_reason(Reason::NoResult, &unknown)
     }
 
     /// The same with only the coarsest levels.
     pub fn coarsest(&self, levels: usize) -> Self {
-        let column = |column: &ErrorColumn| ErrorColumn {
+        let refinements = self.refinements.iter().take(levels).cloned();
+        let columns = self.columns.iter().map(|column| ErrorColumn {
             errors: column.errors.iter().copied().take(levels).collect(),
             ..column.clone()
-        };
-        let refinements = self.refinements.iter().take(levels).cloned();
-        Self::new(self.axis, refinements, self.columns.iter().map(column))
+        });
+        Self::new(self.axis, refinements, columns)
             .with_floor(self.floor)
             .with_subjects(self.subjects.clone())
     }
@@ -302,49 +305,55 @@ impl Levels {
 
     /// Every error of every level, for record and report.
     pub fn errors(&self) -> Vec<LevelErrors> {
-        let level = |(i, level): (usize, &Refinement)| {
-            let error = |column: &ErrorColumn| (column.name.clone(), number(&column.errors, i));
-            let lacks = |column: &&ErrorColumn| at(&column.errors, i).is_none();
-            LevelErrors {
-                parameters: level.parameters.clone(),
-                step: Some(level.step),
-                work: None,
-                errors: self.columns.iter().map(error).collect(),
-                without: self
-                    .columns
-                    .iter()
-                    .filter(lacks)
-                    .map(|column| column.name.clone())
-                    .collect(),
+        let levels = self.refinements.iter().enumerate();
+        levels.map(|(i, level)| self.errors_at(i, level)).collect()
+    }
+
+    /// The errors of the i-th level.
+    fn errors_at(&self, i: usize, level: &Refinement) -> LevelErrors {
+        let mut errors = vec![];
+        let mut without = vec![];
+        for column in &self.columns {
+            errors.push((column.name.clone(), number_at(&column.errors, i)));
+            if result_at(&column.errors, i).is_none() {
+                without.push(column.name.clone());
             }
-        };
-        self.refinements.iter().enumerate().map(level).collect()
+        }
+        LevelErrors {
+            parameters: level.parameters.clone(),
+            step: Some(level.step),
+            work: None,
+            errors,
+            without,
+        }
     }
 
     /// The numbers that the baseline guards: every observed rate, then every error of every level.
     pub fn quantities(&self, rates: &Rates) -> Vec<Quantity> {
-        let errors = self.refinements.iter().enumerate().flat_map(|(i, level)| {
-            let name = |column: &ErrorColumn| format!("error {}, {}", column.name, level.label);
-            let quantity = move |column| {
-                Quantity::new(name(column), number(&column.errors, i), ERROR_TOLERANCE)
-                    .about(self.subject(&column.name).at(&level.label))
-                    .of_sort(Sort::Error)
-            };
-            self.columns.iter().map(quantity)
-        });
-        let subject = |name: &str| self.subject(name);
-        rate_quantities(rates, subject).chain(errors).collect()
+        let mut quantities: Vec<Quantity> =
+            rate_quantities(rates, |name| self.subject(name)).collect();
+        for (i, Refinement { label, .. }) in self.refinements.iter().enumerate() {
+            for ErrorColumn { name, errors, .. } in &self.columns {
+                let error = number_at(errors, i);
+                quantities.push(
+                    Quantity::new(format!("error {name}, {label}"), error, ERROR_TOLERANCE)
+                        .about(self.subject(name).at(label))
+                        .of_sort(Sort::Error),
+                );
+            }
+        }
+        quantities
     }
 }
 
 /// The error of a level; `None` without a result.
-fn at(errors: &[Option<f64>], level: usize) -> Option<f64> {
+fn result_at(errors: &[Option<f64>], level: usize) -> Option<f64> {
     errors.get(level).copied().flatten()
 }
 
 /// The same as a number of the record: NaN without a result.
-fn number(errors: &[Option<f64>], level: usize) -> f64 {
-    at(errors, level).unwrap_or(f64::NAN)
+fn number_at(errors: &[Option<f64>], level: usize) -> f64 {
+    result_at(errors, level).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -102,6 +102,17 @@ impl Reading {
         }
     }
 
+    /// The number that the baseline guards, NaN without a value; `None` if it guards none.
+    fn quantity(&self) -> Option<Quantity> {
+        let Guard {
+            name,
+            subject,
+            tolerance,
+        } = self.guard.clone()?;
+        let value = self.value.unwrap_or(f64::NAN);
+        Some(Quantity::new(name, value, tolerance).about(subject))
+    }
+
     /// The guarded number is about this subject.
     pub fn about(mut self, subject: Subject) -> Self {
         if let Some(guard) = &mut self.guard {
@@ -121,16 +132,7 @@ pub fn not_finite(readings: &[Reading]) -> Vec<String> {
 
 /// The readings that the baseline guards; one without a value is NaN.
 pub fn guarded<'r>(readings: impl IntoIterator<Item = &'r Reading>) -> Vec<Quantity> {
-    let quantity = |reading: &Reading| {
-        let Guard {
-            name,
-            subject,
-            tolerance,
-        } = reading.guard.clone()?;
-        let value = reading.value.unwrap_or(f64::NAN);
-        Some(Quantity::new(name, value, tolerance).about(subject))
-    };
-    readings.into_iter().filter_map(quantity).collect()
+    readings.into_iter().filter_map(Reading::quantity).collect()
 }
 
 /// The readings that are shown, one column each; a dash for a missing one.
@@ -141,30 +143,24 @@ pub fn table(
     first: &[&str],
     rows: &[(Vec<String>, Vec<Reading>)],
 ) -> Table {
-    let shown = rows
+    let with_text = rows
         .iter()
         .flat_map(|(_, readings)| readings)
         .filter(|reading| reading.text.is_some());
-    let names = distinct(shown.map(|reading| reading.name.as_str()));
-    let cell = |readings: &[Reading], name: &str| {
-        let text = readings
-            .iter()
-            .find(|reading| reading.name == name)
-            .and_then(|reading| reading.text.clone());
-        text.unwrap_or_else(|| "-".to_owned())
-    };
-    let row = |(first, readings): &(Vec<String>, Vec<Reading>)| {
-        [
-            first.clone(),
-            names.iter().map(|name| cell(readings, name)).collect(),
-        ]
-        .concat()
-    };
-    Table::new(
-        title,
-        first.iter().chain(&names).copied(),
-        rows.iter().map(row),
-    )
+    let names = distinct(with_text.map(|reading| reading.name.as_str()));
+    let rows = rows.iter().map(|(first, readings)| {
+        let mut row = first.clone();
+        row.extend(names.iter().map(|name| cell(readings, name)));
+        row
+    });
+    Table::new(title, first.iter().chain(&names).copied(), rows)
+}
+
+/// The text of the reading of that name; a dash for a missing one.
+fn cell(readings: &[Reading], name: &str) -> String {
+    let reading = readings.iter().find(|reading| reading.name == name);
+    let text = reading.and_then(|reading| reading.text.clone());
+    text.unwrap_or_else(|| "-".to_owned())
 }
 
 #[cfg(test)]

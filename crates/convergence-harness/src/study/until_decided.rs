@@ -7,7 +7,7 @@
 
 #[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
-use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{Reason, Verdict};
 use crate::study::outcome::Outcome;
 use crate::study::over_levels::{Levels, Rates};
 
@@ -46,12 +46,14 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
     if !open.iter().any(|reason| reason.wants_a_level()) {
         return Next::Beyond(first);
     }
-    match levels {
-        MOST_LEVELS.. => Next::Most,
-        // Not `>`, which would let NaN pass.
-        _ if !(spent + cost <= budget) => Next::TooDear(cost),
-        _ => Next::Another,
+    if levels >= MOST_LEVELS {
+        return Next::Most;
     }
+    // Not `>`, which would let NaN pass.
+    if !(spent + cost <= budget) {
+        return Next::TooDear(cost);
+    }
+    Next::Another
 }
 
 /// The same with time as cost: the next level takes longer by the same factor as the last one did,
@@ -82,11 +84,16 @@ pub fn ended(
 ) -> Outcome {
     let words = in_words(next, levels, &outcome.rates, budget, unit);
     outcome.add_to_summary(&words);
-    let first = &levels.refinements[..levels.refinements.len().min(FIRST.len())];
-    let is_of_first = |level: &String| first.iter().any(|first| first.label == *level);
-    outcome
-        .quantities
-        .retain(|quantity| quantity.subject.level.as_ref().is_some_and(is_of_first));
+    let first: Vec<&String> = levels
+        .refinements
+        .iter()
+        .take(FIRST.len())
+        .map(|level| &level.label)
+        .collect();
+    outcome.quantities.retain(|quantity| {
+        let level = quantity.subject.level.as_ref();
+        level.is_some_and(|level| first.contains(&level))
+    });
     outcome
 }
 
@@ -98,14 +105,11 @@ fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str)
     let undecided = format!("undecided after {count} levels");
     match next {
         Next::Another | Next::Decided => {
-            let fewer = fewer(levels, rates)
-                .into_iter()
-                .map(|(name, enough)| format!("{enough} were enough for {name}"));
-            [format!("decided after {count} levels")]
-                .into_iter()
-                .chain(fewer)
-                .collect::<Vec<_>>()
-                .join("; ")
+            let mut words = format!("decided after {count} levels");
+            for (name, enough) in levels_that_were_enough(levels, rates) {
+                words += &format!("; {enough} were enough for {name}");
+            }
+            words
         }
         Next::Beyond(reason) => {
             format!("{undecided}: {}, which no finer level mends", reason.text())
@@ -120,24 +124,22 @@ fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str)
 }
 
 /// Errors whose verdict has not changed since fewer levels, each with that number of levels.
-fn fewer(levels: &Levels, rates: &Rates) -> Vec<(String, usize)> {
-    let looks: Vec<_> = (FIRST.len()..levels.refinements.len())
-        .map(|count| (count, levels.coarsest(count).judge()))
-        .collect();
-    let enough = |(index, (name, rate)): (usize, &(String, RateVerdict))| {
-        let agrees = |looked: &Rates| {
-            looked
-                .get(index)
-                .is_some_and(|(_, earlier)| earlier.verdict == rate.verdict)
-        };
-        let first = looks
-            .iter()
-            .rev()
-            .take_while(|(_, looked)| agrees(looked))
-            .last();
-        first.map(|(count, _)| (name.clone(), *count))
-    };
-    rates.iter().enumerate().filter_map(enough).collect()
+fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r Rates) -> Vec<(&'r str, usize)> {
+    let all = levels.refinements.len();
+    let mut enough = vec![all; rates.len()];
+    for count in (FIRST.len()..all).rev() {
+        let earlier = levels.coarsest(count).judge();
+        for ((enough, (_, rate)), (_, earlier)) in enough.iter_mut().zip(rates).zip(&earlier) {
+            if *enough == count + 1 && earlier.verdict == rate.verdict {
+                *enough = count;
+            }
+        }
+    }
+    let names = rates.iter().map(|(name, _)| name.as_str());
+    names
+        .zip(enough)
+        .filter(|(_, enough)| *enough < all)
+        .collect()
 }
 
 /// Whether a list of counts is left to the study.
@@ -166,13 +168,13 @@ pub fn budget(
     let lists: Vec<Field<'_>> = counts.iter().filter_map(|key| section.get(key)).collect();
     let listed = lists.iter().find(|field| field.is_list());
     let Some(auto) = lists.iter().find(|field| is_auto(field)) else {
-        let beside = |field: Field<'_>| {
-            Err(field.refuse(
+        return match section.get("budget") {
+            None => Ok(None),
+            Some(field) => Err(field.refuse(
                 "a budget beside lists",
                 "lists alone, or \"auto\" in their place",
-            ))
+            )),
         };
-        return section.get("budget").map_or(Ok(None), beside);
     };
     if let Some(listed) = listed {
         return Err(listed.refuse(

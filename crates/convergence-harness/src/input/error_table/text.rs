@@ -26,7 +26,6 @@ const TYPES: [&str; 8] = [
 const FULL: usize = 4;
 
 /// A text without colours, and a line for each of nested lists without names.
-
 pub(super) fn plain(text: &str) -> String {
     let marked = MARKS
         .iter()

@@ -11,10 +11,9 @@ use crate::study::subject::Subject;
 /// failing check if it does not meet the requirements. Its summary says how many items were not
 /// judged, if any.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
-    outcome
-        .figures
-        .iter_mut()
-        .for_each(|figure| figure.file = format!("{id}-{}", figure.file));
+    for figure in &mut outcome.figures {
+        figure.file = format!("{id}-{}", figure.file);
+    }
     let defects = defects(id, &outcome);
     if !defects.is_empty() {
         outcome.checks.push(
@@ -52,20 +51,20 @@ pub(crate) fn joined(summary: &str, more: &str) -> String {
 
 fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
     let mut defects = Vec::new();
-    defects.extend(twice(
+    defects.extend(repetitions(
         "the rate",
         outcome.rates.iter().map(|(norm, _)| norm),
     ));
-    defects.extend(twice(
+    defects.extend(repetitions(
         "the quantity",
         outcome.quantities.iter().map(|quantity| &quantity.name),
     ));
-    defects.extend(twice(
+    defects.extend(repetitions(
         "the figure",
         outcome.figures.iter().map(|figure| &figure.file),
     ));
     for level in &outcome.levels {
-        defects.extend(twice(
+        defects.extend(repetitions(
             "at one level the norm",
             level.errors.iter().map(|(norm, _)| norm),
         ));
@@ -87,7 +86,7 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
             figure.file
         ));
     }
-    defects.extend(twice(
+    defects.extend(repetitions(
         "the count of",
         outcome.coverage.iter().map(|coverage| &coverage.items),
     ));
@@ -117,16 +116,19 @@ fn rests_on_numbers(rate: &RateVerdict) -> bool {
 
 /// A plain file name that begins with the study's id: figures of all studies share one folder.
 fn well_named(id: &str, figure: &Figure) -> bool {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
-    let what = figure
-        .file
-        .strip_prefix(id)
-        .and_then(|rest| rest.strip_prefix('-'));
-    what.and_then(|what| what.strip_suffix(".svg"))
-        .is_some_and(|what| !what.is_empty() && what.chars().all(plain))
+    let rest = figure.file.strip_prefix(id);
+    let what = rest
+        .and_then(|rest| rest.strip_prefix('-'))
+        .and_then(|rest| rest.strip_suffix(".svg"));
+    what.is_some_and(|what| {
+        let mut characters = what.chars();
+        !what.is_empty()
+            && characters.all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_'))
+    })
 }
 
-fn twice<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<String> {
+/// A complaint for each name that an earlier one equals.
+fn repetitions<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<String> {
     let mut seen = HashSet::new();
     names
         .filter(|name| !seen.insert(*name))

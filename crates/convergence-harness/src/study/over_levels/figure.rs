@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Axis, Levels, Rates, at};
+use super::{Axis, Levels, Rates, result_at};
 use crate::plots::{self, ErrorSeries, xy::Xy};
 use crate::study::outcome::Figure;
 
@@ -24,17 +24,14 @@ impl Axis {
 impl Levels {
     /// The labels of levels that lack a result for some claimed error.
     fn without_result(&self) -> Vec<&str> {
-        let lacks = |i: usize| {
-            self.columns
-                .iter()
-                .any(|column| column.claim.is_some() && at(&column.errors, i).is_none())
-        };
-        self.refinements
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| lacks(*i))
-            .map(|(_, level)| level.label.as_str())
-            .collect()
+        let mut labels = vec![];
+        for (i, level) in self.refinements.iter().enumerate() {
+            let mut claimed = self.columns.iter().filter(|column| column.claim.is_some());
+            if claimed.any(|column| result_at(&column.errors, i).is_none()) {
+                labels.push(level.label.as_str());
+            }
+        }
+        labels
     }
 
     /// The judged errors, each with the line of its rate if that is known, and triangles for the
@@ -66,7 +63,7 @@ impl Levels {
                     .map(|level| (level.step, level.error))
                     .collect(),
                 order: Some(claim.order),
-                used: rate.map(|(_, rate)| drawn(&rate.used, &self.has_result(column))),
+                used: rate.map(|(_, rate)| among_results(&rate.used, &self.has_result(column))),
                 look: Some(column.look),
             }
         });
@@ -84,7 +81,7 @@ impl Levels {
             format!(" No result: {}.", without.join("; "))
         };
         let step = self.axis.symbol();
-        let seen = match subject {
+        let title = match subject {
             Some(subject) => format!("{subject}: errors fall with {step} as the triangles do"),
             None => format!("Errors fall with {step} as the triangles do"),
         };
@@ -92,7 +89,7 @@ impl Levels {
             .iter()
             .any(|series| series.order.is_some_and(|order| order > 0.0));
         let xy = Xy {
-            title: has_triangle.then_some(seen),
+            title: has_triangle.then_some(title),
             notes,
             ..Xy::of_errors(self.axis.label())
         };
@@ -105,7 +102,12 @@ impl Levels {
 }
 
 /// A range of levels, counted among those with a result.
-fn drawn(used: &Range<usize>, has: &[bool]) -> Range<usize> {
-    let before = |end: usize| has[..end.min(has.len())].iter().filter(|has| **has).count();
-    before(used.start)..before(used.end)
+fn among_results(levels: &Range<usize>, has_result: &[bool]) -> Range<usize> {
+    count_results(levels.start, has_result)..count_results(levels.end, has_result)
+}
+
+/// The number of levels with a result before a level.
+fn count_results(level: usize, has_result: &[bool]) -> usize {
+    let before = has_result.iter().take(level);
+    before.filter(|has_result| **has_result).count()
 }

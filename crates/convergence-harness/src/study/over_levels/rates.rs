@@ -29,26 +29,6 @@ pub fn rate_quantities(
 /// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
 /// nothing.
 pub fn rate_table(title: &str, rates: &Rates) -> Table {
-    let row = |(name, rate): &(String, RateVerdict)| {
-        let pairwise: Vec<String> = rate
-            .pairwise
-            .iter()
-            .map(|rate| format!("{rate:.3}"))
-            .collect();
-        let interval = rate.interval.map_or_else(
-            || "-".to_owned(),
-            |interval| interval_text(interval, RATE_PLACES),
-        );
-        vec![
-            name.clone(),
-            rate.order.to_string(),
-            pairwise.join(" "),
-            rate_in(rate),
-            interval,
-            rate.verdict.to_string(),
-            rate.kind.text().to_owned(),
-        ]
-    };
     let head = [
         "error of",
         "order",
@@ -58,11 +38,37 @@ pub fn rate_table(title: &str, rates: &Rates) -> Table {
         "verdict",
         "because",
     ];
-    Table::new(title, head, rates.iter().map(row))
+    Table::new(
+        title,
+        head,
+        rates.iter().map(|(name, rate)| row(name, rate)),
+    )
+}
+
+/// The row of a rate.
+fn row(name: &str, rate: &RateVerdict) -> Vec<String> {
+    let pairwise: Vec<String> = rate
+        .pairwise
+        .iter()
+        .map(|rate| format!("{rate:.3}"))
+        .collect();
+    let interval = rate.interval.map_or_else(
+        || "-".to_owned(),
+        |interval| interval_text(interval, RATE_PLACES),
+    );
+    vec![
+        name.to_owned(),
+        rate.order.to_string(),
+        pairwise.join(" "),
+        rate_cell(rate),
+        interval,
+        rate.verdict.to_string(),
+        rate.kind.text().to_owned(),
+    ]
 }
 
 /// The rate with the digits that its interval justifies, in a table that also shows the interval.
-fn rate_in(rate: &RateVerdict) -> String {
+fn rate_cell(rate: &RateVerdict) -> String {
     match (rate.fitted, rate.interval) {
         (Some(_), Some([low, high])) if high - low > WIDEST_INTERVAL => "no rate".to_owned(),
         (Some(fitted), Some(interval)) => decimals(fitted, interval_places(interval, RATE_PLACES)),
@@ -74,16 +80,14 @@ fn rate_in(rate: &RateVerdict) -> String {
 /// its reason.
 pub fn summary(rates: &Rates) -> String {
     let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
-    let shown = rates
-        .iter()
-        .filter(|(_, rate)| passes || rate.verdict != Verdict::Pass);
-    let one = |(name, rate): &(String, RateVerdict)| {
-        let reason = if passes {
-            String::new()
-        } else {
-            format!(": {}", rate.reason)
-        };
-        format!("{name} {}{reason}", rate.beside_order(RATE_PLACES))
-    };
-    shown.map(one).collect::<Vec<_>>().join("; ")
+    let mut parts = vec![];
+    for (name, rate) in rates {
+        let rate_and_order = rate.beside_order(RATE_PLACES);
+        if passes {
+            parts.push(format!("{name} {rate_and_order}"));
+        } else if rate.verdict != Verdict::Pass {
+            parts.push(format!("{name} {rate_and_order}: {}", rate.reason));
+        }
+    }
+    parts.join("; ")
 }

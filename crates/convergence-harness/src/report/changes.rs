@@ -19,42 +19,40 @@ pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) ->
         .iter()
         .partition(|change| change.movement.needs_a_reason());
     // Numbers of studies that fail move for the same cause.
-    let fails = |id: &str| {
-        findings
-            .record
-            .studies
-            .iter()
-            .any(|study| study.header.id == id && !study.outcome.verdict.is_pass())
-    };
+    let failing: Vec<&str> = findings
+        .record
+        .studies
+        .iter()
+        .filter(|study| !study.outcome.verdict.is_pass())
+        .map(|study| study.header.id.as_str())
+        .collect();
     let numbers: Vec<&Change> = numbers
         .into_iter()
-        .filter(|change| !fails(&change.study))
+        .filter(|change| !failing.contains(&change.study.as_str()))
         .collect();
     vec![
-        of_claims(&claims, link),
-        worst(&numbers, link),
+        list_of_claims(&claims, link),
+        table_of_worst_numbers(&numbers, link),
         acceptance(findings),
-        all(&numbers),
+        table_of_all_numbers(&numbers),
     ]
 }
 
-fn of_claims(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
+fn list_of_claims(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
     if changes.is_empty() {
         return String::new();
     }
-    let line = |change: &&Change| {
+    let mut list = "## Claims changed\n\n".to_owned();
+    for change in changes {
         let words = change.words();
         let rest = words.strip_prefix(change.study.as_str()).unwrap_or(&words);
-        format!("- {}{}\n", link(&change.study), text(rest))
-    };
-    format!(
-        "## Claims changed\n\n{}\n",
-        changes.iter().map(line).collect::<String>()
-    )
+        list += &format!("- {}{}\n", link(&change.study), text(rest));
+    }
+    list + "\n"
 }
 
 /// One row for each study: its worst number.
-fn worst(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
+fn table_of_worst_numbers(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
     if changes.is_empty() {
         return String::new();
     }
@@ -64,18 +62,16 @@ fn worst(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
         .collect();
     // The sort is stable: of equals the first ones win.
     studies.sort_by(|(a, _), (b, _)| b.movement.weight().total_cmp(&a.movement.weight()));
-    let row = |(change, count): &(&Change, usize)| {
-        let Change {
-            study, movement, ..
-        } = change;
-        vec![
-            link(study),
+    let mut rows = vec![];
+    for (change, count) in studies {
+        rows.push(vec![
+            link(&change.study),
             count.to_string(),
             cell(&change.subject()),
-            cell(&movement.to_string()),
-            times(movement),
-        ]
-    };
+            cell(&change.movement.to_string()),
+            multiple_of_tolerance(&change.movement),
+        ]);
+    }
     let head = [
         "study",
         "numbers",
@@ -86,7 +82,7 @@ fn worst(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
     let order = "The worst number of each study; first those that moved by the largest multiple of their tolerance.";
     format!(
         "## Moved from the baseline\n\n{order}\n\n{}\n",
-        table(&head, studies.iter().map(row).collect())
+        table(&head, rows)
     )
 }
 
@@ -101,7 +97,7 @@ fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
 
 /// By how many times its tolerance a number has moved, with two digits; a dash if that is
 /// undefined.
-fn times(movement: &Movement) -> String {
+fn multiple_of_tolerance(movement: &Movement) -> String {
     let weight = movement.weight();
     if weight == 0.0 || !weight.is_finite() {
         return "-".to_owned();
@@ -142,23 +138,21 @@ fn acceptance(findings: &Findings<'_>) -> String {
 }
 
 /// Every number, folded; empty if the table above has them all.
-fn all(changes: &[&Change]) -> String {
+fn table_of_all_numbers(changes: &[&Change]) -> String {
     if changes
         .chunk_by(|one, next| one.study == next.study)
         .all(|of_study| of_study.len() == 1)
     {
         return String::new();
     }
-    let row = |change: &&Change| {
-        vec![
+    let mut rows = vec![];
+    for change in changes {
+        rows.push(vec![
             cell(&change.study),
             cell(&change.subject()),
             cell(&change.movement.to_string()),
-        ]
-    };
-    let lines = table(
-        &["study", "what", "change"],
-        changes.iter().map(row).collect(),
-    );
+        ]);
+    }
+    let lines = table(&["study", "what", "change"], rows);
     folded(&format!("all {} numbers", changes.len()), &lines, false) + "\n"
 }

@@ -11,8 +11,9 @@ use crate::store::{Record, diagnosis::Diagnosis};
 /// Most items listed of one study; its section has all of them.
 const MOST_ITEMS: usize = 8;
 
-/// The same on a terminal, which shows only the clearest failures.
-const SHOWN: usize = 2;
+/// Most items of one study, and most pieces of advice, on a terminal, which shows only the clearest
+/// failures.
+const MOST_ON_TERMINAL: usize = 2;
 
 const TITLE: &str = "what fails and what does not";
 
@@ -58,21 +59,24 @@ fn place(clearest: &[String], study: &NotPassed<'_>) -> Option<usize> {
 /// * `linked`: whether each id is a link to the section of its study.
 pub(super) fn markdown(record: &Record, linked: bool) -> String {
     let ClearestFirst { first, rest } = ClearestFirst::of(record);
-    let list = |part: &[NotPassed<'_>]| -> String {
-        part.iter()
-            .map(|study| in_markdown(study, linked))
-            .collect()
-    };
-    let first = list(&first);
     if first.is_empty() {
         return String::new();
     }
     let title = "## What did not pass";
+    let first = list_in_markdown(&first, linked);
     if rest.is_empty() {
         return format!("{title}\n\n{first}\n");
     }
-    let folded = folded(&format!("{} more", rest.len()), &list(&rest), false);
+    let summary = format!("{} more", rest.len());
+    let folded = folded(&summary, &list_in_markdown(&rest, linked), false);
     format!("{title}\n\n{first}\n{folded}\n")
+}
+
+fn list_in_markdown(studies: &[NotPassed<'_>], linked: bool) -> String {
+    studies
+        .iter()
+        .map(|study| in_markdown(study, linked))
+        .collect()
 }
 
 fn in_markdown(study: &NotPassed<'_>, linked: bool) -> String {
@@ -95,12 +99,12 @@ pub(super) fn html(record: &Record) -> String {
     if first.is_empty() {
         return String::new();
     }
-    let shown = format!("<h2>What did not pass</h2>\n{}", list_in_html(&first));
+    let first = format!("<h2>What did not pass</h2>\n{}", list_in_html(&first));
     if rest.is_empty() {
-        return shown;
+        return first;
     }
     format!(
-        "{shown}<details>\n<summary>{} more</summary>\n{}</details>\n",
+        "{first}<details>\n<summary>{} more</summary>\n{}</details>\n",
         rest.len(),
         list_in_html(&rest)
     )
@@ -130,8 +134,10 @@ fn in_html(study: &NotPassed<'_>) -> String {
 pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let mut studies = not_passed(finished);
     let Some(clearest) = clearest else {
-        let text = |study| in_text(study, &lines(study)) + "\n";
-        return studies.iter().map(text).collect();
+        return studies
+            .iter()
+            .map(|study| in_text(study, &lines(study)) + "\n")
+            .collect();
     };
     studies.retain(|study| place(clearest, study).is_some());
     studies.sort_by_key(|study| place(clearest, study));
@@ -144,7 +150,7 @@ pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> S
         .iter()
         .filter_map(|study| study.advice().into_iter().next())
     {
-        if advice.len() < SHOWN && !advice.contains(&first) {
+        if advice.len() < MOST_ON_TERMINAL && !advice.contains(&first) {
             advice.push(first);
         }
     }
@@ -167,10 +173,10 @@ fn first_items(study: &NotPassed<'_>) -> Vec<String> {
     let mut lines: Vec<String> = study
         .items
         .iter()
-        .take(SHOWN)
+        .take(MOST_ON_TERMINAL)
         .map(Item::to_string)
         .collect();
-    let more = study.items.len().saturating_sub(SHOWN);
+    let more = study.items.len().saturating_sub(MOST_ON_TERMINAL);
     if let Some(last) = lines.last_mut().filter(|_| more > 0) {
         *last += &format!("; and {more} more");
     }
@@ -179,11 +185,11 @@ fn first_items(study: &NotPassed<'_>) -> Vec<String> {
 
 /// The known facts about the cause, line by line under a title.
 pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
-    let line = |(word, text): (&str, String)| format!("  {word:<10} {}\n", visible(&text));
-    format!(
-        "{TITLE}\n{}",
-        diagnosis.lines().into_iter().map(line).collect::<String>()
-    )
+    let mut lines = format!("{TITLE}\n");
+    for (word, text) in diagnosis.lines() {
+        lines += &format!("  {word:<10} {}\n", visible(&text));
+    }
+    lines
 }
 
 /// The same in Markdown; empty if nothing fails.
@@ -191,15 +197,15 @@ pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     let Some(diagnosis) = diagnosis else {
         return String::new();
     };
-    // A line without a word goes on with the one before.
-    let line = |(word, words): (&str, String)| match word {
-        "" => format!("  - {}\n", text(&words)),
-        word => format!("- **{word}**: {}\n", text(&words)),
-    };
-    format!(
-        "## {TITLE}\n\n{}\n",
-        diagnosis.lines().into_iter().map(line).collect::<String>()
-    )
+    let mut lines = format!("## {TITLE}\n\n");
+    for (word, words) in diagnosis.lines() {
+        // A line without a word continues the one before.
+        lines += &match word {
+            "" => format!("  - {}\n", text(&words)),
+            word => format!("- **{word}**: {}\n", text(&words)),
+        };
+    }
+    lines + "\n"
 }
 
 #[cfg(test)]

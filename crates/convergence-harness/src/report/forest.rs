@@ -20,20 +20,23 @@ const MOST: usize = 10;
 /// The judged rates that do not pass, then those whose intervals are the widest, in tolerances;
 /// `None` if no rate was judged.
 pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
-    let mut rates: Vec<(&str, &str, &RateVerdict)> = finished
-        .iter()
-        .flat_map(|study| {
-            let of_study = study.outcome.rates.iter();
-            of_study.map(|(name, rate)| (study.header.id.as_str(), name.as_str(), rate))
-        })
-        .collect();
+    let mut rates: Vec<StudyRate<'_>> = vec![];
+    for study in finished {
+        for (name, rate) in &study.outcome.rates {
+            rates.push(StudyRate {
+                study: &study.header.id,
+                name,
+                rate,
+            });
+        }
+    }
     let count = rates.len();
     let failing = rates
         .iter()
-        .filter(|(.., rate)| rate.verdict != Verdict::Pass)
+        .filter(|entry| entry.rate.verdict != Verdict::Pass)
         .count();
     // Stable, so that equal rates keep the order of the studies.
-    rates.sort_by(|(.., a), (.., b)| {
+    rates.sort_by(|StudyRate { rate: a, .. }, StudyRate { rate: b, .. }| {
         let worst_first = b.verdict.cmp(&a.verdict);
         worst_first.then(width(b).total_cmp(&width(a)))
     });
@@ -63,11 +66,20 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
 
 /// The width of a rate's interval in units of its tolerance; infinite without one.
 fn width(rate: &RateVerdict) -> f64 {
-    let width = |[low, high]: [f64; 2]| (high - low) / rate.tolerance;
-    rate.interval.map_or(f64::INFINITY, width)
+    match rate.interval {
+        Some([low, high]) => (high - low) / rate.tolerance,
+        None => f64::INFINITY,
+    }
 }
 
-fn row((study, name, rate): (&str, &str, &RateVerdict)) -> ForestRow {
+/// A judged rate of a study.
+struct StudyRate<'f> {
+    study: &'f str,
+    name: &'f str,
+    rate: &'f RateVerdict,
+}
+
+fn row(StudyRate { study, name, rate }: StudyRate<'_>) -> ForestRow {
     let numbers = match (rate.interval, rate.fitted) {
         (Some(interval), _) => interval_text(interval, RATE_PLACES),
         (None, Some(fitted)) => rate_text(Some(fitted)),
@@ -91,13 +103,11 @@ pub(super) fn grouped<'f>(
             .iter()
             .map(|study| (study.header.group.as_str(), study)),
     );
-    let place = |label: &str| {
-        project
-            .groups
-            .iter()
-            .position(|group| *group == label)
+    groups.sort_by_key(|(label, _)| {
+        let mut labels = project.groups.iter();
+        labels
+            .position(|other| other == label)
             .unwrap_or(usize::MAX)
-    };
-    groups.sort_by_key(|(label, _)| place(label));
+    });
     groups
 }

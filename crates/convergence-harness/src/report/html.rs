@@ -13,7 +13,7 @@ use crate::study::outcome::Figure;
 /// Converts a piece of the report; pictures are inserted in place.
 pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
     let mut events = Parser::new_ext(markdown, Options::ENABLE_TABLES);
-    let mut kept = Vec::new();
+    let mut safe_events = Vec::new();
     // Whether each open link leads to a place on the page.
     let mut links = vec![];
     // The text before a table is its title.
@@ -27,15 +27,15 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                     .collect();
                 title = plain(&inner);
                 match picture(&inner, figures) {
-                    Some(picture) => kept.push(Event::Html(picture.into())),
+                    Some(picture) => safe_events.push(Event::Html(picture.into())),
                     None => {
-                        kept.push(Event::Start(Tag::Paragraph));
-                        kept.extend(
+                        safe_events.push(Event::Start(Tag::Paragraph));
+                        safe_events.extend(
                             inner
                                 .into_iter()
-                                .filter_map(|event| tamed(event, &mut links)),
+                                .filter_map(|event| make_safe(event, &mut links)),
                         );
-                        kept.push(Event::End(TagEnd::Paragraph));
+                        safe_events.push(Event::End(TagEnd::Paragraph));
                     }
                 }
             }
@@ -44,28 +44,28 @@ pub(super) fn html(markdown: &str, figures: &[Figure]) -> String {
                 let open = format!(
                     "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">\n"
                 );
-                kept.extend([
+                safe_events.extend([
                     Event::Html(open.into()),
                     Event::Start(Tag::Table(alignments)),
                 ]);
             }
             Event::End(TagEnd::Table) => {
-                kept.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())]);
+                safe_events.extend([Event::End(TagEnd::Table), Event::Html("</div>\n".into())]);
             }
             Event::Html(text) if is_own(&text) => {
                 title = without_own_tags(&text).trim().to_owned();
-                kept.push(Event::Html(text));
+                safe_events.push(Event::Html(text));
             }
-            other => kept.extend(tamed(other, &mut links)),
+            other => safe_events.extend(make_safe(other, &mut links)),
         }
     }
     let mut html = String::new();
-    pulldown_cmark::html::push_html(&mut html, kept.into_iter());
+    pulldown_cmark::html::push_html(&mut html, safe_events.into_iter());
     html
 }
 
 /// An event that can load nothing, run nothing and not leave the page.
-fn tamed<'e>(event: Event<'e>, links: &mut Vec<bool>) -> Option<Event<'e>> {
+fn make_safe<'e>(event: Event<'e>, links: &mut Vec<bool>) -> Option<Event<'e>> {
     match event {
         Event::Html(text) | Event::InlineHtml(text) => Some(Event::Text(text)),
         Event::Start(Tag::Image { .. }) | Event::End(TagEnd::Image) => None,
@@ -103,11 +103,13 @@ fn without_own_tags(text: &str) -> String {
 }
 
 fn plain(events: &[Event<'_>]) -> String {
-    let text = |event: &Event<'_>| match event {
-        Event::Text(text) | Event::Code(text) => text.to_string(),
-        _ => String::new(),
-    };
-    events.iter().map(text).collect()
+    let mut plain = String::new();
+    for event in events {
+        if let Event::Text(text) | Event::Code(text) = event {
+            plain += text;
+        }
+    }
+    plain
 }
 
 /// The picture that a paragraph consists of, in its place.
@@ -165,14 +167,15 @@ pub(super) fn phrase(raw: &str) -> String {
     if parts.len().is_multiple_of(2) {
         return parts.join("`");
     }
-    let set = |(i, part): (usize, &String)| {
+    let mut phrase = String::new();
+    for (i, part) in parts.iter().enumerate() {
         if i % 2 == 1 {
-            format!("<code>{part}</code>")
+            phrase += &format!("<code>{part}</code>");
         } else {
-            part.clone()
+            phrase += part;
         }
-    };
-    parts.iter().enumerate().map(set).collect()
+    }
+    phrase
 }
 
 #[cfg(test)]

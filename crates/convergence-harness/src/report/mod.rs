@@ -73,7 +73,7 @@ impl Findings<'_> {
             junit(project.name, record).map_err(io::Error::other)?,
         )?;
         set.add("errors.csv", self.errors_csv())?;
-        // A project's own pages show those of the quick tier.
+        // A project's own pages show the figures of the quick tier.
         let is_full = self.record.scope == Tier::Full.name();
         for (file, name) in self.project.front_pictures.iter().filter(|_| !is_full) {
             if let Some(figure) = self.figures().find(|figure| figure.file == *file) {
@@ -100,7 +100,7 @@ impl Findings<'_> {
 
     /// The report in Markdown: the verdict, one table, then a section for each study.
     pub fn readme(&self) -> String {
-        let link = |id: &str| self.linked(id, &markdown::anchor(id));
+        let link = |id: &str| self.link(id, &markdown::anchor(id));
         let mut page = format!("# Verification report\n\n{}", self.verdict_line());
         let one = if self.record.changes.is_some() {
             "; a name after it repeats one study"
@@ -121,21 +121,22 @@ impl Findings<'_> {
             failures::markdown(self.record, true),
             changes::changes(self, &link).concat()
         );
-        page += &section::front(self, &link).0;
+        page += &section::front(self, &link).markdown;
         page += &self
             .rates()
             .as_ref()
             .map(section::figure)
             .unwrap_or_default();
         page += &format!("\n## All studies\n{}", self.overview(link));
-        let mut seen = vec![];
-        let section = |finished| section::section(finished, &self.again(finished), &mut seen);
-        page.extend(self.record.studies.iter().map(section));
+        let mut captions = vec![];
+        for study in &self.record.studies {
+            page += &section::section(study, &self.command_for(study), &mut captions);
+        }
         page
     }
 
     /// A study's id in Markdown; a link to its section if it has one.
-    fn linked(&self, id: &str, anchor: &str) -> String {
+    fn link(&self, id: &str, anchor: &str) -> String {
         let has_a_section = self
             .record
             .studies
@@ -196,7 +197,7 @@ impl Findings<'_> {
     }
 
     /// The command that runs a study again.
-    pub(super) fn again(&self, finished: &Finished) -> String {
+    pub(super) fn command_for(&self, finished: &Finished) -> String {
         // Numbers compared with the baseline come from `verify`, which knows each study by its id.
         if self.record.changes.is_some() {
             format!("{} verify {}", self.project.command, finished.header.id)
@@ -220,38 +221,35 @@ impl Findings<'_> {
 
     /// A table for each group of studies.
     fn overview(&self, id: impl Fn(&str) -> String) -> String {
-        let row = |Finished {
-                       header, outcome, ..
-                   }: &Finished| {
-            let verdict = section::marked(outcome.verdict);
-            vec![
-                id(&header.id),
-                cell(&header.claim),
-                verdict,
-                cell(&key_numbers(outcome)),
-            ]
-        };
-        let table = |(group, studies): (&str, Vec<&Finished>)| {
-            let rows = studies.into_iter().map(row).collect();
+        let mut tables = String::new();
+        for (group, studies) in forest::grouped(self.project, &self.record.studies) {
+            let mut rows = vec![];
+            for Finished {
+                header, outcome, ..
+            } in studies
+            {
+                rows.push(vec![
+                    id(&header.id),
+                    cell(&header.claim),
+                    section::emphasized(outcome.verdict),
+                    cell(&key_numbers(outcome)),
+                ]);
+            }
             let table = markdown::table(&["study", "claim", "verdict", "key numbers"], rows);
-            format!("\n**{}**\n\n{table}", text(group))
-        };
-        forest::grouped(self.project, &self.record.studies)
-            .into_iter()
-            .map(table)
-            .collect()
+            tables += &format!("\n**{}**\n\n{table}", text(group));
+        }
+        tables
     }
 
     /// Errors in long form, one per line.
     pub fn errors_csv(&self) -> String {
-        let levels = || {
-            self.record
-                .studies
-                .iter()
-                .flat_map(|finished| &finished.outcome.levels)
-        };
+        let levels = self
+            .record
+            .studies
+            .iter()
+            .flat_map(|finished| &finished.outcome.levels);
         let parameters =
-            distinct(levels().flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
+            distinct(levels.flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
         let mut csv: String = ["study"]
             .into_iter()
             .chain(parameters.iter().map(|name| name.as_str()))
@@ -263,14 +261,13 @@ impl Findings<'_> {
         } in &self.record.studies
         {
             for level in &outcome.levels {
-                let value = |name: &&String| {
-                    level
-                        .parameter(name)
-                        .map(|value| value.to_string())
-                        .unwrap_or_default()
-                        + ","
-                };
-                let values: String = parameters.iter().map(value).collect();
+                let mut values = String::new();
+                for name in &parameters {
+                    if let Some(value) = level.parameter(name) {
+                        values += &value.to_string();
+                    }
+                    values += ",";
+                }
                 for (norm, error) in &level.errors {
                     csv += &format!(
                         "{},{values}{},{}\n",

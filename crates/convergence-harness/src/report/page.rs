@@ -26,11 +26,12 @@ const POLICY: &str =
 /// The page: verdicts first, then the studies, all folded except those that do not pass.
 pub(super) fn page(findings: &Findings<'_>) -> String {
     let groups = groups(findings);
-    let listed = groups.iter().flat_map(|(_, studies)| studies);
+    let finished = groups.iter().flat_map(|(_, studies)| studies);
+    let mut studies = String::new();
     // Those that do not pass come first: the first of them are open.
-    let each =
-        |(k, finished): (usize, &&Finished)| study(finished, &findings.again(finished), k < OPEN);
-    let studies: String = listed.enumerate().map(each).collect();
+    for (k, finished) in finished.enumerate() {
+        studies += &study(finished, &findings.command_for(finished), k < OPEN);
+    }
     let scripts: String = SCRIPTS
         .iter()
         .map(|script| format!("<script>\n{script}</script>\n"))
@@ -60,15 +61,15 @@ fn head(findings: &Findings<'_>) -> String {
 /// What did not pass, what changed, the origin of the report, and the widest intervals in one
 /// picture.
 fn front(findings: &Findings<'_>) -> String {
-    let changes = changes::changes(findings, &|id| findings.linked(id, id)).concat();
+    let changes = changes::changes(findings, &|id| findings.link(id, id)).concat();
     let picture = findings
         .rates()
         .map(|figure| html(&section::figure(&figure), &[figure]));
-    let (verified, figures) = section::front(findings, &|id| findings.linked(id, id));
+    let verified = section::front(findings, &|id| findings.link(id, id));
     html(&findings.diagnosis(), &[])
         + &failures::html(findings.record)
         + &html(&changes, &[])
-        + &html(&verified, &figures)
+        + &html(&verified.markdown, &verified.figures)
         + &origin(findings)
         + &picture.unwrap_or_default()
 }
@@ -113,25 +114,14 @@ fn groups<'f>(findings: &Findings<'f>) -> Vec<(&'f str, Vec<&'f Finished>)> {
 
 /// All verdicts in one table, below the controls, which need scripts.
 fn overview(groups: &[(&str, Vec<&Finished>)]) -> String {
-    let row = |Finished {
-                   header, outcome, ..
-               }: &Finished| {
-        format!(
-            "<tr data-study=\"{id}\"><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            badge(outcome.verdict),
-            phrase(&key_numbers(outcome)),
-            phrase(&header.claim),
-            id = escape(&header.id),
-        )
-    };
-    let group = |(label, studies): &(&str, Vec<&Finished>)| {
-        let rows: String = studies.iter().copied().map(row).collect();
-        format!(
-            "<tr class=\"group\"><th colspan=\"4\" scope=\"rowgroup\">{}</th></tr>\n{rows}",
+    let mut rows = String::new();
+    for (label, studies) in groups {
+        rows += &format!(
+            "<tr class=\"group\"><th colspan=\"4\" scope=\"rowgroup\">{}</th></tr>\n",
             phrase(label)
-        )
-    };
-    let rows: String = groups.iter().map(group).collect();
+        );
+        rows.extend(studies.iter().map(|study| row(study)));
+    }
     let options: String = [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail]
         .map(|verdict| format!("<option>{}</option>", verdict.name()))
         .concat();
@@ -148,7 +138,25 @@ fn overview(groups: &[(&str, Vec<&Finished>)]) -> String {
     )
 }
 
-fn study(finished: &Finished, again: &str, open: bool) -> String {
+/// The row of a study in the table of all verdicts.
+fn row(
+    Finished {
+        header, outcome, ..
+    }: &Finished,
+) -> String {
+    format!(
+        "<tr data-study=\"{id}\"><th scope=\"row\"><a href=\"#{id}\">{id}</a></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        badge(outcome.verdict),
+        phrase(&key_numbers(outcome)),
+        phrase(&header.claim),
+        id = escape(&header.id),
+    )
+}
+
+/// The section of a study.
+///
+/// * `command`: runs it again.
+fn study(finished: &Finished, command: &str, open: bool) -> String {
     let Finished {
         header, outcome, ..
     } = finished;
@@ -163,7 +171,7 @@ fn study(finished: &Finished, again: &str, open: bool) -> String {
         outcome.verdict.name(),
         badge(outcome.verdict),
         phrase(&header.claim),
-        html(&section::body(finished, again), &outcome.figures),
+        html(&section::body(finished, command), &outcome.figures),
         id = escape(&header.id),
     )
 }

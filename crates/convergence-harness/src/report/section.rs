@@ -22,15 +22,20 @@ const MOST_FIGURES: usize = 3;
 
 /// The section of a study in the Markdown report; short if it passes.
 ///
-/// * `again`: the command that runs it again.
-/// * `seen`: captions of figures shown earlier: a twin of such a figure is only named.
-pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'f str>) -> String {
+/// * `command`: runs it again.
+/// * `captions`: of the figures so far. If the only figure of a study has such a caption, it is only
+///   named.
+pub(super) fn section<'f>(
+    finished: &'f Finished,
+    command: &str,
+    captions: &mut Vec<&'f str>,
+) -> String {
     let Finished {
         header, outcome, ..
     } = finished;
     let head = format!("\n## {}\n\n> {}\n\n", header.id, text(&header.claim));
     if outcome.verdict != Verdict::Pass {
-        return head + &body(finished, again);
+        return head + &body(finished, command);
     }
     let mut parts = vec![format!("pass: {}\n", text(&summary(outcome)))];
     let mut elsewhere: Vec<String> = vec![];
@@ -55,51 +60,47 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
             elsewhere.join("; ")
         ));
     }
-    let is_twin =
-        |figure: &Figure| outcome.figures.len() == 1 && seen.contains(&figure.caption.as_str());
-    let (shown, unshown): (Vec<_>, Vec<_>) = outcome
-        .figures
-        .iter()
-        .enumerate()
-        .partition(|(k, figure)| *k < MOST_FIGURES && !is_twin(figure));
-    parts.extend(shown.into_iter().map(|(_, shown)| figure(shown)));
-    if !unshown.is_empty() {
-        let names: Vec<String> = unshown
-            .iter()
-            .map(|(_, figure)| text(&figure.file))
-            .collect();
-        parts.push(format!("Figures on the page: {}\n", names.join(", ")));
+    let figures = &outcome.figures;
+    let count = match &figures[..] {
+        [only] if captions.contains(&only.caption.as_str()) => 0,
+        all => all.len().min(MOST_FIGURES),
+    };
+    parts.extend(figures[..count].iter().map(figure));
+    if count < figures.len() {
+        let names = figures[count..].iter().map(|figure| text(&figure.file));
+        let names = names.collect::<Vec<_>>().join(", ");
+        parts.push(format!("Figures on the page: {names}\n"));
     }
-    seen.extend(outcome.figures.iter().map(|figure| figure.caption.as_str()));
+    captions.extend(figures.iter().map(|figure| figure.caption.as_str()));
     head + &parts.join("\n")
 }
 
 /// A whole section except heading and claim, nothing left out: verdict in words, tables, figures,
 /// and how to run the study again.
-pub(super) fn body(finished: &Finished, again: &str) -> String {
+pub(super) fn body(finished: &Finished, command: &str) -> String {
     let Finished {
         header, outcome, ..
     } = finished;
     let mut parts = vec![format!(
         "{}: {}\n",
-        marked(outcome.verdict),
+        emphasized(outcome.verdict),
         text(&summary(outcome))
     )];
     let passes = outcome.verdict == Verdict::Pass;
     parts.extend(
         tables(finished, false)
             .iter()
-            .map(|table| titled(table, passes)),
+            .map(|table| with_title(table, passes)),
     );
     parts.extend(outcome.figures.iter().map(figure));
     let tier = header.tier.name();
     let kind = &header.kind;
-    parts.push(format!("Again: `{again}` (tier {tier}, kind {kind})\n"));
+    parts.push(format!("Again: `{command}` (tier {tier}, kind {kind})\n"));
     parts.join("\n")
 }
 
 /// The verdict; in bold unless it is a pass.
-pub(super) fn marked(verdict: Verdict) -> String {
+pub(super) fn emphasized(verdict: Verdict) -> String {
     if verdict == Verdict::Pass {
         verdict.to_string()
     } else {
@@ -113,7 +114,7 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
 }
 
 /// A table under its title; a long one is folded, except in a study that does not pass.
-fn titled(table: &Table, passes: bool) -> String {
+fn with_title(table: &Table, passes: bool) -> String {
     let Table { title, rows, .. } = table;
     let lines = markdown(table);
     if rows.len() <= MOST_ROWS {
@@ -146,61 +147,59 @@ pub(super) fn figure(figure: &Figure) -> String {
     )
 }
 
-/// In Markdown, with its figures; empty if the run does not pass or contains none of the studies.
+/// A piece of the report in Markdown, with the figures that it shows.
+#[derive(Default)]
+pub(super) struct Piece {
+    pub(super) markdown: String,
+    pub(super) figures: Vec<Figure>,
+}
+
+/// What is verified; empty if the run does not pass or contains none of the studies.
 ///
 /// * `link`: how a study's id is written.
-pub(super) fn front(
-    findings: &Findings<'_>,
-    link: &dyn Fn(&str) -> String,
-) -> (String, Vec<Figure>) {
+pub(super) fn front(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Piece {
     let record = findings.record;
     let front = &findings.project.front;
-    let find = |id: &str| record.studies.iter().find(|study| study.header.id == id);
-    let answered = front
-        .statements
-        .iter()
-        .filter_map(|(statement, id, rate)| Some((*statement, find(id)?, *rate)));
-    let answered: Vec<(&str, &Finished, &str)> = answered.collect();
-    if record.verdict != Verdict::Pass || answered.is_empty() {
-        return (String::new(), vec![]);
+    let mut rows = vec![];
+    for (statement, id, rate) in front.statements {
+        if let Some(study) = record.studies.iter().find(|study| study.header.id == *id) {
+            rows.push(vec![cell(statement), cell(&answer(study, rate)), link(id)]);
+        }
     }
-    let row = |(statement, study, rate): &(&str, &Finished, &str)| {
-        vec![
-            cell(statement),
-            cell(&answer(study, rate)),
-            link(&study.header.id),
-        ]
-    };
-    let statements = table(
-        &["statement", "found", "study"],
-        answered.iter().map(row).collect(),
-    );
-    let drawn = |file: &str| {
-        record.studies.iter().find_map(|study| {
-            let mut figures = study.outcome.figures.iter();
-            Some((study, figures.find(|figure| figure.file == file)?.clone()))
-        })
-    };
+    if record.verdict != Verdict::Pass || rows.is_empty() {
+        return Piece::default();
+    }
     let mut parts = vec!["## What is verified\n".to_owned()];
     let mut figures = vec![];
-    if let Some((_, picture)) = drawn(front.picture) {
+    if let Some((_, picture)) = find_figure(&record.studies, front.picture) {
         parts.push(figure(&Figure {
             caption: front.subject.to_owned(),
             ..picture.clone()
         }));
-        figures.push(picture);
+        figures.push(picture.clone());
     }
     if !front.finding.is_empty() {
         parts.push(text(front.finding) + "\n");
     }
-    parts.push(statements);
-    if let Some((study, plot)) = drawn(front.plot) {
+    parts.push(table(&["statement", "found", "study"], rows));
+    if let Some((study, plot)) = find_figure(&record.studies, front.plot) {
         parts.push(format!("**{}**\n", link(&study.header.id)));
-        parts.push(figure(&plot));
-        figures.push(plot);
+        parts.push(figure(plot));
+        figures.push(plot.clone());
     }
     parts.push(text(front.verified) + "\n\n");
-    (parts.join("\n"), figures)
+    Piece {
+        markdown: parts.join("\n"),
+        figures,
+    }
+}
+
+/// The figure of that file, and its study.
+fn find_figure<'f>(studies: &'f [Finished], file: &str) -> Option<(&'f Finished, &'f Figure)> {
+    studies.iter().find_map(|study| {
+        let mut figures = study.outcome.figures.iter();
+        Some((study, figures.find(|figure| figure.file == file)?))
+    })
 }
 
 /// The numbers of a study that answer a statement: the rate of this name, or its key numbers.

@@ -138,8 +138,10 @@ fn share(set: &mut ReportSet, above: &ReportFolder) -> io::Result<()> {
         return Ok(());
     };
     let common = Common::find(&readme, above, |path| Ok(set.get(path).cloned()))?;
-    common.paths.iter().for_each(|path| set.remove(path));
-    set.replace(README, common.linked);
+    for path in &common.paths {
+        set.remove(path);
+    }
+    set.replace(README, common.readme);
     Ok(())
 }
 
@@ -147,8 +149,8 @@ fn share(set: &mut ReportSet, above: &ReportFolder) -> io::Result<()> {
 struct Common {
     /// Their paths.
     paths: BTreeSet<String>,
-    /// The Markdown with links to those above.
-    linked: String,
+    /// The report in Markdown with links to those above.
+    readme: String,
 }
 
 impl Common {
@@ -165,13 +167,13 @@ impl Common {
         let stored = above.stored()?;
         let mut common = Self {
             paths: BTreeSet::new(),
-            linked: readme.to_owned(),
+            readme: readme.to_owned(),
         };
         for name in Place::Own.figures(readme) {
             let path = format!("{FIGURES}/{name}");
             let bytes = own(&path)?;
             if bytes.is_some() && stored.contains(&path) && bytes == above.read(&path)? {
-                common.linked = Place::Above.of(&name, &common.linked);
+                common.readme = Place::Above.of(&name, &common.readme);
                 common.paths.insert(path);
             }
         }
@@ -220,7 +222,7 @@ fn merge(below: &ReportFolder, above: &ReportFolder) -> io::Result<()> {
         return Ok(());
     }
     let mut changed = ReportSet::default();
-    changed.add(README, common.linked)?;
+    changed.add(README, common.readme)?;
     below.amend(&changed, &common.paths)
 }
 

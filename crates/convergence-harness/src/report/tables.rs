@@ -34,32 +34,7 @@ pub fn tables(
 }
 
 fn rates(outcome: &Outcome) -> Table {
-    let row = |(norm, rate): &(String, RateVerdict)| {
-        let places = rate.interval.map_or(RATE_PLACES - 1, |interval| {
-            interval_places(interval, RATE_PLACES)
-        });
-        let number =
-            |rate: Option<f64>| rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, places));
-        vec![
-            norm.clone(),
-            rate.claim(),
-            number(rate.fitted.or_else(|| rate.finest_rate())),
-            rate.interval.map_or_else(
-                || "-".to_owned(),
-                |interval| interval_text(interval, RATE_PLACES),
-            ),
-            number(rate.extrapolated),
-            levels(rate),
-            rate.verdict.name().to_owned(),
-            // The numbers of a reason are in the other columns, which are all that a pass needs.
-            if rate.verdict == Verdict::Pass {
-                String::new()
-            } else {
-                rate.kind.text().to_owned()
-            },
-        ]
-    };
-    let head = [
+    let mut head = vec![
         "error in",
         "order claimed",
         "rate",
@@ -69,16 +44,48 @@ fn rates(outcome: &Outcome) -> Table {
         "verdict",
         "reason",
     ];
-    let mut rates = Table::new("Rates", head, outcome.rates.iter().map(row));
-    if outcome
-        .rates
+    let rates = &outcome.rates;
+    let mut rows: Vec<Vec<String>> = rates
         .iter()
-        .all(|(_, rate)| rate.verdict == Verdict::Pass)
-    {
-        rates.head.pop();
-        rates.rows.iter_mut().for_each(|row| drop(row.pop()));
+        .map(|(norm, rate)| rate_row(norm, rate))
+        .collect();
+    if rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
+        head.pop();
+        for row in &mut rows {
+            row.pop();
+        }
     }
-    rates
+    Table::new("Rates", head, rows)
+}
+
+/// The row of a rate; the last cell is its reason.
+fn rate_row(norm: &str, rate: &RateVerdict) -> Vec<String> {
+    let places = rate.interval.map_or(RATE_PLACES - 1, |interval| {
+        interval_places(interval, RATE_PLACES)
+    });
+    vec![
+        norm.to_owned(),
+        rate.claim(),
+        number_cell(rate.fitted.or_else(|| rate.finest_rate()), places),
+        rate.interval.map_or_else(
+            || "-".to_owned(),
+            |interval| interval_text(interval, RATE_PLACES),
+        ),
+        number_cell(rate.extrapolated, places),
+        levels(rate),
+        rate.verdict.name().to_owned(),
+        // The numbers of a reason are in the other columns, which are all that a pass needs.
+        if rate.verdict == Verdict::Pass {
+            String::new()
+        } else {
+            rate.kind.text().to_owned()
+        },
+    ]
+}
+
+/// A number with this many decimals; a dash if there is none.
+fn number_cell(number: Option<f64>, places: usize) -> String {
+    number.map_or_else(|| "-".to_owned(), |number| decimals(number, places))
 }
 
 /// The levels that the rate was fitted to, counted from the coarsest; without a fit, those of the
@@ -97,27 +104,21 @@ fn levels(rate: &RateVerdict) -> String {
 }
 
 fn checks(checks: &[Check]) -> Table {
-    let row = |check: &Check| {
+    let rows = checks.iter().map(|check| {
         vec![
             check.statement(),
             check.verdict.name().to_owned(),
             check.evidence.clone(),
         ]
-    };
-    Table::new(
-        CHECKS,
-        ["claim", "verdict", "evidence"],
-        checks.iter().map(row),
-    )
+    });
+    Table::new(CHECKS, ["claim", "verdict", "evidence"], rows)
 }
 
-fn failures(failed: &[FailedCase]) -> Table {
-    let row = |failed: &FailedCase| vec![failed.label.clone(), failed.reason.clone()];
-    Table::new(
-        "Cases without a result",
-        ["case", "reason"],
-        failed.iter().map(row),
-    )
+fn failures(cases: &[FailedCase]) -> Table {
+    let rows = cases
+        .iter()
+        .map(|case| vec![case.label.clone(), case.reason.clone()]);
+    Table::new("Cases without a result", ["case", "reason"], rows)
 }
 
 /// Widest table in characters, with three for the gap between columns: this fits on the page, and
@@ -197,58 +198,56 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
             .map(|name| name.chars().count().max(6) + 3)
             .sum::<usize>()
             .min(WIDEST);
-    let mut tables: Vec<Vec<Column>> = vec![];
+    let mut groups: Vec<Vec<Column>> = vec![];
     for name in names {
         let column = Column::of(outcome, name);
-        let width = |columns: &[Column]| columns.iter().map(Column::width).sum::<usize>();
-        match tables.last_mut() {
-            Some(last) if width(last) + column.width() <= room && last[0].rows_like(&column) => {
-                last.push(column);
-            }
-            _ => tables.push(vec![column]),
+        if let Some(last) = groups.last_mut()
+            && last.iter().map(Column::width).sum::<usize>() + column.width() <= room
+            && last[0].rows_like(&column)
+        {
+            last.push(column);
+        } else {
+            groups.push(vec![column]);
         }
     }
-    let identified: Vec<Column> = parameters
+    let first_columns: Vec<Column> = parameters
         .into_iter()
         .map(|name| Column::of_parameter(outcome, name))
         .collect();
-    let table = |(k, columns): (usize, Vec<Column>)| {
-        let columns: Vec<&Column> = identified.iter().chain(&columns).collect();
-        // The levels that have these errors.
-        let row = |level: usize| {
-            columns
-                .iter()
-                .map(|column| column.cells[level].clone())
-                .collect::<Option<Vec<_>>>()
+    let mut tables = vec![];
+    for group in &groups {
+        let title = if tables.is_empty() {
+            "Errors"
+        } else {
+            "Errors, continued"
         };
-        Table::new(
-            if k == 0 {
-                "Errors"
-            } else {
-                "Errors, continued"
-            },
-            columns.iter().flat_map(|column| column.head.clone()),
-            (0..levels.len())
-                .filter_map(row)
-                .map(|cells| cells.concat()),
-        )
-    };
-    tables.into_iter().enumerate().map(table).collect()
+        let columns: Vec<&Column> = first_columns.iter().chain(group).collect();
+        let head = columns.iter().flat_map(|column| column.head.clone());
+        let rows = (0..levels.len()).filter_map(|level| row_of_errors(&columns, level));
+        tables.push(Table::new(title, head, rows));
+    }
+    tables
+}
+
+/// The cells of a level; `None` if it does not have these errors.
+fn row_of_errors(columns: &[&Column], level: usize) -> Option<Vec<String>> {
+    let mut row = vec![];
+    for column in columns {
+        row.extend_from_slice(column.cells[level].as_deref()?);
+    }
+    Some(row)
 }
 
 impl Column {
     /// What identifies the levels.
     fn of_parameter(outcome: &Outcome, name: &str) -> Self {
-        let cell = |level: &LevelErrors| {
-            vec![
-                level
-                    .parameter(name)
-                    .map_or_else(|| "-".to_owned(), plain_text),
-            ]
-        };
+        let texts = outcome.levels.iter().map(|level| {
+            let value = level.parameter(name);
+            value.map_or_else(|| "-".to_owned(), plain_text)
+        });
         Self {
             head: vec![name.to_owned()],
-            cells: outcome.levels.iter().map(cell).map(Some).collect(),
+            cells: texts.map(|text| Some(vec![text])).collect(),
         }
     }
 
@@ -275,23 +274,25 @@ impl Column {
         };
         // The coarsest level has no rate.
         let mut rates = std::iter::once(f64::NAN).chain(pairwise.iter().copied());
-        let mut with_rate = |cell: &Cell| Some(vec![cell.text()?, rate_cell(rates.next()?)]);
+        let cells = cells.iter().map(|cell| {
+            let error = cell.text()?;
+            Some(vec![error, rate_cell(rates.next()?)])
+        });
         Self {
             head: vec![name.to_owned(), "rate".to_owned()],
-            cells: cells.iter().map(&mut with_rate).collect(),
+            cells: cells.collect(),
         }
     }
 
+    /// The characters of a row, with the gaps between columns.
     fn width(&self) -> usize {
-        let widest = |k: usize| {
+        let mut width = 0;
+        for (k, head) in self.head.iter().enumerate() {
             let cells = self.cells.iter().flatten().filter_map(|cells| cells.get(k));
-            cells
-                .chain(self.head.get(k))
-                .map(|cell| cell.chars().count())
-                .max()
-                .unwrap_or(0)
-        };
-        (0..self.head.len()).map(|k| widest(k) + 3).sum()
+            let lengths = cells.chain([head]).map(|cell| cell.chars().count());
+            width += lengths.max().unwrap_or(0) + 3;
+        }
+        width
     }
 
     /// Whether both have errors on the same levels.

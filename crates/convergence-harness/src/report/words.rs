@@ -16,79 +16,89 @@ const NAMED: usize = 3;
 ///
 /// * `changes`: what moved away from the baseline; `None` without a baseline.
 pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
-    let of = |verdict: Verdict| {
-        let ids = finished
-            .iter()
-            .filter(move |finished| finished.outcome.verdict == verdict);
-        ids.map(|finished| finished.header.id.as_str())
-            .collect::<Vec<_>>()
-    };
-    let failed = of(Verdict::Fail);
-    let inconclusive = of(Verdict::Inconclusive);
+    let verdicts = [
+        (Verdict::Fail, "fail"),
+        (Verdict::Inconclusive, "inconclusive"),
+    ];
+    let counts: Vec<String> = verdicts
+        .into_iter()
+        .filter_map(|(verdict, words)| count_of_studies(finished, verdict, words))
+        .collect();
     let studies = match finished.len() {
         0 => "no study was run".to_owned(),
-        1 if failed.is_empty() && inconclusive.is_empty() => "the study passes".to_owned(),
-        n if failed.is_empty() && inconclusive.is_empty() => format!("all {n} studies pass"),
-        n => {
-            let count = |ids: &[&str], what: &str| match ids {
-                [] => None,
-                ids => {
-                    let more = and_more(ids.len(), NAMED);
-                    let named = ids[..ids.len().min(NAMED)].join(", ");
-                    Some(format!("{} of {n} {what} ({named}{more})", ids.len()))
-                }
-            };
-            let counts = [count(&failed, "fail"), count(&inconclusive, "inconclusive")];
-            counts.into_iter().flatten().collect::<Vec<_>>().join(", ")
-        }
+        _ if !counts.is_empty() => counts.join(", "),
+        1 => "the study passes".to_owned(),
+        n => format!("all {n} studies pass"),
     };
     match changes {
-        Some(changes) => format!("{studies}; {}", guarded(finished, changes)),
+        Some(changes) => format!("{studies}; {}", baseline_in_words(finished, changes)),
         None => studies,
     }
 }
 
-fn guarded(finished: &[Finished], changes: &[Change]) -> String {
-    let guarded: usize = finished
+/// `2 of 30 fail (one, another)`; `None` if no study has the verdict.
+fn count_of_studies(finished: &[Finished], verdict: Verdict, words: &str) -> Option<String> {
+    let ids: Vec<&str> = finished
         .iter()
-        .map(|finished| finished.outcome.quantities.len())
-        .sum();
-    let is_new = |change: &&Change| {
-        matches!(
-            change.movement,
-            Movement::New { .. } | Movement::NewFile { guarded: 0, .. }
-        )
-    };
-    let new = changes.iter().filter(is_new).count();
-    let claims = changes
-        .iter()
-        .filter(|change| change.movement.is_of_one_claim())
-        .count();
-    let deleted = changes
-        .iter()
-        .filter(|change| matches!(change.movement, Movement::VanishedFile { .. }))
-        .count();
-    let count = |n: usize, [one, many]: [&str; 2]| match n {
-        0 => None,
-        1 => Some(format!("1 {one}")),
-        n => Some(format!("{n} {many}")),
-    };
-    let new_ones = (new > 0).then(|| format!("{new} not yet in the baseline"));
-    let values = changes.len() - claims - deleted - new;
-    let changed = [
-        count(deleted, ["study deleted", "studies deleted"]),
-        count(claims, ["claim changed", "claims changed"]),
-        count(
-            values,
-            ["baseline value changed", "baseline values changed"],
-        ),
-        new_ones,
-    ];
-    match (changes.len(), guarded) {
-        (0, 0) => "no baseline values".to_owned(),
-        (0, n) => format!("all {n} baseline values unchanged"),
-        _ => changed.into_iter().flatten().collect::<Vec<_>>().join(", "),
+        .filter(|study| study.outcome.verdict == verdict)
+        .map(|study| study.header.id.as_str())
+        .collect();
+    if ids.is_empty() {
+        return None;
     }
+    let count = ids.len();
+    let names = ids[..count.min(NAMED)].join(", ");
+    let more = and_more(count, NAMED);
+    Some(format!(
+        "{count} of {} {words} ({names}{more})",
+        finished.len()
+    ))
+}
+
+/// How many numbers and claims differ from the baseline.
+fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
+    if changes.is_empty() {
+        let studies = finished.iter();
+        return match studies.map(|study| study.outcome.quantities.len()).sum() {
+            0_usize => "no baseline values".to_owned(),
+            n => format!("all {n} baseline values unchanged"),
+        };
+    }
+    let mut new = 0;
+    let mut deleted = 0;
+    let mut claims = 0;
+    let mut values = 0;
+    for Change { movement, .. } in changes {
+        match movement {
+            _ if movement.is_of_one_claim() => claims += 1,
+            Movement::New { .. } | Movement::NewFile { guarded: 0, .. } => new += 1,
+            Movement::VanishedFile { .. } => deleted += 1,
+            _ => values += 1,
+        }
+    }
+    let mut parts = vec![];
+    if deleted > 0 {
+        parts.push(counted_as(deleted, "study deleted", "studies deleted"));
+    }
+    if claims > 0 {
+        parts.push(counted_as(claims, "claim changed", "claims changed"));
+    }
+    if values > 0 {
+        parts.push(counted_as(
+            values,
+            "baseline value changed",
+            "baseline values changed",
+        ));
+    }
+    if new > 0 {
+        parts.push(format!("{new} not yet in the baseline"));
+    }
+    parts.join(", ")
+}
+
+/// A number of things, which have these names.
+fn counted_as(n: usize, one: &str, several: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { several })
 }
 
 /// The command that blesses these changes: for the full tier if a study changed that was not run,
@@ -101,20 +111,13 @@ pub fn blessing(
     finished: &[Finished],
     changes: &[Change],
 ) -> String {
-    let was_run = |change: &Change| {
-        finished
-            .iter()
-            .any(|finished| finished.header.id == change.study)
-    };
-    let is_gone = |change: &Change| {
-        matches!(
+    let all_run = changes.iter().all(|change| {
+        let is_gone = matches!(
             change.movement,
             Movement::VanishedFile { .. } | Movement::Vanished { .. }
-        )
-    };
-    let all_run = changes
-        .iter()
-        .all(|change| was_run(change) || is_gone(change));
+        );
+        is_gone || finished.iter().any(|study| study.header.id == change.study)
+    });
     let full = format!("{} verify --tier full", project.command);
     let reason = if changes
         .iter()
@@ -145,15 +148,15 @@ pub fn key_numbers(outcome: &Outcome) -> String {
         ..
     } = outcome;
     let mut parts = if headline.is_empty() {
-        of_rates(rates)
+        rates_in_words(rates)
     } else {
         vec![headline.clone()]
     };
-    parts.extend(not_passed(
+    parts.extend(count_not_passed(
         rates.iter().map(|(_, rate)| rate.verdict),
         "rates",
     ));
-    parts.extend(not_passed(
+    parts.extend(count_not_passed(
         checks.iter().map(|check| check.verdict),
         "checks",
     ));
@@ -183,50 +186,49 @@ pub fn summary(outcome: &Outcome) -> String {
 /// The rates that do not pass, grouped by reason and claim:
 /// `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
 fn grouped(rates: &[(String, RateVerdict)]) -> String {
-    let missed = rates
+    let not_passed = rates
         .iter()
         .filter(|(_, rate)| rate.verdict != Verdict::Pass);
-    let groups = lists::grouped(missed.map(|missed| ((missed.1.kind, missed.1.claim()), missed)));
-    let one = |((kind, claim), group): &((Reason, String), Vec<&(String, RateVerdict)>)| {
+    let groups = lists::grouped(not_passed.map(|rate| ((rate.1.kind, rate.1.claim()), rate)));
+    let mut parts = vec![];
+    for ((kind, claim), group) in &groups {
         if let [(name, rate)] = group[..] {
-            return format!("{name}: {}", rate.line());
+            parts.push(format!("{name}: {}", rate.line()));
+            continue;
         }
-        let found = range(group.iter().map(|(_, rate)| rate));
-        let why = kind.brief();
+        let range = range(group.iter().map(|(_, rate)| rate));
+        let reason = kind.brief();
         let count = format!("{} of {} rates", group.len(), rates.len());
-        match kind {
+        parts.push(match kind {
             Reason::TooLow | Reason::TooHigh => {
-                format!("{count} {why}: {}", against_claim(&found, claim))
+                format!("{count} {reason}: {}", against_claim(&range, claim))
             }
-            _ => format!("{count}: {}", judged_in_words(&found, claim, why)),
-        }
-    };
-    groups.iter().map(one).collect::<Vec<_>>().join("; ")
+            _ => format!("{count}: {}", judged_in_words(&range, claim, reason)),
+        });
+    }
+    parts.join("; ")
 }
 
 /// From the lowest to the highest of several rates, with digits that all of them have in their
 /// table.
 pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
-    let known: Vec<(f64, usize)> = rates
-        .filter_map(|rate| {
-            Some((
-                rate.fitted?,
-                rate.interval
-                    .map_or(3, |ends| interval_places(ends, RATE_PLACES)),
-            ))
-        })
-        .collect();
-    let Some(places) = known.iter().map(|(_, places)| *places).min() else {
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+    let mut fewest_places = None;
+    for rate in rates {
+        let Some(fitted) = rate.fitted else { continue };
+        low = low.min(fitted);
+        high = high.max(fitted);
+        let places = rate
+            .interval
+            .map_or(3, |ends| interval_places(ends, RATE_PLACES));
+        fewest_places = Some(fewest_places.map_or(places, |fewest: usize| fewest.min(places)));
+    }
+    let Some(places) = fewest_places else {
         return "no rate".to_owned();
     };
-    let end = |pick: fn(f64, f64) -> f64| {
-        known
-            .iter()
-            .map(|(rate, _)| *rate)
-            .reduce(pick)
-            .unwrap_or(f64::NAN)
-    };
-    let [low, high] = [end(f64::min), end(f64::max)].map(|rate| decimals(rate, places));
+    let low = decimals(low, places);
+    let high = decimals(high, places);
     if low == high {
         low
     } else {
@@ -235,15 +237,16 @@ pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String 
 }
 
 /// The worst rate, and the largest distance of the others from their orders.
-fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
+fn rates_in_words(rates: &[(String, RateVerdict)]) -> Vec<String> {
     // Of several worst rates, the first that the study names.
     let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else {
         return vec![];
     };
     let mut parts = vec![format!("{name} {}", worst.beside_order(RATE_PLACES - 1))];
-    let distance =
-        |(_, rate): &(String, RateVerdict)| Some((committed_rate(rate.fitted?) - rate.order).abs());
-    let distances: Option<Vec<f64>> = rates.iter().map(distance).collect();
+    let distances: Option<Vec<f64>> = rates
+        .iter()
+        .map(|(_, rate)| Some((committed_rate(rate.fitted?) - rate.order).abs()))
+        .collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1)
     {
         // Rates are kept with four decimals: smaller distances cannot be stated.
@@ -256,10 +259,15 @@ fn of_rates(rates: &[(String, RateVerdict)]) -> Vec<String> {
     parts
 }
 
-fn not_passed(verdicts: impl Iterator<Item = Verdict> + Clone, what: &str) -> Option<String> {
-    let all = verdicts.clone().count();
-    let missed = verdicts.filter(|verdict| *verdict != Verdict::Pass).count();
-    (missed > 0).then(|| format!("{missed} of {all} {what} do not pass"))
+/// `1 of 3 rates do not pass`; `None` if all pass.
+fn count_not_passed(verdicts: impl Iterator<Item = Verdict>, items: &str) -> Option<String> {
+    let mut all = 0;
+    let mut not_passed = 0;
+    for verdict in verdicts {
+        all += 1;
+        not_passed += usize::from(verdict != Verdict::Pass);
+    }
+    (not_passed > 0).then(|| format!("{not_passed} of {all} {items} do not pass"))
 }
 
 #[cfg(test)]

@@ -74,20 +74,15 @@ pub(super) fn axes(plot: &Rect, axes: [(&str, &Ruler); 2]) -> String {
 pub(super) fn series(name: &str, points: Option<&[(f64, f64)]>) -> String {
     let mut attributes = format!(" data-series=\"{}\"", escape_attribute(name));
     if let Some(points) = points {
-        let finite = || {
-            points
-                .iter()
-                .filter(|(x, y)| x.is_finite() && y.is_finite())
-        };
-        let listed = if finite().nth(MOST_POINTS).is_some() {
-            0
-        } else {
-            MOST_POINTS
-        };
-        let pairs: Vec<String> = finite()
-            .take(listed)
+        let mut pairs: Vec<String> = points
+            .iter()
+            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .take(MOST_POINTS + 1)
             .map(|&(x, y)| format!("{:e},{:e}", rounded(x), rounded(y)))
             .collect();
+        if pairs.len() > MOST_POINTS {
+            pairs.clear();
+        }
         let _ = write!(attributes, " data-points=\"{}\"", pairs.join(" "));
     }
     attributes

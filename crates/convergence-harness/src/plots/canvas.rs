@@ -164,18 +164,20 @@ impl Canvas {
 /// The output of plotters, without a document around every layer and without attributes at their
 /// default values: a third of the bytes.
 fn without_ballast(fragment: &str) -> String {
-    let is_frame = |line: &&str| !line.starts_with("<svg ") && *line != "</svg>";
-    fragment.lines().filter(is_frame).fold(
-        String::with_capacity(fragment.len()),
-        |mut kept, line| {
+    let mut output = String::with_capacity(fragment.len());
+    for line in fragment.lines() {
+        if line.starts_with("<svg ") || line == "</svg>" {
+            continue;
+        }
+        if line.starts_with('<') {
+            output += &line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>");
+        } else {
             // Texts stand on lines of their own, and do not start with a tag.
-            let element = line.starts_with('<');
-            let bare = element.then(|| line.replace(" opacity=\"1\"", "").replace(" \"/>", "\"/>"));
-            kept.push_str(bare.as_deref().unwrap_or(line));
-            kept.push('\n');
-            kept
-        },
-    )
+            output += line;
+        }
+        output.push('\n');
+    }
+    output
 }
 
 /// Intervals without those that touch the one before: these become one.
@@ -271,6 +273,16 @@ impl Pen<'_> {
             FontTransform::Rotate270,
             style::INK,
         );
+    }
+
+    /// A thin line from the top of a rectangle to its bottom.
+    pub fn vertical(&self, x: f64, within: &Rect, colour: RGBColor) {
+        self.line(&[(x, within.top), (x, within.bottom)], colour, 1.0);
+    }
+
+    /// A thin line from the left of a rectangle to its right.
+    pub fn horizontal(&self, y: f64, within: &Rect, colour: RGBColor) {
+        self.line(&[(within.left, y), (within.right, y)], colour, 1.0);
     }
 
     /// A tick of an axis: a thin stroke.

@@ -42,8 +42,9 @@ impl ColourScale {
         scale: Scale,
         values: impl IntoIterator<Item = f64>,
     ) -> Self {
-        let level = |k: usize| ViridisRGB::get_color(k as f64 / (LEVELS - 1) as f64);
-        let colours = (0..LEVELS).map(level).collect();
+        let colours = (0..LEVELS)
+            .map(|k| ViridisRGB::get_color(k as f64 / (LEVELS - 1) as f64))
+            .collect();
         Self {
             ruler: Ruler::around(scale, values, 0.0),
             label: label.to_owned(),
@@ -65,8 +66,9 @@ impl ColourScale {
             1.0
         };
         let map = DerivedColorMap::new(&DIVERGING);
-        let level = |k: usize| map.get_color(k as f32 / (LEVELS - 1) as f32);
-        let colours = (0..LEVELS).map(level).collect();
+        let colours = (0..LEVELS)
+            .map(|k| map.get_color(k as f32 / (LEVELS - 1) as f32))
+            .collect();
         Self {
             ruler: Ruler::between(Scale::Linear, -largest, largest),
             label: label.to_owned(),
@@ -76,8 +78,9 @@ impl ColourScale {
 
     /// The colour of a value, if it can be drawn.
     pub(super) fn colour(&self, value: f64) -> Option<RGBColor> {
-        let at = self.ruler.fraction(on_scale(self.ruler.scale, value)?);
-        Some(self.colours[((at * LEVELS as f64) as usize).min(LEVELS - 1)])
+        let fraction = self.ruler.fraction(on_scale(self.ruler.scale, value)?);
+        let level = (fraction * LEVELS as f64) as usize;
+        Some(self.colours[level.min(LEVELS - 1)])
     }
 
     pub(super) fn ticks(&self) -> Ticks {
@@ -118,7 +121,7 @@ impl ColourScale {
             }
             pen.frame(bar, style::INK, style::THIN);
             for t in &ticks.major {
-                let y = ruler.px_of(t.at);
+                let y = ruler.px_of(t.position);
                 pen.tick((bar.right, y), (bar.right + 5.0, y));
                 pen.text(
                     &t.label,

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::canvas::Anchor;
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
-use super::xy::{Curve, Outline, Xy};
+use super::xy::{Curve, Outline, OutlineText, Xy};
 use super::{Axis, Scale, Series, style};
 use crate::judge::verdict::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
@@ -48,8 +48,10 @@ pub struct ErrorSeries {
 impl ErrorSeries {
     /// The line, if its rate is known.
     pub(crate) fn line(&self) -> Option<PowerLaw> {
-        let is_known = |[low, high]: [f64; 2]| high - low <= WIDEST_INTERVAL;
-        self.fit.filter(|_| self.interval.is_none_or(is_known))
+        match self.interval {
+            Some([low, high]) if !(high - low <= WIDEST_INTERVAL) => None,
+            _ => self.fit,
+        }
     }
 
     /// The rate for the legend.
@@ -95,11 +97,11 @@ pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String
     orders.sort_by(f64::total_cmp);
     orders.dedup();
     orders.extend(slopes);
-    let (outlines, bottom) = triangles(&orders, &trends(series), &xy.x_ruler(), &xy.y_ruler());
-    if !outlines.is_empty() {
-        xy.show_y.push(bottom);
+    let triangles = triangles(&orders, &trends(series), &xy.x_ruler(), &xy.y_ruler());
+    if !triangles.outlines.is_empty() {
+        xy.show_y.push(triangles.bottom);
     }
-    xy.outlines = outlines;
+    xy.outlines = triangles.outlines;
     xy.draw()
 }
 
@@ -114,38 +116,40 @@ fn has_unused_points(series: &ErrorSeries) -> bool {
 fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
     let line = Curve::line(0, &Series::new(label(series), series.points.clone()));
     let is_fitted = series.fit.is_some();
-    let marked = Curve {
+    let markers = Curve {
         width: if is_fitted { 0.0 } else { line.width },
         look,
         marks: Marks::Filled,
         ..line
     };
     let Some(fit) = series.line() else {
-        return vec![marked];
+        return vec![markers];
     };
-    let used = series.used.clone().unwrap_or(0..series.points.len());
-    let points = |of_used: bool| {
-        let points = series
-            .points
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| used.contains(k) == of_used);
-        points.map(|(_, point)| *point).collect::<Vec<_>>()
-    };
-    let unused = Curve {
-        points: points(false),
-        marks: Marks::Open,
-        ..marked.clone()
-    };
+    let range = series.used.clone().unwrap_or(0..series.points.len());
+    let mut used = vec![];
+    let mut unused = vec![];
+    for (k, point) in series.points.iter().enumerate() {
+        if range.contains(&k) {
+            used.push(*point);
+        } else {
+            unused.push(*point);
+        }
+    }
     // A fitted line is thin and solid; a line that only joins the points is not.
-    let fitted = Curve {
-        points: points(true),
+    let mut curves = vec![Curve {
+        points: used,
         width: style::THIN,
         fit: Some(fit),
-        ..marked
-    };
-    let unused = Some(unused).filter(|unused| !unused.points.is_empty());
-    [fitted].into_iter().chain(unused).collect()
+        ..markers.clone()
+    }];
+    if !unused.is_empty() {
+        curves.push(Curve {
+            points: unused,
+            marks: Marks::Open,
+            ..markers
+        });
+    }
+    curves
 }
 
 fn label(series: &ErrorSeries) -> String {
@@ -155,16 +159,7 @@ fn label(series: &ErrorSeries) -> String {
 }
 
 fn trends(series: &[ErrorSeries]) -> Vec<LogCurve> {
-    let log = |&(x, y): &(f64, f64)| Some((on_scale(Scale::Log, x)?, on_scale(Scale::Log, y)?));
-    let trend = |s: &ErrorSeries| {
-        let mut points: Vec<(f64, f64)> = s.points.iter().filter_map(log).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        LogCurve {
-            points,
-            order: s.order,
-        }
-    };
-    series.iter().map(trend).collect()
+    series.iter().map(LogCurve::new).collect()
 }
 
 /// A curve in the logarithms of its coordinates, and the order that theory gives it.
@@ -184,8 +179,15 @@ struct Triangle {
     order: f64,
 }
 
-/// Triangles for the given orders, and the value the vertical axis must reach down to.
-fn triangles(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> (Vec<Outline>, f64) {
+/// Slope triangles.
+struct Triangles {
+    outlines: Vec<Outline>,
+    /// The value that the vertical axis must reach down to.
+    bottom: f64,
+}
+
+/// Triangles for the given orders.
+fn triangles(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> Triangles {
     let drawable: Vec<f64> = orders
         .iter()
         .copied()
@@ -193,15 +195,18 @@ fn triangles(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> (Vec<
         .collect();
     let mut y = *y;
     for _ in 0..MAX_EXTENSIONS {
-        if let Some(found) = place_all(&drawable, trends, x, &y) {
-            return (
-                found.iter().map(Triangle::outline).collect(),
-                10f64.powf(y.lo),
-            );
+        if let Some(triangles) = place_all(&drawable, trends, x, &y) {
+            return Triangles {
+                outlines: triangles.iter().map(Triangle::outline).collect(),
+                bottom: 10f64.powf(y.lo),
+            };
         }
         y.lo -= EXTENSION * (y.hi - y.lo);
     }
-    (Vec::new(), 10f64.powf(y.lo))
+    Triangles {
+        outlines: vec![],
+        bottom: 10f64.powf(y.lo),
+    }
 }
 
 fn place_all(orders: &[f64], trends: &[LogCurve], x: &Ruler, y: &Ruler) -> Option<Vec<Triangle>> {
@@ -223,19 +228,20 @@ fn candidates(
     let width = x.hi - x.lo;
     let height = y.hi - y.lo;
     let leg = (LEG * width).min(TALLEST * height / order);
-    let has_order = move |t: &&LogCurve| t.order.is_some_and(|p| (p - order).abs() < 1e-9);
-    let (own, other): (Vec<&LogCurve>, Vec<&LogCurve>) = trends.iter().partition(has_order);
+    let (same_order, others): (Vec<&LogCurve>, Vec<&LogCurve>) = trends
+        .iter()
+        .partition(|trend| trend.order.is_some_and(|p| (p - order).abs() < 1e-9));
     let x = *x;
     let y = *y;
-    let places = own
+    let places = same_order
         .into_iter()
-        .chain(other)
-        .flat_map(|t| (4..19).rev().map(move |k| (t, f64::from(k) / 20.0)));
-    places.filter_map(move |(trend, at)| {
-        let right = x.lo + at * width;
+        .chain(others)
+        .flat_map(|trend| (4..19).rev().map(move |k| (trend, f64::from(k) / 20.0)));
+    places.filter_map(move |(trend, fraction)| {
+        let right = x.lo + fraction * width;
         let left = right - leg;
         let clearance =
-            samples(left, right).filter_map(|s| Some(trend.at(s)? - order * (s - left)));
+            samples(left, right).filter_map(|s| Some(trend.height(s)? - order * (s - left)));
         let base = clearance.fold(f64::INFINITY, f64::min) - GAP * (y.hi - y.lo);
         base.is_finite().then_some(Triangle {
             left,
@@ -251,8 +257,22 @@ fn samples(left: f64, right: f64) -> impl Iterator<Item = f64> {
 }
 
 impl LogCurve {
+    /// The errors that a logarithm can show.
+    fn new(series: &ErrorSeries) -> Self {
+        let mut points: Vec<(f64, f64)> = series
+            .points
+            .iter()
+            .filter_map(|&(x, y)| Some((on_scale(Scale::Log, x)?, on_scale(Scale::Log, y)?)))
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self {
+            points,
+            order: series.order,
+        }
+    }
+
     /// The curve's height at `x`, between its points.
-    fn at(&self, x: f64) -> Option<f64> {
+    fn height(&self, x: f64) -> Option<f64> {
         let pair = self
             .points
             .windows(2)
@@ -277,29 +297,25 @@ impl Triangle {
         let height = y.hi - y.lo;
         let bottom = self.base - TEXT_BELOW * height;
         let right = self.right + TEXT_RIGHT * width;
-        let clear_of = |t: &LogCurve| {
-            samples(self.left, right).all(|s| match t.at(s) {
-                None => true,
-                Some(v) if v < bottom => true,
+        if bottom <= y.lo || self.left <= x.lo {
+            return false;
+        }
+        let touches_curve = trends.iter().any(|trend| {
+            samples(self.left, right).any(|s| {
                 // Beyond the vertical leg there is only text, half way up.
-                Some(v) => {
-                    v > (self.base + self.order * (s - self.left)).min(self.top())
-                        + 0.9 * GAP * height
-                }
+                let top = (self.base + self.order * (s - self.left)).min(self.top());
+                let curve = trend.height(s);
+                curve.is_some_and(|v| v >= bottom && v <= top + 0.9 * GAP * height)
             })
-        };
-        let overlaps = |t: &Triangle| {
-            let apart = t.right + TEXT_RIGHT * width < self.left || right < t.left;
-            !apart && t.base - TEXT_BELOW * height < self.top() && bottom < t.top()
-        };
-        bottom > y.lo
-            && self.left > x.lo
-            && trends.iter().all(clear_of)
-            && !placed.iter().any(overlaps)
+        });
+        let overlaps_triangle = placed.iter().any(|t| {
+            let is_beside = t.right + TEXT_RIGHT * width < self.left || right < t.left;
+            !is_beside && t.base - TEXT_BELOW * height < self.top() && bottom < t.top()
+        });
+        !touches_curve && !overlaps_triangle
     }
 
     fn outline(&self) -> Outline {
-        let value = |v: (f64, f64)| (10f64.powf(v.0), 10f64.powf(v.1));
         let foot = (0.5 * (self.left + self.right), self.base);
         let side = (self.right, 0.5 * (self.base + self.top()));
         Outline {
@@ -308,18 +324,33 @@ impl Triangle {
                 (self.right, self.base),
                 (self.right, self.top()),
             ]
-            .map(value)
+            .map(from_logs)
             .to_vec(),
             texts: vec![
-                ("1".to_owned(), value(foot), (0.0, 13.0), Anchor::Center),
-                (written(self.order), value(side), (7.0, 0.0), Anchor::Left),
+                OutlineText {
+                    text: "1".to_owned(),
+                    position: from_logs(foot),
+                    offset: (0.0, 13.0),
+                    anchor: Anchor::Center,
+                },
+                OutlineText {
+                    text: order_text(self.order),
+                    position: from_logs(side),
+                    offset: (7.0, 0.0),
+                    anchor: Anchor::Left,
+                },
             ],
         }
     }
 }
 
+/// The point with these logarithms.
+fn from_logs((x, y): (f64, f64)) -> (f64, f64) {
+    (10f64.powf(x), 10f64.powf(y))
+}
+
 /// An order in a picture: 2/3 rather than 0.6666666666666666.
-fn written(order: f64) -> String {
+fn order_text(order: f64) -> String {
     let thirds = 3.0 * order;
     let is_fraction = thirds.fract() == 0.0 && order.fract() != 0.0;
     if is_fraction {
@@ -344,7 +375,7 @@ mod tests {
         }];
         let x = Ruler::between(Scale::Log, -4.2, 0.2);
         let y = Ruler::between(Scale::Log, -8.4, 0.4);
-        let (outlines, bottom) = triangles(&[1.0, 2.0], &trends, &x, &y);
+        let Triangles { outlines, bottom } = triangles(&[1.0, 2.0], &trends, &x, &y);
         assert_eq!(outlines.len(), 2);
         for (cx, cy) in outlines.iter().flat_map(|o| &o.corners) {
             assert!(*cy < cx * cx && *cy > bottom, "({cx}, {cy})");
@@ -354,7 +385,7 @@ mod tests {
     #[test]
     fn an_order_is_written_as_one_reads_it() {
         assert_eq!(
-            [1.0, 2.0, 0.5, 2.0 / 3.0, 4.0 / 3.0].map(written),
+            [1.0, 2.0, 0.5, 2.0 / 3.0, 4.0 / 3.0].map(order_text),
             ["1", "2", "0.5", "2/3", "4/3"]
         );
     }
@@ -362,11 +393,9 @@ mod tests {
     #[test]
     fn no_curve_no_triangle() {
         let ruler = Ruler::between(Scale::Log, -1.0, 0.0);
-        assert!(triangles(&[1.0], &[], &ruler, &ruler).0.is_empty());
-        assert!(
-            triangles(&[f64::NAN, -1.0], &[], &ruler, &ruler)
-                .0
-                .is_empty()
-        );
+        for orders in [&[1.0][..], &[f64::NAN, -1.0]] {
+            let triangles = triangles(orders, &[], &ruler, &ruler);
+            assert!(triangles.outlines.is_empty());
+        }
     }
 }

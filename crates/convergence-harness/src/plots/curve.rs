@@ -42,14 +42,14 @@ impl Curve {
         let Some(fit) = self.fit else {
             return vec![self.clone()];
         };
-        let xs = || {
-            self.points
-                .iter()
-                .map(|p| p.0)
-                .filter(|x| x.is_finite() && *x > 0.0)
-        };
-        let ends = [xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max)];
-        let points = ends.map(|x| (x, fit.error_at(x))).to_vec();
+        let xs = self
+            .points
+            .iter()
+            .map(|p| p.0)
+            .filter(|x| x.is_finite() && *x > 0.0);
+        let first = xs.clone().fold(f64::INFINITY, f64::min);
+        let last = xs.fold(0.0, f64::max);
+        let points = [first, last].map(|x| (x, fit.error_at(x))).to_vec();
         let line = Self {
             points,
             look: self.solid(),

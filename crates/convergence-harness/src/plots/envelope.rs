@@ -20,9 +20,9 @@ pub(super) fn lines(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Poin
 }
 
 fn envelope(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
-    let xs = || positions.iter().flatten().map(|p| p.0);
-    let left = xs().fold(f64::INFINITY, f64::min);
-    let width = xs().fold(f64::NEG_INFINITY, f64::max) - left;
+    let xs = positions.iter().flatten().map(|p| p.0);
+    let left = xs.clone().fold(f64::INFINITY, f64::min);
+    let width = xs.fold(f64::NEG_INFINITY, f64::max) - left;
     let column = |x: f64| ((x - left) / width * columns as f64).min(columns as f64 - 1.0) as usize;
     let mut lines = vec![Vec::new()];
     let mut group: Vec<Point> = Vec::new();
@@ -54,13 +54,12 @@ fn envelope(positions: &[Option<Point>], columns: usize) -> Vec<Vec<Point>> {
 
 fn extend_with_extremes(lines: &mut [Vec<Point>], group: &[Point]) {
     let Some(line) = lines.last_mut() else { return };
-    let by_height = |a: &usize, b: &usize| group[*a].1.total_cmp(&group[*b].1);
-    let lowest = (0..group.len()).min_by(by_height);
-    let highest = (0..group.len()).max_by(by_height);
-    let mut kept = [Some(0), lowest, highest, group.len().checked_sub(1)];
-    kept.sort_unstable();
+    let lowest = (0..group.len()).min_by(|a, b| group[*a].1.total_cmp(&group[*b].1));
+    let highest = (0..group.len()).max_by(|a, b| group[*a].1.total_cmp(&group[*b].1));
+    let mut indices = [Some(0), lowest, highest, group.len().checked_sub(1)];
+    indices.sort_unstable();
     let mut previous = None;
-    for k in kept.into_iter().flatten().filter(|&k| k < group.len()) {
+    for k in indices.into_iter().flatten().filter(|&k| k < group.len()) {
         if previous != Some(k) {
             line.push(group[k]);
         }

@@ -33,12 +33,10 @@ pub struct ForestRow {
 
 /// Draws rates as points with their intervals, in units of their tolerances, from top to bottom.
 pub fn forest(title: &str, rows: &[ForestRow]) -> String {
-    let width = |row: &ForestRow| {
-        text_width(&row.label, NOTE_SIZE).max(text_width(&row.numbers, NOTE_SIZE))
-    };
-    let labels = rows.iter().map(width).fold(80.0, f64::max).min(LABELS);
+    let texts = rows.iter().flat_map(|row| [&row.label, &row.numbers]);
+    let widths = texts.map(|text| text_width(text, NOTE_SIZE));
     let plot = Rect {
-        left: labels + 28.0,
+        left: widths.fold(80.0, f64::max).min(LABELS) + 28.0,
         top: TOP,
         right: style::WIDTH - 24.0,
         bottom: TOP + ROW * rows.len() as f64,
@@ -148,8 +146,10 @@ fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {
     let interval = rate
         .interval
         .map(|ends| ends.map(|end| relative(rate, end)));
-    let finite = |value: &f64| value.is_finite();
-    if let Some([low, high]) = interval.filter(|ends| ends.iter().all(finite)) {
+    if let Some([low, high]) = interval
+        && low.is_finite()
+        && high.is_finite()
+    {
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 2.4);
         // An interval that extends beyond the frame; if the rate does too, it has its own arrow.
         let is_within = value.is_some_and(|value| value.abs() <= REACH);
@@ -160,15 +160,15 @@ fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {
             tick(pen, (px(plot, end), y), end.signum(), colour);
         }
     }
-    match value.filter(finite) {
-        Some(value) if value.abs() <= REACH => pen.disc((px(plot, value), y), 5.0, colour),
-        Some(value) => arrow(
-            pen,
-            (px(plot, value) - 8.0 * value.signum(), y),
-            value.signum(),
-            colour,
-        ),
-        None => {}
+    let Some(value) = value.filter(|value| value.is_finite()) else {
+        return;
+    };
+    if value.abs() <= REACH {
+        pen.disc((px(plot, value), y), 5.0, colour);
+    } else {
+        let direction = value.signum();
+        let place = (px(plot, value) - 8.0 * direction, y);
+        arrow(pen, place, direction, colour);
     }
 }
 

@@ -66,23 +66,25 @@ fn along(a: Point, b: Point, s: f64) -> Point {
 
 /// The parts of a line inside a rectangle.
 pub(super) fn keep_inside(line: &[Point], r: &Rect) -> Vec<Vec<Point>> {
-    let holds = |p: &Point| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom;
-    if line.iter().all(holds) {
+    if line
+        .iter()
+        .all(|p| p.0 >= r.left && p.0 <= r.right && p.1 >= r.top && p.1 <= r.bottom)
+    {
         return vec![line.to_vec()];
     }
-    let mut kept: Vec<Vec<Point>> = Vec::new();
+    let mut parts: Vec<Vec<Point>> = Vec::new();
     for pair in line.windows(2) {
         let a = pair[0];
         let b = pair[1];
         let Some((enter, leave)) = inside(a, b, r) else {
             continue;
         };
-        match kept.last_mut() {
+        match parts.last_mut() {
             Some(last) if enter == 0.0 && last.last() == Some(&a) => last.push(along(a, b, leave)),
-            _ => kept.push(vec![along(a, b, enter), along(a, b, leave)]),
+            _ => parts.push(vec![along(a, b, enter), along(a, b, leave)]),
         }
     }
-    kept
+    parts
 }
 
 /// Grid lines per px.

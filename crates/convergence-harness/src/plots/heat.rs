@@ -3,15 +3,16 @@
 //! Cells are written compactly: one path per colour, one piece per run of equal neighbours.
 
 use super::attributes;
-use super::canvas::{Canvas, Layer, Pen, Point, Rect, grid};
+use super::canvas::{Canvas, Layer, Point, Rect, grid};
 use super::colour::ColourScale;
 use super::legend::{Entry, Swatch};
 use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
 use super::sheet::{Layout, Page};
 use super::style::{self, WHITE};
-use super::xy::left_out;
+use super::xy::notes_on_missing_points;
 use super::{Axis, Scale, Series};
+use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -47,18 +48,16 @@ pub struct Surface {
 
 /// Draws values over two parameters.
 pub fn surface(figure: &Surface) -> String {
-    let (x, columns): (Vec<f64>, Vec<usize>) = in_order(figure.x.scale, &figure.x_values)
-        .into_iter()
-        .unzip();
-    let (y, rows): (Vec<f64>, Vec<usize>) = in_order(figure.y.scale, &figure.y_values)
-        .into_iter()
-        .unzip();
-    let values = sorted(&figure.values, &rows, &columns, f64::NAN);
-    let marked = sorted(&figure.marked, &rows, &columns, false);
+    let columns = SortedAxis::new(figure.x.scale, &figure.x_values);
+    let rows = SortedAxis::new(figure.y.scale, &figure.y_values);
+    let values = select_cells(&figure.values, &rows, &columns, f64::NAN);
+    let marked = select_cells(&figure.marked, &rows, &columns, false);
+    let x = edges(&columns.positions, ALONE);
+    let y = edges(&rows.positions, ALONE);
     let plan = Layout {
         title: figure.title.clone(),
-        x: span(figure.x.scale, &edges(&x, ALONE)),
-        y: span(figure.y.scale, &edges(&y, ALONE)),
+        x: span(figure.x.scale, &x),
+        y: span(figure.y.scale, &y),
         x_label: figure.x.label.clone(),
         y_label: figure.y.label.clone(),
         legend: entries(figure),
@@ -71,8 +70,8 @@ pub fn surface(figure: &Surface) -> String {
         values.iter().flatten().copied(),
     );
     let cells = HeatMap {
-        x: edges(&x, ALONE),
-        y: edges(&y, ALONE),
+        x,
+        y,
         values,
         colours,
     };
@@ -107,14 +106,8 @@ impl HeatMap {
             ..plan
         }
         .lay_out();
-        let px = |ruler: &Ruler, edges: &[f64]| {
-            edges
-                .iter()
-                .map(|&edge| ruler.px_of(edge))
-                .collect::<Vec<_>>()
-        };
-        let x = px(&sheet.x, &self.x);
-        let y = px(&sheet.y, &self.y);
+        let x: Vec<f64> = self.x.iter().map(|&edge| sheet.x.px_of(edge)).collect();
+        let y: Vec<f64> = self.y.iter().map(|&edge| sheet.y.px_of(edge)).collect();
         let place = |k: usize, j: usize| Rect {
             left: x[j],
             right: x[j + 1],
@@ -131,10 +124,14 @@ impl HeatMap {
         let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
         for (k, row) in self.values.iter().enumerate() {
             // Cells without a value are grey.
-            let colour = |&value: &f64| self.colours.colour(value).unwrap_or(style::NO_VALUE);
-            for (from, to, colour) in runs(&row.iter().map(colour).collect::<Vec<_>>()) {
-                let first = place(k, from);
-                let last = place(k, to);
+            let colours: Vec<RGBColor> = row
+                .iter()
+                .map(|&value| self.colours.colour(value).unwrap_or(style::NO_VALUE))
+                .collect();
+            for run in runs(&colours) {
+                let colour = run.content;
+                let first = place(k, run.first);
+                let last = place(k, run.last);
                 let [left, top, right, bottom] =
                     [first.left, first.top, last.right, first.bottom].map(f64::round);
                 let width = right - left;
@@ -158,14 +155,30 @@ impl HeatMap {
     }
 }
 
-/// Equal neighbours: the columns of the first and the last, and what they are.
-fn runs<T: Copy + PartialEq>(row: &[T]) -> Vec<(usize, usize, T)> {
-    let mut end = 0;
-    let place = |run: &[T]| {
-        end += run.len();
-        (end - run.len(), end - 1, run[0])
-    };
-    row.chunk_by(|a, b| a == b).map(place).collect()
+/// Equal neighbours in a row.
+#[derive(Debug, PartialEq)]
+struct Run<T> {
+    /// Their first column.
+    first: usize,
+    /// Their last column.
+    last: usize,
+    /// What each of them is.
+    content: T,
+}
+
+/// The runs of a row, from left to right.
+fn runs<T: Copy + PartialEq>(row: &[T]) -> Vec<Run<T>> {
+    let mut runs = vec![];
+    let mut first = 0;
+    for cells in row.chunk_by(|a, b| a == b) {
+        runs.push(Run {
+            first,
+            last: first + cells.len() - 1,
+            content: cells[0],
+        });
+        first += cells.len();
+    }
+    runs
 }
 
 /// Edges of cells around positions in ascending order: half way between neighbours.
@@ -176,38 +189,52 @@ fn edges(positions: &[f64], alone: f64) -> Vec<f64> {
     let between: Vec<f64> = positions.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
     let first_half = between.first().map_or(alone, |e| e - first);
     let last_half = between.last().map_or(alone, |e| last - e);
-    let ends = (first - first_half, last + last_half);
-    std::iter::once(ends.0)
-        .chain(between)
-        .chain([ends.1])
-        .collect()
+    let mut edges = vec![first - first_half];
+    edges.extend(between);
+    edges.push(last + last_half);
+    edges
 }
 
-/// The values of an axis that it can show: position on the scale and index, ascending, each
-/// position once.
-fn in_order(scale: Scale, values: &[f64]) -> Vec<(f64, usize)> {
-    let mut order: Vec<(f64, usize)> = values
-        .iter()
-        .enumerate()
-        .filter_map(|(k, &v)| Some((on_scale(scale, v)?, k)))
-        .collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    order.dedup_by(|a, b| a.0 == b.0);
-    order
+/// The values of an axis that it can show, ascending, each position once.
+struct SortedAxis {
+    /// On the scale.
+    positions: Vec<f64>,
+    /// The places of these values in the list that is given.
+    indices: Vec<usize>,
+}
+
+impl SortedAxis {
+    fn new(scale: Scale, values: &[f64]) -> Self {
+        let mut order: Vec<(f64, usize)> = values
+            .iter()
+            .enumerate()
+            .filter_map(|(k, &v)| Some((on_scale(scale, v)?, k)))
+            .collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order.dedup_by(|a, b| a.0 == b.0);
+        let (positions, indices) = order.into_iter().unzip();
+        Self { positions, indices }
+    }
 }
 
 /// The cells of these rows and columns; `none` for missing ones.
-fn sorted<T: Copy>(cells: &[Vec<T>], rows: &[usize], columns: &[usize], none: T) -> Vec<Vec<T>> {
-    let cell = |k: usize, j: usize| {
-        cells
-            .get(k)
-            .and_then(|row| row.get(j))
-            .copied()
-            .unwrap_or(none)
-    };
-    rows.iter()
-        .map(|&k| columns.iter().map(|&j| cell(k, j)).collect())
-        .collect()
+fn select_cells<T: Copy>(
+    cells: &[Vec<T>],
+    rows: &SortedAxis,
+    columns: &SortedAxis,
+    none: T,
+) -> Vec<Vec<T>> {
+    let mut selection = vec![];
+    for &k in &rows.indices {
+        let row = cells.get(k).map_or(&[][..], Vec::as_slice);
+        let indices = columns.indices.iter();
+        selection.push(
+            indices
+                .map(|&j| row.get(j).copied().unwrap_or(none))
+                .collect(),
+        );
+    }
+    selection
 }
 
 /// The range from the first to the last edge, or any range if there is none.
@@ -225,36 +252,38 @@ fn notes(z: Scale, values: &[Vec<f64>], marked: &[Vec<bool>]) -> Vec<String> {
         .filter(|(_, marked)| !**marked)
         .map(|(value, _)| *value)
         .collect();
-    let missing = |scale: Scale| {
-        unmarked
-            .iter()
-            .filter(|value| on_scale(scale, **value).is_none())
-            .count()
-    };
-    let non_finite = missing(Scale::Linear);
-    left_out(non_finite, missing(z) - non_finite)
+    let non_finite = count_off_scale(Scale::Linear, &unmarked);
+    notes_on_missing_points(non_finite, count_off_scale(z, &unmarked) - non_finite)
+}
+
+/// The number of values without a position on a scale.
+fn count_off_scale(scale: Scale, values: &[f64]) -> usize {
+    let values = values.iter();
+    values
+        .filter(|value| on_scale(scale, **value).is_none())
+        .count()
 }
 
 /// A boundary with fewer points is drawn as points.
 const FEWEST_FOR_A_LINE: usize = 6;
 
 fn entries(figure: &Surface) -> Vec<Entry> {
-    let boundary = |(k, series): (usize, &Series)| {
+    let mut entries = vec![];
+    for (k, series) in figure.boundaries.iter().enumerate() {
         let (width, marks) = if is_sparse(series) {
             (0.0, Marks::Open)
         } else {
             (3.0, Marks::None)
         };
-        Entry {
+        entries.push(Entry {
             swatch: Swatch::Line {
                 look: boundary_look(k),
                 width,
                 marks,
             },
             label: series.label.clone(),
-        }
-    };
-    let mut entries: Vec<Entry> = figure.boundaries.iter().enumerate().map(boundary).collect();
+        });
+    }
     if figure.marked.iter().flatten().any(|&m| m) {
         entries.push(Entry {
             swatch: Swatch::Hatch(style::NO_VALUE),
@@ -279,10 +308,10 @@ fn boundary_look(k: usize) -> Look {
 fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usize) -> Rect) {
     let mut marks = vec![];
     for (k, row) in marked.iter().enumerate() {
-        for (from, to, _) in runs(row).into_iter().filter(|(.., marked)| *marked) {
+        for run in runs(row).into_iter().filter(|run| run.content) {
             marks.push(Rect {
-                right: place(k, to).right,
-                ..place(k, from)
+                right: place(k, run.last).right,
+                ..place(k, run.first)
             });
         }
     }
@@ -310,12 +339,13 @@ fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
                 .canvas
                 .group(&attributes::series(&series.label, data), |canvas| {
                     if is_sparse(series) {
-                        // Open markers have their own rim.
-                        let at = || positions.iter().flatten().filter(|_| !rim);
-                        let mark =
-                            |pen: &Pen<'_>, at| look.marker.draw(pen, at, colour, Marks::Open);
-                        return canvas
-                            .draw(Layer::default(), |pen| at().for_each(|at| mark(pen, *at)));
+                        canvas.draw(Layer::default(), |pen| {
+                            // Open markers have their own rim.
+                            for position in positions.iter().flatten().filter(|_| !rim) {
+                                look.marker.draw(pen, *position, colour, Marks::Open);
+                            }
+                        });
+                        return;
                     }
                     canvas.draw(layer, |pen| {
                         for line in positions.split(Option::is_none) {
@@ -341,18 +371,19 @@ mod tests {
 
     #[test]
     fn equal_neighbours_are_one_run() {
-        assert_eq!(
-            runs(&['a', 'a', 'b', 'a']),
-            [(0, 1, 'a'), (2, 2, 'b'), (3, 3, 'a')]
-        );
+        let runs = runs(&['a', 'a', 'b', 'a']);
+        let ends: Vec<_> = runs
+            .iter()
+            .map(|run| (run.first, run.last, run.content))
+            .collect();
+        assert_eq!(ends, [(0, 1, 'a'), (2, 2, 'b'), (3, 3, 'a')]);
     }
 
     #[test]
     fn an_axis_without_order_is_sorted() {
-        assert_eq!(
-            in_order(Scale::Log, &[10.0, -1.0, 1.0, f64::NAN, 1.0]),
-            [(0.0, 2), (1.0, 0)]
-        );
+        let axis = SortedAxis::new(Scale::Log, &[10.0, -1.0, 1.0, f64::NAN, 1.0]);
+        assert_eq!(axis.positions, [0.0, 1.0]);
+        assert_eq!(axis.indices, [2, 0]);
     }
 
     /// Each stroke of a hatch is one line, however many cells it crosses, and ends at a cell that

@@ -53,10 +53,10 @@ pub(super) fn arranged(entries: &[Entry]) -> (usize, f64) {
 
 /// Draws an entry at `x`, its row centred on `y`, in a column of this width.
 pub(super) fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, width: f64) {
-    let text_at = (x + SWATCH_WIDTH + SWATCH_GAP, y);
+    let text_place = (x + SWATCH_WIDTH + SWATCH_GAP, y);
     let room = width - SWATCH_WIDTH - SWATCH_GAP;
     let label = elide(&entry.label, TICK_SIZE, room);
-    let write = |pen: &Pen<'_>| pen.text(&label, text_at, TICK_SIZE, Anchor::Left, style::INK);
+    let write = |pen: &Pen<'_>| pen.text(&label, text_place, TICK_SIZE, Anchor::Left, style::INK);
     let patch = Rect {
         left: x + 6.0,
         top: y - 8.0,

@@ -43,7 +43,7 @@ pub struct Ruler {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
     /// Its position on the scale.
-    pub at: f64,
+    pub position: f64,
     /// Its text.
     pub label: String,
 }
@@ -146,7 +146,7 @@ impl Ruler {
         let major = (first..=last).filter(|d| d.rem_euclid(stride) == 0);
         let major = major
             .map(|d| Tick {
-                at: f64::from(d),
+                position: f64::from(d),
                 label: power_of_ten(d),
             })
             .collect();
@@ -165,11 +165,13 @@ impl Ruler {
         }
     }
 
-    /// Ticks at the given multiples of the powers of ten.
-    fn multiples(&self, of: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
+    /// Positions of these multiples of the powers of ten, within the range.
+    fn multiples(&self, multiples: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
         let decades = self.lo.floor() as i32..=self.hi.floor() as i32;
-        let all = decades.flat_map(|d| of.clone().map(move |m| f64::from(d) + m.log10()));
-        all.filter(|&v| v >= self.lo && v <= self.hi).collect()
+        decades
+            .flat_map(|d| multiples.clone().map(move |m| f64::from(d) + m.log10()))
+            .filter(|&v| v >= self.lo && v <= self.hi)
+            .collect()
     }
 
     fn ticks_within_few_decades(&self, wanted: usize) -> Ticks {
@@ -182,18 +184,15 @@ impl Ruler {
             // From 1 to 1000, typical of counts and percentages, powers of ten would be less
             // readable.
             let is_plain = self.lo >= -0.3 && self.hi <= 3.05 && round[0] >= 0.0;
-            let label = |at: f64| {
-                if is_plain {
-                    fixed(10f64.powf(at), 0)
-                } else {
-                    scientific(at)
-                }
-            };
             let major = round
                 .iter()
-                .map(|&at| Tick {
-                    at,
-                    label: label(at),
+                .map(|&position| Tick {
+                    position,
+                    label: if is_plain {
+                        fixed(10f64.powf(position), 0)
+                    } else {
+                        scientific(position)
+                    },
                 })
                 .collect();
             return Ticks {
@@ -203,9 +202,11 @@ impl Ruler {
             };
         }
         let linear = linear_ticks(10f64.powf(self.lo), 10f64.powf(self.hi), wanted);
-        let major = linear.major.into_iter().filter_map(|t| {
-            let at = on_scale(Scale::Log, t.at)?;
-            Some(Tick { at, label: t.label })
+        let major = linear.major.into_iter().filter_map(|tick| {
+            Some(Tick {
+                position: on_scale(Scale::Log, tick.position)?,
+                label: tick.label,
+            })
         });
         Ticks {
             major: major.collect(),
@@ -236,9 +237,9 @@ fn linear_ticks(lo: f64, hi: f64, wanted: usize) -> Ticks {
     let decimals = (-(step / unit * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 12.0) as usize;
     let major = values
         .iter()
-        .map(|&at| Tick {
-            at,
-            label: fixed(at / unit, decimals),
+        .map(|&value| Tick {
+            position: value,
+            label: fixed(value / unit, decimals),
         })
         .collect();
     Ticks {
@@ -286,8 +287,10 @@ fn scientific(log: f64) -> String {
 
 fn superscript(n: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
-    n.to_string().chars().map(digit).collect()
+    n.to_string()
+        .chars()
+        .map(|c| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]))
+        .collect()
 }
 
 #[cfg(test)]

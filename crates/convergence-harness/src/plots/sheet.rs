@@ -51,12 +51,11 @@ pub(super) struct Page {
 
 impl Layout {
     fn title(&self) -> String {
-        let of_axes = || {
+        self.title.clone().unwrap_or_else(|| {
             [&self.y_label, &self.x_label]
                 .map(|label| without_unit(label))
                 .join(" over ")
-        };
-        self.title.clone().unwrap_or_else(of_axes)
+        })
     }
 
     /// Measures all texts and places the plot area between them.
@@ -115,12 +114,13 @@ fn widest(ticks: &Ticks) -> f64 {
 
 /// The finest ticks whose labels do not touch.
 fn ticks_that_fit(ruler: &Ruler, width: f64) -> Ticks {
-    let fits = |t: &Ticks| (widest(t) + 0.8 * TICK_SIZE) * t.major.len() as f64 <= width;
-    let fewer = (2..=8).rev().map(|wanted| ruler.ticks(wanted));
-    fewer
-        .into_iter()
-        .find(fits)
-        .unwrap_or_else(|| ruler.ticks(1))
+    for count in (2..=8).rev() {
+        let ticks = ruler.ticks(count);
+        if (widest(&ticks) + 0.8 * TICK_SIZE) * ticks.major.len() as f64 <= width {
+            return ticks;
+        }
+    }
+    ruler.ticks(1)
 }
 
 impl Page {
@@ -140,37 +140,19 @@ impl Page {
             canvas,
             ..
         } = self;
-        let upright = |pen: &Pen<'_>, v: f64, colour| {
-            pen.line(
-                &[(x.px_of(v), plot.top), (x.px_of(v), plot.bottom)],
-                colour,
-                1.0,
-            );
-        };
-        let level = |pen: &Pen<'_>, v: f64, colour| {
-            pen.line(
-                &[(plot.left, y.px_of(v)), (plot.right, y.px_of(v))],
-                colour,
-                1.0,
-            );
-        };
         canvas.draw(Layer::clipped(*plot), |pen| {
-            x_ticks
-                .minor
-                .iter()
-                .for_each(|&v| upright(pen, v, style::MINOR_GRID));
-            y_ticks
-                .minor
-                .iter()
-                .for_each(|&v| level(pen, v, style::MINOR_GRID));
-            x_ticks
-                .major
-                .iter()
-                .for_each(|t| upright(pen, t.at, style::GRID));
-            y_ticks
-                .major
-                .iter()
-                .for_each(|t| level(pen, t.at, style::GRID));
+            for &v in &x_ticks.minor {
+                pen.vertical(x.px_of(v), plot, style::MINOR_GRID);
+            }
+            for &v in &y_ticks.minor {
+                pen.horizontal(y.px_of(v), plot, style::MINOR_GRID);
+            }
+            for tick in &x_ticks.major {
+                pen.vertical(x.px_of(tick.position), plot, style::GRID);
+            }
+            for tick in &y_ticks.major {
+                pen.horizontal(y.px_of(tick.position), plot, style::GRID);
+            }
         });
     }
 
@@ -190,15 +172,15 @@ impl Page {
             });
         let spread = spread_out(&places.iter().map(|p| p.0).collect::<Vec<_>>(), plot);
         self.canvas.draw(Layer::default(), |pen| {
-            for (&(line, label), &at) in places.iter().zip(&spread) {
+            for (&(line_y, label), &label_y) in places.iter().zip(&spread) {
                 pen.line(
-                    &[(plot.right + 1.0, line), (plot.right + 9.0, at)],
+                    &[(plot.right + 1.0, line_y), (plot.right + 9.0, label_y)],
                     style::MUTED,
                     style::THIN,
                 );
                 pen.text(
                     label,
-                    (plot.right + 13.0, at),
+                    (plot.right + 13.0, label_y),
                     TICK_SIZE,
                     Anchor::Left,
                     style::INK,
@@ -267,9 +249,9 @@ impl Page {
         let notes = &self.plan.notes;
         self.canvas.draw(Layer::default(), |pen| {
             for (k, note) in notes.iter().enumerate() {
-                let at = (left, first + k as f64 * NOTE_HEIGHT);
+                let place = (left, first + k as f64 * NOTE_HEIGHT);
                 let note = elide(note, NOTE_SIZE, style::WIDTH - left - EDGE);
-                pen.text(&note, at, NOTE_SIZE, Anchor::Left, style::MUTED);
+                pen.text(&note, place, NOTE_SIZE, Anchor::Left, style::MUTED);
             }
         });
     }
@@ -277,7 +259,7 @@ impl Page {
 
 fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
     for t in &ticks.major {
-        let x = ruler.px_of(t.at);
+        let x = ruler.px_of(t.position);
         pen.tick((x, plot.bottom), (x, plot.bottom - 6.0));
         pen.text(
             &t.label,
@@ -310,7 +292,7 @@ fn draw_x_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: 
 
 fn draw_y_axis(pen: &Pen<'_>, plot: &Rect, ruler: &Ruler, ticks: &Ticks, label: &str) {
     for t in &ticks.major {
-        let y = ruler.px_of(t.at);
+        let y = ruler.px_of(t.position);
         pen.tick((plot.left, y), (plot.left + 6.0, y));
         pen.text(
             &t.label,
@@ -347,10 +329,10 @@ fn draw_headlines(pen: &Pen<'_>, plot: &Rect, plan: &Layout, x: &Ruler) {
         Anchor::Center,
         style::INK,
     );
-    if let Some((at, text)) = &plan.above {
+    if let Some((position, text)) = &plan.above {
         pen.text(
             text,
-            (x.px_of(*at), plot.top - 13.0),
+            (x.px_of(*position), plot.top - 13.0),
             TICK_SIZE,
             Anchor::Center,
             style::INK,

@@ -5,7 +5,7 @@ use super::colour::ColourScale;
 use super::heat::HeatMap;
 use super::ruler::{Ruler, on_scale};
 use super::sheet::Layout;
-use super::xy::left_out;
+use super::xy::notes_on_missing_points;
 
 /// Most cells of the picture along time and along space: even noise, in which no neighbours are
 /// equal, stays below 400 kB.
@@ -53,7 +53,7 @@ pub fn space_time(figure: &SpaceTime) -> String {
         y: x,
         x_label: "time t".into(),
         y_label: "position x".into(),
-        notes: left_out(non_finite, 0),
+        notes: notes_on_missing_points(non_finite, 0),
         ..Layout::default()
     };
     cells.draw(plan, |_, _| {})
@@ -74,71 +74,94 @@ fn raster(figure: &SpaceTime, t: &Ruler, x: &Ruler, most: (usize, usize)) -> Vec
     }
     let columns = most.0.min(4 * figure.times.len());
     let rows = most.1.min(4 * figure.nodes.len());
-    let middle =
-        |r: &Ruler, k: usize, of: usize| r.lo + (r.hi - r.lo) * (k as f64 + 0.5) / of as f64;
-    let weights: Vec<_> = (0..rows)
-        .map(|k| between(&figure.nodes, middle(x, k, rows)))
-        .collect();
     let half = 0.5 * (t.hi - t.lo) / columns as f64;
-    let frames: Vec<_> = (0..columns)
+    let frames: Vec<Vec<FrameWeight>> = (0..columns)
         .map(|k| frames_near(&figure.times, middle(t, k, columns), half))
         .collect();
-    let row = |&(node, s): &(usize, f64)| {
-        frames
-            .iter()
-            .map(|near| mix(figure, near, node, s))
-            .collect()
-    };
-    weights.iter().map(row).collect()
+    let mut values = vec![];
+    for k in 0..rows {
+        let place = between(&figure.nodes, middle(x, k, rows));
+        values.push(frames.iter().map(|near| mix(figure, near, place)).collect());
+    }
+    values
+}
+
+/// The middle of one of `cells` equal cells.
+fn middle(ruler: &Ruler, cell: usize, cells: usize) -> f64 {
+    ruler.lo + (ruler.hi - ruler.lo) * (cell as f64 + 0.5) / cells as f64
+}
+
+/// A place among ascending values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Between {
+    /// The value before it.
+    index: usize,
+    /// How far along the interval from there to the next value, from 0 to 1.
+    fraction: f64,
+}
+
+/// A frame, and its share in a cell.
+struct FrameWeight {
+    frame: usize,
+    weight: f64,
 }
 
 /// The interval of ascending values that holds `v`, and how far along it `v` lies.
-fn between(values: &[f64], v: f64) -> (usize, f64) {
+fn between(values: &[f64], v: f64) -> Between {
     let k = values
         .partition_point(|&a| a <= v)
         .clamp(1, values.len().max(2) - 1)
         - 1;
-    match (values.get(k), values.get(k + 1)) {
-        (Some(&a), Some(&b)) if b > a => (k, ((v - a) / (b - a)).clamp(0.0, 1.0)),
-        _ => (k, 0.0),
-    }
+    let fraction = match (values.get(k), values.get(k + 1)) {
+        (Some(&a), Some(&b)) if b > a => ((v - a) / (b - a)).clamp(0.0, 1.0),
+        _ => 0.0,
+    };
+    Between { index: k, fraction }
 }
 
 /// Frames and weights that make up a cell: all frames in it, or the two around it.
-fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<(usize, f64)> {
+fn frames_near(times: &[f64], t: f64, half: f64) -> Vec<FrameWeight> {
     let first = times.partition_point(|&a| a < t - half);
     let last = times.partition_point(|&a| a < t + half);
     if last > first {
+        let weight = 1.0 / (last - first) as f64;
         return (first..last)
-            .map(|n| (n, 1.0 / (last - first) as f64))
+            .map(|frame| FrameWeight { frame, weight })
             .collect();
     }
-    let (n, s) = between(times, t);
-    vec![(n, 1.0 - s), (n + 1, s)]
+    let Between { index, fraction } = between(times, t);
+    vec![
+        FrameWeight {
+            frame: index,
+            weight: 1.0 - fraction,
+        },
+        FrameWeight {
+            frame: index + 1,
+            weight: fraction,
+        },
+    ]
 }
 
-fn mix(figure: &SpaceTime, frames: &[(usize, f64)], node: usize, s: f64) -> f64 {
-    let value = |n: usize, i: usize| {
-        figure
-            .frames
-            .get(n)
-            .and_then(|f| f.get(i))
-            .copied()
-            .unwrap_or(f64::NAN)
-    };
-    // A weight of zero must not let a missing neighbour spoil the value.
-    let term = |weight: f64, v: f64| if weight == 0.0 { 0.0 } else { weight * v };
-    let in_space = |n: usize| term(1.0 - s, value(n, node)) + term(s, value(n, node + 1));
-    frames
-        .iter()
-        .map(|&(n, weight)| {
-            if weight == 0.0 {
-                0.0
-            } else {
-                weight * in_space(n)
-            }
-        })
-        .sum()
+/// The value of a cell: these frames, interpolated in space.
+fn mix(figure: &SpaceTime, frames: &[FrameWeight], place: Between) -> f64 {
+    let mut sum = 0.0;
+    for FrameWeight { frame, weight } in frames {
+        let values = figure.frames.get(*frame).map_or(&[][..], Vec::as_slice);
+        sum += weighted(*weight, interpolate(values, place));
+    }
+    sum
+}
+
+/// A value between two nodes; NaN where a node that counts has none.
+fn interpolate(values: &[f64], Between { index, fraction }: Between) -> f64 {
+    let left = values.get(index).copied().unwrap_or(f64::NAN);
+    let right = values.get(index + 1).copied().unwrap_or(f64::NAN);
+    weighted(1.0 - fraction, left) + weighted(fraction, right)
+}
+
+/// A term of a mean. A weight of zero must not let a missing neighbour spoil the sum.
+fn weighted(weight: f64, value: f64) -> f64 {
+    if weight == 0.0 { 0.0 } else { weight * value }
 }
 
 #[cfg(test)]
@@ -172,9 +195,13 @@ mod tests {
 
     #[test]
     fn intervals_are_found_at_both_ends() {
-        assert_eq!(between(&[0.0, 1.0, 2.0], 0.0), (0, 0.0));
-        assert_eq!(between(&[0.0, 1.0, 2.0], 2.0), (1, 1.0));
-        assert_eq!(between(&[0.0], 5.0), (0, 0.0));
-        assert_eq!(between(&[], 5.0), (0, 0.0));
+        for (values, v, index, fraction) in [
+            (&[0.0, 1.0, 2.0][..], 0.0, 0, 0.0),
+            (&[0.0, 1.0, 2.0], 2.0, 1, 1.0),
+            (&[0.0], 5.0, 0, 0.0),
+            (&[], 5.0, 0, 0.0),
+        ] {
+            assert_eq!(between(values, v), Between { index, fraction });
+        }
     }
 }

@@ -24,8 +24,21 @@ const ENVELOPE_COLUMNS: usize = 3200;
 pub struct Outline {
     /// The last corner is joined to the first.
     pub corners: Vec<(f64, f64)>,
-    /// Text, position, px to the right of and below that position, and anchor.
-    pub texts: Vec<(String, (f64, f64), Point, Anchor)>,
+    /// Its texts.
+    pub texts: Vec<OutlineText>,
+}
+
+/// A text at an outline.
+#[derive(Clone)]
+pub struct OutlineText {
+    /// What it says.
+    pub text: String,
+    /// Where it stands, in data coordinates.
+    pub position: (f64, f64),
+    /// Px to the right of that position, and below it.
+    pub offset: Point,
+    /// Which point of the text stands there.
+    pub anchor: Anchor,
 }
 
 /// A figure with curves.
@@ -213,7 +226,7 @@ impl Xy {
 
     fn notes(&self, extent: &Extent) -> Vec<String> {
         let mut notes = self.notes.clone();
-        notes.extend(left_out(
+        notes.extend(notes_on_missing_points(
             extent.points - extent.finite,
             extent.finite - extent.drawable,
         ));
@@ -295,32 +308,33 @@ impl Xy {
             let texts: Vec<_> = outline
                 .texts
                 .iter()
-                .filter_map(|t| Some((t, sheet.px(t.1)?)))
+                .filter_map(|text| Some((text, sheet.px(text.position)?)))
                 .collect();
             sheet.canvas.draw(Layer::default(), |pen| {
                 pen.line(&path, style::INK, 1.6);
-                for ((text, _, shift, anchor), at) in texts {
-                    pen.text(
-                        text,
-                        (at.0 + shift.0, at.1 + shift.1),
-                        TICK_SIZE,
-                        *anchor,
-                        style::INK,
-                    );
+                for (text, (x, y)) in texts {
+                    let place = (x + text.offset.0, y + text.offset.1);
+                    pen.text(&text.text, place, TICK_SIZE, text.anchor, style::INK);
                 }
             });
         }
     }
 }
 
-/// The note on data that a figure cannot show.
-pub(super) fn left_out(non_finite: usize, not_positive: usize) -> Vec<String> {
-    let points = |n: usize, what: &str, why: &str| {
-        (n > 0).then(|| format!("{} not drawn{why}", counted(n, &format!("{what} point"))))
-    };
-    let non_finite = points(non_finite, "non-finite", "");
-    let not_positive = points(not_positive, "non-positive", " (logarithmic axis)");
-    non_finite.into_iter().chain(not_positive).collect()
+/// The notes on points that a figure cannot show.
+pub(super) fn notes_on_missing_points(non_finite: usize, not_positive: usize) -> Vec<String> {
+    let mut notes = vec![];
+    if non_finite > 0 {
+        notes.push(format!(
+            "{} not drawn",
+            counted(non_finite, "non-finite point")
+        ));
+    }
+    if not_positive > 0 {
+        let points = counted(not_positive, "non-positive point");
+        notes.push(format!("{points} not drawn (logarithmic axis)"));
+    }
+    notes
 }
 
 /// Union of intervals on the page; those closer than a pixel are drawn as one.

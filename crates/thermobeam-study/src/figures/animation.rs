@@ -141,7 +141,7 @@ impl Stage {
         let ticks = self.u.ticks(5);
         let edge = PLOT.left - 18.0;
         for t in &ticks.major {
-            let y = self.u.px_of(t.at);
+            let y = self.u.px_of(t.position);
             pen.tick((edge - 6.0, y), (edge, y));
             pen.text(
                 &t.label,
@@ -196,7 +196,7 @@ impl Stage {
             style::THIN,
         );
         for t in &self.t.ticks(6).major {
-            let x = self.t.px_of(t.at);
+            let x = self.t.px_of(t.position);
             pen.tick((x, TIME_BAR), (x, TIME_BAR + 7.0));
             pen.text(
                 &t.label,

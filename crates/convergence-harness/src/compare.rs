@@ -152,7 +152,7 @@ pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Compari
         match new.studies.iter().find(|study| study.header.id == *id) {
             Some(after) => comparison.add(before, after, rule),
             None => {
-                comparison.findings.push(whole(
+                comparison.findings.push(finding_on_study(
                     id,
                     Shift::Lost,
                     "the new record does not have the study".to_owned(),
@@ -160,15 +160,11 @@ pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Compari
             }
         }
     }
-    let is_new = |id: &&String| old.studies.iter().all(|study| study.header.id != **id);
-    let gained = new
-        .studies
-        .iter()
-        .map(|study| &study.header.id)
-        .filter(is_new);
-    comparison
-        .gained
-        .extend(gained.map(|id| format!("the study {id}")));
+    for Finished { header, .. } in &new.studies {
+        if old.studies.iter().all(|study| study.header.id != header.id) {
+            comparison.gained.push(format!("the study {}", header.id));
+        }
+    }
     comparison.change = comparison
         .findings
         .iter()
@@ -178,7 +174,8 @@ pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Compari
     comparison
 }
 
-fn whole(study: &str, change: Shift, reason: String) -> Finding {
+/// What became of a study as a whole.
+fn finding_on_study(study: &str, change: Shift, reason: String) -> Finding {
     Finding {
         study: study.to_owned(),
         norm: None,
@@ -193,15 +190,14 @@ impl Comparison {
     fn add(&mut self, old: &Finished, new: &Finished, rule: &Judge) {
         self.studies += 1;
         let id = &old.header.id;
-        let [known, named] = [old, new].map(|study| names(&study.outcome));
-        self.gained.extend(
-            named
-                .iter()
-                .filter(|name| !known.contains(name))
-                .map(|name| format!("{id}: {name}")),
-        );
+        let old_names = names(&old.outcome);
+        for name in names(&new.outcome) {
+            if !old_names.contains(&name) {
+                self.gained.push(format!("{id}: {name}"));
+            }
+        }
         let first = self.findings.len();
-        for name in known {
+        for name in old_names {
             let [before, after] =
                 [old, new].map(|study| ErrorSequence::new(&study.outcome, name, rule));
             let orders = [before.order, after.order];
@@ -211,7 +207,7 @@ impl Comparison {
                 floor: rule.floor(),
                 within: self.within,
             };
-            let Answer { change, reason } = both.judged();
+            let Answer { change, reason } = both.judge();
             self.findings.push(Finding {
                 study: id.clone(),
                 norm: Some(name.clone()),
@@ -220,21 +216,24 @@ impl Comparison {
                 orders,
             });
         }
-        let own = self.findings[first..]
+        let worst = self.findings[first..]
             .iter()
             .map(|finding| finding.change)
             .max();
         let [before, after] = [old, new].map(|study| study.outcome.verdict);
-        let change = match (before, after) {
-            _ if after > before && own < Some(Shift::Worse) => Shift::Worse,
-            (Verdict::Fail, Verdict::Pass) if own < Some(Shift::Better) => Shift::Better,
-            _ => return,
+        let is_mended = before == Verdict::Fail && after == Verdict::Pass;
+        let change = if after > before && worst < Some(Shift::Worse) {
+            Shift::Worse
+        } else if is_mended && worst < Some(Shift::Better) {
+            Shift::Better
+        } else {
+            return;
         };
         let reason = format!(
             "the verdict was {before}, is {after}: {}",
             new.outcome.summary
         );
-        self.findings.push(whole(id, change, reason));
+        self.findings.push(finding_on_study(id, change, reason));
     }
 }
 

@@ -435,19 +435,22 @@ fn tidy(request: &Request) -> io::Result<()> {
     }
     let _lock = request.lock()?;
     let _writing = atomic::begin_write();
-    let tidy = || {
-        // If the lock of the baseline is not held, another process may be writing it.
-        if request.bless || request.is_one_lock() {
-            atomic::remove_leftovers(&request.baseline())?;
-        }
-        atomic::remove_leftovers(&local.join("provenance.json"))?;
-        // Left by a run that was killed while it tested the folder.
-        atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
-        scopes()
-            .iter()
-            .try_for_each(|scope| scope.report_folder(reports).tidy())
-    };
-    tidy().map_err(unwritable(reports))
+    remove_leftovers(request, &local).map_err(unwritable(reports))
+}
+
+/// Removes what runs that were killed have left.
+fn remove_leftovers(request: &Request, local: &Path) -> io::Result<()> {
+    // If the lock of the baseline is not held, another process may be writing it.
+    if request.bless || request.is_one_lock() {
+        atomic::remove_leftovers(&request.baseline())?;
+    }
+    atomic::remove_leftovers(&local.join("provenance.json"))?;
+    // Left by a run that was killed while it tested the folder.
+    atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
+    for scope in scopes() {
+        scope.report_folder(&request.reports).tidy()?;
+    }
+    Ok(())
 }
 
 /// The worst verdict of all studies; fail if the baseline differs.

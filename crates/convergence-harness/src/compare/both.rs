@@ -44,28 +44,28 @@ struct Ratio<'r> {
 impl Both<'_> {
     /// The first question that finds a difference; a better order is a smaller matter than a
     /// larger error.
-    pub(super) fn judged(&self) -> Answer {
-        if let Some(reason) = self.lost() {
+    pub(super) fn judge(&self) -> Answer {
+        if let Some(reason) = self.loss() {
             return Answer::new(Shift::Lost, reason);
         }
-        let order = self.order();
+        let order = self.change_of_order();
         if let Some(order) = &order
             && order.change == Shift::Worse
         {
             return Answer::new(Shift::Worse, &order.reason);
         }
         let ratios = self.ratios();
-        if let Some(reason) = self.broken() {
+        if let Some(reason) = self.loss_of_finite_errors() {
             return Answer::new(Shift::Worse, reason);
         }
-        if let Some(reason) = self.larger(&ratios) {
+        if let Some(reason) = self.growth(&ratios) {
             return Answer::new(Shift::Worse, reason);
         }
         order.unwrap_or_else(|| self.smaller_or_cheaper(&ratios))
     }
 
     /// What the new record lacks.
-    fn lost(&self) -> Option<String> {
+    fn loss(&self) -> Option<String> {
         let Self { old, new, .. } = self;
         if new.points.is_empty() && !old.points.is_empty() {
             return Some("the new record does not have the error".to_owned());
@@ -77,14 +77,14 @@ impl Both<'_> {
         let is_lost = if old.is_sequence && new.is_sequence {
             (new.points.last()?.step / finest.step).ln() > SAME_STEP
         } else {
-            new.at(finest.level).is_none()
+            new.error_at(finest.level).is_none()
         };
-        let lost = label(finest.level);
-        is_lost.then(|| format!("the new record does not have the finest level, {lost}"))
+        let level = label(finest.level);
+        is_lost.then(|| format!("the new record does not have the finest level, {level}"))
     }
 
     /// Another order, or a claim that no longer passes.
-    fn order(&self) -> Option<Answer> {
+    fn change_of_order(&self) -> Option<Answer> {
         if let (Some(old), Some(new)) = (self.old.order, self.new.order) {
             let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
             if apart && (new.order - old.order).abs() > ORDER_SHIFT {
@@ -99,41 +99,42 @@ impl Both<'_> {
         }
         let old = self.old.rate?;
         let new = self.new.rate?;
-        let failed = old.verdict == Verdict::Pass && new.verdict != Verdict::Pass;
-        let reason = || {
-            format!(
-                "the claimed order was pass, is {}: {}",
-                new.verdict, new.reason
-            )
-        };
-        failed.then(|| Answer::new(Shift::Worse, reason()))
+        if old.verdict != Verdict::Pass || new.verdict == Verdict::Pass {
+            return None;
+        }
+        let reason = format!(
+            "the claimed order was pass, is {}: {}",
+            new.verdict, new.reason
+        );
+        Some(Answer::new(Shift::Worse, reason))
     }
 
     /// Levels whose error has become negative, infinite or NaN.
-    fn broken(&self) -> Option<String> {
-        let is_error = |error: f64| error >= 0.0 && error.is_finite();
-        let is_broken = |point: &&Point<'_>| {
-            !is_error(point.error) && self.old.at(point.level).is_some_and(is_error)
-        };
-        let broken = self.new.points.iter().filter(is_broken);
-        let broken: Vec<String> = broken.map(|point| label(point.level)).collect();
-        let list = broken.join("; ");
-        (!broken.is_empty()).then(|| format!("no longer a finite number >= 0 at {list}"))
+    fn loss_of_finite_errors(&self) -> Option<String> {
+        let mut levels = vec![];
+        for Point { level, error, .. } in &self.new.points {
+            if !is_error(*error) && self.old.error_at(level).is_some_and(is_error) {
+                levels.push(label(level));
+            }
+        }
+        let list = levels.join("; ");
+        (!levels.is_empty()).then(|| format!("no longer a finite number >= 0 at {list}"))
     }
 
     /// For each level of the new record that can be compared.
     fn ratios(&self) -> Vec<Ratio<'_>> {
-        let is_at_floor =
-            |level: &LevelErrors| self.old.is_at_floor(level) || self.new.is_at_floor(level);
         let points = self.new.points.iter();
         points
-            .filter(|point| point.error >= 0.0 && !is_at_floor(point.level))
+            .filter(|point| point.error >= 0.0)
+            .filter(|point| {
+                !self.old.is_at_floor(point.level) && !self.new.is_at_floor(point.level)
+            })
             .filter_map(|point| self.ratio(point))
             .collect()
     }
 
     fn ratio<'p>(&self, point: &Point<'p>) -> Option<Ratio<'p>> {
-        let before = match self.old.at(point.level) {
+        let before = match self.old.error_at(point.level) {
             Some(error) => Estimate {
                 value: error.max(self.floor).ln(),
                 doubt: 0.0,
@@ -156,13 +157,15 @@ impl Both<'_> {
         self.within.ln_1p()
     }
 
-    fn larger(&self, ratios: &[Ratio<'_>]) -> Option<String> {
-        let is_larger = |ratio: &&Ratio<'_>| ratio.log.value - ratio.log.doubt > self.limit();
-        let larger: Vec<&Ratio<'_>> = ratios.iter().filter(is_larger).collect();
-        let values = |ratio: &&&Ratio<'_>| ratio.log.value;
+    /// Levels with larger errors.
+    fn growth(&self, ratios: &[Ratio<'_>]) -> Option<String> {
+        let larger: Vec<&Ratio<'_>> = ratios
+            .iter()
+            .filter(|ratio| ratio.log.value - ratio.log.doubt > self.limit())
+            .collect();
         let worst = larger
             .iter()
-            .max_by(|a, b| values(a).total_cmp(&values(b)))?;
+            .max_by(|a, b| a.log.value.total_cmp(&b.log.value))?;
         Some(format!(
             "errors larger at {} of {} levels that both have: {}: {} times",
             larger.len(),
@@ -179,12 +182,12 @@ impl Both<'_> {
         let limit = self.limit();
         if count == 0 {
             let is_empty = self.old.points.is_empty() && self.new.points.is_empty();
-            let why = if is_empty {
+            let explanation = if is_empty {
                 "no errors are recorded, only rates"
             } else {
                 "no level is at a step that both have reached"
             };
-            let reason = format!("no difference of orders is proven; {why}");
+            let reason = format!("no difference of orders is proven; {explanation}");
             return Answer::new(Shift::NotProven, reason);
         }
         let mut logs = ratios.iter().map(|ratio| ratio.log);
@@ -230,6 +233,11 @@ impl Both<'_> {
             doubt: before.doubt + after.doubt + self.limit() * growth.abs(),
         })
     }
+}
+
+/// Whether a number can be an error.
+fn is_error(number: f64) -> bool {
+    number >= 0.0 && number.is_finite()
 }
 
 /// The parameters of a level.

@@ -42,16 +42,16 @@ impl<'r> ErrorSequence<'r> {
         let mut rates = outcome.rates.iter();
         let rate = rates.find(|(known, _)| known == name);
         let rate = rate.map(|(_, rate)| rate);
-        let point = |level: &'r LevelErrors| {
-            let (_, error) = level.errors.iter().find(|(known, _)| known == name)?;
-            let step = level.step.unwrap_or(f64::NAN);
-            Some(Point {
-                level,
-                step,
-                error: *error,
-            })
-        };
-        let points: Vec<Point<'_>> = outcome.levels.iter().filter_map(point).collect();
+        let mut points = vec![];
+        for level in &outcome.levels {
+            if let Some((_, error)) = level.errors.iter().find(|(other, _)| other == name) {
+                points.push(Point {
+                    level,
+                    step: level.step.unwrap_or(f64::NAN),
+                    error: *error,
+                });
+            }
+        }
         let is_sequence = points.iter().all(|point| point.step > 0.0)
             && points.windows(2).all(|pair| pair[1].step < pair[0].step);
         let mut order = rate.and_then(order_of);
@@ -81,7 +81,7 @@ impl<'r> ErrorSequence<'r> {
     }
 
     /// The error at the level with these parameters.
-    pub(super) fn at(&self, level: &LevelErrors) -> Option<f64> {
+    pub(super) fn error_at(&self, level: &LevelErrors) -> Option<f64> {
         self.points
             .iter()
             .find(|point| point.level.parameters == level.parameters)
@@ -96,14 +96,16 @@ impl<'r> ErrorSequence<'r> {
             .iter()
             .map(|point| [point.step.ln(), point.error.max(floor).ln()])
             .collect();
-        interpolated(&places, step.ln())
+        interpolate(&places, step.ln())
     }
 
     /// The logarithm of the work that an error takes.
     pub(super) fn work_at_error(&self, error: f64) -> Option<Estimate> {
-        let place = |point: &Point<'_>| Some([point.error.ln(), work(point.level)?.ln()]);
-        let places: Option<Vec<[f64; 2]>> = self.points.iter().map(place).collect();
-        interpolated(&places?, error.ln())
+        let mut places = vec![];
+        for point in &self.points {
+            places.push([point.error.ln(), work(point.level)?.ln()]);
+        }
+        interpolate(&places, error.ln())
     }
 }
 
@@ -122,9 +124,9 @@ pub(super) fn work(level: &LevelErrors) -> Option<f64> {
 ///
 /// The uncertainty is twice the bound Δ x / 8 of smooth data, Δ being the change of the slope to a
 /// neighbouring interval and x the length of this one.
-fn interpolated(points: &[[f64; 2]], x: f64) -> Option<Estimate> {
-    let is_there = |point: &&[f64; 2]| (point[0] - x).abs() <= SAME_STEP;
-    if let Some([_, value]) = points.iter().find(is_there) {
+fn interpolate(points: &[[f64; 2]], x: f64) -> Option<Estimate> {
+    let mut same = points.iter();
+    if let Some([_, value]) = same.find(|point| (point[0] - x).abs() <= SAME_STEP) {
         return Some(Estimate {
             value: *value,
             doubt: 0.0,
@@ -133,18 +135,18 @@ fn interpolated(points: &[[f64; 2]], x: f64) -> Option<Estimate> {
     let k = points
         .windows(2)
         .position(|pair| pair[0][0] > x && x > pair[1][0])?;
-    let slope = |k: usize| {
-        let next = points.get(k + 1)?;
-        Some((next[1] - points[k][1]) / (next[0] - points[k][0]))
-    };
-    let here = slope(k)?;
-    let neighbours = [k.checked_sub(1).and_then(slope), slope(k + 1)];
-    let changes = neighbours.into_iter().flatten();
-    let change = changes
-        .map(|slope| (slope - here).abs())
-        .fold(0.0, f64::max);
+    let slopes: Vec<f64> = points
+        .windows(2)
+        .map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]))
+        .collect();
+    let first = k.saturating_sub(1);
+    let end = (k + 2).min(slopes.len());
+    let changes = slopes[first..end]
+        .iter()
+        .map(|slope| (slope - slopes[k]).abs());
+    let change = changes.fold(0.0, f64::max);
     Some(Estimate {
-        value: points[k][1] + here * (x - points[k][0]),
+        value: points[k][1] + slopes[k] * (x - points[k][0]),
         doubt: 0.25 * change * (points[k][0] - points[k + 1][0]),
     })
 }

@@ -12,7 +12,7 @@ thread_local! {
 /// The result of `compute`, or the message of its panic, with file and line.
 ///
 /// Panics in here print nothing; panics elsewhere are reported as usual.
-pub(super) fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
+pub(super) fn catch<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let before = WATCHED.replace(true);
     // State that a panic leaves half done lives inside `compute` and goes with it: studies are
@@ -61,15 +61,15 @@ fn file_name(path: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::caught;
+    use super::catch;
 
     #[test]
     fn a_panic_becomes_its_message_and_place() {
-        let reason = caught(|| -> usize { panic!("pivot {} lost", 3) }).unwrap_err();
+        let reason = catch(|| -> usize { panic!("pivot {} lost", 3) }).unwrap_err();
         assert!(
             reason.starts_with("panicked at caught.rs:") && reason.ends_with(": pivot 3 lost"),
             "{reason}"
         );
-        assert_eq!(caught(|| 7), Ok(7));
+        assert_eq!(catch(|| 7), Ok(7));
     }
 }

@@ -92,11 +92,11 @@ impl Item<'_> {
 
 impl fmt::Display for Item<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let why = self.why();
+        let reason = self.why();
         match self {
-            Item::Rate { name, rate } => write!(f, "{name}: {why} ({})", rate.kind.code()),
-            Item::Study(_) => f.write_str(&why),
-            Item::Cases { .. } | Item::Check(_) => write!(f, "{}: {why}", self.name()),
+            Item::Rate { name, rate } => write!(f, "{name}: {reason} ({})", rate.kind.code()),
+            Item::Study(_) => f.write_str(&reason),
+            Item::Cases { .. } | Item::Check(_) => write!(f, "{}: {reason}", self.name()),
         }
     }
 }
@@ -159,21 +159,24 @@ impl<'f> NotPassed<'f> {
 
     /// What the reasons of its rates mean, each once, then what their causes are.
     pub fn advice(&self) -> Vec<String> {
-        let rates = || {
-            self.items.iter().filter_map(|item| match item {
-                Item::Rate { rate, .. } => Some(*rate),
-                _ => None,
-            })
-        };
-        let reasons = Reason::ALL
-            .into_iter()
-            .filter(|&reason| rates().any(|rate| rate.kind == reason));
-        let causes = Cause::ALL
-            .into_iter()
-            .filter(|&cause| rates().any(|rate| rate.cause == Some(cause)));
-        let reasons = reasons.map(|reason| format!("{}: {}", reason.code(), reason.advice()));
-        let causes = causes.map(|cause| cause.advice().to_owned());
-        reasons.chain(causes).collect()
+        let mut rates = vec![];
+        for item in &self.items {
+            if let Item::Rate { rate, .. } = item {
+                rates.push(*rate);
+            }
+        }
+        let mut advice = vec![];
+        for reason in Reason::ALL {
+            if rates.iter().any(|rate| rate.kind == reason) {
+                advice.push(format!("{}: {}", reason.code(), reason.advice()));
+            }
+        }
+        for cause in Cause::ALL {
+            if rates.iter().any(|rate| rate.cause == Some(cause)) {
+                advice.push(cause.advice().to_owned());
+            }
+        }
+        advice
     }
 }
 
@@ -188,12 +191,10 @@ pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed<'_>> {
 
 /// Whether a check that does not pass names another study that does not pass.
 fn names_another(not_passed: &NotPassed<'_>, ids: &HashSet<&str>) -> bool {
-    let is_another = |id: &String| id != not_passed.id() && ids.contains(id.as_str());
-    not_passed
-        .study
-        .outcome
-        .checks
+    let checks = &not_passed.study.outcome.checks;
+    let mut others = checks
         .iter()
         .filter(|check| !check.verdict.is_pass())
-        .any(|check| check.other_studies.iter().any(is_another))
+        .flat_map(|check| &check.other_studies);
+    others.any(|id| id != not_passed.id() && ids.contains(id.as_str()))
 }

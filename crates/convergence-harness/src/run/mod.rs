@@ -25,7 +25,7 @@ use crate::study::outcome::{self, NotFinite};
 use crate::study::{
     Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,
 };
-use caught::caught;
+use caught::catch;
 use queue::{Counter, Done, Job};
 
 pub use convergence_judge::time_limit;
@@ -184,13 +184,17 @@ fn run_planned(
         .num_threads(effort.jobs.get().min(cases.max(1)))
         .build()?;
     run_cases(&pool, &planned, effort, allowed, progress);
-    // A study without cases ends here. With `fail_fast` other studies may not have ended: they are
-    // left out.
-    let of = |planned: Planned<'_>| {
-        let own = || planned.cases.is_empty().then(|| conclude(&planned, &[]));
-        planned.finished.get().cloned().or_else(own)
-    };
-    Ok(planned.into_iter().filter_map(of).collect())
+    let mut finished = vec![];
+    for planned in planned {
+        // A study without cases ends here. With `fail_fast` other studies may not have ended: they
+        // are left out.
+        if planned.cases.is_empty() {
+            finished.push(conclude(&planned, &[]));
+        } else {
+            finished.extend(planned.finished.into_inner());
+        }
+    }
+    Ok(finished)
 }
 
 /// A study and its plan, or the message of the panic while listing its cases.
@@ -206,12 +210,12 @@ struct Planned<'s> {
 
 impl<'s> Planned<'s> {
     fn new(header: &'s Header, plan: impl FnOnce() -> Box<dyn Plan + 's>) -> Self {
-        let listed = caught(|| {
+        let plan_and_cases = catch(|| {
             let plan = plan();
             let cases = plan.cases();
             (plan, cases)
         });
-        let (plan, cases) = match listed {
+        let (plan, cases) = match plan_and_cases {
             Ok((plan, cases)) => (Ok(plan), cases),
             Err(reason) => (Err(reason), vec![]),
         };
@@ -225,10 +229,20 @@ impl<'s> Planned<'s> {
     }
 
     /// Records that a case has ended; returns all of them if it was the last.
-    fn ended(&self, case: Done) -> Option<Vec<Done>> {
+    fn record(&self, case: Done) -> Option<Vec<Done>> {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.push(case);
         (done.len() == self.cases.len()).then(|| std::mem::take(&mut *done))
+    }
+
+    /// The number of another case that the study requests, if it does. If it panics, the case
+    /// before fails.
+    fn next_case(&self, before: usize) -> Option<usize> {
+        let plan = self.plan.as_ref().ok()?;
+        catch(|| plan.more()).unwrap_or_else(|reason| {
+            plan.fail(before, CaseFailure::new(reason));
+            None
+        })
     }
 }
 
@@ -254,50 +268,45 @@ fn run_cases(
 ) {
     let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
     let counter = Counter::new(&jobs, progress);
-    let stopped = AtomicBool::new(false);
+    let is_stopped = AtomicBool::new(false);
     let run = |job: Job| {
         let planned = &planned[job.study];
-        if stopped.load(Ordering::Relaxed) {
+        if is_stopped.load(Ordering::Relaxed) {
             return;
         }
         counter.enter(&job);
-        let first = run_case(planned, effort.case_limit, allowed, job);
-        let ended = planned.ended(first).map(|mut done| {
-            // If a study requests more cases, they run one after the other, on this thread.
-            let more = |plan: &dyn Plan| {
-                caught(|| plan.more()).unwrap_or_else(|reason| {
-                    plan.fail(job.case, CaseFailure::new(reason));
-                    None
-                })
-            };
-            while let Some(case) = planned
-                .plan
-                .as_ref()
-                .ok()
-                .and_then(|plan| more(plan.as_ref()))
-            {
-                done.push(run_case(
-                    planned,
-                    effort.case_limit,
-                    allowed,
-                    Job { case, ..job },
-                ));
-            }
-            let finished = conclude(planned, &done);
-            let verdict = finished.outcome.verdict;
-            // It is set once, by the last case of the study.
-            let _ = planned.finished.set(finished);
-            stopped.fetch_or(
-                effort.fail_fast && verdict == Verdict::Fail,
-                Ordering::Relaxed,
-            );
-            verdict
-        });
-        counter.count(&job, ended);
+        let case = run_case(planned, effort.case_limit, allowed, job);
+        let verdict = planned
+            .record(case)
+            .map(|done| finish(planned, done, effort, allowed, job));
+        if effort.fail_fast && verdict == Some(Verdict::Fail) {
+            is_stopped.store(true, Ordering::Relaxed);
+        }
+        counter.count(&job, verdict);
     };
     // A parallel iterator over the vector would split it in halves; the bridge hands out one job
     // after the other.
     pool.install(|| jobs.into_iter().par_bridge().for_each(run));
+}
+
+/// Judges a study after its last case. If it requests more cases, they run before, one after the
+/// other, on this thread.
+fn finish(
+    planned: &Planned<'_>,
+    mut done: Vec<Done>,
+    effort: Effort,
+    allowed: Allowed<'_>,
+    last: Job,
+) -> Verdict {
+    while let Some(case) = planned.next_case(last.case) {
+        let job = Job { case, ..last };
+        done.push(run_case(planned, effort.case_limit, allowed, job));
+    }
+    let finished = conclude(planned, &done);
+    let verdict = finished.outcome.verdict;
+    // It is set once, by the last case of the study.
+    let _ = planned.finished.set(finished);
+    verdict
 }
 
 /// Runs one case, within the limits of its time and of its work.
@@ -313,14 +322,15 @@ fn run_case(
         let label = planned.cases.get(job.case).map(|case| case.label.clone());
         let label = label.or_else(|| plan.cases().get(job.case).map(|case| case.label.clone()));
         let most = allowed(planned.header, &label.unwrap_or_default());
-        let run = || time_limit::within(limit, || caught(|| plan.run(job.case)));
-        let ((ended, up), work) = time_limit::counted(most, run);
-        if let Err(reason) = ended {
+        let ((result, limit), work) = time_limit::counted(most, || {
+            time_limit::within(limit, || catch(|| plan.run(job.case)))
+        });
+        if let Err(reason) = result {
             plan.fail(job.case, CaseFailure::new(reason));
         }
         // A case that was stopped has no result, even if it returned one.
-        if let Some(up) = up {
-            plan.fail(job.case, up.into());
+        if let Some(limit) = limit {
+            plan.fail(job.case, limit.into());
         }
         work
     })
@@ -352,9 +362,9 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
                 done.into_iter()
                     .map(|done| (cases[done.case].label.clone(), done.work)),
             );
-            caught(|| plan.judge()).unwrap_or_else(|reason| broken("judge its results", &reason))
+            catch(|| plan.judge()).unwrap_or_else(|reason| failure_to("judge its results", &reason))
         }
-        Err(reason) => broken("list its cases", reason),
+        Err(reason) => failure_to("list its cases", reason),
     };
     spent.busy += started.elapsed();
     // Whatever the study concludes: a failed case cannot pass.
@@ -381,10 +391,11 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     }
 }
 
-fn broken(what: &str, reason: &str) -> Outcome {
-    let claim = format!("the study can {what}");
+/// The outcome of a study that panics while it does something.
+fn failure_to(act: &str, reason: &str) -> Outcome {
+    let claim = format!("the study can {act}");
     Outcome::new(
-        format!("the study cannot {what}: {reason}"),
+        format!("the study cannot {act}: {reason}"),
         vec![],
         vec![Check::that(false, claim, reason).about(Subject::of("study"))],
     )

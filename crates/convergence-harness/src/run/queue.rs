@@ -60,12 +60,10 @@ impl Job {
 pub(super) fn costliest_first<'c>(plans: impl Iterator<Item = &'c [Case<()>]>) -> Vec<Job> {
     let mut jobs = Vec::new();
     for (study, cases) in plans.enumerate() {
-        let job = |(case, Case { cost, .. }): (usize, &Case<()>)| Job {
-            study,
-            case,
-            cost: usable(*cost),
-        };
-        jobs.extend(cases.iter().enumerate().map(job));
+        for (case, Case { cost, .. }) in cases.iter().enumerate() {
+            let cost = usable(*cost);
+            jobs.push(Job { study, case, cost });
+        }
     }
     jobs.sort_by(|a, b| b.cost.total_cmp(&a.cost));
     jobs

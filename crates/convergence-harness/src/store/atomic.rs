@@ -68,6 +68,21 @@ fn probe(path: &Path) -> io::Result<()> {
     if_there(fs::remove_file(&beside)).map(drop)
 }
 
+/// Whether a file name is that of an unfinished file of another: `.NAME.PROCESS-COUNT`.
+fn is_leftover(other: &str, name: &str) -> bool {
+    let number = other
+        .strip_prefix('.')
+        .and_then(|rest| rest.strip_prefix(name))
+        .and_then(|rest| rest.strip_prefix('.'));
+    number
+        .and_then(|number| number.split_once('-'))
+        .is_some_and(|(process, count)| is_digits(process) && is_digits(count))
+}
+
+fn is_digits(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
 /// Removes the unfinished files that killed writers of `path` have left next to it. No other
 /// process may be writing this file.
 pub fn remove_leftovers(path: &Path) -> io::Result<()> {
@@ -77,21 +92,11 @@ pub fn remove_leftovers(path: &Path) -> io::Result<()> {
     ) else {
         return Ok(());
     };
-    let is_leftover = |found: &str| {
-        let number = found
-            .strip_prefix('.')
-            .and_then(|rest| rest.strip_prefix(name))
-            .and_then(|rest| rest.strip_prefix('.'));
-        let digits =
-            |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-        number
-            .and_then(|number| number.split_once('-'))
-            .is_some_and(|(process, count)| digits(process) && digits(count))
-    };
     let entries = if_there(fs::read_dir(folder)).map_err(naming(folder))?;
     for entry in entries.into_iter().flatten() {
         let entry = entry.map_err(naming(folder))?;
-        if entry.file_name().to_str().is_some_and(is_leftover) {
+        let other = entry.file_name();
+        if other.to_str().is_some_and(|other| is_leftover(other, name)) {
             // Another run may have removed its own probe since the folder was read.
             if_there(fs::remove_file(entry.path())).map_err(naming(&entry.path()))?;
         }

@@ -260,18 +260,17 @@ impl Baseline {
             }
             (Movement::NewFile { guarded, .. }, Some(ran)) => {
                 let reason = reason.filter(|_| *guarded > 0);
-                let claim = |(path, value): &(String, String)| {
+                let study_claims = claims.entry(study.clone()).or_default();
+                for (path, value) in &ran.header.settings {
                     let value = Some(value.clone());
                     let reason = reason.clone();
-                    (path.clone(), BlessedClaim { value, reason })
-                };
-                let of_study = claims.entry(study.clone()).or_default();
-                of_study.extend(ran.header.settings.iter().map(claim));
+                    study_claims.insert(path.clone(), BlessedClaim { value, reason });
+                }
             }
             (Movement::Claim { to, .. }, Some(_)) => {
                 let value = to.clone();
-                let of_study = claims.entry(study.clone()).or_default();
-                of_study.insert(name.clone(), BlessedClaim { value, reason });
+                let study_claims = claims.entry(study.clone()).or_default();
+                study_claims.insert(name.clone(), BlessedClaim { value, reason });
             }
             (
                 Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. },

@@ -11,7 +11,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::{Check, Origin, Outcome, Subject};
+use crate::study::{Check, Header, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::short_text;
@@ -73,8 +73,10 @@ pub fn diagnose(
     changes: &[Change],
     known: &Fingerprints,
 ) -> Option<Diagnosis> {
-    let fails = |study: &&Finished| study.outcome.verdict != Verdict::Pass;
-    let failing: Vec<&Finished> = finished.iter().filter(fails).collect();
+    let failing: Vec<&Finished> = finished
+        .iter()
+        .filter(|study| study.outcome.verdict != Verdict::Pass)
+        .collect();
     let mut wrong: Vec<&str> = failing
         .iter()
         .map(|study| study.header.id.as_str())
@@ -100,16 +102,13 @@ pub fn diagnose(
     } else {
         vec![]
     };
-    let again = clearest
-        .first()
-        .map(String::as_str)
-        .or(wrong.first().copied());
-    look_at.extend(again.map(|id| {
-        format!(
+    let clearest_id = clearest.first().map(String::as_str);
+    if let Some(id) = clearest_id.or(wrong.first().copied()) {
+        look_at.push(format!(
             "`{} verify {id}` repeats the clearest failure",
             project.command
-        )
-    }));
+        ));
+    }
     let resembles = if claims.is_empty() {
         known.nearest(&Fingerprint::of(finished, changes))
     } else {
@@ -123,19 +122,20 @@ pub fn diagnose(
         resembles,
         look_at,
         clearest,
-        moved: moved(finished, changes),
+        moved: groups_of_moved_numbers(finished, changes),
     })
 }
 
 /// Where to look: the places that belong to the settings of a contrast and to a field.
 fn places(project: &Project, contrast: &Contrast, first: Option<&Field>) -> Vec<String> {
     let field = first.map(|field| field.name.as_str());
-    let words = contrast.values().chain(field);
-    let place = |word| project.places.iter().find(|(known, _)| *known == word);
-    words
-        .filter_map(place)
-        .map(|(_, place)| (*place).to_owned())
-        .collect()
+    let mut places = vec![];
+    for word in contrast.values().chain(field) {
+        if let Some((_, place)) = project.places.iter().find(|(key, _)| *key == word) {
+            places.push((*place).to_owned());
+        }
+    }
+    places
 }
 
 /// Whether a number has moved or vanished: a new one has no cause.
@@ -144,15 +144,10 @@ fn is_number(change: &Change) -> bool {
 }
 
 /// The numbers of a study that moved or vanished.
-fn numbers<'c>(
-    changes: &'c [Change],
-    study: &'c str,
-) -> impl Iterator<Item = (&'c str, &'c Movement)> {
-    let is_of_study = move |change: &&Change| change.study == study && is_number(change);
+fn moved_numbers<'c>(changes: &'c [Change], study: &str) -> impl Iterator<Item = &'c Change> {
     changes
         .iter()
-        .filter(is_of_study)
-        .map(|change| (change.name.as_str(), &change.movement))
+        .filter(move |change| change.study == study && is_number(change))
 }
 
 /// One vote for each study and set of settings.
@@ -165,55 +160,71 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
         header, outcome, ..
     } in finished
     {
-        let mut own: Vec<Vote> = vec![];
-        let mut count = |subject: &Subject, fails: bool, counts: bool| {
-            let settings = project.settings(header, subject);
-            let new = [usize::from(fails && counts), usize::from(counts)];
-            match own.iter_mut().find(|vote| vote.settings == settings) {
-                Some(Vote {
-                    fails: any, count, ..
-                }) => {
-                    *any |= fails;
-                    *count = [count[0] + new[0], count[1] + new[1]];
-                }
-                None => own.push(Vote {
-                    settings,
-                    fails,
-                    count: new,
-                }),
-            }
+        let mut study = StudyVotes {
+            project,
+            header,
+            votes: vec![],
         };
-        outcome.rates.iter().for_each(|(norm, rate)| {
+        for (norm, rate) in &outcome.rates {
             let subject = outcome.subject_of_rate(norm);
-            count(&subject, !rate.verdict.is_pass(), any_judged);
-        });
-        let checks = outcome
-            .checks
-            .iter()
-            .filter(|check| check.origin != Origin::Completion || !check.verdict.is_pass());
-        checks.for_each(|check| {
+            study.count(&subject, !rate.verdict.is_pass(), any_judged);
+        }
+        for check in &outcome.checks {
+            if check.origin == Origin::Completion && check.verdict.is_pass() {
+                continue;
+            }
             let subject = Subject {
                 quantity: check.quantity().to_owned(),
                 ..check.subject.clone()
             };
-            count(&subject, !check.verdict.is_pass(), any_judged);
-        });
-        let moved: Vec<&str> = numbers(changes, &header.id).map(|(name, _)| name).collect();
-        let kept = outcome
+            study.count(&subject, !check.verdict.is_pass(), any_judged);
+        }
+        let moved: Vec<&str> = moved_numbers(changes, &header.id)
+            .map(|change| change.name.as_str())
+            .collect();
+        let guarded: Vec<&str> = outcome
             .quantities
             .iter()
-            .map(|quantity| quantity.name.as_str());
-        let gone = moved
-            .iter()
-            .copied()
-            .filter(|name| !outcome.quantities.iter().any(|known| known.name == *name));
-        kept.chain(gone).for_each(|name| {
+            .map(|quantity| quantity.name.as_str())
+            .collect();
+        let vanished = moved.iter().filter(|name| !guarded.contains(name));
+        for name in guarded.iter().chain(vanished) {
             let subject = subject_of_number(outcome, name);
-            count(&subject, moved.contains(&name), !any_judged);
-        });
-        votes.append(&mut own);
+            study.count(&subject, moved.contains(name), !any_judged);
+        }
+        votes.append(&mut study.votes);
     }
     votes
+}
+
+/// The votes of one study, one for each set of settings.
+struct StudyVotes<'s> {
+    project: &'s Project,
+    header: &'s Header,
+    votes: Vec<Vote>,
+}
+
+impl StudyVotes<'_> {
+    /// Adds an item to the vote of its settings.
+    ///
+    /// * `counts`: whether it is one of the items that the diagnosis counts; others only decide
+    ///   whether the vote fails.
+    fn count(&mut self, subject: &Subject, fails: bool, counts: bool) {
+        let settings = self.project.settings(self.header, subject);
+        let known = self.votes.iter().position(|vote| vote.settings == settings);
+        let place = known.unwrap_or(self.votes.len());
+        if known.is_none() {
+            self.votes.push(Vote {
+                settings,
+                fails: false,
+                count: [0, 0],
+            });
+        }
+        let vote = &mut self.votes[place];
+        vote.fails |= fails;
+        vote.count[0] += usize::from(fails && counts);
+        vote.count[1] += usize::from(counts);
+    }
 }
 
 /// What a guarded number is about; its name stands in for a quantity that is not known.
@@ -255,66 +266,75 @@ fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
 /// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then
 /// studies with failing checks.
 fn clearest(failing: &[&Finished]) -> Vec<String> {
-    let distance = |study: &Finished| {
-        let missed = study
-            .outcome
-            .rates
-            .iter()
-            .filter(|(_, rate)| !rate.verdict.is_pass());
-        let distances =
-            missed.filter_map(|(_, rate)| Some((rate.fitted? - rate.order).abs() / rate.tolerance));
-        distances.fold(0.0, f64::max)
-    };
-    let mut clear: Vec<(f64, &str)> = failing
-        .iter()
-        .map(|study| (distance(study), study.header.id.as_str()))
-        .collect();
-    clear.sort_by(|(one, _), (next, _)| next.total_cmp(one));
-    clear
+    let mut failing = failing.to_vec();
+    failing.sort_by(|one, next| {
+        let distance = largest_distance(&next.outcome);
+        distance.total_cmp(&largest_distance(&one.outcome))
+    });
+    failing
         .into_iter()
         .take(NAMED)
-        .map(|(_, id)| id.to_owned())
+        .map(|study| study.header.id.clone())
         .collect()
+}
+
+/// The largest distance of a rate that does not pass from its order, in units of its tolerance.
+fn largest_distance(outcome: &Outcome) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (_, rate) in &outcome.rates {
+        if let Some(fitted) = rate.fitted
+            && !rate.verdict.is_pass()
+        {
+            largest = largest.max((fitted - rate.order).abs() / rate.tolerance);
+        }
+    }
+    largest
 }
 
 /// Moved numbers of passing studies: those of the same field that changed by the same factor have
 /// one cause.
-fn moved(finished: &[Finished], changes: &[Change]) -> Vec<String> {
-    let passing = finished
-        .iter()
-        .filter(|study| study.outcome.verdict == Verdict::Pass);
-    let moved = passing.flat_map(
-        |Finished {
-             header, outcome, ..
-         }| {
-            numbers(changes, &header.id).map(|(name, movement)| {
-                let how = match movement {
-                    Movement::Moved { from, to, .. } => {
-                        let change = 100.0 * (to - from) / from.abs();
-                        format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
-                    }
-                    Movement::Vanished { .. } => "gone".to_owned(),
-                    _ => "another tolerance".to_owned(),
-                };
-                let field = subject_of_number(outcome, name).quantity;
-                (format!("{field} {how}"), header.id.as_str())
-            })
-        },
-    );
+fn groups_of_moved_numbers(finished: &[Finished], changes: &[Change]) -> Vec<String> {
+    let mut moved = vec![];
+    for Finished {
+        header, outcome, ..
+    } in finished
+    {
+        if !outcome.verdict.is_pass() {
+            continue;
+        }
+        for change in moved_numbers(changes, &header.id) {
+            let field = subject_of_number(outcome, &change.name).quantity;
+            let movement = movement_in_words(&change.movement);
+            moved.push((format!("{field} {movement}"), header.id.as_str()));
+        }
+    }
     let mut groups = grouped(moved);
     groups.sort_by_key(|(_, studies)| std::cmp::Reverse(studies.len()));
-    let line = |(group, mut studies): (String, Vec<&str>)| {
+    let mut lines = vec![];
+    for (group, mut studies) in groups {
         let count = studies.len();
         studies.dedup();
         let more = and_more(studies.len(), 2);
         studies.truncate(2);
-        format!("{group}: {count} of {}{more}", studies.join(", "))
-    };
-    groups.into_iter().map(line).collect()
+        lines.push(format!("{group}: {count} of {}{more}", studies.join(", ")));
+    }
+    lines
+}
+
+/// `by +1e-3 %`, or what else has happened to a number.
+fn movement_in_words(movement: &Movement) -> String {
+    match movement {
+        Movement::Moved { from, to, .. } => {
+            let change = 100.0 * (to - from) / from.abs();
+            format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
+        }
+        Movement::Vanished { .. } => "gone".to_owned(),
+        _ => "another tolerance".to_owned(),
+    }
 }
 
 /// The first of several items, and how many more there are.
-fn first_named(mut items: Vec<String>, what: &str) -> String {
+fn list_of_first(mut items: Vec<String>, what: &str) -> String {
     let more = items.len().saturating_sub(NAMED);
     items.truncate(NAMED);
     if more > 0 {
@@ -326,13 +346,11 @@ fn first_named(mut items: Vec<String>, what: &str) -> String {
 impl Diagnosis {
     /// The planted mistakes with a similar effect, in words; empty if there are none.
     pub fn alike(&self) -> String {
-        let words =
-            |one: &Resembling| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file);
-        self.resembles
-            .iter()
-            .map(words)
-            .collect::<Vec<_>>()
-            .join(", ")
+        let mistakes = self.resembles.iter();
+        let words: Vec<String> = mistakes
+            .map(|one| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file))
+            .collect();
+        words.join(", ")
     }
 
     /// The known facts about the cause, in words: a keyword, and its text.
@@ -341,10 +359,10 @@ impl Diagnosis {
         if !self.claims.is_empty() {
             lines.push((
                 "claims",
-                format!("changed: {}", first_named(self.claims.clone(), "")),
+                format!("changed: {}", list_of_first(self.claims.clone(), "")),
             ));
         }
-        lines.extend(self.contrasted());
+        lines.extend(self.lines_of_contrast());
         if !self.first.is_empty() {
             let named: Vec<String> = self.first.iter().take(NAMED).map(Field::words).collect();
             let rest = if self.first.len() > NAMED {
@@ -355,17 +373,14 @@ impl Diagnosis {
             lines.push(("first", named.join(", then ") + rest));
         }
         if !self.checks.is_empty() {
-            let one = |(claim, count): &(String, usize)| {
-                if *count > 1 {
-                    format!("{claim} ({count} times)")
-                } else {
-                    claim.clone()
-                }
-            };
-            lines.push((
-                "not so",
-                first_named(self.checks.iter().map(one).collect(), ""),
-            ));
+            let mut claims = vec![];
+            for (claim, count) in &self.checks {
+                claims.push(match count {
+                    1 => claim.clone(),
+                    count => format!("{claim} ({count} times)"),
+                });
+            }
+            lines.push(("not so", list_of_first(claims, "")));
         }
         for (
             count,
@@ -387,7 +402,7 @@ impl Diagnosis {
                 "moved",
                 format!(
                     "in studies that pass {}",
-                    first_named(self.moved.clone(), " groups")
+                    list_of_first(self.moved.clone(), " groups")
                 ),
             ));
         }
@@ -397,7 +412,7 @@ impl Diagnosis {
         lines
     }
 
-    fn contrasted(&self) -> Vec<(&'static str, String)> {
+    fn lines_of_contrast(&self) -> Vec<(&'static str, String)> {
         let Contrast {
             settings,
             shared,
@@ -407,7 +422,7 @@ impl Diagnosis {
         } = &self.contrast;
         let mut lines = vec![];
         let what = if !settings.is_empty() {
-            let settings = settings.iter().map(|named| self.contrast.words(named));
+            let settings = settings.iter().map(|setting| self.contrast.words(setting));
             settings.collect::<Vec<_>>().join(", ")
         } else if failed == all {
             "everything".to_owned()
@@ -427,13 +442,11 @@ impl Diagnosis {
         };
         lines.push(("fails", format!("{what}: {count}{all_with}")));
         if !passes.is_empty() {
-            let group = |(name, [passing, all]): &(String, [usize; 2])| {
-                format!("{name}: {passing} of {all}")
-            };
-            lines.push((
-                "passes",
-                passes.iter().map(group).collect::<Vec<_>>().join("; "),
-            ));
+            let groups: Vec<String> = passes
+                .iter()
+                .map(|(name, [passing, all])| format!("{name}: {passing} of {all}"))
+                .collect();
+            lines.push(("passes", groups.join("; ")));
         }
         lines
     }

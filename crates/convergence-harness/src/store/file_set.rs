@@ -36,14 +36,8 @@ impl ReportSet {
     /// A path that already exists in the set or that leads out of the folder.
     pub fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> io::Result<()> {
         let path = path.into();
-        let refuse = |what: &str| {
-            Err(io::Error::new(
-                io::ErrorKind::InvalidInput,
-                format!("the report `{path}` {what}"),
-            ))
-        };
         if !stays_inside(&path) || path == MANIFEST {
-            return refuse("has a name that no report may have");
+            return Err(refusal(&path, "has a name that no report may have"));
         }
         // Some file systems ignore case in names.
         if self
@@ -51,7 +45,7 @@ impl ReportSet {
             .keys()
             .any(|known| known.eq_ignore_ascii_case(&path))
         {
-            return refuse("is there twice");
+            return Err(refusal(&path, "is there twice"));
         }
         self.files.insert(path, bytes.into());
         Ok(())
@@ -89,16 +83,24 @@ impl ReportSet {
     }
 }
 
+/// The error of a file that no set can hold.
+fn refusal(path: &str, reason: &str) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::InvalidInput,
+        format!("the report `{path}` {reason}"),
+    )
+}
+
 fn manifest<'p>(paths: impl IntoIterator<Item = &'p String>) -> String {
     paths.into_iter().map(|path| format!("{path}\n")).collect()
 }
 
 /// Whether a relative path leads to a file below the folder.
 fn stays_inside(path: &str) -> bool {
-    let plain = |component| matches!(component, Component::Normal(_));
+    let mut components = Path::new(path).components();
     !path.is_empty()
         && !path.contains(|c: char| c.is_control() || matches!(c, '\\' | ':'))
-        && Path::new(path).components().all(plain)
+        && components.all(|component| matches!(component, Component::Normal(_)))
 }
 
 /// The folder of one report, and the workshop in which its next set of files is prepared.

@@ -10,13 +10,9 @@ use crate::text::visible;
 /// The folder of reports that contains a folder, and has the lock: `reports/` for `reports/full/`;
 /// otherwise the folder itself.
 pub(crate) fn reports_around(folder: &Path) -> PathBuf {
-    let has_lock = |folder: &&Path| lock_file(folder).is_file();
-    folder
-        .ancestors()
-        .take(3)
-        .find(has_lock)
-        .unwrap_or(folder)
-        .to_owned()
+    let mut folders = folder.ancestors().take(3);
+    let with_lock = folders.find(|folder| lock_file(folder).is_file());
+    with_lock.unwrap_or(folder).to_owned()
 }
 
 /// Waits for other processes that write to a folder of reports, and then blocks them.

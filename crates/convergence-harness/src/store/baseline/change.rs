@@ -178,19 +178,15 @@ pub(super) fn of_numbers(
     expected: &BTreeMap<String, Guarded>,
     found: &[Quantity],
 ) -> Vec<Change> {
-    let change = |name: &String, movement| Change::new(study, name, movement);
     let mut changes = Vec::new();
     for quantity in found {
-        match expected.get(&quantity.name) {
-            Some(guarded) => changes
-                .extend(movement(guarded, quantity).map(|moved| change(&quantity.name, moved))),
-            None => changes.push(change(
-                &quantity.name,
-                Movement::New {
-                    value: quantity.value,
-                },
-            )),
-        }
+        let movement = match expected.get(&quantity.name) {
+            Some(guarded) => movement(guarded, quantity),
+            None => Some(Movement::New {
+                value: quantity.value,
+            }),
+        };
+        changes.extend(movement.map(|movement| Change::new(study, &quantity.name, movement)));
     }
     let names: HashSet<&str> = found
         .iter()
@@ -199,14 +195,10 @@ pub(super) fn of_numbers(
     let vanished = expected
         .iter()
         .filter(|(name, _)| !names.contains(name.as_str()));
-    changes.extend(vanished.map(|(name, guarded)| {
-        change(
-            name,
-            Movement::Vanished {
-                value: guarded.value,
-            },
-        )
-    }));
+    for (name, guarded) in vanished {
+        let value = guarded.value;
+        changes.push(Change::new(study, name, Movement::Vanished { value }));
+    }
     changes
 }
 
@@ -351,23 +343,18 @@ pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usiz
     for (path, value) in settings {
         paths.entry(path).or_default()[1] = Some(value);
     }
-    let changed = paths
-        .iter()
-        .map(|(path, values)| (*path, *values))
-        .filter(|(_, [from, to])| from != to);
-    let change = |(path, [from, to]): (&str, [Option<&str>; 2])| {
-        let [from, to] = [from, to].map(|value| value.map(str::to_owned));
-        Change::new(
-            id,
-            path,
-            Movement::Claim {
-                from,
-                to,
+    let mut changes = vec![];
+    for (path, [from, to]) in &paths {
+        if from != to {
+            let movement = Movement::Claim {
+                from: from.map(str::to_owned),
+                to: to.map(str::to_owned),
                 entry: entry(path, &paths),
-            },
-        )
-    };
-    changed.map(change).collect()
+            };
+            changes.push(Change::new(id, path, movement));
+        }
+    }
+    changes
 }
 
 /// Keys that give the subject of a list entry.

@@ -156,11 +156,11 @@ pub(super) fn contrast(votes: &[Vote]) -> Contrast {
             }
         }
     }
-    described(votes, &best, nothing.score)
+    contrast_of(votes, &best, nothing.score)
 }
 
 /// The contrast of the best set, with what passes instead.
-fn described(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
+fn contrast_of(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     let mut fails = [0, 0];
     let mut passes: Vec<(String, [usize; 2])> = vec![];
     for (vote, holds) in votes.iter().zip(&best.holds) {
@@ -168,15 +168,16 @@ fn described(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
             fails = [fails[0] + vote.count[0], fails[1] + vote.count[1]];
             continue;
         }
-        let lacks = best
+        let missing = best
             .settings
             .iter()
             .find(|setting| !vote.settings.contains(setting));
-        // There would be too many names.
-        let instead = lacks.filter(|(key, _)| key != STUDY);
-        let instead =
-            instead.and_then(|(key, _)| vote.settings.iter().find(|(other, _)| other == key));
-        let name = instead.map_or("the others", |(_, value)| value);
+        let alternative = match missing {
+            // There would be too many names.
+            Some((key, _)) if key != STUDY => vote.settings.iter().find(|(other, _)| other == key),
+            _ => None,
+        };
+        let name = alternative.map_or("the others", |(_, value)| value);
         let [failed, all] = vote.count;
         match passes.iter_mut().find(|(known, _)| known == name) {
             Some((_, count)) => *count = [count[0] + all - failed, count[1] + all],
@@ -222,35 +223,44 @@ fn kind_of_study(votes: &[Vote], settings: &[Setting]) -> Option<String> {
 fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
     let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
     // One item shares everything with itself.
-    let (Some((first, others)), true) = (failing.split_first(), failing.len() > 1) else {
+    let [first, others @ ..] = &failing[..] else {
         return vec![];
     };
-    let is_named = |value: &str| contrast.values().any(|named| named == value);
-    let is_new = |(key, value): &&Setting| key != STUDY && !is_named(value);
-    let of_all = first
-        .settings
-        .iter()
-        .filter(is_new)
-        .filter(|one| others.iter().all(|vote| vote.settings.contains(one)));
-    let share = |one: &Setting| {
-        passing
-            .iter()
-            .filter(|vote| vote.settings.contains(one))
-            .count() as f64
-            / passing.len() as f64
-    };
-    let mut shared: Vec<(f64, &Setting)> = of_all
-        .map(|one| (share(one), one))
-        .filter(|(share, _)| *share <= RARE)
-        .collect();
-    shared.sort_by(|(one, _), (next, _)| one.total_cmp(next));
+    if others.is_empty() {
+        return vec![];
+    }
+    let mut shared: Vec<RareSetting<'_>> = vec![];
+    for setting in &first.settings {
+        let (key, value) = setting;
+        let is_named = key == STUDY || contrast.values().any(|other| other == value);
+        if is_named || !others.iter().all(|vote| vote.settings.contains(setting)) {
+            continue;
+        }
+        let share = share_with(&passing, setting);
+        if share <= RARE {
+            shared.push(RareSetting { setting, share });
+        }
+    }
+    shared.sort_by(|one, next| one.share.total_cmp(&next.share));
     // A method without the choice has the same name under several keys.
-    shared.dedup_by(|(_, (_, one)), (_, (_, kept))| one == kept);
+    shared.dedup_by(|one, previous| one.setting.1 == previous.setting.1);
     shared
         .into_iter()
         .take(SHARED)
-        .map(|(_, one)| one.clone())
+        .map(|rare| rare.setting.clone())
         .collect()
+}
+
+/// A setting of all failing votes, and the share of the passing ones that has it.
+struct RareSetting<'v> {
+    setting: &'v Setting,
+    share: f64,
+}
+
+/// The share of votes that have a setting.
+fn share_with(votes: &[&Vote], setting: &Setting) -> f64 {
+    let with = votes.iter().filter(|vote| vote.settings.contains(setting));
+    with.count() as f64 / votes.len() as f64
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Which fields moved, and how much of the movement each has.
 
-use super::{Field, numbers, subject_of_number};
+use super::{Field, moved_numbers, subject_of_number};
 use crate::run::Finished;
 use crate::store::{Change, Movement};
 use crate::study::Sort;
@@ -52,15 +52,14 @@ fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
     // Levels are in order: the last number of a field belongs to its finest level.
     let mut moved: Vec<MovedField> = vec![];
     let outcome = &study.outcome;
-    let is_rate = |name: &str| {
-        let known = outcome.quantities.iter().find(|known| known.name == name);
-        known.is_some_and(|known| known.sort == Sort::Rate)
-    };
-    let errors = numbers(changes, &study.header.id).filter(|(name, _)| !is_rate(name));
-    for (name, movement) in errors {
+    for Change { name, movement, .. } in moved_numbers(changes, &study.header.id) {
         let Movement::Moved { from, to, .. } = movement else {
             continue;
         };
+        let mut quantities = outcome.quantities.iter();
+        if quantities.any(|quantity| quantity.name == *name && quantity.sort == Sort::Rate) {
+            continue;
+        }
         let name = subject_of_number(outcome, name).quantity;
         let factor = (to / from).abs();
         moved.retain(|known| known.name != name);

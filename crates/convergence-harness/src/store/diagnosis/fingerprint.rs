@@ -72,13 +72,11 @@ impl Fingerprint {
             } else {
                 (100.0 * size).round() / 100.0
             };
-            let of_study = finished
-                .iter()
-                .find(|finished| finished.header.id == *study);
-            let field = of_study.map_or_else(
-                || name.clone(),
-                |finished| subject_of_number(&finished.outcome, name).quantity,
-            );
+            let mut studies = finished.iter();
+            let field = match studies.find(|finished| finished.header.id == *study) {
+                Some(finished) => subject_of_number(&finished.outcome, name).quantity,
+                None => name.clone(),
+            };
             items.insert(format!("{study}: {field}"), size);
         }
         Self(items)
@@ -121,9 +119,13 @@ impl Fingerprint {
             .iter()
             .filter_map(|(item, size)| Some(size * other.0.get(item)?))
             .sum();
-        let norm = |of: &Self| of.0.values().map(|size| size * size).sum::<f64>().sqrt();
-        let product = norm(self) * norm(other);
+        let product = self.norm() * other.norm();
         if product > 0.0 { both / product } else { 0.0 }
+    }
+
+    /// The root of the sum of squares.
+    fn norm(&self) -> f64 {
+        self.0.values().map(|size| size * size).sum::<f64>().sqrt()
     }
 }
 
@@ -184,27 +186,20 @@ impl From<Fingerprints> for Stored {
             .map(|known| known.items.shortened())
             .collect();
         let names: BTreeSet<&String> = prints.iter().flat_map(|print| print.0.keys()).collect();
-        let place: BTreeMap<&String, usize> = names.iter().copied().zip(0..).collect();
-        let items = |print: &Fingerprint| {
+        let places: BTreeMap<&String, usize> = names.iter().copied().zip(0..).collect();
+        let mut mistakes = vec![];
+        for (known, print) in all.known.iter().zip(&prints) {
             let items = print.0.iter();
-            Items::Listed(
-                items
-                    .map(|(name, size)| (place[name], (100.0 * size).round() as i8))
-                    .collect(),
-            )
-        };
+            let items = items.map(|(name, size)| (places[name], (100.0 * size).round() as i8));
+            mistakes.push(StoredKnown {
+                mistake: known.mistake.clone(),
+                file: known.file.clone(),
+                items: Items::Listed(items.collect()),
+            });
+        }
         Self {
             threshold: all.threshold,
-            known: all
-                .known
-                .iter()
-                .zip(&prints)
-                .map(|(known, print)| StoredKnown {
-                    mistake: known.mistake.clone(),
-                    file: known.file.clone(),
-                    items: items(print),
-                })
-                .collect(),
+            known: mistakes,
             names: names.into_iter().cloned().collect(),
         }
     }
@@ -214,30 +209,40 @@ impl TryFrom<Stored> for Fingerprints {
     type Error = String;
 
     fn try_from(stored: Stored) -> Result<Self, String> {
-        let item = |(place, hundredths): (usize, i8)| {
-            let name = stored.names.get(place).ok_or_else(|| {
-                let count = stored.names.len();
-                format!("found an item of the name {place}; expected one of 0 to {count} - 1")
-            })?;
-            Ok((name.clone(), f64::from(hundredths) / 100.0))
-        };
-        let known = stored.known.into_iter().map(|known| {
-            let items = match known.items {
-                Items::Named(items) => items,
-                Items::Listed(items) => {
-                    Fingerprint(items.into_iter().map(item).collect::<Result<_, String>>()?)
-                }
-            };
-            Ok(Known {
+        let mut mistakes = vec![];
+        for known in stored.known {
+            mistakes.push(Known {
                 mistake: known.mistake,
                 file: known.file,
-                items,
-            })
-        });
+                items: known.items.with_names(&stored.names)?,
+            });
+        }
         Ok(Self {
             threshold: stored.threshold,
-            known: known.collect::<Result<_, String>>()?,
+            known: mistakes,
         })
+    }
+}
+
+impl Items {
+    /// The items by name.
+    ///
+    /// # Errors
+    /// A message about an item of a name that is not in the list.
+    fn with_names(self, names: &[String]) -> Result<Fingerprint, String> {
+        let list = match self {
+            Self::Named(items) => return Ok(items),
+            Self::Listed(list) => list,
+        };
+        let mut items = BTreeMap::new();
+        for (place, hundredths) in list {
+            let name = names.get(place).ok_or_else(|| {
+                let count = names.len();
+                format!("found an item of the name {place}; expected one of 0 to {count} - 1")
+            })?;
+            items.insert(name.clone(), f64::from(hundredths) / 100.0);
+        }
+        Ok(Fingerprint(items))
     }
 }
 
@@ -262,13 +267,13 @@ impl Fingerprints {
     /// The two most alike, if they are alike enough. Where nothing fails in the run, those that
     /// move numbers alike. Of each the items that count are compared, which are those in the file.
     pub fn nearest(&self, run: &Fingerprint) -> Vec<Resembling> {
-        let shortened = |known: &Known| Known {
+        let known = self.known.iter().map(|known| Known {
             items: known.items.shortened(),
             ..known.clone()
-        };
+        });
         let all = Self {
             threshold: self.threshold,
-            known: self.known.iter().map(shortened).collect(),
+            known: known.collect(),
         };
         all.nearest_by_all(&run.shortened())
     }
@@ -276,19 +281,24 @@ impl Fingerprints {
     /// The same by all items: for judging what is lost without some of them.
     pub fn nearest_by_all(&self, run: &Fingerprint) -> Vec<Resembling> {
         let only_moves = run.numbers() == *run;
-        let likeness = |of: &Fingerprint| {
-            if only_moves {
-                of.numbers().likeness(run)
+        let mut all = vec![];
+        for Known {
+            mistake,
+            file,
+            items,
+        } in &self.known
+        {
+            let likeness = if only_moves {
+                items.numbers().likeness(run)
             } else {
-                of.likeness(run)
-            }
-        };
-        let like = |known: &Known| Resembling {
-            mistake: known.mistake.clone(),
-            file: known.file.clone(),
-            likeness: (100.0 * likeness(&known.items)).round() / 100.0,
-        };
-        let mut all: Vec<Resembling> = self.known.iter().map(like).collect();
+                items.likeness(run)
+            };
+            all.push(Resembling {
+                mistake: mistake.clone(),
+                file: file.clone(),
+                likeness: (100.0 * likeness).round() / 100.0,
+            });
+        }
         all.sort_by(|one, next| next.likeness.total_cmp(&one.likeness));
         all.retain(|one| one.likeness >= self.threshold.max(0.01));
         all.truncate(2);

@@ -92,19 +92,20 @@ pub fn order_of_factor(factor: f64) -> f64 {
 /// The interval must lie above the band's lower end; rates that move upwards do not depart.
 pub fn at_least(rate: RateVerdict) -> RateVerdict {
     let least = rate.order - rate.tolerance;
-    let kind = match (
-        rate.kind,
-        rate.interval,
-        &rate.pairwise[..rate.used.end.saturating_sub(1)],
-    ) {
-        (
-            Reason::TooHigh | Reason::AtTheEdge | Reason::IntervalTooWide | Reason::Departs,
-            Some([low, _]),
-            [.., before, last],
-        ) if low >= least && (rate.kind != Reason::Departs || last > before) => Reason::Agrees,
-        _ => return rate,
+    let rates = &rate.pairwise[..rate.used.end.saturating_sub(1)];
+    let (Some([low, _]), [.., before, last]) = (rate.interval, rates) else {
+        return rate;
     };
-    rate.with_reason(kind, kind.text())
+    let is_allowed = match rate.kind {
+        Reason::TooHigh | Reason::AtTheEdge | Reason::IntervalTooWide => true,
+        Reason::Departs => last > before,
+        _ => false,
+    };
+    if low >= least && is_allowed {
+        rate.with_reason(Reason::Agrees, Reason::Agrees.text())
+    } else {
+        rate
+    }
 }
 
 /// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` if
@@ -129,7 +130,10 @@ pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
 /// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own
 /// order changes nothing else.
 pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2]) -> RateVerdict {
-    let (true, Some([low, high])) = (rate.verdict.is_pass(), constant(levels, &rate)) else {
+    if !rate.verdict.is_pass() {
+        return rate;
+    }
+    let Some([low, high]) = constant(levels, &rate) else {
         return rate;
     };
     let kind = if high < least || low > most {
@@ -139,8 +143,8 @@ pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2
     } else {
         return rate;
     };
-    let found = format!("{low:.4} to {high:.4}");
-    let numbers = against_claim(&found, &format!("{least} to {most}"));
+    let interval = format!("{low:.4} to {high:.4}");
+    let numbers = against_claim(&interval, &format!("{least} to {most}"));
     rate.with_reason(kind, &format!("{} ({numbers})", kind.text()))
 }
 

@@ -73,10 +73,12 @@ pub fn student_t(dof: usize) -> f64 {
 ///
 /// * Returns one rate fewer than there are levels.
 pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
-    let rate = |pair: &[Level]| {
-        (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln())
-    };
-    levels.windows(2).map(rate).collect()
+    levels
+        .windows(2)
+        .map(|pair| {
+            (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln())
+        })
+        .collect()
 }
 
 /// Straight line log e = intercept + slope log h by least squares.
@@ -103,9 +105,10 @@ pub struct LineFit {
 /// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do
 ///   not differ.
 pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
-    let (x, y) = logarithms(levels)?;
+    let Logarithms { x, y } = Logarithms::new(levels)?;
     let n = x.len() as f64;
-    let (x_mean, y_mean) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let x_mean = x.iter().sum::<f64>() / n;
+    let y_mean = y.iter().sum::<f64>() / n;
     let sxx: f64 = x.iter().map(|x| (x - x_mean).powi(2)).sum();
     let sxy: f64 = x
         .iter()
@@ -135,12 +138,22 @@ pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     })
 }
 
-/// (log h, log e) of the levels, or `None` when a value is not finite or there are fewer than two.
-fn logarithms(levels: &[Level]) -> Option<(Vec<f64>, Vec<f64>)> {
-    let x: Vec<f64> = levels.iter().map(|level| level.step.ln()).collect();
-    let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
-    let usable = x.len() >= 2 && x.iter().chain(&y).all(|value| value.is_finite());
-    usable.then_some((x, y))
+/// The logarithms of at least two levels, all finite.
+struct Logarithms {
+    /// log h.
+    x: Vec<f64>,
+    /// log e.
+    y: Vec<f64>,
+}
+
+impl Logarithms {
+    /// `None` when a value is not finite or there are fewer than two levels.
+    fn new(levels: &[Level]) -> Option<Self> {
+        let x: Vec<f64> = levels.iter().map(|level| level.step.ln()).collect();
+        let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
+        let usable = x.len() >= 2 && x.iter().chain(&y).all(|value| value.is_finite());
+        usable.then_some(Self { x, y })
+    }
 }
 
 /// Range of pollution exponents that [`extrapolated_rate`] searches.
@@ -185,8 +198,7 @@ pub fn extrapolated_rate(levels: &[Level]) -> Option<f64> {
 /// w_1, w_2, w_3 of [`extrapolated_rate`], with steps in units of the coarsest of the four.
 fn shifts(tail: &[Level], exponent: f64) -> [f64; 3] {
     let power = |k: usize| (tail[k].step / tail[0].step).powf(exponent);
-    let shift = |k: usize| (power(k) - power(k + 1)) / (tail[k].step / tail[k + 1].step).ln();
-    [shift(0), shift(1), shift(2)]
+    std::array::from_fn(|k| (power(k) - power(k + 1)) / (tail[k].step / tail[k + 1].step).ln())
 }
 
 /// Solves κ(r) = `contraction` by bisection; `None` when the search interval holds no solution.

@@ -171,23 +171,27 @@ impl GridErrors<'_> {
         if rows < 2 || columns < 2 || self.errors.len() != rows * columns {
             return f64::NAN;
         }
-        let at = |j: usize, k: usize| self.errors[j * columns + k];
         let last_row = rows - 1;
         let last = columns - 1;
-        let square = |j: usize, k: usize| {
-            // In units of the error itself, so that no power overflows.
-            let share = |error: f64| (error / at(j, k)).powf(power);
-            let sum = share(at(j, last)) + share(at(last_row, k)) - share(at(last_row, last));
-            if sum <= 0.0 {
-                f64::INFINITY
-            } else {
-                (sum.ln() / power).powi(2)
-            }
-        };
         let squares = (0..last_row)
             .flat_map(|j| (0..last).map(move |k| (j, k)))
-            .map(|(j, k)| square(j, k));
+            .map(|(j, k)| self.square_of_misfit(j, k, power));
         (squares.sum::<f64>() / (last_row * last) as f64).sqrt()
+    }
+
+    /// The square of log(right) / s - log(left) for the error at the j-th mesh width and the k-th
+    /// time step.
+    fn square_of_misfit(&self, j: usize, k: usize, power: f64) -> f64 {
+        let columns = self.dt.len();
+        let (row, last_row) = (j * columns, (self.h.len() - 1) * columns);
+        // In units of the error itself, so that no power overflows.
+        let share = |index: usize| (self.errors[index] / self.errors[row + k]).powf(power);
+        let sum = share(row + columns - 1) + share(last_row + k) - share(last_row + columns - 1);
+        if sum <= 0.0 {
+            f64::INFINITY
+        } else {
+            (sum.ln() / power).powi(2)
+        }
     }
 
     /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the
@@ -211,16 +215,20 @@ impl GridErrors<'_> {
         if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
             return Ok(both);
         }
-        let [rest, known] = self.rest(adding, &both);
+        let Remainder { share, uncertainty } = self.remainder(adding, &both);
         let power = adding.power();
         let [none, most, limit] = REST;
-        let kind = match rest.abs() {
-            small if small <= most && small <= known.max(none) => return Ok(both),
-            large if large > limit.max(2.0 * known) => Reason::WrongLimit,
-            _ => Reason::LeftOver,
+        let share = share.abs();
+        if share <= most && share <= uncertainty.max(none) {
+            return Ok(both);
+        }
+        let kind = if share > limit.max(2.0 * uncertainty) {
+            Reason::WrongLimit
+        } else {
+            Reason::LeftOver
         };
         let finest = self.errors.last().copied().unwrap_or(f64::NAN);
-        let size = (power * rest.abs()).powf(1.0 / power) * finest;
+        let size = (power * share).powf(1.0 / power) * finest;
         let because = format!(
             "{} ({} of {})",
             kind.text(),
@@ -230,36 +238,38 @@ impl GridErrors<'_> {
         Ok(both.map(|rate| rate.with_reason(kind, &because)))
     }
 
-    /// What is left of the finest error without h and dt, and its uncertainty: shares of that
-    /// error.
-    fn rest(&self, adding: Adding, judged: &[RateVerdict; 2]) -> [f64; 2] {
+    /// What is left of the finest error without h and dt.
+    fn remainder(&self, adding: Adding, judged: &[RateVerdict; 2]) -> Remainder {
         let power = adding.power();
-        let mut rest = 1.0 / power;
-        let mut known = MISFITS_OF_REST * self.misfit(adding);
+        let mut share = 1.0 / power;
+        let mut uncertainty = MISFITS_OF_REST * self.misfit(adding);
         for (in_space, judged) in [true, false].into_iter().zip(judged) {
             let [.., before, finest] = self.line(in_space, 0)[..] else {
-                return [f64::NAN; 2];
+                return Remainder {
+                    share: f64::NAN,
+                    uncertainty: f64::NAN,
+                };
             };
             let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
-            let off: Vec<f64> = judged.pairwise[..judged.used.end - 1]
+            let distances: Vec<f64> = judged.pairwise[..judged.used.end - 1]
                 .iter()
                 .map(|rate| rate - judged.order)
                 .collect();
-            let fade = match off[..] {
+            let fade = match distances[..] {
                 // Both rates equal the order: nothing fades.
                 [.., before, last] if before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
                 _ => 0.5,
             };
-            let last = off.last().copied().unwrap_or(0.0);
-            let beyond = |fade: f64| {
-                difference * tail(before.step / finest.step, power, judged.order, last, fade)
-            };
-            rest -= beyond(fade);
-            known += (beyond(fade) - beyond(0.5))
+            let last = distances.last().copied().unwrap_or(0.0);
+            let ratio = before.step / finest.step;
+            let [correction, halved, constant] = [fade, 0.5, 0.0]
+                .map(|fade| difference * tail(ratio, power, judged.order, last, fade));
+            share -= correction;
+            uncertainty += (correction - halved)
                 .abs()
-                .max(0.1 * (beyond(fade) - beyond(0.0)).abs());
+                .max(0.1 * (correction - constant).abs());
         }
-        [rest, known]
+        Remainder { share, uncertainty }
     }
 
     /// Judges one of the two orders by itself, that in h or that in dt.
@@ -279,11 +289,11 @@ impl GridErrors<'_> {
             .map(|errors| judge.clone().with_floor(floor(errors, misfit, power)));
         let finest = finest?;
         let next = next?;
-        let levels = reduced(&finest, &lines[0], power, order);
+        let levels = reduce(&finest, &lines[0], power, order);
         let mut reading = finest.read(&levels);
         if let (Some(fit), Some(other)) = (
             reading.fit,
-            next.read(&reduced(&next, &lines[1], power, order)).fit,
+            next.read(&reduce(&next, &lines[1], power, order)).fit,
         ) {
             reading.widen((fit.rate - other.rate).abs());
         }
@@ -303,25 +313,27 @@ impl GridErrors<'_> {
         let rows = self.h.len();
         let columns = self.dt.len();
         let steps = if in_space { self.h } else { self.dt };
-        let index = |k: usize| match in_space {
-            true => ((k + 1) * columns).checked_sub(1 + from_finest),
-            false => (rows * columns + k).checked_sub((1 + from_finest) * columns),
-        };
-        let error = |k: usize| {
-            index(k)
-                .and_then(|index| self.errors.get(index))
-                .copied()
-                .unwrap_or(f64::NAN)
-        };
-        steps
-            .iter()
-            .enumerate()
-            .map(|(k, &step)| Level {
+        let mut levels = vec![];
+        for (k, &step) in steps.iter().enumerate() {
+            let index = if in_space {
+                ((k + 1) * columns).checked_sub(1 + from_finest)
+            } else {
+                (rows * columns + k).checked_sub((1 + from_finest) * columns)
+            };
+            let error = index.and_then(|index| self.errors.get(index));
+            levels.push(Level {
                 step,
-                error: error(k),
-            })
-            .collect()
+                error: error.copied().unwrap_or(f64::NAN),
+            });
+        }
+        levels
     }
+}
+
+/// What is left of the finest error without h and dt: shares of that error.
+struct Remainder {
+    share: f64,
+    uncertainty: f64,
 }
 
 /// What the differences must exceed, in the unit of the errors.
@@ -335,9 +347,9 @@ fn floor(errors: &[Level], misfit: f64, power: f64) -> f64 {
 
 /// One contribution by itself, with the divisors for the rate that it then has, or for `order` if
 /// it has none.
-fn reduced(judge: &Judge, errors: &[Level], power: f64, order: f64) -> Vec<Level> {
-    let excess = |rate: f64| Some(judge.read(&alone(errors, power, rate)).fit?.rate - rate);
-    alone(errors, power, crossing(excess, RATES).unwrap_or(order))
+fn reduce(judge: &Judge, errors: &[Level], power: f64, order: f64) -> Vec<Level> {
+    let excess = |rate: f64| Some(judge.read(&contribution(errors, power, rate)).fit?.rate - rate);
+    contribution(errors, power, crossing(excess, RATES).unwrap_or(order))
 }
 
 /// One contribution by itself at all levels except the finest,
@@ -345,28 +357,29 @@ fn reduced(judge: &Judge, errors: &[Level], power: f64, order: f64) -> Vec<Level
 ///
 /// * `power`: s.
 /// * `rate`: p.
-fn alone(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
-    let level = |pair: &[Level]| {
+fn contribution(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
+    let mut levels = vec![];
+    for pair in errors.windows(2) {
         let difference = (pair[0].error.powf(power) - pair[1].error.powf(power)).abs();
         let share = 1.0 - (pair[1].step / pair[0].step).powf(power * rate);
-        Level {
+        levels.push(Level {
             step: pair[0].step,
             error: (difference / share).powf(1.0 / power),
-        }
-    };
-    errors.windows(2).map(level).collect()
+        });
+    }
+    levels
 }
 
 /// Sum of all differences beyond the finest level, in units of the last one.
 ///
-/// * `off`: how far the last rate is from the order; `fade`: the factor by which that shrinks per
+/// * `distance`: of the last rate from the order; `fade`: the factor by which that shrinks per
 ///   level.
-fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
+fn tail(ratio: f64, power: f64, order: f64, mut distance: f64, fade: f64) -> f64 {
     let mut next = 1.0;
     let mut sum = 0.0;
     for _ in 0..40 {
-        off *= fade;
-        next *= ratio.powf(-power * (order + off));
+        distance *= fade;
+        next *= ratio.powf(-power * (order + distance));
         sum += next;
     }
     // By now the rates are those of the order: what remains is a geometric series.
@@ -375,16 +388,18 @@ fn tail(ratio: f64, power: f64, order: f64, mut off: f64, fade: f64) -> f64 {
 
 /// Whether the errors fall on one of the refinements used and grow on another.
 fn turns(errors: &[Level], judged: &RateVerdict) -> bool {
-    let falls = |pair: &[Level]| pair[1].error < pair[0].error;
     let used = &errors[judged.used.start..=judged.used.end];
-    used.windows(2).any(|pair| falls(pair) != falls(&used[..2]))
+    let falls: Vec<bool> = used
+        .windows(2)
+        .map(|pair| pair[1].error < pair[0].error)
+        .collect();
+    falls.iter().any(|falls_here| *falls_here != falls[0])
 }
 
 /// Whether there are only two rates, and the second is farther from the order.
 fn leaves(judged: &RateVerdict) -> bool {
     let rates = &judged.pairwise[judged.used.start..judged.used.end - 1];
     let [first, second] = rates else { return false };
-    let off = |rate: &f64| (rate - judged.order).abs();
-    judged.used.len() == FEWEST_LEVELS
-        && off(second) > off(first) + DEPARTURE_OF_TWO_RATES * judged.tolerance
+    let [first, second] = [first, second].map(|rate| (rate - judged.order).abs());
+    judged.used.len() == FEWEST_LEVELS && second > first + DEPARTURE_OF_TWO_RATES * judged.tolerance
 }

@@ -22,7 +22,8 @@ pub struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    fn because(&self, level: usize) -> Option<Aside> {
+    /// Why a level was set aside; `None` if it was used.
+    fn reason(&self, level: usize) -> Option<Aside> {
         self.rate
             .set_aside
             .iter()
@@ -32,7 +33,7 @@ impl Shown<'_> {
 
     /// The error at a level, with a mark if it was not used.
     fn error(&self, level: usize) -> String {
-        let mark = match self.because(level) {
+        let mark = match self.reason(level) {
             Some(Aside::AtFloor) => "_",
             Some(Aside::PreAsymptotic) => "~",
             Some(Aside::BeyondFive) => "'",
@@ -61,69 +62,56 @@ impl Shown<'_> {
 /// * `step`: the name of the step.
 /// * `floor`: of the rule that judged; 0 if it had none, or several.
 pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
-    let names = columns
-        .iter()
-        .flat_map(|shown| [shown.name.to_owned(), "rate".to_owned()]);
-    let mut rows = vec![
-        std::iter::once(step.to_owned())
-            .chain(names)
-            .collect::<Vec<_>>(),
-    ];
-    for (k, level) in columns
-        .first()
-        .map_or(&[][..], |shown| shown.levels)
-        .iter()
-        .enumerate()
-    {
-        let cells = columns
-            .iter()
-            .flat_map(|shown| [shown.error(k), shown.pairwise(k)]);
-        rows.push(
-            std::iter::once(plain_text(level.step))
-                .chain(cells)
-                .collect(),
-        );
+    let mut head = vec![step.to_owned()];
+    for column in columns {
+        head.extend([column.name.to_owned(), "rate".to_owned()]);
     }
-    let width = |column: usize| {
-        rows.iter()
-            .map(|row| row[column].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
-    let line = |row: &Vec<String>| {
+    let mut rows = vec![head];
+    let levels = columns.first().map_or(&[][..], |column| column.levels);
+    for (k, level) in levels.iter().enumerate() {
+        let mut row = vec![plain_text(level.step)];
+        for column in columns {
+            row.extend([column.error(k), column.pairwise(k)]);
+        }
+        rows.push(row);
+    }
+    let widths: Vec<usize> = (0..rows[0].len())
+        .map(|column| {
+            let lengths = rows.iter().map(|row| row[column].chars().count());
+            lengths.max().unwrap_or(0)
+        })
+        .collect();
+    let mut text = String::new();
+    for row in &rows {
         let cells: Vec<String> = row
             .iter()
             .zip(&widths)
             .map(|(cell, width)| format!("{cell:>width$}"))
             .collect();
-        cells.join("  ").trim_end().to_owned() + "\n"
-    };
-    rows.iter().map(line).collect::<String>() + &legend(columns, floor)
+        text += cells.join("  ").trim_end();
+        text += "\n";
+    }
+    text + &legend(columns, floor)
 }
 
 /// The meaning of the marks that occur.
 fn legend(columns: &[Shown<'_>], floor: f64) -> String {
-    let occurs = |because: &Aside| {
-        columns.iter().any(|shown| {
-            shown
-                .rate
-                .set_aside
-                .iter()
-                .any(|aside| aside.because == *because)
-        })
-    };
-    let marked = |because: Aside| match because {
-        Aside::AtFloor if floor > 0.0 => format!("_ set aside: not above the floor {floor:e}\n"),
-        Aside::AtFloor => format!("_ set aside: {}\n", because.text()),
-        Aside::BeyondFive => format!("' set aside: {}\n", because.text()),
-        _ => format!("~ set aside: {}\n", because.text()),
-    };
-    [Aside::PreAsymptotic, Aside::BeyondFive, Aside::AtFloor]
-        .into_iter()
-        .filter(occurs)
-        .map(marked)
-        .collect()
+    let mut legend = String::new();
+    for reason in [Aside::PreAsymptotic, Aside::BeyondFive, Aside::AtFloor] {
+        let mut set_aside = columns.iter().flat_map(|column| &column.rate.set_aside);
+        if !set_aside.any(|aside| aside.because == reason) {
+            continue;
+        }
+        legend += &match reason {
+            Aside::AtFloor if floor > 0.0 => {
+                format!("_ set aside: not above the floor {floor:e}\n")
+            }
+            Aside::AtFloor => format!("_ set aside: {}\n", reason.text()),
+            Aside::BeyondFive => format!("' set aside: {}\n", reason.text()),
+            _ => format!("~ set aside: {}\n", reason.text()),
+        };
+    }
+    legend
 }
 
 /// Table, findings and advice, for the message of a failing test.

@@ -11,19 +11,15 @@ impl Columns {
     /// Measures a table: the head gives the number of columns; a column that holds only numbers is
     /// aligned right.
     pub fn of(head: &[String], rows: &[Vec<String>]) -> Self {
-        let column = |i: usize| rows.iter().filter_map(move |row| row.get(i));
-        let width = |i: usize| {
-            column(i)
-                .chain(head.get(i))
-                .map(|cell| cell.chars().count())
-                .max()
-                .unwrap_or(0)
-        };
-        let numeric = |i: usize| !rows.is_empty() && column(i).all(|cell| is_number(cell));
-        Self {
-            widths: (0..head.len()).map(width).collect(),
-            numeric: (0..head.len()).map(numeric).collect(),
+        let mut widths = vec![];
+        let mut numeric = vec![];
+        for (i, title) in head.iter().enumerate() {
+            let mut cells = rows.iter().filter_map(|row| row.get(i));
+            let texts = cells.clone().chain([title]);
+            widths.push(texts.map(|text| text.chars().count()).max().unwrap_or(0));
+            numeric.push(!rows.is_empty() && cells.all(|cell| is_number(cell)));
         }
+        Self { widths, numeric }
     }
 
     /// Number of columns.

@@ -22,7 +22,7 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     if letters > LONGEST {
         return None;
     }
-    let granted = (letters / 3).max(1);
+    let most_edits = (letters / 3).max(1);
     candidates
         .into_iter()
         .map(|candidate| {
@@ -33,7 +33,7 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         })
         // A distance as long as the candidate itself means that none of its letters was written.
         .filter(|&(distance, candidate)| {
-            distance <= granted && distance < candidate.chars().count()
+            distance <= most_edits && distance < candidate.chars().count()
         })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
@@ -41,9 +41,9 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
 
 /// A word quoted for a shell, which would otherwise expand patterns.
 pub fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c);
-    let is_whole = !word.is_empty() && word.chars().all(is_plain);
-    if is_whole {
+    let mut characters = word.chars();
+    let is_plain = characters.all(|c| c.is_alphanumeric() || "_-+.,/^:=@%".contains(c));
+    if is_plain && !word.is_empty() {
         word.to_owned()
     } else {
         format!("'{}'", word.replace('\'', "'\\''"))

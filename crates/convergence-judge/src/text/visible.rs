@@ -23,13 +23,12 @@ pub fn path(path: &Path) -> String {
 
 /// Text of several lines without control characters other than line ends and tabs.
 pub fn lines(text: &str) -> String {
-    let is_shown = |c: char| !c.is_control() || c == '\n' || c == '\t';
     text.chars()
         .map(|c| {
-            if is_shown(c) {
-                c
-            } else {
+            if c.is_control() && c != '\n' && c != '\t' {
                 char::REPLACEMENT_CHARACTER
+            } else {
+                c
             }
         })
         .collect()
@@ -38,18 +37,23 @@ pub fn lines(text: &str) -> String {
 /// Text without lines that are commands to GitHub Actions, which obeys lines of a log that begin
 /// with `::`.
 pub fn without_commands(text: &str) -> String {
-    let is_command = |line: &str| line.trim_start().starts_with("::");
     if !text.contains("::") || !text.split(['\n', '\r']).any(is_command) {
         return text.to_owned();
     }
-    let tamed = |line: &str| {
+    let mut safe = String::with_capacity(text.len());
+    for line in text.split_inclusive(['\n', '\r']) {
         if is_command(line) {
-            line.replacen("::", ": :", 1)
+            safe += &line.replacen("::", ": :", 1);
         } else {
-            line.to_owned()
+            safe += line;
         }
-    };
-    text.split_inclusive(['\n', '\r']).map(tamed).collect()
+    }
+    safe
+}
+
+/// Whether GitHub Actions takes a line for a command.
+fn is_command(line: &str) -> bool {
+    line.trim_start().starts_with("::")
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::names::Word;
 use super::number::{is_dash, number};
-use super::reader::LeftOut;
+
 use crate::text::number::counted;
 
 /// A table as written. Names and cells are slices of the text, which give their places.
@@ -17,6 +17,13 @@ pub(super) struct RawTable<'t> {
     pub(super) decimal_comma: bool,
     /// What is not a column of the table.
     pub(super) left_out: Vec<LeftOut>,
+}
+
+/// A column, or a list of numbers, that is not an error.
+#[derive(Debug, Clone)]
+pub(super) struct LeftOut {
+    pub(super) name: String,
+    pub(super) reason: String,
 }
 
 /// Longest text in which a name is looked for before its number, in bytes.

@@ -6,7 +6,7 @@ use super::Choice;
 use super::columns::Cells;
 use super::names::{self, Word};
 use super::number::{halves, number};
-use super::pairs::RawTable;
+use super::pairs::{LeftOut, RawTable};
 use super::text::counts_rows;
 use crate::input::{Complaint, InputError, Source, shorten};
 use crate::text::names::{did_you_mean, nearest};
@@ -26,13 +26,6 @@ pub(super) struct TableReader<'t> {
     pub(super) columns: Vec<Cells<'t>>,
     /// What is not an error.
     pub(super) left_out: Vec<LeftOut>,
-}
-
-/// A column, or a list of numbers, that is not an error.
-#[derive(Debug, Clone)]
-pub(super) struct LeftOut {
-    pub(super) name: String,
-    pub(super) reason: String,
 }
 
 /// A table that cannot be used, and choices that may read it.

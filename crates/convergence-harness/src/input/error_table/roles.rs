@@ -6,8 +6,8 @@ use std::hash::Hash;
 
 use super::columns::{Cells, Derived, Trend};
 use super::names::Word;
-use super::pairs::RawTable;
-use super::reader::{LeftOut, NEIGHBOURS, Offer, Refusal, TableReader, listed};
+use super::pairs::{LeftOut, RawTable};
+use super::reader::{NEIGHBOURS, Offer, Refusal, TableReader, listed};
 use super::step::{Measure, Step};
 use super::{Choice, Column, RateTable, names, text};
 use crate::input::{Complaint, InputError, shorten};

@@ -4,7 +4,7 @@
 //! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant
 //! buys.
 
-use super::{Level, logarithms, student_t};
+use super::{Level, Logarithms, student_t};
 
 /// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they guard
 /// against overconfidence.
@@ -46,7 +46,7 @@ pub struct RateInterval {
 /// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not
 ///   differ.
 pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
-    let (x, y) = logarithms(levels)?;
+    let Logarithms { x, y } = Logarithms::new(levels)?;
     let m = x.len();
     if m < 3 || x[m - 2] == x[m - 1] {
         return None;
@@ -63,22 +63,19 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         line.rate = finest_rate;
         FACTOR_OF_THREE * change / apart
     } else {
-        let polluted = |r: f64| {
-            let column = centred(
-                &x.iter()
-                    .map(|x_k| (r * (x_k - x[0])).exp())
-                    .collect::<Vec<_>>(),
-            );
+        let polluted_lines = POLLUTION_EXPONENTS.map(|r| {
+            let powers: Vec<f64> = x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect();
+            let column = centred(&powers);
             Line::fit(
                 &project_out(&column, &log_h),
                 &project_out(&column, &log_e),
                 round_off,
                 Some(r),
             )
-        };
-        line = line.or_clearly_better(POLLUTION_EXPONENTS.map(polluted));
-        let of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
-        let correction = ((line.rate - finest_rate).abs() - of_pair).max(0.0);
+        });
+        line = line.or_clearly_better(polluted_lines);
+        let deviation_of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
+        let correction = ((line.rate - finest_rate).abs() - deviation_of_pair).max(0.0);
         FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction)
     };
     let Line {
@@ -134,10 +131,16 @@ impl Line {
 
     /// The best of the others if it is [`CLEARLY_BETTER`] than this one.
     fn or_clearly_better(self, others: [Self; 5]) -> Self {
-        let rss = |line: &Self| line.variance * line.dof as f64;
-        let best = others.into_iter().min_by(|a, b| rss(a).total_cmp(&rss(b)));
-        best.filter(|best| CLEARLY_BETTER * rss(best) < rss(&self))
+        let best = others
+            .into_iter()
+            .min_by(|a, b| a.sum_of_squares().total_cmp(&b.sum_of_squares()));
+        best.filter(|best| CLEARLY_BETTER * best.sum_of_squares() < self.sum_of_squares())
             .unwrap_or(self)
+    }
+
+    /// Of the residuals.
+    fn sum_of_squares(&self) -> f64 {
+        self.variance * self.dof as f64
     }
 }
 

@@ -54,14 +54,13 @@ pub(crate) fn changes(rates: &[f64]) -> Vec<f64> {
 /// Pollution, plateaus and terms of another order change the rates one way and have a scatter of
 /// zero; noise changes them to and fro.
 pub fn scatter(rates: &[f64]) -> f64 {
-    let cancelled = |pair: &[f64]| {
+    let mut scatter: f64 = 0.0;
+    for pair in changes(rates).windows(2) {
         if pair[0] * pair[1] < 0.0 {
-            pair[0].abs().min(pair[1].abs())
-        } else {
-            0.0
+            scatter = scatter.max(pair[0].abs().min(pair[1].abs()));
         }
-    };
-    changes(rates).windows(2).map(cancelled).fold(0.0, f64::max)
+    }
+    scatter
 }
 
 #[cfg(test)]

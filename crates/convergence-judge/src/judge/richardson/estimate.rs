@@ -157,7 +157,7 @@ impl Estimator {
         let judged = judge.judge_read(&reading, order);
         let scatter = reading.fit.map_or(0.0, |fit| fit.scatter);
         let usable = if order > 0.0 && order.is_finite() {
-            usable(values, floor)
+            check_difference(values, floor)
         } else {
             Err(Refusal::NotAsymptotic(Reason::ClaimUnusable))
         };
@@ -179,17 +179,18 @@ impl Estimator {
 }
 
 /// Whether there is a difference to extrapolate from.
-fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
-    let step_usable = |level: &Value| level.step > 0.0 && level.step.is_finite();
+fn check_difference(values: &[Value], floor: f64) -> Result<(), Refusal> {
     let [.., before, finest] = values else {
         return Err(Refusal::TooFewValues(values.len()));
     };
     let difference = (before.value - finest.value).abs();
+    let steps_are_positive = values
+        .iter()
+        .all(|level| level.step > 0.0 && level.step.is_finite());
+    let some_step_grows = values.windows(2).any(|pair| pair[1].step >= pair[0].step);
     if values.iter().any(|level| !level.value.is_finite()) {
         Err(Refusal::NotFinite)
-    } else if !values.iter().all(step_usable)
-        || values.windows(2).any(|pair| pair[1].step >= pair[0].step)
-    {
+    } else if !steps_are_positive || some_step_grows {
         Err(Refusal::Steps)
     } else if values.len() < FEWEST_LEVELS {
         Err(Refusal::TooFewValues(values.len()))
@@ -204,42 +205,43 @@ fn usable(values: &[Value], floor: f64) -> Result<(), Refusal> {
 
 /// The differences as if all ratios equalled the last one, each at the finer of its steps; see the
 /// [module](super).
-pub(super) fn reduced(values: &[Value], rate: f64) -> Vec<Level> {
-    let ratio = |pair: &[Value]| pair[0].step / pair[1].step;
-    let Some(last) = values.windows(2).last().map(ratio) else {
-        return vec![];
-    };
-    let level = |pair: &[Value]| {
-        let here = ratio(pair);
-        let same = (here / last - 1.0).abs() <= SAME_RATIO;
-        let factor = if same {
+pub(super) fn reduce(values: &[Value], rate: f64) -> Vec<Level> {
+    let ratios = step_ratios(values);
+    let mut levels = vec![];
+    for (pair, ratio) in values.windows(2).zip(&ratios) {
+        let last = ratios[ratios.len() - 1];
+        let is_same = (ratio / last - 1.0).abs() <= SAME_RATIO;
+        let factor = if is_same {
             1.0
         } else {
-            growth(last, rate) / growth(here, rate)
+            growth(last, rate) / growth(*ratio, rate)
         };
-        Level {
+        levels.push(Level {
             step: pair[1].step,
             error: (pair[0].value - pair[1].value).abs() * factor,
-        }
-    };
-    values.windows(2).map(level).collect()
+        });
+    }
+    levels
+}
+
+/// The ratio of each step to the next.
+fn step_ratios(values: &[Value]) -> Vec<f64> {
+    let pairs = values.windows(2);
+    pairs.map(|pair| pair[0].step / pair[1].step).collect()
 }
 
 /// The reduced differences, reduced with the rate that they then have.
 fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
-    let ratios: Vec<f64> = values
-        .windows(2)
-        .map(|pair| pair[0].step / pair[1].step)
-        .collect();
+    let ratios = step_ratios(values);
     let start = if order > 0.0 { order } else { 1.0 };
     if ratios
         .windows(2)
         .all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO)
     {
-        return reduced(values, start);
+        return reduce(values, start);
     }
-    let excess = |rate: f64| Some(judge.read(&reduced(values, rate)).fit?.rate - rate);
-    reduced(values, crossing(excess, RATES).unwrap_or(start))
+    let excess = |rate: f64| Some(judge.read(&reduce(values, rate)).fit?.rate - rate);
+    reduce(values, crossing(excess, RATES).unwrap_or(start))
 }
 
 /// The zero of a function that falls from above zero to below it, by false position (Illinois);
@@ -257,11 +259,15 @@ pub(crate) fn crossing(
             break;
         }
         middle = next;
-        let here = f(middle)?;
-        if here > 0.0 {
-            (low, above, below) = (middle, here, 0.5 * below);
+        let value = f(middle)?;
+        if value > 0.0 {
+            low = middle;
+            above = value;
+            below *= 0.5;
         } else {
-            (high, below, above) = (middle, here, 0.5 * above);
+            high = middle;
+            below = value;
+            above *= 0.5;
         }
     }
     Some(middle)
@@ -269,7 +275,7 @@ pub(crate) fn crossing(
 
 /// Whether the interval of the rule means something: its reason may concern the claim, but not the
 /// levels.
-fn asymptotic(reason: Reason) -> Result<(), Refusal> {
+fn check_reason(reason: Reason) -> Result<(), Refusal> {
     match reason {
         Reason::Agrees
         | Reason::TooLow
@@ -282,41 +288,54 @@ fn asymptotic(reason: Reason) -> Result<(), Refusal> {
     }
 }
 
-/// Observed rate and its interval, for differences that fall as the rule requires, without a change
-/// of sign.
-fn rate(values: &[Value], judged: &RateVerdict) -> Result<(f64, [f64; 2]), Refusal> {
+/// An observed rate.
+struct ObservedRate {
+    rate: f64,
+    interval: [f64; 2],
+}
+
+/// Whether no two neighbouring differences have opposite signs.
+fn have_one_sign(differences: &[f64]) -> bool {
+    let mut pairs = differences.windows(2);
+    pairs.all(|pair| pair[0] * pair[1] >= 0.0)
+}
+
+/// The rate of differences that fall as the rule requires, without a change of sign.
+fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate, Refusal> {
     let differences: Vec<f64> = values
         .windows(2)
         .map(|pair| pair[0].value - pair[1].value)
         .collect();
-    let one_sign =
-        |differences: &[f64]| differences.windows(2).all(|pair| pair[0] * pair[1] >= 0.0);
-    if !one_sign(&differences[differences.len() - 2..]) {
+    if !have_one_sign(&differences[differences.len() - 2..]) {
         return Err(Refusal::Oscillating);
     }
     let Some(interval) = judged.interval else {
         if values.len() > FEWEST_LEVELS {
-            return Err(asymptotic(judged.kind)
-                .err()
-                .unwrap_or(Refusal::NotAsymptotic(judged.kind)));
+            check_reason(judged.kind)?;
+            return Err(Refusal::NotAsymptotic(judged.kind));
         }
         let rate = observed_order(values)?;
         let order = judged.order;
-        return Ok((
+        return Ok(ObservedRate {
             rate,
-            [
+            interval: [
                 rate.min(order) - DOUBT_OF_A_SINGLE_RATE,
                 rate.max(order) + DOUBT_OF_A_SINGLE_RATE,
             ],
-        ));
+        });
     };
-    asymptotic(judged.kind)?;
-    if !one_sign(&differences[judged.used.clone()]) {
+    check_reason(judged.kind)?;
+    if !have_one_sign(&differences[judged.used.clone()]) {
         return Err(Refusal::Oscillating);
     }
-    Ok((0.5 * (interval[0] + interval[1]), interval))
+    Ok(ObservedRate {
+        rate: 0.5 * (interval[0] + interval[1]),
+        interval,
+    })
 }
 
+/// The bar of the finest value.
+///
 /// * `scatter`: of the logarithm of the last difference, at the confidence of the interval.
 /// * `round_off`: of a value.
 fn bar(
@@ -325,7 +344,10 @@ fn bar(
     scatter: f64,
     round_off: f64,
 ) -> Result<Bar, Refusal> {
-    let (rate, rate_interval) = rate(values, judged)?;
+    let ObservedRate {
+        rate,
+        interval: rate_interval,
+    } = observed_rate(values, judged)?;
     if rate_interval[0] <= 0.0 {
         return Err(Refusal::RateMayBeZero(rate_interval[0]));
     }

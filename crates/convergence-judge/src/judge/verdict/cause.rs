@@ -48,11 +48,9 @@ impl Cause {
     ///
     /// * `doubt`: the share of the error at a level that its digits leave open.
     pub fn of(levels: &[Level], order: f64, doubt: impl Fn(usize) -> f64) -> Option<Self> {
-        let usable =
-            |level: &Level| level.error > 0.0 && level.error.is_finite() && level.step > 0.0;
         let first = levels.first()?.step;
         if !EXPLAINED_LEVELS.contains(&levels.len())
-            || !levels.iter().all(usable)
+            || !levels.iter().all(has_logarithms)
             || !order.is_finite()
         {
             return None;
@@ -75,20 +73,25 @@ impl Cause {
         {
             return Some(Self::Logarithm);
         }
-        let changes_sign = |r: f64| {
+        for r in POLLUTION_EXPONENTS {
             let powers: Vec<f64> = logarithms.iter().map(|x| (-r * x).exp()).collect();
+            // The sign of the coarse levels turned, up to each level but the last.
             let mut signed = heights.clone();
-            (0..levels.len() - 1).any(|turned| {
-                signed[turned] = -heights[turned];
+            for k in 0..levels.len() - 1 {
+                signed[k] = -heights[k];
                 let [constant, _] = line(&powers, &signed);
-                explains(&powers, &signed, |k| allowed(k, constant))
-            })
-        };
-        POLLUTION_EXPONENTS
-            .into_iter()
-            .any(changes_sign)
-            .then_some(Self::SignChange)
+                if explains(&powers, &signed, |k| allowed(k, constant)) {
+                    return Some(Self::SignChange);
+                }
+            }
+        }
+        None
     }
+}
+
+/// Whether error and step have logarithms.
+fn has_logarithms(level: &Level) -> bool {
+    level.error > 0.0 && level.error.is_finite() && level.step > 0.0
 }
 
 /// The least-squares line a + b x.
@@ -108,8 +111,7 @@ fn line(x: &[f64], heights: &[f64]) -> [f64; 2] {
 /// Whether that line misses no level by more than is allowed there.
 fn explains(x: &[f64], heights: &[f64], allowed: impl Fn(usize) -> f64) -> bool {
     let [constant, slope] = line(x, heights);
-    let miss = |k: usize| (constant + slope * x[k] - heights[k]).abs();
-    (0..x.len()).all(|k| miss(k) <= allowed(k))
+    (0..x.len()).all(|k| (constant + slope * x[k] - heights[k]).abs() <= allowed(k))
 }
 
 #[cfg(test)]

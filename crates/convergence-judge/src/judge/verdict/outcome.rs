@@ -213,17 +213,16 @@ impl RateVerdict {
     ///
     /// * `most`: the largest number of decimals.
     pub fn rate_in_words(&self, most: usize) -> String {
-        let finest = || {
-            self.finest_rate().map(|rate| {
-                format!(
-                    "{} between the finest levels that have one",
-                    decimals(rate, 3)
-                )
-            })
-        };
-        self.interval_in_words(most)
-            .or_else(finest)
-            .unwrap_or_else(|| "no rate".to_owned())
+        if let Some(words) = self.interval_in_words(most) {
+            return words;
+        }
+        match self.finest_rate() {
+            Some(rate) => {
+                let rate = decimals(rate, 3);
+                format!("{rate} between the finest levels that have one")
+            }
+            None => "no rate".to_owned(),
+        }
     }
 
     /// The levels that the fit used.
@@ -239,13 +238,15 @@ impl RateVerdict {
     ///
     /// * `self`: the verdict on the levels with a result.
     /// * `names`: of all levels.
-    /// * `has`: whether each of them has a result.
-    pub fn over_all_levels(self, names: &[&str], has: &[bool]) -> Self {
-        let present: Vec<usize> = (0..has.len()).filter(|level| has[*level]).collect();
-        if present.len() == has.len() {
+    /// * `has_result`: whether each of them has a result.
+    pub fn over_all_levels(self, names: &[&str], has_result: &[bool]) -> Self {
+        let levels = has_result.len();
+        let (present, absent): (Vec<usize>, Vec<usize>) =
+            (0..levels).partition(|level| has_result[*level]);
+        if absent.is_empty() {
             return self;
         }
-        let mut pairwise = vec![f64::NAN; has.len().saturating_sub(1)];
+        let mut pairwise = vec![f64::NAN; levels.saturating_sub(1)];
         for (pair, rate) in present.windows(2).zip(&self.pairwise) {
             if pair[0] + 1 == pair[1] {
                 pairwise[pair[0]] = *rate;
@@ -255,30 +256,29 @@ impl RateVerdict {
             Range { start, end } if start < end => present[start]..present[end - 1] + 1,
             _ => 0..0,
         };
-        let aside = |aside: &SetAside| SetAside {
-            level: present[aside.level],
-            ..*aside
-        };
-        let without = (0..has.len()).filter(|level| !has[*level]);
-        let without = without.map(|level| SetAside {
-            level,
-            because: Aside::NoResult,
-        });
-        let mut set_aside: Vec<SetAside> =
-            self.set_aside.iter().map(aside).chain(without).collect();
+        let mut set_aside = vec![];
+        for SetAside { level, because } in self.set_aside {
+            let level = present[level];
+            set_aside.push(SetAside { level, because });
+        }
+        for level in &absent {
+            set_aside.push(SetAside {
+                level: *level,
+                because: Aside::NoResult,
+            });
+        }
         set_aside.sort_by_key(|aside| aside.level);
-        let missing = names
+        let missing: Vec<&str> = absent
             .iter()
-            .zip(has)
-            .filter(|(_, has)| !**has)
-            .map(|(name, _)| *name);
+            .filter_map(|level| names.get(*level).copied())
+            .collect();
         Self {
             pairwise,
             used,
             set_aside,
             ..self
         }
-        .without_result(has.len(), &missing.collect::<Vec<_>>())
+        .without_result(levels, &missing)
     }
 
     /// The same rate with a reason from another rule than that of its levels.
@@ -347,7 +347,7 @@ impl RateVerdict {
 
     /// Builds the verdict, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
-        let mut found = Self {
+        let mut verdict = Self {
             order,
             tolerance,
             pairwise: reading.pairwise.clone(),
@@ -363,7 +363,7 @@ impl RateVerdict {
             reason: kind.text().to_owned(),
             cause: reading.cause(order).filter(|_| !kind.verdict().is_pass()),
         };
-        found.reason += &found.numbers();
-        found
+        verdict.reason += &verdict.numbers();
+        verdict
     }
 }

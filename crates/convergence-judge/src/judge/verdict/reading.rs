@@ -32,7 +32,7 @@ pub struct Reading<'a> {
 
 impl<'a> Reading<'a> {
     pub(super) fn new(sequence: &'a [Level], floor: f64) -> Self {
-        let unusable = unusable(sequence);
+        let unusable = defect(sequence);
         let range = match unusable {
             Some(_) => 0..0,
             None => asymptotic_range(sequence, floor),
@@ -103,33 +103,50 @@ impl<'a> Reading<'a> {
             self.used.start
         };
         let finest = self.rates().last().copied().unwrap_or(f64::NAN);
-        let is_far = |level: &usize| (self.pairwise[*level] - finest).abs() > SPREAD;
         // The level next to the range was dropped for its rate, or because the range is as long as
         // it may be.
         let because = match coarse.checked_sub(1) {
-            Some(next) if !is_far(&next) => Aside::BeyondFive,
+            Some(next) if !((self.pairwise[next] - finest).abs() > SPREAD) => Aside::BeyondFive,
             _ => Aside::PreAsymptotic,
         };
-        let aside =
-            |levels: Range<usize>, because| levels.map(move |level| SetAside { level, because });
-        aside(0..coarse, because)
-            .chain(aside(above_floor..self.levels, Aside::AtFloor))
-            .collect()
+        let mut set_aside = vec![];
+        for level in 0..coarse {
+            set_aside.push(SetAside { level, because });
+        }
+        for level in above_floor..self.levels {
+            let because = Aside::AtFloor;
+            set_aside.push(SetAside { level, because });
+        }
+        set_aside
     }
 
     /// The reason for the verdict on a claim: the steps of the rule, in their order.
     pub(super) fn reason(&self, order: f64, tolerance: f64) -> Reason {
+        if let Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)) = self.unusable {
+            return reason;
+        }
         let is_sensible = order > 0.0 && order.is_finite();
-        match (self.unusable, self.fit) {
-            (Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)), _) => reason,
-            _ if !is_sensible => Reason::ClaimUnusable,
-            (Some(reason), _) => reason,
-            _ if self.range.end < FEWEST_LEVELS => Reason::RoundOffFloor,
-            _ if self.span() < super::LEAST_SPAN => Reason::LevelsTooClose,
-            _ if trend::falls_away(self.rates(), order) => Reason::FallsAway,
-            _ if self.range.len() < FEWEST_LEVELS => Reason::NotAsymptotic,
-            (_, None) => Reason::TooFewLevels,
-            (_, Some(fit)) => self.compare(fit.interval, order, tolerance),
+        if !is_sensible {
+            return Reason::ClaimUnusable;
+        }
+        if let Some(reason) = self.unusable {
+            return reason;
+        }
+        if self.range.end < FEWEST_LEVELS {
+            return Reason::RoundOffFloor;
+        }
+        if self.span() < super::LEAST_SPAN {
+            return Reason::LevelsTooClose;
+        }
+        if trend::falls_away(self.rates(), order) {
+            return Reason::FallsAway;
+        }
+        if self.range.len() < FEWEST_LEVELS {
+            return Reason::NotAsymptotic;
+        }
+        match self.fit {
+            Some(fit) => self.compare(fit.interval, order, tolerance),
+            None => Reason::TooFewLevels,
         }
     }
 
@@ -167,10 +184,11 @@ impl<'a> Reading<'a> {
 }
 
 /// Steps 1 and 2 of the rule, except for what depends on the claim.
-fn unusable(levels: &[Level]) -> Option<Reason> {
-    let step_usable = |level: &Level| level.step > 0.0 && level.step.is_finite();
-    let decreasing =
-        levels.iter().all(step_usable) && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
+fn defect(levels: &[Level]) -> Option<Reason> {
+    let decreasing = levels
+        .iter()
+        .all(|level| level.step > 0.0 && level.step.is_finite())
+        && levels.windows(2).all(|pair| pair[1].step < pair[0].step);
     if levels.iter().any(|level| !level.error.is_finite()) {
         Some(Reason::NonFiniteError)
     } else if levels.iter().any(|level| level.error < 0.0) {

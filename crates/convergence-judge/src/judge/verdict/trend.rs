@@ -57,17 +57,16 @@ pub fn departs(rates: &[f64], tolerance: f64) -> bool {
     let [.., before, last] = changes[..] else {
         return false;
     };
-    let of_three = |first: f64| {
-        let in_a_row = larger(first, before, GROWTH) && larger(before, last, GROWTH);
-        let turns = before * last <= 0.0 && last.abs() > TURN * before.abs();
-        in_a_row && (first + before + last).abs() > three
-            || larger(before, first, 1.0) && turns && last.abs() > one
+    if larger(before, last, GROWTH) && (before + last).abs() > two {
+        return true;
+    }
+    let [.., first, _, _] = changes[..] else {
+        return false;
     };
-    larger(before, last, GROWTH) && (before + last).abs() > two
-        || changes
-            .len()
-            .checked_sub(3)
-            .is_some_and(|first| of_three(changes[first]))
+    let in_a_row = larger(first, before, GROWTH) && larger(before, last, GROWTH);
+    let turns = before * last <= 0.0 && last.abs() > TURN * before.abs();
+    in_a_row && (first + before + last).abs() > three
+        || larger(before, first, 1.0) && turns && last.abs() > one
 }
 
 /// Whether the rates of three or four levels, too few for [`departs`] to see, may be leaving the

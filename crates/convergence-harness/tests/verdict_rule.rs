@@ -138,10 +138,7 @@ fn a_rate_is_shown_whatever_the_verdict() {
     let off = judge(&with_rates(&[1.0, -0.5, 2.5, 1.0, 1.0]), 1.0, 0.05);
     assert_eq!(
         off.set_aside,
-        [0, 1, 2].map(|level| SetAside {
-            level,
-            because: Aside::PreAsymptotic
-        })
+        [0, 1, 2].map(|level| SetAside::new(level, Aside::PreAsymptotic))
     );
     let narrow: Vec<Level> = (0..5)
         .map(|k| 1.1_f64.powi(-k))
@@ -257,7 +254,7 @@ fn a_floor_means_what_it_says_and_names_the_levels_below() {
     let aside = |because: Aside, levels: &[usize]| -> Vec<SetAside> {
         levels
             .iter()
-            .map(|&level| SetAside { level, because })
+            .map(|&level| SetAside::new(level, because))
             .collect()
     };
     assert_eq!(

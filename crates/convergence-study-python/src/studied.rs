@@ -357,7 +357,7 @@ pub(crate) fn study(
     let study = study_of(header, &claims, &counts, &results);
     let mut finished = py.detach(|| study.run());
     if is_auto {
-        finished.outcome = until_decided::ended(
+        finished.outcome = until_decided::conclude(
             finished.outcome,
             next,
             &study.levels(&run_cases_here(&study)),

@@ -206,21 +206,19 @@ mod tests {
 
     /// Claimed are an order of 0 and a tolerance of 1.
     fn missing(verdict: Verdict) -> RateVerdict {
-        RateVerdict {
-            verdict,
-            ..judge_pairs([], 0.0, 1.0)
-        }
+        let mut rate = judge_pairs([], 0.0, 1.0);
+        rate.verdict = verdict;
+        rate
     }
 
     fn row(label: &str, rate: f64, half: f64, verdict: Verdict) -> ForestRow {
+        let mut judged = missing(verdict);
+        judged.fitted = Some(rate);
+        judged.interval = Some([rate - half, rate + half]);
         ForestRow {
             label: label.into(),
             numbers: format!("numbers of {label}"),
-            rate: RateVerdict {
-                fitted: Some(rate),
-                interval: Some([rate - half, rate + half]),
-                ..missing(verdict)
-            },
+            rate: judged,
         }
     }
 

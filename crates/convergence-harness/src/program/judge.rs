@@ -116,7 +116,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         ..Outcome::new(summary, rates, checks).summed_up_by_rates(values.summary)
     };
     match next(study, ran).zip(study.refine.budget) {
-        Some((next, budget)) => until_decided::ended(outcome, next, levels, budget, "s"),
+        Some((next, budget)) => until_decided::conclude(outcome, next, levels, budget, "s"),
         None => outcome,
     }
 }

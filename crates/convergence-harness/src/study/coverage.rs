@@ -64,10 +64,10 @@ impl Coverage {
         }
     }
 
-    /// Counts a known number of items, of which the last have no result.
+    /// Counts a known number of items; those without a reason in the list have no result.
     ///
     /// * `reasons`: as in [`Coverage::of`], for the items that have a result.
-    pub fn among<'r>(
+    pub fn with_total<'r>(
         items: impl Into<String>,
         asked: usize,
         reasons: impl Iterator<Item = Option<&'r str>>,
@@ -162,7 +162,7 @@ mod tests {
         let all = Coverage::of("points", [None::<&str>, None]);
         assert_eq!(all.to_string(), "2 of 2 points judged");
         assert!(all.is_complete() && incomplete(&[all]).is_empty());
-        let missing = Coverage::among("points", 4, [None, Some("short")].into_iter());
+        let missing = Coverage::with_total("points", 4, [None, Some("short")].into_iter());
         assert_eq!(
             missing.to_string(),
             "1 of 4 points judged; 3 not: 1 short, 2 without a result"

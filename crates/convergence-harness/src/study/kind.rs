@@ -51,6 +51,7 @@ impl<D, F> Ran<D, F> {
 /// Why a case has no result: an error of the computation, a panic caught by the runner, or the time
 /// limit.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct CaseFailure {
     /// In words, with step, time and numbers.
     pub reason: String,

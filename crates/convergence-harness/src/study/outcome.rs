@@ -21,6 +21,7 @@ pub use table::{Figure, Table};
 
 /// The result of a study, which is also its record.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[must_use = "an outcome that is not read lets a failing study pass"]
 pub struct Outcome {
     /// The worst verdict of checks and rates; inconclusive if nothing was judged.
     pub verdict: Verdict,

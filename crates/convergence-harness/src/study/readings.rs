@@ -15,7 +15,16 @@ struct Guard {
 }
 
 /// A number that a case finds.
+///
+/// ```
+/// use convergence_study::Reading;
+///
+/// // Shown as `1.25e-3` in a table, and guarded by the baseline to six digits.
+/// let force = Reading::new("force", 1.25e-3).scientific(2).guarded_in("n = 64", "force", 1e-6);
+/// assert_eq!(force.value, Some(1.25e-3));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[must_use = "a reading counts in the tables and outcomes that hold it"]
 pub struct Reading {
     /// Its name, which is the head of its column in a table.
     pub name: String,

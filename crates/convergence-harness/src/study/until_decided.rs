@@ -73,9 +73,9 @@ pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
     )
 }
 
-/// The outcome of a study that adds levels: it says how the study ended, and guards only its first
+/// The outcome of a study that adds levels. It says how the study ended. It guards only the first
 /// levels, because another machine may afford others.
-pub fn ended(
+pub fn conclude(
     mut outcome: Outcome,
     next: Next,
     levels: &Levels,

@@ -13,10 +13,7 @@ fn partly_used() -> ErrorSeries {
         .map(|k| 0.5_f64.powi(9 - k))
         .map(|h| (h, h * h))
         .collect();
-    let fit = Some(PowerLaw {
-        rate: 2.0,
-        constant: 1.0,
-    });
+    let fit = Some(PowerLaw::new(2.0, 1.0));
     ErrorSeries {
         label: "L2".into(),
         points,

@@ -46,10 +46,7 @@ fn errors(label: &str, constant: f64, order: f64, steps: &[f64]) -> ErrorSeries 
         label: label.into(),
         points,
         order: Some(order),
-        fit: Some(PowerLaw {
-            rate: order * 1.002,
-            constant,
-        }),
+        fit: Some(PowerLaw::new(order * 1.002, constant)),
         ..ErrorSeries::default()
     }
 }
@@ -385,14 +382,16 @@ pub(crate) fn hostile() -> Xy {
 /// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
 pub(crate) fn all_rates() -> Vec<ForestRow> {
     // Claimed are an order of 0 and a tolerance of 1.
-    let none = |verdict| RateVerdict {
-        verdict,
-        ..judge_pairs([], 0.0, 1.0)
+    let none = |verdict| {
+        let mut judged = judge_pairs([], 0.0, 1.0);
+        judged.verdict = verdict;
+        judged
     };
-    let rate = |rate: f64, half: f64, verdict| RateVerdict {
-        fitted: Some(rate),
-        interval: Some([rate - half, rate + half]),
-        ..none(verdict)
+    let rate = |rate: f64, half: f64, verdict| {
+        let mut judged = none(verdict);
+        judged.fitted = Some(rate);
+        judged.interval = Some([rate - half, rate + half]);
+        judged
     };
     let row = |label: &str, rate: RateVerdict| ForestRow {
         label: label.into(),

@@ -191,10 +191,7 @@ fn figures_of_extreme_data_do_not_panic() {
                     .draw(),
                 );
             }
-            let fit = Some(PowerLaw {
-                rate: x,
-                constant: y,
-            });
+            let fit = Some(PowerLaw::new(x, y));
             let norm = ErrorSeries {
                 points: points.clone(),
                 order: Some(x),

@@ -132,10 +132,7 @@ fn a_rate_of_75_976_never_passes_and_a_coarse_level_like_that_is_set_aside() {
     let coarse = judge(&with_rates(&[75.976, 1.0, 1.0]), 1.0, 0.05);
     assert_eq!(
         coarse.set_aside,
-        [SetAside {
-            level: 0,
-            because: Aside::PreAsymptotic
-        }],
+        [SetAside::new(0, Aside::PreAsymptotic)],
         "{coarse:?}"
     );
 }
@@ -198,10 +195,7 @@ fn levels_at_the_known_floor_are_set_aside() {
     assert_eq!(outcome.used, 0..4);
     assert_eq!(
         outcome.set_aside,
-        [4, 5, 6].map(|level| SetAside {
-            level,
-            because: Aside::AtFloor
-        })
+        [4, 5, 6].map(|level| SetAside::new(level, Aside::AtFloor))
     );
 }
 
@@ -321,13 +315,7 @@ fn a_verdict_says_on_what_it_rests() {
         (nothing.reason.as_str(), nothing.used),
         ("too few levels", 0..0)
     );
-    assert_eq!(
-        outcome.set_aside,
-        [SetAside {
-            level: 0,
-            because: Aside::PreAsymptotic
-        }]
-    );
+    assert_eq!(outcome.set_aside, [SetAside::new(0, Aside::PreAsymptotic)]);
     assert_eq!(
         format!(
             "{:>14}|{:<6}|{}",

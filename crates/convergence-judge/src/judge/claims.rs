@@ -10,6 +10,17 @@ use super::fit::Level;
 use super::verdict::{Judge, RateVerdict, Reason, against_claim};
 
 /// What theory claims about an error.
+///
+/// ```
+/// use convergence_judge::{Claim, Judge, Level, Reason};
+///
+/// let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
+/// let judge = Judge::default();
+/// let claim = Claim { constant: Some([2.9, 3.1]), ..Claim::new(2.0, 0.1) };
+/// assert_eq!(claim.judge(&judge, &levels).kind, Reason::Agrees);
+/// let bound = Claim { at_least: true, ..Claim::new(1.0, 0.1) };
+/// assert_eq!(bound.judge(&judge, &levels).kind, Reason::Agrees);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Claim {
     /// The order.

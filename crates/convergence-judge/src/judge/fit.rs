@@ -34,6 +34,10 @@ pub(crate) use range::changes;
 pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range, scatter};
 
 /// One level of a refinement study.
+///
+/// ```
+/// let level = convergence_judge::Level { step: 0.1, error: 2.5e-3 };
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Level {
     /// Step size, h or dt; positive, and smaller from level to level.
@@ -72,6 +76,14 @@ pub fn student_t(dof: usize) -> f64 {
 /// would look like a rate.
 ///
 /// * Returns one rate fewer than there are levels.
+///
+/// ```
+/// use convergence_judge::{Level, pairwise_rates};
+///
+/// let levels = [(0.4, 0.16), (0.2, 0.04), (0.1, 0.01)];
+/// let rates = pairwise_rates(&levels.map(|(step, error)| Level { step, error }));
+/// assert!(rates.len() == 2 && rates.iter().all(|rate| (rate - 2.0).abs() < 1e-12));
+/// ```
 pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
     levels
         .windows(2)
@@ -83,6 +95,7 @@ pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
 
 /// Straight line log e = intercept + slope log h by least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct LineFit {
     /// The fitted rate.
     pub slope: f64,
@@ -104,6 +117,19 @@ pub struct LineFit {
 ///
 /// * Returns `None` with fewer than two levels, or when a logarithm is not finite or the steps do
 ///   not differ.
+///
+/// ```
+/// use convergence_judge::{Level, fit_line, rate_interval};
+///
+/// // Of first order, with a pollution that fades like h.
+/// let levels = [0.4, 0.2, 0.1, 0.05, 0.025]
+///     .map(|step| Level { step, error: step * (1.0 + 0.5 * step) });
+/// let line = fit_line(&levels).expect("five levels");
+/// let rate = rate_interval(&levels).expect("five levels");
+/// // The slope is a mean of the rates; the interval at h -> 0 holds the order.
+/// assert!(line.interval[0] > 1.0);
+/// assert!(rate.interval[0] <= 1.0 && 1.0 <= rate.interval[1]);
+/// ```
 pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     let Logarithms { x, y } = Logarithms::new(levels)?;
     let n = x.len() as f64;

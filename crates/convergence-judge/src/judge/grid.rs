@@ -131,6 +131,7 @@ const REST: [f64; 3] = [0.005, 0.075, 0.1];
 
 /// How the contributions of space and time combine to the error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Adding {
     /// e = A(h) + B(dt): they have the same shape.
     Plain,
@@ -148,6 +149,20 @@ impl Adding {
 }
 
 /// Errors for all pairs of mesh widths and time steps.
+///
+/// ```
+/// use convergence_judge::{Adding, GridErrors, JudgeError};
+///
+/// let steps = [0.4, 0.2, 0.1, 0.05, 0.025];
+/// let mut errors = vec![];
+/// for h in steps {
+///     errors.extend(steps.map(|dt: f64| h * h + 0.5 * dt));
+/// }
+/// let grid = GridErrors { h: &steps, dt: &steps, errors: &errors };
+/// let [in_h, in_dt] = grid.judge(Adding::Plain, [2.0, 1.0], 0.2)?;
+/// assert!(in_h.verdict.is_pass() && in_dt.verdict.is_pass());
+/// # Ok::<(), JudgeError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridErrors<'a> {
     /// Mesh widths, coarsest first.

@@ -78,6 +78,7 @@ const HIGHEST_ORDER: f64 = 64.0;
 /// otherwise. Here that minimum is used in both cases, and the observed order confirms the formal
 /// one where it is within the tolerance of the claim: a wider tolerance gives F = 1.25 more often.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Gci {
     /// Observed order of the three finest values.
     pub observed: f64,

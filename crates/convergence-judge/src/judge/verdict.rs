@@ -50,7 +50,25 @@ pub enum JudgeError {
 }
 
 /// The rule with its settings; make one and use it for many rates.
+///
+/// ```
+/// use convergence_judge::{Judge, JudgeError, Level, Reason};
+///
+/// let judge = Judge::new(0.1)?;
+/// let steps = [0.4, 0.2, 0.1, 0.05];
+/// let levels = steps.map(|step| Level { step, error: 3.0 * step * step });
+/// assert_eq!(judge.judge(&levels, 2.0).kind, Reason::Agrees);
+///
+/// // Levels that are read once can be held against several claims.
+/// let reading = judge.read(&levels);
+/// assert_eq!(judge.judge_read(&reading, 1.5).kind, Reason::TooHigh);
+/// assert!(!judge.decide(&reading, 3.0).is_pass());
+///
+/// assert_eq!(Judge::new(0.7), Err(JudgeError::ToleranceTooWide(0.7)));
+/// # Ok::<(), JudgeError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[must_use = "a rule decides nothing until it is given errors"]
 pub struct Judge {
     tolerance: f64,
     floor: f64,
@@ -113,8 +131,8 @@ impl Judge {
         self.judge_rounded(levels, order, 0.0)
     }
 
-    /// The same for errors of which so many digits are known that the rate is uncertain by `doubt`:
-    /// its interval is wider by that at either end.
+    /// The same for errors with few digits: these leave the rate uncertain by `doubt`, and its
+    /// interval is wider by that at either end.
     pub fn judge_rounded(&self, levels: &[Level], order: f64, doubt: f64) -> RateVerdict {
         let mut reading = self.read(levels);
         reading.widen(doubt);
@@ -141,14 +159,15 @@ impl Judge {
         RateVerdict::new(reading, order, self.tolerance, reason)
     }
 
-    /// What the levels, coarsest first, say by themselves: it depends on neither claim nor
-    /// tolerance, and is held against several claims by [`Judge::judge_read`] and
-    /// [`Judge::decide`], also of judges with other tolerances.
+    /// What the levels, coarsest first, say by themselves. It depends on neither claim nor
+    /// tolerance: [`Judge::judge_read`] and [`Judge::decide`] hold it against any claim, also those
+    /// of judges with other tolerances.
     pub fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
         Reading::new(levels, self.floor)
     }
 
     /// The verdict alone on levels that a judge with the same floor has [read](Self::read).
+    #[must_use = "a verdict that is not read lets a wrong claim pass"]
     pub fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
         reading.reason(order, self.tolerance).verdict()
     }
@@ -169,6 +188,14 @@ impl Judge {
 
 /// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is
 /// inconclusive, but the rate is still given.
+///
+/// ```
+/// use convergence_judge::{Level, Verdict, judge};
+///
+/// let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 0.3 * step });
+/// assert_eq!(judge(&levels, 1.0, 0.1).verdict, Verdict::Pass);
+/// assert_eq!(judge(&levels, 2.0, 0.1).verdict, Verdict::Fail);
+/// ```
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
     let refused = match Judge::new(tolerance) {
         Ok(judge) => return judge.judge(levels, order),
@@ -181,6 +208,13 @@ pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
 }
 
 /// [`judge`] for (step, error) pairs.
+///
+/// ```
+/// use convergence_judge::judge_pairs;
+///
+/// let rate = judge_pairs([(0.4, 0.48), (0.2, 0.12), (0.1, 0.03)], 2.0, 0.1);
+/// assert!(rate.verdict.is_pass());
+/// ```
 pub fn judge_pairs(
     pairs: impl IntoIterator<Item = (f64, f64)>,
     order: f64,

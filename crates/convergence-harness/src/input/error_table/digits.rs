@@ -13,6 +13,7 @@ const FINEST: usize = 4;
 
 /// A column of errors or of values, coarsest level first.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Column {
     /// Its name as shown.
     pub name: String,

@@ -18,8 +18,19 @@ pub enum Origin {
     Own,
 }
 
-/// Something judged.
+/// Something judged that is not a rate.
+///
+/// ```
+/// use convergence_study::{Check, Subject, Verdict};
+///
+/// let drift = 3e-13;
+/// let check = Check::that(drift < 1e-12, "the energy is conserved", format!("drift {drift:e}"))
+///     .about(Subject::of("energy").in_case("n = 64"));
+/// assert_eq!(check.verdict, Verdict::Pass);
+/// assert_eq!(check.statement(), "n = 64: the energy is conserved");
+/// ```
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[must_use = "a check counts in the outcome that holds it"]
 pub struct Check {
     /// The claim, without its case.
     pub claim: String,

@@ -29,6 +29,7 @@ const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// The rate at h → 0 and its interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RateInterval {
     /// The rate of the line chosen; for three levels the finest pairwise rate.
     pub rate: f64,

@@ -22,7 +22,7 @@ const SAME_RATIO: f64 = 1e-9;
 /// Range searched for the rate of values with unequal ratios.
 pub(crate) const RATES: [f64; 2] = [1e-2, 64.0];
 
-/// A value at a step, NaN if there is none.
+/// A value at a step; NaN if there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Value {
     /// Step size, h or dt; positive, and smaller from level to level.
@@ -92,6 +92,7 @@ pub struct Bar {
 
 /// What values say about their limit.
 #[derive(Debug, Clone, PartialEq)]
+#[must_use = "an estimate that is not read lets a lost order pass"]
 pub struct Estimate {
     /// The rule's judgement of the reduced differences. Its level k, from 0, is the difference of
     /// the values k and k + 1.
@@ -103,7 +104,22 @@ pub struct Estimate {
 }
 
 /// The rule for values, with its settings.
+///
+/// ```
+/// use convergence_judge::{Estimator, JudgeError, Value};
+///
+/// // They tend to 1 with the order 2.
+/// let values = [0.4, 0.2, 0.1, 0.05].map(|step| Value { step, value: 1.0 + 0.3 * step * step });
+/// let estimate = Estimator::new(0.1)?.estimate(&values, 2.0);
+/// let bar = estimate.bar.expect("the differences fall");
+/// assert!(estimate.judged.verdict.is_pass());
+/// assert!(bar.limit[0] <= 1.0 && 1.0 <= bar.limit[1]);
+/// let gci = estimate.gci.expect("the differences fall");
+/// assert!(gci.half_width >= bar.error.abs());
+/// # Ok::<(), JudgeError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
+#[must_use = "a rule decides nothing until it is given values"]
 pub struct Estimator {
     judge: Judge,
     floor: Option<f64>,

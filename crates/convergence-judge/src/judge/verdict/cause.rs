@@ -14,6 +14,16 @@ const LEAST_CHANGE: f64 = 0.05;
 const EXPLAINED_LEVELS: std::ops::RangeInclusive<usize> = 4..=30;
 
 /// A law that explains the errors and the order claimed.
+///
+/// ```
+/// use convergence_judge::{Cause, Level, judge};
+///
+/// let levels = [0.1, 0.05, 0.025, 0.0125, 0.00625]
+///     .map(|step: f64| Level { step, error: step * step * (1.0 / step).ln() });
+/// let rate = judge(&levels, 2.0, 0.1);
+/// assert!(!rate.verdict.is_pass());
+/// assert_eq!(rate.cause, Some(Cause::Logarithm));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]

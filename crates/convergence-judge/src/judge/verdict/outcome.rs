@@ -14,6 +14,7 @@ use crate::text::number::{
 
 /// `error = constant · step^rate`, a straight line in a figure with logarithmic axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct PowerLaw {
     /// Observed exponent.
     pub rate: f64,
@@ -22,6 +23,11 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
+    /// The law of this rate and of this error at step 1.
+    pub fn new(rate: f64, constant: f64) -> Self {
+        Self { rate, constant }
+    }
+
     /// The error that the law gives for a step.
     ///
     /// ```
@@ -49,6 +55,7 @@ pub fn judged_in_words(rate: &str, claim: &str, why: &str) -> String {
 /// The judgement of one sequence of errors.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[must_use = "a verdict that is not read lets a lost order pass"]
+#[non_exhaustive]
 pub struct RateVerdict {
     /// What theory claims.
     #[serde(deserialize_with = "nan")]
@@ -101,10 +108,7 @@ pub struct RateVerdict {
 impl RateVerdict {
     /// The rate with its constant, as a curve through the finest error used; `None` without a rate.
     pub fn power_law(&self) -> Option<PowerLaw> {
-        Some(PowerLaw {
-            rate: self.fitted?,
-            constant: self.constant?,
-        })
+        Some(PowerLaw::new(self.fitted?, self.constant?))
     }
 
     /// The rate with its interval: `1.0007 (0.9977 to 1.0036)`, or `2.0000 ± 0.00005` if that is

@@ -3,7 +3,14 @@
 use std::fmt;
 
 /// Outcome of a check. Ordered from good to bad: the maximum of several outcomes is the outcome of
-/// all.
+/// all. There will be no fourth one.
+///
+/// ```
+/// use convergence_judge::Verdict;
+///
+/// assert_eq!(Verdict::worst([Verdict::Pass, Verdict::Fail]), Verdict::Fail);
+/// assert_eq!(Verdict::worst([]), Verdict::Inconclusive);
+/// ```
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
 )]
@@ -19,6 +26,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// The worst of several. Without any it is inconclusive: checking nothing proves nothing.
+    #[must_use = "a verdict that is not read lets a wrong claim pass"]
     pub fn worst(verdicts: impl IntoIterator<Item = Self>) -> Self {
         verdicts.into_iter().max().unwrap_or(Self::Inconclusive)
     }
@@ -45,12 +53,30 @@ impl fmt::Display for Verdict {
 }
 
 /// A level that is not used for the rate.
+///
+/// ```
+/// use convergence_judge::{Aside, Judge, JudgeError, SetAside};
+///
+/// // The finest error is round-off.
+/// let errors = [(0.4, 1.6e-9), (0.2, 4e-10), (0.1, 1e-10), (0.05, 2e-11)];
+/// let rate = Judge::new(0.1)?.with_floor(5e-11)?.judge_pairs(errors, 2.0);
+/// assert_eq!(rate.set_aside, [SetAside::new(3, Aside::AtFloor)]);
+/// # Ok::<(), JudgeError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct SetAside {
     /// Index of the level, 0 the coarsest.
     pub level: usize,
     /// Why.
     pub because: Aside,
+}
+
+impl SetAside {
+    /// The level of this index, set aside for this reason.
+    pub fn new(level: usize, because: Aside) -> Self {
+        Self { level, because }
+    }
 }
 
 /// Why a level was set aside.

@@ -223,7 +223,7 @@ impl<S: Source> Kind for Orders<S> {
         match self.finer_of_complete(runs) {
             Some(finer) => {
                 let next = finer.next(first);
-                until_decided::ended(outcome, next, &first.levels, finer.budget, finer.unit)
+                until_decided::conclude(outcome, next, &first.levels, finer.budget, finer.unit)
             }
             None => outcome,
         }

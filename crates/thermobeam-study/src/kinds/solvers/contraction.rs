@@ -275,7 +275,7 @@ fn factors_judged(points: &[&Contraction], all: usize) -> Coverage {
     let reasons = points
         .iter()
         .map(|point| (!point.is_settled()).then_some(&unsettled[..]));
-    Coverage::among("factors", all, reasons)
+    Coverage::with_total("factors", all, reasons)
 }
 
 impl Contraction {

@@ -115,9 +115,9 @@ impl MapResults<'_> {
         });
         let boundaries = self.lines.iter().map(|line| line.not_alone());
         vec![
-            Coverage::among("points for convergence", asked, convergence),
-            Coverage::among("points for the balance", asked, balance),
-            Coverage::among(
+            Coverage::with_total("points for convergence", asked, convergence),
+            Coverage::with_total("points for the balance", asked, balance),
+            Coverage::with_total(
                 "boundaries for alpha = 1 alone",
                 self.map.lines.len(),
                 boundaries,

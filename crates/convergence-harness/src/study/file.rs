@@ -131,6 +131,71 @@ fn row<'k>(
 }
 
 /// A kind of study that a file describes.
+///
+/// ```
+/// # use convergence_harness::input::{InputError, Section};
+/// # use convergence_harness::judge::claims::Claim;
+/// # use convergence_harness::study::header::of_file as settings_of_file;
+/// # use convergence_harness::study::kind::completion;
+/// # use convergence_harness::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome};
+/// # use convergence_harness::study::{Ran, read_claim, reader};
+/// use std::path::Path;
+///
+/// /// Sums of `terms` terms.
+/// #[derive(Debug)]
+/// struct Sums {
+///     terms: usize,
+///     claim: Claim,
+/// }
+///
+/// impl FromFile for Sums {
+///     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+///         root.allow(&["study", "sum"])?;
+///         let sum = root.table("sum", &["terms", "order"])?;
+///         let terms = sum.require("terms", "a whole number from 1")?.count(1..=100)?;
+///         Ok(Self { terms, claim: read_claim(&sum, "order")? })
+///     }
+/// }
+///
+/// // How a project lists the kind, for its files and for `explain`.
+/// const ROW: KindRow = KindRow {
+///     name: "sums",
+///     read: reader::<Sums>,
+///     why: "The series converges.",
+///     judged: "Every sum must be finite.",
+///     failure: "The sum is wrong.",
+///     settings: settings_of_file,
+/// };
+///
+/// let text = r#"
+/// study = { id = "s", claim = "c", tier = "quick", kind = "sums" }
+/// sum = { terms = 8, order = 2 }
+/// "#;
+/// let sums = Sums::parse(text, Path::new("s.toml"))?;
+/// assert_eq!((sums.terms, sums.claim.order), (8, 2.0));
+///
+/// let error = Sums::parse(&text.replace('8', "0"), Path::new("s.toml")).unwrap_err();
+/// assert!(error.to_string().starts_with("s.toml:3:"), "{error}");
+///
+/// impl Kind for Sums {
+///     type Data = usize;
+///     type Found = f64;
+///
+///     fn cases(&self) -> Vec<Case<usize>> {
+///         vec![Case::new("sum", 1.0, self.terms)]
+///     }
+///
+///     fn run(&self, terms: &usize) -> Result<f64, CaseFailure> {
+///         Ok((0..*terms).map(|k| 0.5_f64.powi(k as i32)).sum())
+///     }
+///
+///     fn judge(&self, ran: &[Ran<usize, f64>]) -> Outcome {
+///         Outcome::new("", vec![], vec![completion(ran, |_| vec![])])
+///     }
+/// }
+/// # let _ = ROW;
+/// # Ok::<(), InputError>(())
+/// ```
 pub trait FromFile: Kind + Sized {
     /// Reads the study from the document of its file.
     ///

@@ -39,6 +39,23 @@ pub struct GridColumn {
 }
 
 /// Errors on all pairs of mesh widths and time steps.
+///
+/// ```
+/// use convergence_study::{Claim, Grid, GridColumn};
+///
+/// let steps = [0.4, 0.2, 0.1, 0.05, 0.025];
+/// let points: Vec<[f64; 2]> = steps.iter().flat_map(|h| steps.map(|dt| [*h, dt])).collect();
+/// let column = GridColumn {
+///     name: "L2".to_owned(),
+///     space: Claim::new(2.0, 0.2),
+///     time: 1.0,
+///     errors: points.iter().map(|[h, dt]| h * h + 0.5 * dt).collect(),
+/// };
+/// let grid = Grid { points, times: steps.len(), columns: vec![column], squares_add: false };
+/// let outcome = grid.judge();
+/// assert!(outcome.verdict.is_pass(), "{}", outcome.summary);
+/// assert_eq!(outcome.rates[1].0, "L2 in dt");
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Mesh widths and time steps of all points, time steps first; both coarse to fine.

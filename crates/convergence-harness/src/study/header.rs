@@ -39,6 +39,13 @@ impl Tier {
 }
 
 /// What a study file says about itself, whatever its kind.
+///
+/// ```
+/// use convergence_study::{Header, Tier};
+///
+/// let header = Header::new("heat-space", "the error in L2 is of second order in h");
+/// assert_eq!((header.id.as_str(), header.tier), ("heat-space", Tier::Quick));
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Header {
     /// The study's name: small letters, digits, `.` and `-`.

@@ -113,6 +113,53 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///
 /// A case is a pure function of its data, so the study has the same outcome for any number of
 /// threads.
+///
+/// ```
+/// use convergence_study::{Case, CaseFailure, Check, Kind, Outcome, Quantity, Ran, Subject, Table};
+/// use convergence_study::{completion, run_one};
+///
+/// /// Sums of the series 1 + 1/2 + 1/4 + ..., which tends to 2.
+/// struct Series;
+///
+/// impl Kind for Series {
+///     type Data = i32;
+///     type Found = f64;
+///
+///     fn cases(&self) -> Vec<Case<i32>> {
+///         [10, 20].map(|n| Case::new(format!("n = {n}"), f64::from(n), n)).to_vec()
+///     }
+///
+///     fn run(&self, n: &i32) -> Result<f64, CaseFailure> {
+///         if *n == 0 {
+///             return Err(CaseFailure::new("a sum of no terms"));
+///         }
+///         Ok((0..*n).map(|k| 0.5_f64.powi(k)).sum())
+///     }
+///
+///     fn judge(&self, ran: &[Ran<i32, f64>]) -> Outcome {
+///         let mut checks = vec![completion(ran, |_| vec![])];
+///         let mut quantities = vec![];
+///         let mut rows = vec![];
+///         for (case, sum) in ran.iter().filter_map(|ran| Some((&ran.case, *ran.ok()?))) {
+///             let subject = Subject::of("sum").in_case(&case.label);
+///             let bound = 2.0_f64.powi(1 - case.data);
+///             checks.push(
+///                 Check::that((2.0 - sum).abs() <= bound, "the rest is small", format!("{sum}"))
+///                     .about(subject.clone()),
+///             );
+///             quantities.push(Quantity::new(format!("{}: sum", case.label), sum, 1e-12).about(subject));
+///             rows.push(vec![case.label.clone(), sum.to_string()]);
+///         }
+///         Outcome {
+///             quantities,
+///             tables: vec![Table::new("Sums", ["case", "sum"], rows)],
+///             ..Outcome::new("the series tends to 2", vec![], checks)
+///         }
+///     }
+/// }
+///
+/// assert!(run_one(&Series).verdict.is_pass());
+/// ```
 pub trait Kind: Send + Sync {
     /// The input of a case.
     type Data: Clone + Send + Sync;

@@ -18,6 +18,14 @@ pub use rates::{RATE_TOLERANCE, Rates, rate_quantities, rate_table, summary};
 pub const ERROR_TOLERANCE: f64 = 1e-6;
 
 /// What is refined from level to level.
+///
+/// ```
+/// use convergence_study::{Axis, levels};
+///
+/// // The explicit Euler method for x' = -x: its error at t = 1.
+/// let error = |n: usize| (-1f64).exp() - (1.0 - 1.0 / n as f64).powi(n as i32);
+/// levels([8, 16, 32, 64, 128], error).counting("steps", Axis::Time).claim("error", 1.0).assert_passes();
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Axis {
     /// The mesh.
@@ -124,6 +132,13 @@ fn value_of<N: AsRef<str>, T: Copy>(list: &[(N, T)], name: &str) -> Option<T> {
 }
 
 /// One level of refinement.
+///
+/// ```
+/// use convergence_study::Refinement;
+///
+/// let level = Refinement::new("n = 64".to_owned(), &[("n", 64)], 1.0 / 64.0);
+/// assert_eq!(level.parameters, [("n".to_owned(), 64.0)]);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
     /// What identifies it, in words, such as `n = 64, 20 steps`.

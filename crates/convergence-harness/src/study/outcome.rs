@@ -246,7 +246,6 @@ impl Outcome {
     }
 
     /// The same, whose summary is that of its rates and these words.
-    #[must_use]
     pub fn summed_up_by_rates(self, more: impl Into<String>) -> Self {
         Self {
             after_rates: Some(more.into()),

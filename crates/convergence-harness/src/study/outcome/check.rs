@@ -64,7 +64,6 @@ impl Check {
     }
 
     /// The same about a subject.
-    #[must_use]
     pub fn about(self, subject: Subject) -> Self {
         Self { subject, ..self }
     }
@@ -83,7 +82,6 @@ impl Check {
     }
 
     /// The same as somebody's statement.
-    #[must_use]
     pub fn stated_by(self, origin: Origin) -> Self {
         Self { origin, ..self }
     }

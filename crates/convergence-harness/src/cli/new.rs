@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
+use std::process::{Command, Stdio};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use serde_json::json;
@@ -76,10 +77,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         atomic::prepare_folder(folder)?;
     }
     let (directory, below) = places(folder);
+    let python = format!("[\"{}\"", python());
     for (path, text) in &files {
         let text = text
             .replace("NAME", name)
-            .replace("PROGRAM", project.command);
+            .replace("PROGRAM", project.command)
+            .replace("[\"python3\"", &python);
         atomic::write(
             path,
             text.replace("DIRECTORY", &directory)
@@ -106,6 +109,24 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let text = format!("{written}\n{}", next_steps(project, template, first));
     let words = flags.words(Verdict::Pass, &written, || text);
     Ok(flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?)
+}
+
+/// The command that starts Python 3 on this machine; on Windows it often has no 3. Looking for a
+/// file is not enough there: a file of that name may only lead to a shop.
+fn python() -> &'static str {
+    const NAMES: [&str; 2] = ["python3", "python"];
+    NAMES
+        .into_iter()
+        .find(|name| is_python3(name))
+        .unwrap_or(NAMES[0])
+}
+
+fn is_python3(command: &str) -> bool {
+    let version = Command::new(command)
+        .arg("--version")
+        .stdin(Stdio::null())
+        .output();
+    version.is_ok_and(|version| version.status.success() && version.stdout.starts_with(b"Python 3"))
 }
 
 /// The commands that the user may type next, each on a line, with the first file written.

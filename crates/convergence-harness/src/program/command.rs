@@ -190,6 +190,30 @@ fn example(last: &str, expected: &[Expectation]) -> String {
     )
 }
 
+/// The statuses by which Windows ends a program that has crashed.
+const CRASHES: [(u32, &str); 8] = [
+    (0xC000_0005, "access violation"),
+    (0xC000_001D, "illegal instruction"),
+    (0xC000_0094, "integer division by zero"),
+    (0xC000_00FD, "stack overflow"),
+    (0xC000_0135, "a DLL was not found"),
+    (0xC000_013A, "interrupted by Ctrl-C"),
+    (0xC000_0142, "a DLL could not be initialized"),
+    (0xC000_0409, "stack buffer overrun, or abort"),
+];
+
+/// An exit status of Windows; the usual crashes by name.
+fn status_of_windows(code: i32) -> String {
+    let bits = code.cast_unsigned();
+    CRASHES
+        .iter()
+        .find(|(crash, _)| *crash == bits)
+        .map_or_else(
+            || format!("exit status {code}"),
+            |(_, name)| format!("exit status {bits:#010X} ({name})"),
+        )
+}
+
 /// Exit status or signal, in words.
 fn ending(status: ExitStatus) -> String {
     #[cfg(unix)]
@@ -201,10 +225,11 @@ fn ending(status: ExitStatus) -> String {
             return format!("signal {number}{name}");
         }
     }
-    status.code().map_or_else(
-        || "no exit status".to_owned(),
-        |code| format!("exit status {code}"),
-    )
+    match status.code() {
+        Some(code) if cfg!(windows) => status_of_windows(code),
+        Some(code) => format!("exit status {code}"),
+        None => "no exit status".to_owned(),
+    }
 }
 
 /// A word of a command with these values, in the shortest notation that reads back as the same
@@ -267,6 +292,18 @@ mod tests {
     use super::*;
 
     const KNOWN: [Parameter; 2] = [("n", 8.0), ("h", 0.125)];
+
+    #[test]
+    fn the_crashes_of_windows_have_names() {
+        for (code, words) in [
+            (-1_073_741_819, "exit status 0xC0000005 (access violation)"),
+            (-1_073_741_571, "exit status 0xC00000FD (stack overflow)"),
+            (-1, "exit status -1"),
+            (3, "exit status 3"),
+        ] {
+            assert_eq!(status_of_windows(code), words);
+        }
+    }
 
     #[test]
     fn placeholders_are_filled_and_other_braces_stay() {

@@ -4,6 +4,7 @@
 //! The same outcomes give the same bytes, except for the page: it names its commit, day and
 //! machine, if given, and should not be committed.
 
+mod badge;
 mod changes;
 mod failures;
 mod forest;
@@ -68,6 +69,8 @@ impl Findings<'_> {
         set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;
+        set.add("badge.svg", badge::svg(record))?;
+        set.add("badge.json", badge::endpoint(record))?;
         set.add(
             "junit.xml",
             junit(project.name, record).map_err(io::Error::other)?,

@@ -1,13 +1,15 @@
 //! Every beam is stepped by `run`: no other code calls a step of a motion, a simulation or lanes.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use super::{code, files, root};
 
 /// Crates above the solver, and their folders of sources.
 const SOURCES: [&str; 3] = [
-    "../thermobeam-study/src",
-    "../thermobeam-cli/src",
-    "../../xtask/src",
+    "crates/thermobeam-study/src",
+    "crates/thermobeam-cli/src",
+    "xtask/src",
 ];
 
 /// Files that call a step, with the number of calls.
@@ -22,24 +24,6 @@ const CALLS: [(&str, usize); 5] = [
     // Steps are timed without anything around them.
     ("bench/step_time.rs", 2),
 ];
-
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder of sources") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files(&path, found);
-        } else {
-            found.push(path);
-        }
-    }
-}
-
-/// The code of a source without comments and tests.
-fn code(text: &str) -> String {
-    let text = text.split("\n#[cfg(test)]").next().unwrap_or("");
-    let without_comment = |line: &str| line.split("//").next().unwrap_or("").to_owned() + "\n";
-    text.lines().map(without_comment).collect()
-}
 
 /// Calls of `step` with an argument, of `advance` and of `stepped`; a call of `step()` reads a
 /// number.
@@ -60,11 +44,10 @@ fn calls(code: &str) -> usize {
 
 #[test]
 fn no_code_but_the_loop_steps_a_beam() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut sources = vec![];
-    for folder in SOURCES {
-        files(&root.join(folder), &mut sources);
-    }
+    let sources: Vec<PathBuf> = SOURCES
+        .iter()
+        .flat_map(|folder| files(&root().join(folder), &["rs"]))
+        .collect();
     assert!(sources.len() > 70, "{}", sources.len());
     let mut seen = 0;
     for path in sources {

@@ -1,5 +1,5 @@
-//! The READMEs of the project and of the program show what the program prints: each command before
-//! a block of output is run.
+//! The READMEs of the project and of the program, and the pages of the book, show what the program
+//! prints: each command before a block of output is run.
 
 mod blocks;
 
@@ -17,6 +17,12 @@ const README: &str = include_str!("../../README.md");
 
 /// The first page of the project.
 const FIRST: &str = include_str!("../../../../README.md");
+
+/// Pages of the book that show output.
+const BOOK: [(&str, usize); 2] = [
+    (include_str!("../../book/src/start.md"), 3),
+    (include_str!("../../book/src/compare.md"), 1),
+];
 
 /// A table whose order is lost.
 const AFTER_MY_CHANGE: &str =
@@ -123,9 +129,13 @@ fn fill(folder: &Path) {
 fn every_block_of_output_is_what_the_program_prints() {
     let folder = tempfile::tempdir().unwrap();
     fill(folder.path());
-    let pages = [printed(README), printed(FIRST)];
-    assert_eq!(pages.each_ref().map(Vec::len), [2, 2]);
-    for Printed { command, lines } in pages.into_iter().flatten() {
+    let mut blocks = vec![];
+    for (page, count) in [(README, 1), (FIRST, 2)].into_iter().chain(BOOK) {
+        let printed = printed(page);
+        assert_eq!(printed.len(), count, "{page}");
+        blocks.extend(printed);
+    }
+    for Printed { command, lines } in blocks {
         assert_eq!(command[0], "convergence-study");
         let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
         let output = program
@@ -173,6 +183,29 @@ fn what_published_tools_passed_is_judged_as_the_first_page_says() {
             .any(|line| (status == 2 || line.starts_with("L2: fail: ")) && line.contains(reason));
         assert!(is_said, "{name}: {reason} in {printed}");
     }
+}
+
+/// Words of the longest page; a reference that is written by a program may be longer.
+const LONGEST: usize = 900;
+
+#[test]
+fn the_book_has_each_page_once_and_no_long_one() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src");
+    let summary = fs::read_to_string(folder.join("SUMMARY.md")).unwrap();
+    let mut pages = 0;
+    for entry in fs::read_dir(&folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if name == "SUMMARY.md" {
+            continue;
+        }
+        pages += 1;
+        assert_eq!(summary.matches(&format!("]({name})")).count(), 1, "{name}");
+        let text = fs::read_to_string(folder.join(&name)).unwrap();
+        let words = text.split_whitespace().count();
+        let is_reference = name == "reading-tables.md";
+        assert!(words <= LONGEST || is_reference, "{name}: {words} words");
+    }
+    assert_eq!(summary.matches(".md)").count(), pages);
 }
 
 #[test]

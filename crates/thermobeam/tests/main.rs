@@ -5,6 +5,7 @@ mod citations;
 mod dg;
 mod drawn;
 mod lanes;
+mod motion;
 mod p1_matrices;
 mod random_scenes;
 mod solver;

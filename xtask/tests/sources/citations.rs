@@ -61,11 +61,11 @@ const EQUATIONS: [(&str, &str); 44] = [
 /// lib.rs.
 const IMPLEMENTED: [(&str, &str); 14] = [
     ("1.1", "parameters.rs"),
-    ("1.2", "simulation.rs"),
+    ("1.2", "one_step.rs"),
     ("1.3", "contact.rs"),
     ("2.3", "kirchhoff.rs"),
     ("2.5", "contact.rs"),
-    ("3.6", "simulation.rs"),
+    ("3.6", "one_step.rs"),
     ("3.7", "solve/sweeps.rs"),
     ("3.8", "solve/sweeps.rs"),
     ("3.9", "energy.rs"),

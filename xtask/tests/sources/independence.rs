@@ -11,14 +11,14 @@ use super::{code, crate_folder, files};
 const ALLOWED: [&str; 11] = [
     "bracket::bisect",
     "contact::Phase",
+    "dg::DgLevel",
     "dg::Field",
-    "dg::Initial",
-    "dg::Level",
+    "dg::InitialFunctions",
     "dg::Load",
     "dg::Space",
     "mesh::Mesh",
+    "one_step::InitialValues",
     "parameters::",
-    "simulation::Initial",
     "solve::Level",
 ];
 

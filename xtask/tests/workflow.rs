@@ -16,14 +16,14 @@ fn steps(script: &str) -> Vec<&str> {
 }
 
 #[test]
-fn the_readme_has_each_command_of_ci_run_and_no_other() {
+fn the_page_for_contributors_has_each_command_of_ci_run_and_no_other() {
     let script = read(".ci/run");
     let steps = steps(&script);
     assert!(steps.len() > 5, "{steps:?}");
     let block = format!("```sh\n{}\n```", steps.join("\n"));
     assert!(
-        read("README.md").contains(&block),
-        "expected in README.md:\n{block}"
+        read(".github/CONTRIBUTING.md").contains(&block),
+        "expected in CONTRIBUTING.md:\n{block}"
     );
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use convergence_harness::cli::program;
 use convergence_harness::program::PROJECT;
@@ -76,6 +76,21 @@ fn is_understood(words: &[String]) {
     }
 }
 
+/// The pages of the book.
+fn pages() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src");
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    paths.sort();
+    assert!(paths.len() > 10);
+    paths
+        .iter()
+        .map(|path| fs::read_to_string(path).unwrap())
+        .collect()
+}
+
 #[test]
 fn every_command_of_the_examples_is_understood() {
     let readme = text("ci/README.md");
@@ -96,6 +111,9 @@ fn every_command_of_the_examples_is_understood() {
             .chain(blocks(&readme, "sh"))
             .chain(blocks(&text("README.md"), "sh")),
     );
+    for page in pages() {
+        scripts.extend(blocks(&page, "sh"));
+    }
     let commands: Vec<Vec<String>> = scripts
         .iter()
         .flat_map(|script| command_lines(script))

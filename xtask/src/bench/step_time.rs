@@ -10,8 +10,9 @@ use convergence_harness::study::Table;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Simulation, Stepping};
-use thermobeam::solve::{Settings, Solver, Start, Work};
+use thermobeam::motion::{Motion, Work};
+use thermobeam::one_step::{BYTES_PER_ELEMENT, OneStep, Problem, Stepping};
+use thermobeam::solve::{Settings, Solver, Start};
 
 use super::cpu_seconds;
 use thermobeam_study::run::simulate;
@@ -94,20 +95,20 @@ impl Timed {
             let mut ensemble = Ensemble::new(problems, &dt, scheme, settings)?;
             let mut balances = Vec::with_capacity(LANES);
             let seconds = timed(&mut || {
-                ensemble.advance();
+                ensemble.step_once();
                 if self.balanced {
                     ensemble.balances(&mut balances);
                     black_box(&balances);
                 }
                 ensemble.report(0).is_ok()
             });
-            return Ok((seconds, ensemble.step().max(1), ensemble.work()));
+            return Ok((seconds, ensemble.steps().max(1), ensemble.work()));
         }
-        let mut simulation = Simulation::new(self.problem.clone(), self.stepping)?;
+        let mut simulation = OneStep::new(self.problem.clone(), self.stepping)?;
         let mut old = simulation.level();
         let mut new = old.clone();
         let seconds = timed(&mut || {
-            let is_done = simulation.advance().is_ok();
+            let is_done = simulation.step_once().is_ok();
             if self.balanced {
                 std::mem::swap(&mut old, &mut new);
                 simulation.observe(&mut new);
@@ -115,7 +116,7 @@ impl Timed {
             }
             is_done
         });
-        Ok((seconds, simulation.step().max(1), simulation.work()))
+        Ok((seconds, simulation.steps().max(1), simulation.work()))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Study files of programs. `begin/study.toml` is one, `PROGRAMS.md` has all keys.
+//! Study files of programs. `begin/study.toml` is one, `program.md` of the book has all keys.
 //!
 //! | key | of a table `[[expect]]` |
 //! | --- | --- |

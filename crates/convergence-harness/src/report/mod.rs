@@ -10,6 +10,7 @@ mod failures;
 mod forest;
 mod html;
 mod markdown;
+mod narrow;
 mod page;
 mod section;
 pub(crate) mod shared;
@@ -221,28 +222,25 @@ impl Findings<'_> {
         )
     }
 
-    /// A table for each group of studies.
+    /// A list for each group of studies.
     fn overview(&self, id: impl Fn(&str) -> String) -> String {
-        let row = |Finished {
-                       header, outcome, ..
-                   }: &Finished| {
-            let verdict = section::marked(outcome.verdict);
-            vec![
-                id(&header.id),
-                cell(&header.claim),
-                verdict,
-                cell(&key_numbers(outcome)),
-            ]
-        };
-        let table = |(group, studies): (&str, Vec<&Finished>)| {
-            let rows = studies.into_iter().map(row).collect();
-            let table = markdown::table(&["study", "claim", "verdict", "key numbers"], rows);
-            format!("\n**{}**\n\n{table}", text(group))
-        };
-        forest::grouped(self.project, &self.record.studies)
-            .into_iter()
-            .map(table)
-            .collect()
+        let mut overview = String::new();
+        for (group, studies) in forest::grouped(self.project, &self.record.studies) {
+            overview += &format!("\n**{}**\n\n", text(group));
+            for Finished {
+                header, outcome, ..
+            } in studies
+            {
+                overview += &narrow::item(&format!(
+                    "**{}** {}: {} ({})",
+                    outcome.verdict,
+                    id(&header.id),
+                    text(&header.claim),
+                    text(&key_numbers(outcome))
+                ));
+            }
+        }
+        overview
     }
 
     /// Errors in long form, one per line.

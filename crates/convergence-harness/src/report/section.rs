@@ -4,6 +4,7 @@
 use super::Findings;
 use super::html::phrase;
 use super::markdown::{cell, table, text};
+use super::narrow::{item, narrow};
 use super::tables::{CHECKS, tables};
 use super::words::{key_numbers, summary};
 use crate::judge::verdict::Verdict;
@@ -45,7 +46,7 @@ pub(super) fn section<'f>(finished: &'f Finished, again: &str, seen: &mut Vec<&'
             rows if rows.len() > MOST_ROWS || parts.len() > MOST_TABLES => {
                 elsewhere.push(text(title));
             }
-            _ => parts.push(format!("**{}**\n\n{}", text(title), markdown(table))),
+            _ => parts.push(format!("**{}**\n\n{}", text(title), narrowed(table))),
         }
     }
     elsewhere.dedup();
@@ -112,6 +113,11 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
     table(&cells(head), rows.iter().map(|row| cells(row)).collect())
 }
 
+/// The lines of a table for the committed report.
+fn narrowed(Table { head, rows, .. }: &Table) -> String {
+    narrow(&cells(head), rows.iter().map(|row| cells(row)).collect())
+}
+
 /// A table under its title; a long one is folded, except in a study that does not pass.
 fn titled(table: &Table, passes: bool) -> String {
     let Table { title, rows, .. } = table;
@@ -164,17 +170,15 @@ pub(super) fn front(
     if record.verdict != Verdict::Pass || answered.is_empty() {
         return (String::new(), vec![]);
     }
-    let row = |(statement, study, rate): &(&str, &Finished, &str)| {
-        vec![
-            cell(statement),
-            cell(&answer(study, rate)),
-            link(&study.header.id),
-        ]
-    };
-    let statements = table(
-        &["statement", "found", "study"],
-        answered.iter().map(row).collect(),
-    );
+    let mut statements = String::new();
+    for (statement, study, rate) in &answered {
+        statements += &item(&format!(
+            "**{}**: {} ({})",
+            text(statement),
+            text(&answer(study, rate)),
+            link(&study.header.id)
+        ));
+    }
     let drawn = |file: &str| {
         record.studies.iter().find_map(|study| {
             let mut figures = study.outcome.figures.iter();

@@ -14,7 +14,7 @@ use crate::exact::norm::Norm;
 use crate::exact::solution::{Factors, Manufactured, Product};
 use crate::run::family::{Family, OnMesh};
 use convergence_harness::study::CaseFailure;
-use thermobeam::dg;
+use thermobeam::dg::{self, DgLevel};
 use thermobeam::solve::Level;
 
 /// What is measured.
@@ -156,7 +156,7 @@ impl<'a> AnyOrderEvaluator<'a> {
     }
 
     /// The errors of a level, which is observation number `index` from 0.
-    pub fn measure(&mut self, level: &dg::Level, index: usize) -> Errors {
+    pub fn measure(&mut self, level: &DgLevel, index: usize) -> Errors {
         match &mut self.answer {
             AnyOrderAnswer::Exact(meter) => Errors {
                 norm: meter.theorem_34(level),

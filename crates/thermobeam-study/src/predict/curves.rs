@@ -5,14 +5,15 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use convergence_harness::text::number::{max_or_nan, min_or_nan};
-use thermobeam::dg::{self, Field};
+use thermobeam::dg::{self, Dg, DgLevel, DgStepping, Field};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
-use crate::run::{Motion, Report, run, simulate};
+use crate::run::{ObservableMotion, Report, run, simulate};
 use crate::scene::{Method, Scene};
 
 /// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the
@@ -108,10 +109,10 @@ impl Rows {
 
     fn of_dg(
         &self,
-        simulation: &dg::Simulation,
+        simulation: &Dg,
         t: f64,
         located: &[dg::Point],
-        level: &mut dg::Level,
+        level: &mut DgLevel,
         row: &mut Vec<f64>,
     ) {
         if let Self::Tip = self {
@@ -254,7 +255,7 @@ pub(super) fn curves(
 }
 
 /// Steps a motion to `until`, or to the step at which `read` gives a reason to end.
-fn run_within<M: Motion>(
+fn run_within<M: ObservableMotion>(
     motion: &mut M,
     until: f64,
     read: &mut dyn FnMut(&mut M) -> Result<(), Reason>,
@@ -277,14 +278,14 @@ fn run_within<M: Motion>(
 
 fn by_dg(
     scene: &Scene,
-    stepping: dg::Stepping,
+    stepping: DgStepping,
     rows: &Rows,
     at: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
     let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
-    let mut curves = Curves::new(rows, motion.extremes());
+    let mut curves = Curves::new(rows, motion.motion().tip_range());
     let mut level = motion.simulation().level().clone();
     let located = rows.located(motion.simulation().space());
     let mut passed = 0;
@@ -295,7 +296,7 @@ fn by_dg(
     let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
     let mut read = |motion: &mut DgMotion| {
         let simulation = motion.simulation();
-        let done = simulation.work().solves;
+        let done = simulation.work().passes;
         work.add((unknowns * (done - solves)) as f64)?;
         solves = done;
         let (from, to) = (simulation.old_level().t, simulation.t());
@@ -334,7 +335,7 @@ fn by_dg(
 }
 
 /// Times in the last step; a step is early if it is closer than `early` to the start or an event.
-fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
+fn instances(simulation: &Dg, early: f64) -> [Instance; POINTS] {
     let (from, to) = (simulation.old_level().t, simulation.t());
     let event = simulation
         .events()

@@ -29,7 +29,7 @@
 //! 1e-4 has a point where it exceeds e^(-1/4) of its height. A narrower feature is seen only where
 //! the scene has nodes, or where `abs`, `min` or `max` have a kink in it.
 
-use thermobeam::dg::{self, Field};
+use thermobeam::dg::{Dg, Field};
 use thermobeam::mesh::Mesh;
 
 use super::curves::{Rows, Wanted};
@@ -254,10 +254,9 @@ impl Data {
         before: &[Element],
         wanted: &Wanted,
     ) -> Result<Vec<Element>, Unreachable> {
-        let simulation =
-            dg::Simulation::new(scene.dg_problem(), scene.dg_stepping()).map_err(|error| {
-                Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
-            })?;
+        let simulation = Dg::new(scene.dg_problem(), scene.dg_stepping()).map_err(|error| {
+            Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
+        })?;
         let mut before = before.iter().peekable();
         let mut elements = vec![];
         for x in scene.mesh.nodes().windows(2) {
@@ -278,12 +277,7 @@ impl Data {
     }
 
     /// The differences on one element.
-    fn element(
-        &self,
-        simulation: &dg::Simulation,
-        [from, to]: [f64; 2],
-        is_squared: bool,
-    ) -> Element {
+    fn element(&self, simulation: &Dg, [from, to]: [f64; 2], is_squared: bool) -> Element {
         let (space, level) = (simulation.space(), simulation.level());
         let (mut integrals, mut largest) = (
             vec![0.0; self.fields.len()],

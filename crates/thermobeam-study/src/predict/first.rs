@@ -1,6 +1,6 @@
 //! The first discretisation of a search.
 
-use thermobeam::dg::{MAX_TIME_DEGREE, Stepping};
+use thermobeam::dg::{DgStepping, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
@@ -40,12 +40,12 @@ pub(super) fn first(scene: &Scene, wanted: &Wanted, kept: &[f64]) -> Scene {
     let [wave, rise] = short_waves(&scene.beam);
     let dt = (LONGEST * shrink).min(0.125 * scene.t_end).min(RISE * rise);
     let impact = impact(scene);
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: ((0.5 * digits).round() as usize).clamp(1, MAX_TIME_DEGREE),
         dt,
         restart_dt: (0.2 * impact * shrink).min(dt),
         growth: 1.0 + 0.5 * shrink,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     // Width of the layer at x = 1 some four impacts after a touch.
     let layer = (2.0 * (scene.beam.zeta * 4.0 * impact).sqrt()).clamp(1e-3, 0.5);

@@ -28,7 +28,7 @@
 //!   resolves k = √s/ζ, in elements no longer than 2p/k, and the first steps are at most 2ζ/s long,
 //!   with s at N = β.
 
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 
 use super::curves::{Apart, Curves, Rows, Wanted, curves};
 use super::data::Data;
@@ -149,10 +149,10 @@ impl Search<'_, '_> {
     fn begin(&mut self, first: &Scene) -> Result<Scene, Reason> {
         let mut scene = first.clone();
         for _ in 0..ROUNDS {
-            let Stepping { dt, restart_dt, .. } = scene.dg_stepping();
+            let DgStepping { dt, restart_dt, .. } = scene.dg_stepping();
             let t_end = 2.0 * restart_dt;
             // Only shorter steps: each step length needs memory, and only these lengths occur.
-            let method = Method::Dg(Stepping {
+            let method = Method::Dg(DgStepping {
                 dt: t_end.min(dt),
                 ..scene.dg_stepping()
             });

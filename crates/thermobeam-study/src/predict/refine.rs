@@ -1,6 +1,6 @@
 //! Finer discretisations: those that a scene is compared with, and the next one of a search.
 
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE, Stepping};
+use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 
 use super::Reason;
@@ -96,7 +96,7 @@ pub(super) fn finer(scene: &Scene) -> [Result<Scene, Reason>; 2] {
         halved(scene)
     };
     let half = shorter(stepping, 0.5);
-    let method = Method::Dg(Stepping {
+    let method = Method::Dg(DgStepping {
         restart_dt: 0.5 * half.restart_dt,
         ..half
     });
@@ -168,15 +168,15 @@ fn more_space(scene: &Scene, apart: &Apart, factor: f64, kinks: &[f64]) -> Optio
 }
 
 /// All steps multiplied by `part`.
-fn shorter(stepping: Stepping, part: f64) -> Stepping {
-    let Stepping {
+fn shorter(stepping: DgStepping, part: f64) -> DgStepping {
+    let DgStepping {
         dt,
         restart_dt,
         growth,
         ..
     } = stepping;
     let growth = (1.0 + part * (growth - 1.0)).max(LEAST_GROWTH.min(growth));
-    Stepping {
+    DgStepping {
         dt: part * dt,
         restart_dt: part * restart_dt,
         growth,
@@ -195,7 +195,7 @@ fn shortening(factor: f64) -> f64 {
 }
 
 /// Steps refined for an error smaller by `factor`.
-fn more_time(stepping: Stepping, factor: f64) -> Stepping {
+fn more_time(stepping: DgStepping, factor: f64) -> DgStepping {
     let part = (1.5 * factor).powf(-1.0 / EVENT_RATE);
     let part = if part.is_finite() {
         part.clamp(SHORTER[0], SHORTER[1])
@@ -203,7 +203,7 @@ fn more_time(stepping: Stepping, factor: f64) -> Stepping {
         SHORTER[0]
     };
     let degree = (stepping.degree + usize::from(!(factor <= MUCH))).min(MAX_TIME_DEGREE);
-    shorter(Stepping { degree, ..stepping }, part)
+    shorter(DgStepping { degree, ..stepping }, part)
 }
 
 /// Elements and degree of a scene, in words.

@@ -13,15 +13,15 @@ use crate::exact::sources::{Nodal, Sources};
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
-use crate::run::{Motion, Work};
+use crate::run::{ObservableMotion, Work};
 use crate::scene::{Coefficients, Scene, resampled};
 use convergence_harness::study::CaseFailure;
-use thermobeam::dg;
+use thermobeam::dg::DgStepping;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::Settings;
 
 /// The cost of a computation, counted: the same on every machine.
@@ -36,7 +36,7 @@ pub struct Spent {
 
 impl Spent {
     /// The cost of a motion by a one-step scheme so far.
-    pub(crate) fn of(motion: &impl Motion, elements: usize) -> Self {
+    pub(crate) fn of(motion: &impl ObservableMotion, elements: usize) -> Self {
         let elements = elements as f64;
         let Work { steps, solves, .. } = motion.work();
         Self {
@@ -137,7 +137,7 @@ impl Family {
         &self,
         mesh: Mesh,
         degree: usize,
-        stepping: dg::Stepping,
+        stepping: DgStepping,
     ) -> Result<DgMotion, SetupError> {
         let Self {
             beam, obstacles, ..
@@ -236,7 +236,7 @@ impl OnMesh<'_> {
         scheme: Scheme,
         settings: Settings,
         steps: usize,
-    ) -> Result<impl Motion, CaseFailure> {
+    ) -> Result<impl ObservableMotion, CaseFailure> {
         let dt = self.of.t_end / steps as f64;
         let stepping = Stepping {
             scheme,

@@ -1,8 +1,9 @@
 //! The state of a motion in full, for pictures, histories and comparisons on a mesh.
 
-use thermobeam::dg::{self, ContactEvent, Field, Phase};
+use thermobeam::dg::{self, ContactEvent, Dg, DgLevel, Field, Phase};
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::Simulation;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::OneStep;
 use thermobeam::solve::Level;
 
 /// Maximum number of rows of a history: every step up to this number, then every second, third, ...
@@ -33,7 +34,7 @@ pub enum Snapshot<'m> {
     /// By a one-step scheme.
     OneStep {
         /// The simulation, standing at the end of the step.
-        simulation: &'m Simulation,
+        simulation: &'m OneStep,
         /// The level at its start.
         old: &'m Level,
         /// The level at its end.
@@ -42,7 +43,7 @@ pub enum Snapshot<'m> {
         is_solved: bool,
     },
     /// By dG.
-    Dg(&'m dg::Simulation),
+    Dg(&'m Dg),
 }
 
 impl Snapshot<'_> {
@@ -54,7 +55,7 @@ impl Snapshot<'_> {
             Self::OneStep { simulation, .. } => {
                 let steps = (t_end / simulation.dt()).round() as usize;
                 let stride = steps.div_ceil(count).max(1);
-                if simulation.step().is_multiple_of(stride) {
+                if simulation.steps().is_multiple_of(stride) {
                     vec![simulation.t()]
                 } else {
                     vec![]
@@ -155,14 +156,6 @@ impl Snapshot<'_> {
         }
     }
 
-    /// Whether the temperature is computed.
-    pub(crate) fn is_heated(&self) -> bool {
-        match self {
-            Self::OneStep { simulation, .. } => simulation.is_heated(),
-            Self::Dg(_) => true,
-        }
-    }
-
     /// What the free end touches, and where contact began and ended; `None` if the method does not
     /// locate events.
     pub(crate) fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
@@ -220,7 +213,7 @@ pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
 }
 
 /// A level of any order by its values at the nodes, without the contact force.
-pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
+pub(crate) fn nodal(space: &dg::Space, level: &DgLevel, nodes: &[f64]) -> Level {
     let mut nodal = Level {
         u: Vec::with_capacity(nodes.len()),
         v: Vec::with_capacity(nodes.len()),

@@ -300,13 +300,13 @@ impl Watch for Run {
         motion: &mut AnyMotion,
         report: &Report,
     ) -> Result<ControlFlow<()>, RunError> {
-        let balance = if motion.is_loaded() {
+        let balance = if motion.motion().is_loaded() {
             let change = motion.sample().energy - self.energy.last;
             without_balance(change)
         } else {
             motion.balance()?
         };
-        let extremes = motion.extremes();
+        let extremes = motion.motion().tip_range();
         let unsound = |unsound| {
             let Work { t, steps, .. } = motion.work();
             RunError::unsound(steps, t, report.dt, unsound)

@@ -8,8 +8,8 @@ use convergence_harness::run::time_limit::{Patience, TimeUp};
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::simulate::{Run, problem};
@@ -116,16 +116,9 @@ impl<'s> LaneRun<'s> {
         }
         let k = self.k;
         let dt = self.scene.dt();
-        let step = ensemble.step();
+        let step = ensemble.steps();
         let outcome = ensemble.report(k).map_err(RunError::from).and_then(|done| {
-            let in_contact = ensemble.contact_force(k) != 0.0;
-            let report = Report {
-                dt,
-                iterations: done.iterations,
-                contraction: None,
-                in_contact,
-                unsound: None,
-            };
+            let report = Report::new(done, None);
             let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
             let now = || {
                 ensemble.observe(k, level);
@@ -213,11 +206,11 @@ impl EnsembleDriver {
     ///
     /// # Errors
     /// [`TimeUp`] if the time limit of the case is reached.
-    pub(crate) fn advance(&mut self) -> Result<(), TimeUp> {
-        let step = self.ensemble.step();
+    pub(crate) fn step_once(&mut self) -> Result<(), TimeUp> {
+        let step = self.ensemble.steps();
         self.patience.check(step, || step as f64 * self.dt)?;
         let started = Instant::now();
-        self.ensemble.advance();
+        self.ensemble.step_once();
         self.wall += started.elapsed();
         Ok(())
     }
@@ -226,7 +219,7 @@ impl EnsembleDriver {
     /// all simulations have failed.
     ///
     /// # Errors
-    /// As [`EnsembleDriver::advance`].
+    /// As [`EnsembleDriver::step_once`].
     pub(crate) fn run(
         &mut self,
         steps: usize,
@@ -247,14 +240,14 @@ impl EnsembleDriver {
     /// balances; `None` if all have failed.
     ///
     /// # Errors
-    /// As [`EnsembleDriver::advance`].
+    /// As [`EnsembleDriver::step_once`].
     pub(crate) fn stepped(&mut self) -> Result<Option<(&Ensemble, &[Balance])>, TimeUp> {
-        if self.ensemble.step() > 0
+        if self.ensemble.steps() > 0
             && (0..self.ensemble.cases().len()).all(|k| self.ensemble.report(k).is_err())
         {
             return Ok(None);
         }
-        self.advance()?;
+        self.step_once()?;
         self.ensemble.balances(&mut self.balances);
         Ok(Some((&self.ensemble, &self.balances)))
     }

@@ -42,11 +42,11 @@ pub(crate) mod tables;
 
 use std::path::Path;
 
-use thermobeam::dg;
+use thermobeam::dg::{DgProblem, DgStepping, InitialFunctions};
 use thermobeam::error::SetupError;
 use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::simulation::Stepping;
 
 pub use method::{DG, Method};
 pub use tables::Coefficients;
@@ -222,7 +222,7 @@ impl Scene {
     }
 
     /// The steps of dG; for a scene by a one-step scheme the default steps of dG.
-    pub fn dg_stepping(&self) -> dg::Stepping {
+    pub fn dg_stepping(&self) -> DgStepping {
         let default = || method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end);
         self.method.dg().unwrap_or_else(default)
     }
@@ -253,7 +253,7 @@ impl Scene {
     }
 
     /// The scene as a problem for dG.
-    pub fn dg_problem(&self) -> dg::Problem {
+    pub fn dg_problem(&self) -> DgProblem {
         let function = |function: &Option<Expression>| -> Box<dyn Fn(f64) -> f64> {
             match function.clone() {
                 Some(function) => Box::new(move |x| function.eval(x)),
@@ -267,7 +267,7 @@ impl Scene {
             phi_t,
             theta,
         } = &self.initial;
-        let initial = dg::Initial {
+        let initial = InitialFunctions {
             u: function(u),
             u_t: function(u_t),
             phi: function(phi),
@@ -280,7 +280,7 @@ impl Scene {
             degree,
             ..
         } = *self;
-        dg::Problem {
+        DgProblem {
             beam,
             obstacles,
             mesh: self.mesh.clone(),

@@ -9,7 +9,7 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `TABLES.md`
+//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `reading-tables.md`
 //! shows which. The numbers decide what a column is, and its name if they do not: the step falls,
 //! or grows if it is a count, by regular ratios; errors are positive and fall; rates are those of
 //! another column; values tend to a limit. [`RateTable::reading`] says in a line how the table was

@@ -1,8 +1,8 @@
 //! The scenes: random ones, those that are rough, and the discretisations to which the runs of a
 //! search are compared.
 
-use thermobeam::dg::Stepping;
-use thermobeam::simulation::Stepping as OneStep;
+use thermobeam::dg::DgStepping;
+use thermobeam::one_step::Stepping;
 
 use super::{Drawn, RandomErrors};
 use crate::kinds::prelude::*;
@@ -79,12 +79,12 @@ impl RandomErrors {
         } else {
             [14, 4]
         };
-        let stepping = Stepping {
+        let stepping = DgStepping {
             degree: time_degree,
             dt,
             restart_dt,
             growth: 1.25,
-            ..Stepping::default()
+            ..DgStepping::default()
         };
         let mesh = Mesh::from_nodes(nodes)?;
         Ok(Scene {
@@ -99,7 +99,7 @@ impl RandomErrors {
     pub(super) fn linear(scene: &Scene, times: usize) -> Result<Scene, CaseFailure> {
         let [elements, steps] = COARSEST;
         let dt = 1.0 / (steps * times) as f64;
-        let stepping = OneStep {
+        let stepping = Stepping {
             scheme: MIDPOINT,
             settings: Settings::default(),
             dt,

@@ -280,7 +280,7 @@ pub(crate) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
 }
 
 /// Steps a motion until it has been slow for a while; `None` if it still moves at `t_max`.
-fn quiet<M: Motion + ?Sized>(
+fn quiet<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     t_max: f64,
     is_slow: impl Fn(&M) -> bool,

@@ -73,7 +73,7 @@ impl Grid {
     /// The beam at rest in contact, before it is disturbed.
     fn state(&self, [_, epsilon, zeta]: [f64; 3]) -> Result<Problem, MeshError> {
         let mesh = Mesh::uniform(self.elements)?;
-        let mut initial = Initial::at_rest(&mesh, 0.0);
+        let mut initial = InitialValues::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
         Ok(Problem {
             beam: Beam {

@@ -161,7 +161,7 @@ impl Map {
             obstacles.epsilon = value;
         }
         let mesh = Mesh::uniform(self.elements(value).round().max(1.0) as usize)?;
-        let mut initial = Initial::at_rest(&mesh, HEAT);
+        let mut initial = InitialValues::at_rest(&mesh, HEAT);
         initial.u = mesh.nodes().iter().map(|x| GAP * x * (2.0 - x)).collect();
         initial.u_t = mesh.nodes().iter().map(|x| SPEED * x).collect();
         Ok(Problem {

@@ -6,7 +6,7 @@
 //! unknowns per block, each of which costs (q + 1)² as much; its factorisation counts as 3 (q + 1)
 //! solves.
 
-use thermobeam::dg;
+use thermobeam::dg::{self, Dg, DgLevel, DgStepping};
 
 use crate::error::polynomials::Polynomials;
 use crate::error::reference::combine;
@@ -285,7 +285,7 @@ pub(super) enum Audience<'r> {
     /// An evaluator, against this reference or the exact solution.
     Errors(Option<&'r Polynomials>),
     /// The levels are kept.
-    Levels(&'r mut Vec<dg::Level>),
+    Levels(&'r mut Vec<DgLevel>),
     /// Nobody: the run only takes its time.
     Nobody,
 }
@@ -342,7 +342,7 @@ impl Degrees {
             begun = clock();
         })?;
         drop(evaluator);
-        let spent = self.spent(&space, motion.simulation().work());
+        let spent = self.spent(motion.simulation());
         let measurement = Measurement {
             errors,
             spent,
@@ -351,24 +351,25 @@ impl Degrees {
         Ok((space, measurement))
     }
 
-    fn stepping(self) -> dg::Stepping {
+    fn stepping(self) -> DgStepping {
         let Self { q, dt, .. } = self;
-        dg::Stepping {
+        DgStepping {
             degree: q,
             dt,
             restart_dt: RESTART * dt,
             growth: 1.0 + 0.5 * dt / COARSE,
-            ..dg::Stepping::default()
+            ..DgStepping::default()
         }
     }
 
     /// The counted work, in the unit of the head of this file.
-    fn spent(self, space: &dg::Space, work: dg::Work) -> Spent {
+    fn spent(self, simulation: &Dg) -> Spent {
         let stages = (self.q + 1) as f64;
-        let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
-        let weight = space.blocks() as f64 * stages * stages;
+        let work = simulation.work();
+        let solves = work.passes as f64 + 3.0 * stages * work.factorizations as f64;
+        let weight = simulation.space().blocks() as f64 * stages * stages;
         Spent {
-            node_steps: weight * work.steps as f64,
+            node_steps: weight * simulation.steps() as f64,
             node_solves: weight * solves,
         }
     }

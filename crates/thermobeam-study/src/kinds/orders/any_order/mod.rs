@@ -28,7 +28,7 @@
 mod runs;
 
 use convergence_harness::judge::fit::FLOOR_MARGIN;
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
@@ -247,12 +247,12 @@ fn root_of_squares(errors: [f64; 5]) -> f64 {
 impl AnyOrder {
     fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
         let dt = self.t_end / resolution.steps as f64;
-        let stepping = Stepping {
+        let stepping = DgStepping {
             degree: resolution.time_degree,
             dt,
             restart_dt: dt,
             growth: 1.0,
-            ..Stepping::default()
+            ..DgStepping::default()
         };
         Ok(DgMotion::manufactured(
             &self.exact,

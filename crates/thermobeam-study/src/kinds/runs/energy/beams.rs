@@ -118,7 +118,7 @@ fn random_data(
     mesh: &Mesh,
     theta_a: f64,
     mut field: impl FnMut(f64, fn(f64) -> f64) -> Vec<f64>,
-) -> Initial {
+) -> InitialValues {
     let clamped = |k: f64| k + 0.5;
     let mut theta = field(5.0, |k| k + 1.0);
     let last = theta.len() - 1;
@@ -126,7 +126,7 @@ fn random_data(
     for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
         *theta += theta_a * (1.0 - x);
     }
-    Initial {
+    InitialValues {
         u: field(0.1, clamped),
         u_t: field(2.0, clamped),
         phi: field(0.1, clamped),

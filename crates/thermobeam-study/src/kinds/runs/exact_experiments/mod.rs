@@ -154,7 +154,7 @@ impl Runs for ExactExperiments {
             },
         };
         let mut states = vec![];
-        let read = |motion: &mut dyn Motion| states.push(motion.sample());
+        let read = |motion: &mut AnyMotion| states.push(motion.sample());
         let curve = Recording::Curve(TIP_TIMES);
         let run = Simulator::new(&scene)?.read_at(curve, &self.times, read)?;
         Ok(ShownStates {

@@ -406,7 +406,7 @@ impl Experiments {
 }
 
 /// The beam at its end.
-fn measured(scene: &Scene, trace: Trace, motion: &mut dyn Motion) -> Result<Measured, CaseFailure> {
+fn measured(scene: &Scene, trace: Trace, motion: &mut AnyMotion) -> Result<Measured, CaseFailure> {
     let nodes = compared(scene)?;
     let t = motion.work().t;
     let (level, last) = (motion.snapshot().on(&nodes), motion.sample());

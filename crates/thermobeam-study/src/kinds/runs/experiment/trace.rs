@@ -79,7 +79,7 @@ pub(super) struct Recorder {
 
 impl Recorder {
     /// The motion stands at t = 0.
-    pub(super) fn new(observed: Observed, motion: &mut dyn Motion) -> Self {
+    pub(super) fn new(observed: Observed, motion: &mut AnyMotion) -> Self {
         let mut recorder = Self {
             observed,
             levels: vec![],
@@ -100,7 +100,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`Loaded`]: a beam with loads has no balance of its energy.
-    pub(super) fn add(&mut self, motion: &mut dyn Motion) -> Result<f64, Loaded> {
+    pub(super) fn add(&mut self, motion: &mut AnyMotion) -> Result<f64, Loaded> {
         let Observed {
             t_end,
             t_max,
@@ -141,7 +141,7 @@ impl Recorder {
         });
     }
 
-    fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
+    fn push_frame(&mut self, motion: &AnyMotion, t: f64) {
         self.frames.times.push(t);
         self.frames.u.push(motion.snapshot().shape(t));
     }
@@ -157,12 +157,7 @@ impl Recorder {
 
     /// When the free end first touches an obstacle in the span: located by the method, or
     /// interpolated.
-    fn first_contact(
-        &self,
-        motion: &dyn Motion,
-        phase: Phase,
-        obstacles: Obstacles,
-    ) -> Option<f64> {
+    fn first_contact(&self, motion: &AnyMotion, phase: Phase, obstacles: Obstacles) -> Option<f64> {
         if let Some((_, events)) = motion.snapshot().contact() {
             let touches =
                 |event: &&ContactEvent| event.to == phase && event.t <= self.observed.t_end;
@@ -177,7 +172,7 @@ impl Recorder {
     }
 
     /// The motion so far.
-    pub(super) fn finish(self, motion: &dyn Motion, obstacles: Option<Obstacles>) -> Trace {
+    pub(super) fn finish(self, motion: &AnyMotion, obstacles: Option<Obstacles>) -> Trace {
         let first = |phase: Phase| self.first_contact(motion, phase, obstacles?);
         let crossings = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0);
         let count = crossings.len();

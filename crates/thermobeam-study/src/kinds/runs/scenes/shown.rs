@@ -182,7 +182,7 @@ pub(super) fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
             .map(|(theta, lifting)| theta + lifting)
             .collect();
         let [u, u_t, phi, phi_t] = [&old.u, &old.v, &old.phi, &old.w].map(Clone::clone);
-        problem.initial = Initial {
+        problem.initial = InitialValues {
             u,
             u_t,
             phi,

@@ -313,7 +313,7 @@ impl<'r> Recorder<'r> {
         let simulation = driver.simulation();
         let old = driver.old_level();
         let new = driver.level();
-        let step = simulation.step();
+        let step = simulation.steps();
         let found = &mut self.found;
         found.steps = step;
         found.contact_steps += usize::from(new.contact_force != 0.0);
@@ -351,7 +351,7 @@ impl<'r> Recorder<'r> {
     fn sample(&mut self, driver: &Driver<'_>) {
         let simulation = driver.simulation();
         self.found.samples.push(EnergyAt {
-            step: simulation.step(),
+            step: simulation.steps(),
             t: simulation.t(),
             energy: simulation.energy(driver.level()).total(),
             residual: self.residual,

@@ -1,14 +1,16 @@
-//! Problems, and simulations that do one time step at a time; the caller loops over the steps.
+//! A motion by a one-step scheme with piecewise linear elements: its problem, its settings, and
+//! [`OneStep`], which does one step at a time.
 
 use crate::energy::{Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
+use crate::motion::{Motion, StepReport, Work};
 use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive};
 use crate::scheme::{Case, Scheme};
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, Solver, StepReport, Stopping, Work};
+use crate::solve::{Level, Settings, Solver, Stopping};
 
 /// Tolerance of the boundary values of initial data, relative to the largest value of the field:
 /// sin(πx) at x = 1 is 1e-16, 20 cos(5πx/2) there is 6e-15.
@@ -18,7 +20,7 @@ const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 ///
 /// The projections P_h* and P_h^0 of (3.6) are nodal interpolation in one dimension.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Initial {
+pub struct InitialValues {
     /// u_0, zero at x = 0.
     pub u: Vec<f64>,
     /// u_1, zero at x = 0.
@@ -31,7 +33,7 @@ pub struct Initial {
     pub theta: Vec<f64>,
 }
 
-impl Initial {
+impl InitialValues {
     /// A straight beam at rest with the steady temperature θ_A (1 - x).
     pub fn at_rest(mesh: &Mesh, theta_a: f64) -> Self {
         let zeros = vec![0.0; mesh.nodes().len()];
@@ -56,7 +58,7 @@ pub struct Problem {
     /// The triangulation.
     pub mesh: Mesh,
     /// The initial data.
-    pub initial: Initial,
+    pub initial: InitialValues,
 }
 
 impl Problem {
@@ -81,28 +83,28 @@ pub struct Stepping {
     pub settings: Settings,
     /// Time step δt > 0.
     pub dt: f64,
-    /// Whether loads are given before each step ([`Simulation::load_mut`]).
+    /// Whether loads are given before each step ([`OneStep::load_mut`]).
     pub loaded: bool,
 }
 
-/// Memory of a simulation by Newton's method with temperature, in bytes per element; the
+/// Memory of a [`OneStep`] by Newton's method with temperature, in bytes per element; the
 /// factorisation takes 144 of them.
 pub const BYTES_PER_ELEMENT: usize = 392;
 
-/// A simulation at one time level.
+/// A beam at one time level, in motion by a one-step scheme.
 ///
 /// It takes [`BYTES_PER_ELEMENT`] with Newton's method, 256 without temperature, and 248 with the
 /// fixed point.
-pub struct Simulation {
+pub struct OneStep {
     problem: Problem,
     case: Case,
     loaded: bool,
     heated: bool,
     stepper: Box<dyn Stepper<f64>>,
-    step: usize,
+    steps: usize,
 }
 
-impl Simulation {
+impl OneStep {
     /// Checks the problem and its settings, and starts at t = 0 with the initial data (1.2), (3.6).
     ///
     /// # Errors
@@ -122,18 +124,8 @@ impl Simulation {
             loaded: stepping.loaded,
             heated,
             stepper,
-            step: 0,
+            steps: 0,
         })
-    }
-
-    /// Number n of the current time level.
-    pub fn step(&self) -> usize {
-        self.step
-    }
-
-    /// The time t_n = n δt.
-    pub fn t(&self) -> f64 {
-        self.step as f64 * self.case.dt
     }
 
     /// The time step δt.
@@ -142,32 +134,32 @@ impl Simulation {
     }
 
     /// The loads `(F_u, F_φ, F_θ)` of the next step at the n + 1 nodes, to be set before
-    /// [`Self::advance`].
+    /// it is done.
     ///
     /// `None` unless [`Stepping::loaded`]. Entries at nodes with a prescribed value are not used.
     pub fn load_mut(&mut self) -> Option<&mut [[f64; 3]]> {
         self.loaded.then(|| self.stepper.load_mut())
     }
 
-    /// Does one step, by (3.7)-(3.8) or by `midpoint`, without allocating memory.
+    /// Does one step, by (3.7)-(3.8) or by `midpoint`, without allocating memory: [`Motion::step`]
+    /// without a limit.
     ///
     /// # Errors
-    /// [`StepError`] with step, time and cause. The simulation then stays at its old level.
-    pub fn advance(&mut self) -> Result<StepReport, StepError> {
+    /// [`StepError`] with step, time and cause. The motion then stays at its old level.
+    pub fn step_once(&mut self) -> Result<StepReport, StepError> {
         let mut outcome = [Err(StepFailure::NonFinite {
             iterations: 0,
             increment: f64::NAN,
         })];
         self.stepper.advance(&mut outcome);
         let [outcome] = outcome;
-        let (step, dt) = (self.step + 1, self.case.dt);
         let report = outcome.map_err(|failure| StepError {
-            step,
+            step: self.steps + 1,
             t: self.t(),
-            dt,
+            dt: self.case.dt,
             failure,
         })?;
-        self.step = step;
+        self.steps += 1;
         Ok(report)
     }
 
@@ -183,12 +175,12 @@ impl Simulation {
         level
     }
 
-    /// The energy (3.9) of a level of this simulation.
+    /// The energy (3.9) of a level of this motion.
     pub fn energy(&self, level: &Level) -> Energy {
         self.case.energy(level)
     }
 
-    /// The energy balance of the step between two consecutive levels of this simulation, without
+    /// The energy balance of the step between two consecutive levels of this motion, without
     /// loads.
     pub fn balance(&self, old: &Level, new: &Level) -> Balance {
         self.case.balance(old, new)
@@ -220,15 +212,44 @@ impl Simulation {
     pub fn lengths(&self) -> &[f64] {
         &self.case.lengths
     }
+}
 
-    /// Counts of the work done so far.
-    pub fn work(&self) -> Work {
+impl Motion for OneStep {
+    fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
+        if self.has_reached(limit) {
+            return Ok(None);
+        }
+        self.step_once().map(Some)
+    }
+
+    fn has_reached(&self, limit: f64) -> bool {
+        // A multiple of δt is the end of a step, whatever its rounding error.
+        !(self.t() + 0.5 * self.case.dt < limit)
+    }
+
+    /// t_n = n δt.
+    fn t(&self) -> f64 {
+        self.steps as f64 * self.case.dt
+    }
+
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn work(&self) -> Work {
         self.stepper.work()
     }
 
-    /// Whether the temperature is computed. Newton's method omits it if nothing heats the beam and
-    /// there are no loads.
-    pub fn is_heated(&self) -> bool {
+    fn tip_range(&self) -> [f64; 2] {
+        [self.stepper.tip(0); 2]
+    }
+
+    fn is_loaded(&self) -> bool {
+        self.loaded
+    }
+
+    /// Newton's method omits the temperature if nothing heats the beam and there are no loads.
+    fn is_heated(&self) -> bool {
         self.heated
     }
 }
@@ -309,7 +330,7 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
 fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;
-    let Initial {
+    let InitialValues {
         u,
         u_t,
         phi,
@@ -382,13 +403,13 @@ mod tests {
     #[test]
     fn a_beam_at_rest_is_straight_and_has_the_steady_temperature() {
         let mesh = Mesh::from_nodes(vec![0.0, 0.25, 1.0]).unwrap();
-        let Initial {
+        let InitialValues {
             u,
             u_t,
             phi,
             phi_t,
             theta,
-        } = Initial::at_rest(&mesh, 2.0);
+        } = InitialValues::at_rest(&mesh, 2.0);
         assert_eq!(theta, [2.0, 1.5, 0.0]);
         assert!([u, u_t, phi, phi_t].iter().all(|field| *field == [0.0; 3]));
     }

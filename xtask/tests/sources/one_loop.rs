@@ -1,13 +1,15 @@
 //! Every beam is stepped by `run`: no other code calls a step of a motion, a simulation or lanes.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use super::{code, files, root};
 
 /// Crates above the solver, and their folders of sources.
 const SOURCES: [&str; 3] = [
-    "../thermobeam-study/src",
-    "../thermobeam-cli/src",
-    "../../xtask/src",
+    "crates/thermobeam-study/src",
+    "crates/thermobeam-cli/src",
+    "xtask/src",
 ];
 
 /// Files that call a step, with the number of calls.
@@ -23,48 +25,27 @@ const CALLS: [(&str, usize); 5] = [
     ("bench/step_time.rs", 2),
 ];
 
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder of sources") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files(&path, found);
-        } else {
-            found.push(path);
-        }
-    }
-}
-
-/// The code of a source without comments and tests.
-fn code(text: &str) -> String {
-    let text = text.split("\n#[cfg(test)]").next().unwrap_or("");
-    let without_comment = |line: &str| line.split("//").next().unwrap_or("").to_owned() + "\n";
-    text.lines().map(without_comment).collect()
-}
-
-/// Calls of `step` with an argument, of `advance` and of `stepped`; a call of `step()` reads a
-/// number.
+/// Calls of what does steps. A `step` without a limit is that of two beams side by side, which
+/// are stepped by `run`.
 fn calls(code: &str) -> usize {
-    let rest = |name: &str| {
-        let uses = code.match_indices(name);
-        uses.map(|(at, _)| code[at + name.len()..].trim_start().to_owned())
-            .collect::<Vec<_>>()
+    let calls = |name: &str| {
+        let method = code.matches(&format!(".{name}(")).count();
+        let path = code.matches(&format!("::{name}(")).count();
+        method + path
     };
-    let [steps, others] = [
-        [rest(".step("), rest("::step(")].concat(),
-        [".advance(", ".stepped(", "::advance(", "::stepped("]
-            .map(rest)
-            .concat(),
-    ];
-    steps.iter().filter(|rest| !rest.starts_with(')')).count() + others.len()
+    let all: usize = ["step", "step_once", "advance", "stepped"]
+        .map(calls)
+        .into_iter()
+        .sum();
+    all - code.matches(".step()").count()
 }
 
 #[test]
 fn no_code_but_the_loop_steps_a_beam() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut sources = vec![];
-    for folder in SOURCES {
-        files(&root.join(folder), &mut sources);
-    }
+    let sources: Vec<PathBuf> = SOURCES
+        .iter()
+        .flat_map(|folder| files(&root().join(folder), &["rs"]))
+        .collect();
     assert!(sources.len() > 70, "{}", sources.len());
     let mut seen = 0;
     for path in sources {
@@ -86,8 +67,8 @@ fn a_call_of_a_step_is_found() {
         ("let report = motion.step(t_end)?;", 1),
         ("driver\n    .step(\n        until,\n    )", 1),
         ("Motion::step(&mut motion, 1.0)", 1),
-        ("simulation.advance()?; ensemble.advance();", 2),
-        ("let n = simulation.step();", 0),
+        ("simulation.step_once()?; ensemble.step_once();", 2),
+        ("let n = simulation.steps(); both.step()?;", 0),
         ("// motion.step(1.0)\nlet x = 1;", 0),
         (
             "fn f() {}\n#[cfg(test)]\nmod tests { fn g() { motion.step(1.0) } }",

@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::{crate_folder, files};
+
 /// The numbered equations of Bernardi and Copetti, with their meaning.
 const EQUATIONS: [(&str, &str); 44] = [
     ("1.1", "equations of the beam"),
@@ -59,11 +61,11 @@ const EQUATIONS: [(&str, &str); 44] = [
 /// lib.rs.
 const IMPLEMENTED: [(&str, &str); 14] = [
     ("1.1", "parameters.rs"),
-    ("1.2", "simulation.rs"),
+    ("1.2", "one_step.rs"),
     ("1.3", "contact.rs"),
     ("2.3", "kirchhoff.rs"),
     ("2.5", "contact.rs"),
-    ("3.6", "simulation.rs"),
+    ("3.6", "one_step.rs"),
     ("3.7", "solve/sweeps.rs"),
     ("3.8", "solve/sweeps.rs"),
     ("3.9", "energy.rs"),
@@ -102,38 +104,17 @@ fn prose(path: &Path) -> String {
         .collect()
 }
 
-/// The Rust sources and Markdown files of a folder.
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for path in fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-    {
-        if path.is_dir() {
-            files(&path, found);
-        } else if path
-            .extension()
-            .is_some_and(|extension| extension == "rs" || extension == "md")
-        {
-            found.push(path);
-        }
-    }
-}
-
-/// Cited numbers by file, for this crate and, in the workspace, the crate of the exact solutions.
+/// Cited numbers by file, for the solver and the exact solutions.
 fn citations() -> BTreeMap<PathBuf, BTreeSet<String>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut paths = vec![];
-    files(root, &mut paths);
-    files(&root.join("../thermobeam-exact"), &mut paths);
-    // This file lists numbers that the paper does not have.
-    paths.retain(|path| !path.ends_with("tests/citations.rs"));
+    let folders = ["thermobeam", "thermobeam-exact"].map(crate_folder);
+    let paths = folders
+        .iter()
+        .flat_map(|folder| files(folder, &["rs", "md"]));
     let cited = |path: PathBuf| {
         let set = numbers(&prose(&path)).map(str::to_owned).collect();
         (path, set)
     };
-    paths.into_iter().map(cited).collect()
+    paths.map(cited).collect()
 }
 
 /// Citations of numbers that the paper does not have.
@@ -167,7 +148,7 @@ fn every_cited_equation_is_in_the_paper() {
 
 #[test]
 fn every_implemented_equation_is_cited_where_it_is_implemented() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = crate_folder("thermobeam").join("src");
     let citations = citations();
     for (number, file) in IMPLEMENTED {
         assert!(

@@ -4,9 +4,9 @@
 //! for people, from data that stands next to them, and only printed.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use convergence_study_tests::files::files_below;
+use super::{files, root};
 
 /// The names of the texts, as fields and as variables.
 const TEXTS: [&str; 6] = [
@@ -88,18 +88,15 @@ fn reads(text: &str) -> Vec<String> {
     found
 }
 
-/// The sources below a folder.
-fn sources(folder: &Path) -> impl Iterator<Item = PathBuf> {
-    let is_source = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "rs");
-    files_below(folder).into_iter().filter(is_source)
-}
-
 /// The sources of all crates.
 fn all_sources() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut paths: Vec<PathBuf> = sources(&root.join("xtask/src")).collect();
+    let root = root();
+    let mut paths = files(&root.join("xtask/src"), &["rs"]);
     for entry in fs::read_dir(root.join("crates")).unwrap().flatten() {
-        paths.extend(sources(&entry.path().join("src")));
+        let source = entry.path().join("src");
+        if source.is_dir() {
+            paths.extend(files(&source, &["rs"]));
+        }
     }
     assert!(paths.len() > 200, "{}", paths.len());
     paths

@@ -2,15 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-const THEORY: &str = include_str!("../THEORY.md");
+use super::{crate_folder, files, root};
 
-/// The root of the workspace; `None` if this crate is tested alone.
-fn workspace() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    root.join("studies").is_dir().then_some(root)
-}
+const THEORY: &str = include_str!("../../../crates/thermobeam/THEORY.md");
 
 /// The names in back quotes in each paragraph that begins with **Checked by**, by section.
 fn cited(text: &str) -> Vec<(&str, Vec<&str>)> {
@@ -30,21 +26,6 @@ fn cited(text: &str) -> Vec<(&str, Vec<&str>)> {
         .collect()
 }
 
-fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
-    let entries = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path());
-    for path in entries {
-        if path.is_dir() {
-            files(&path, extension, found);
-        } else if path.extension().is_some_and(|end| end == extension) {
-            found.push(path);
-        }
-    }
-}
-
 /// Names of the functions marked as tests.
 fn tests_of(source: &str) -> impl Iterator<Item = String> {
     let marked = source.split("#[test]").skip(1);
@@ -55,7 +36,7 @@ fn tests_of(source: &str) -> impl Iterator<Item = String> {
 }
 
 /// Names of all tests and studies of the workspace.
-fn known(root: &Path) -> BTreeSet<String> {
+fn known() -> BTreeSet<String> {
     let mut sources = vec![];
     for part in [
         "thermobeam",
@@ -64,19 +45,15 @@ fn known(root: &Path) -> BTreeSet<String> {
         "convergence-harness",
     ] {
         for folder in ["src", "tests"] {
-            files(
-                &root.join("crates").join(part).join(folder),
-                "rs",
-                &mut sources,
-            );
+            sources.extend(files(&crate_folder(part).join(folder), &["rs"]));
         }
     }
+    sources.extend(files(&root().join("xtask/tests"), &["rs"]));
     let read = |path: &PathBuf| fs::read_to_string(path).expect("a source file");
     let tests = sources
         .iter()
         .flat_map(|path| tests_of(&read(path)).collect::<Vec<_>>());
-    let mut studies = vec![];
-    files(&root.join("studies"), "toml", &mut studies);
+    let studies = files(&root().join("studies"), &["toml"]);
     let id = |path: &PathBuf| {
         let text = read(path);
         let line = text.lines().find(|line| line.starts_with("id = "))?;
@@ -99,8 +76,7 @@ fn every_result_names_tests_and_studies_that_exist() {
     for (title, names) in cited(THEORY) {
         assert!(!names.is_empty(), "nothing checks \"{title}\"");
     }
-    let Some(root) = workspace() else { return };
-    let known = known(&root);
+    let known = known();
     assert_eq!(missing(THEORY, &known), Vec::<String>::new());
     let renamed = THEORY
         .replace("`energy-decay`", "`energy-rise`")
@@ -143,11 +119,14 @@ fn buckling_decimals(text: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn texts_state_the_buckling_number_that_the_solver_computes() {
-    let Some(root) = workspace() else { return };
+    let root = root();
     let readme = root.join("README.md");
     let mut sources = vec![readme.clone(), root.join("crates/thermobeam/THEORY.md")];
     for entry in fs::read_dir(root.join("crates")).unwrap().flatten() {
-        files(&entry.path().join("src"), "rs", &mut sources);
+        let source = entry.path().join("src");
+        if source.is_dir() {
+            sources.extend(files(&source, &["rs"]));
+        }
     }
     let mut stated = BTreeSet::new();
     for path in sources {

@@ -84,7 +84,7 @@ fn broken(page: &Path) -> Vec<String> {
 
 #[test]
 fn every_link_leads_somewhere() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = super::root();
     let pages = pages(&root);
     assert!(pages.len() > 15, "{pages:?}");
     let found: Vec<String> = pages

@@ -1,22 +1,24 @@
-//! What judges calls nothing of what is judged: the sources of this crate, and of the studies that
+//! What judges calls nothing of what is judged: the sources of `thermobeam-exact`, and of the studies that
 //! evaluate exact solutions by a scheme, are read and refused if they use the solver's formulas.
 //! THEORY.md, "What both sides of a comparison share".
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// What this crate may use of the solver: data types, what a discrete function is, and bisection.
+use super::{code, crate_folder, files};
+
+/// What `thermobeam-exact` may use of the solver: data types, what a discrete function is, and bisection.
 const ALLOWED: [&str; 11] = [
     "bracket::bisect",
     "contact::Phase",
+    "dg::DgLevel",
     "dg::Field",
-    "dg::Initial",
-    "dg::Level",
+    "dg::InitialFunctions",
     "dg::Load",
     "dg::Space",
     "mesh::Mesh",
+    "one_step::InitialValues",
     "parameters::",
-    "simulation::Initial",
     "solve::Level",
 ];
 
@@ -36,33 +38,9 @@ const STUDIES: [&str; 5] = [
 /// Files of the solver whose methods of `Beam` and `Obstacles` are the formulas that are judged.
 const FORMULAS: [&str; 2] = ["kirchhoff.rs", "contact.rs"];
 
-fn folder(below: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(below)
-}
-
-/// All sources of this crate.
-fn sources(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    entries
-        .flat_map(|path| {
-            if path.is_dir() {
-                sources(&path)
-            } else {
-                vec![path]
-            }
-        })
-        .collect()
-}
-
 /// The code of a source without comments and tests.
-fn code(path: &Path) -> String {
-    let text = fs::read_to_string(path).unwrap();
-    let text = text.split("\n#[cfg(test)]").next().unwrap();
-    text.lines()
-        .map(|line| line.split("//").next().unwrap().to_owned() + "\n")
-        .collect()
+fn code_of(path: &Path) -> String {
+    code(&fs::read_to_string(path).unwrap())
 }
 
 fn is_of_name(c: char) -> bool {
@@ -102,7 +80,7 @@ fn paths(code: &str) -> Vec<String> {
 fn methods() -> Vec<String> {
     let mut names = vec![];
     for file in FORMULAS {
-        let code = code(&folder("../thermobeam/src").join(file));
+        let code = code_of(&crate_folder("thermobeam").join("src").join(file));
         for method in code
             .split("pub fn ")
             .skip(1)
@@ -144,10 +122,10 @@ fn allows(allowed: &str, path: &str) -> bool {
 }
 
 #[test]
-fn this_crate_uses_only_data_types_the_basis_and_bisection_of_the_solver() {
+fn exact_solutions_use_only_data_types_the_basis_and_bisection_of_the_solver() {
     let (mut used, mut refused) = (vec![], vec![]);
-    for path in sources(&folder("src")) {
-        let code = code(&path);
+    for path in files(&crate_folder("thermobeam-exact").join("src"), &["rs"]) {
+        let code = code_of(&path);
         for of_solver in paths(&code) {
             let (file, of_a_mesh) = OF_A_MESH;
             if path.ends_with(file) && of_a_mesh.contains(&of_solver.as_str()) {
@@ -175,7 +153,7 @@ fn this_crate_uses_only_data_types_the_basis_and_bisection_of_the_solver() {
 #[test]
 fn studies_use_no_formula_of_the_solver_where_they_evaluate_exact_solutions() {
     for file in STUDIES {
-        let code = code(&folder("../thermobeam-study/src").join(file));
+        let code = code_of(&crate_folder("thermobeam-study").join("src").join(file));
         assert_eq!(uses_of_formulas(&code), Vec::<String>::new(), "{file}");
     }
 }

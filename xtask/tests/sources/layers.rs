@@ -1,12 +1,14 @@
-//! What may use what: between the crates of the workspace, and between the folders of this crate.
-//!
-//! The workspace is checked if it is present; the crate may also be tested alone.
+//! What may use what: between the crates of the workspace, and between the folders of the harness.
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Words of the application that this crate was first written for; it must serve any other as well.
+use super::{crate_folder, files, without_comments};
+
+const HARNESS: &str = "convergence-harness";
+
+/// Words of the application that the harness was first written for; it must serve any other as well.
 const FOREIGN: [&str; 21] = [
     "beam",
     "beams",
@@ -31,14 +33,13 @@ const FOREIGN: [&str; 21] = [
     "zeta",
 ];
 
-/// The modules of this crate from bottom to top: each may use itself and those before it.
+/// The modules of the harness from bottom to top: each may use itself and those before it.
 const ORDER: [&str; 11] = [
     "input", "plots", "study", "run", "project", "store", "program", "compare", "report", "verify",
     "cli",
 ];
 
-/// The modules of the crate below, which every module may use under this crate's name; `circles.rs`
-/// has their order.
+/// The modules of the judge, which every module may use under the harness's name.
 const BELOW: [&str; 2] = ["text", "judge"];
 
 /// Libraries that only some modules may use.
@@ -86,30 +87,6 @@ const CRATES: [(&str, &[&str]); 10] = [
 /// Libraries that the solver must not use.
 const NOT_IN_THE_SOLVER: [&str; 2] = ["rayon", "serde"];
 
-fn here() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// All files below with one of these extensions.
-fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
-    let (mut files, mut folders) = (vec![], vec![folder.to_owned()]);
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(&next).into_iter().flatten() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path
-                .extension()
-                .is_some_and(|extension| extensions.iter().any(|known| extension == *known))
-            {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
-}
-
 fn words(text: &str) -> impl Iterator<Item = String> {
     text.split(|c: char| !c.is_alphabetic())
         .map(str::to_lowercase)
@@ -124,24 +101,22 @@ fn foreign(text: &str) -> Vec<(usize, String)> {
 }
 
 #[test]
-fn nothing_in_this_crate_names_the_application() {
-    let folders = ["src", "tests"].map(|name| here().join(name));
+fn nothing_in_the_harness_names_the_application() {
+    let folders = ["src", "tests"].map(|name| crate_folder(HARNESS).join(name));
     let public =
-        ["src", "tests", "examples"].map(|name| here().join("../convergence-study").join(name));
+        ["src", "tests", "examples"].map(|name| crate_folder("convergence-study").join(name));
     let found: Vec<String> = folders
         .iter()
         .chain(&public)
         .flat_map(|folder| files(folder, &["rs", "js", "css", "toml", "csv"]))
         .chain(files(
-            &here().join("../convergence-judge/src"),
+            &crate_folder("convergence-judge").join("src"),
             &["rs", "md"],
         ))
         .chain(
             ["README.md", "Cargo.toml", "../convergence-study/README.md"]
-                .map(|name| here().join(name)),
+                .map(|name| crate_folder(HARNESS).join(name)),
         )
-        // This file lists the words; the other one is about every crate.
-        .filter(|path| !path.ends_with("tests/layering.rs") && !path.ends_with("tests/circles.rs"))
         .flat_map(|path| {
             let text = fs::read_to_string(&path).unwrap();
             foreign(&text)
@@ -154,13 +129,6 @@ fn nothing_in_this_crate_names_the_application() {
         foreign("fn a() {}\n// the Obstacle's g1, beam_length\n"),
         [(2, "obstacle".into()), (2, "beam".into())]
     );
-}
-
-/// Source text without line comments: a doc comment may mention the users of a module.
-fn code(text: &str) -> String {
-    text.lines()
-        .map(|line| line.split("//").next().unwrap_or("").to_owned() + "\n")
-        .collect()
 }
 
 /// The paths that follow `crate::` in a source, up to two segments, braces resolved one level deep.
@@ -195,7 +163,9 @@ fn uses(text: &str) -> BTreeSet<String> {
 
 /// The module of the first level that a source file belongs to.
 fn module(path: &Path) -> String {
-    let inside = path.strip_prefix(here().join("src")).unwrap();
+    let inside = path
+        .strip_prefix(crate_folder(HARNESS).join("src"))
+        .unwrap();
     inside
         .components()
         .next()
@@ -229,12 +199,12 @@ fn breaches(module: &str, text: &str) -> Vec<String> {
 fn modules_use_only_those_below_them() {
     let mut seen = BTreeSet::new();
     let mut found = vec![];
-    for path in files(&here().join("src"), &["rs"]) {
+    for path in files(&crate_folder(HARNESS).join("src"), &["rs"]) {
         let module = module(&path);
         if module != "lib" && module != "main" {
             found.extend(breaches(
                 &module,
-                &code(&fs::read_to_string(&path).unwrap()),
+                &without_comments(&fs::read_to_string(&path).unwrap()),
             ));
             seen.insert(module);
         }
@@ -273,7 +243,11 @@ fn a_use_against_the_order_is_found() {
             "",
         ),
     ] {
-        assert_eq!(breaches(module, &code(text)).join(", "), found, "{text}");
+        assert_eq!(
+            breaches(module, &without_comments(text)).join(", "),
+            found,
+            "{text}"
+        );
     }
 }
 
@@ -290,7 +264,7 @@ fn always_there(lib: &str) -> BTreeSet<String> {
 
 #[test]
 fn a_library_that_the_rule_does_without_is_optional() {
-    let read = |file: &str| fs::read_to_string(here().join(file)).unwrap();
+    let read = |file: &str| fs::read_to_string(crate_folder(HARNESS).join(file)).unwrap();
     let (modules, manifest) = (always_there(&read("src/lib.rs")), read("Cargo.toml"));
     assert_eq!(modules, ["run", "study"].map(str::to_owned).into());
     for (library, users) in LIBRARIES {
@@ -339,14 +313,9 @@ fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
 #[test]
 fn crates_depend_only_on_those_below_them() {
     let names = CRATES.map(|(name, _)| name);
-    let mut read = 0;
     for (name, allowed) in CRATES {
-        let path = here().join("..").join(name).join("Cargo.toml");
-        let Ok(manifest) = fs::read_to_string(&path) else {
-            assert_ne!(name, "convergence-harness", "{}", path.display());
-            continue;
-        };
-        read += 1;
+        let path = crate_folder(name).join("Cargo.toml");
+        let manifest = fs::read_to_string(&path).unwrap();
         // Tests may use a crate above the one tested, but not here: the harness is tested without
         // the application. Only the examples of its documentation use the public crate.
         let is_harness = name == "convergence-harness";
@@ -360,18 +329,12 @@ fn crates_depend_only_on_those_below_them() {
             .collect();
         assert_eq!(found, allowed, "{name}");
     }
-    assert!(
-        read == 1 || read == CRATES.len(),
-        "{read} of {} manifests found",
-        CRATES.len()
-    );
 }
 
 #[test]
 fn the_solver_does_without_threads_and_files() {
-    let Ok(manifest) = fs::read_to_string(here().join("../thermobeam/Cargo.toml")) else {
-        return;
-    };
+    let path = crate_folder("thermobeam").join("Cargo.toml");
+    let manifest = fs::read_to_string(path).unwrap();
     let found = dependencies(&manifest, false);
     assert!(found.contains("thiserror"), "{found:?}");
     assert!(

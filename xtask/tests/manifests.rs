@@ -86,7 +86,7 @@ fn the_manifest_of_each_published_crate_is_complete() {
         assert_eq!(package.field("documentation").as_str(), Some(&*address));
         assert!(package.field("description").as_str().expect("a text").len() > 30);
         assert_eq!(
-            package.field("metadata")["docs.rs"]["all-features"],
+            package.field("metadata")["docs"]["rs"]["all-features"],
             Value::Boolean(true)
         );
         for file in ["README.md", "LICENSE-APACHE", "LICENSE-MIT"] {
@@ -273,6 +273,25 @@ fn the_citation_is_valid() {
     for key in citation.as_hash().expect("a map").keys() {
         assert!(KEYS.contains(&key.as_str().expect("a text")), "{key:?}");
     }
+}
+
+/// The recipe for conda takes the sdist, under the name that PyPI gives it.
+#[test]
+fn the_recipe_for_conda_builds_the_sdist() {
+    let recipe = yaml(".ci/conda/recipe.yaml");
+    let project = &toml("crates/convergence-study-python/pyproject.toml")["project"];
+    let name = project["name"].as_str().expect("a text");
+    assert_eq!(recipe["context"]["name"].as_str(), Some(name));
+    let file = format!("/{}-${{{{ version }}}}.tar.gz", name.replace('-', "_"));
+    let address = recipe["source"]["url"].as_str().expect("a text");
+    assert!(address.ends_with(&file), "{address}");
+    let script = recipe["build"]["python"]["entry_points"][0].as_str();
+    let command = project["scripts"][name].as_str().expect("a text");
+    assert_eq!(script, Some(&*format!("{name} = {command}")));
+    assert_eq!(
+        recipe["about"]["license"].as_str(),
+        project["license"].as_str()
+    );
 }
 
 /// What GitHub requires of a form.

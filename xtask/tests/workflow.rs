@@ -36,13 +36,13 @@ fn names(text: &str, script: &str) -> bool {
     })
 }
 
-/// The commands of a workflow.
+/// The commands of a workflow, one a line.
 fn commands(workflow: &str) -> String {
     let lines = read(workflow);
     let runs = lines
         .lines()
         .filter_map(|line| line.trim_start().strip_prefix("- run: "));
-    runs.collect::<Vec<_>>().join("\n")
+    runs.map(|run| format!("{run}\n")).collect()
 }
 
 #[test]

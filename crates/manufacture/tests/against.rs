@@ -207,6 +207,8 @@ fn values_with_few_digits_are_right_within_them() {
     assert_ne!(comparison.cause, "equal");
 }
 
+// The programs are scripts of a shell.
+#[cfg(unix)]
 #[test]
 fn answers_that_cannot_be_used_are_refused_with_the_line() {
     let refused = |program: &str| {

@@ -8,6 +8,13 @@ use tempfile::TempDir;
 
 use super::{ORDER, command, run, study, texts, workspace};
 
+/// What the system says of a file that is not there.
+const NO_FILE: &str = if cfg!(windows) {
+    "The system cannot find the file"
+} else {
+    "No such file"
+};
+
 #[test]
 fn records_are_compared_with_0_1_or_2() {
     let root = workspace(true);
@@ -61,15 +68,13 @@ fn records_are_compared_with_0_1_or_2() {
     );
     fs::write(root.path().join("bad.json"), "{\n}").unwrap();
     write("other.json", &["studies/one.toml"]);
+    let missing = format!("none.json: {NO_FILE}");
     for (arguments, message) in [
         (
             &["compare", "old.json", "bad.json"][..],
             "bad.json: missing field `schema` at line 2 column 1; expected a record",
         ),
-        (
-            &["compare", "old.json", "none.json"],
-            "none.json: No such file",
-        ),
+        (&["compare", "old.json", "none.json"], &missing),
         (
             &["compare", "part.json", "other.json"],
             "other.json: found no study that part.json has, too",
@@ -177,7 +182,7 @@ fn a_report_is_made_anew_from_its_record() {
     );
     let (status, _, err) = run(&root, &["report", "studies/baseline.json", "--out", "new"]);
     assert!(
-        status == Some(2) && err.contains("studies/baseline.json: No such file"),
+        status == Some(2) && err.contains(&format!("studies/baseline.json: {NO_FILE}")),
         "{err}"
     );
 }

@@ -2,6 +2,7 @@
 
 mod changes;
 mod failing;
+mod first;
 mod manufacture;
 mod rates;
 mod tables;

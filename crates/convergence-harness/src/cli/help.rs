@@ -65,8 +65,8 @@ pub const EXAMPLES: [(&str, &[(&str, &str)]); 11] = [
         &[
             ("A table", "PROGRAM rates errors.csv --order 2"),
             (
-                "Several, each column with its order",
-                "PROGRAM rates errors.csv finer.csv --order L2=2 --order H1=1",
+                "Several, one column with an order of its own",
+                "PROGRAM rates errors.csv finer.csv --order 2 --order H1=1",
             ),
             (
                 "What a solver prints, with cells in the plane",

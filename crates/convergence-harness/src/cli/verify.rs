@@ -141,7 +141,11 @@ fn dry_run(arguments: &Arguments, root: &Path, all: &[StudyFile], mask: &[bool])
     let selected = all.iter().zip(mask).filter(|(_, selected)| **selected);
     let studies: Vec<Planned> = selected.map(|(file, _)| planned(file)).collect();
     let cases: usize = studies.iter().map(|study| study.cases).sum();
-    let total: f64 = studies.iter().filter_map(|study| study.seconds).sum();
+    // A sum of none would be -0.
+    let total = studies
+        .iter()
+        .filter_map(|study| study.seconds)
+        .fold(0.0, |sum, seconds| sum + seconds);
     let sentence = format!(
         "{} studies with {cases} cases would run; {total:.1} s in their last runs",
         studies.len()

@@ -12,8 +12,10 @@
 //! | `answer.rs` | its answer |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `values.rs` | the same for values without an exact solution |
+//! | `begin.rs` | what `new program` writes |
 
 mod answer;
+pub mod begin;
 mod command;
 mod file;
 pub mod guard;

@@ -170,8 +170,14 @@ fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
 fn found(sample: &Sample) -> String {
     let table = sample.table.replace('→', "\t").replace('␛', "\x1b");
     let (chosen, orders) = choice(&words(&sample.options));
-    match RateTable::parse_with(&table, "TABLE", &chosen) {
-        Ok(table) => told(&table, &orders),
+    match RateTable::parse_all_with(&table, "TABLE", &chosen) {
+        Ok(tables) => {
+            let one = |(heading, table): &(String, RateTable)| match heading.as_str() {
+                "" => told(table, &orders),
+                heading => format!("{heading}: {}", told(table, &orders)),
+            };
+            tables.iter().map(one).collect()
+        }
         Err(error) => {
             let message = error.to_string();
             let mut text = format!("refused: {message}\n");

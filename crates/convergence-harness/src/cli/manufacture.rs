@@ -134,9 +134,10 @@ fn print(arguments: &Arguments, object: &Value, words: &str) -> Result<(), Unusa
         atomic::prepare_folder(folder)?;
         atomic::write(&folder.join("manufacture.json"), text_of(object)?)?;
     }
-    match arguments.flags.format {
-        Format::Json => screen::print(&text_of(object)?)?,
-        Format::Text => screen::print(words)?,
+    if arguments.flags.format == Format::Json {
+        screen::print(&text_of(object)?)?;
+    } else {
+        screen::print(words)?;
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::answer::{Answer, Expectation};
+use super::answer::{Answer, Expectation, STEPS_AND_WORK, object_of_lines};
 use super::guard::Group;
 use super::output::{NoAnswer, read_last_words, read_output};
 use super::refine::Parameter;
@@ -34,6 +34,8 @@ pub(super) struct Invocation {
     pub(super) words: Vec<String>,
     /// The folder in which it runs.
     pub(super) directory: PathBuf,
+    /// Variables of its environment beside those of the harness.
+    pub(super) variables: Vec<(String, String)>,
     /// Its standard input; may be empty.
     pub(super) input: String,
     /// Its time limit.
@@ -56,7 +58,11 @@ impl Invocation {
         })?;
         let child = group.start(&mut self.command());
         let mut child = child.map_err(|error| failed(format!("cannot be started: {error}")))?;
-        let printed = in_background(child.stdout.take(), read_output);
+        let names = expected.iter().map(|expected| expected.name.clone());
+        let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
+        let printed = in_background(child.stdout.take(), move |stream| {
+            read_output(stream, &names)
+        });
         let words = in_background(child.stderr.take(), read_last_words);
         feed(&mut child, &self.input);
         let ended = self.wait(&mut child, &group);
@@ -81,12 +87,14 @@ impl Invocation {
         }
         let held = |_| NoAnswer {
             reason: "a process that it has started holds its standard output open".to_owned(),
-            last_line: String::new(),
+            ..NoAnswer::default()
         };
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.map_err(|NoAnswer { reason, last_line }| CaseFailure {
-            advice: example(&last_line, expected),
-            ..failed(format!("answered nothing: {reason}{words}"))
+        let object = object.or_else(|nothing| {
+            object_of_lines(&nothing.numbers, expected).ok_or_else(|| CaseFailure {
+                advice: example(&nothing.last_line, expected),
+                ..failed(format!("answered nothing: {}{words}", nothing.reason))
+            })
         })?;
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
         let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
@@ -107,6 +115,8 @@ impl Invocation {
             Stdio::piped()
         };
         command.args(&self.words[1..]).current_dir(&self.directory);
+        let variables = self.variables.iter();
+        command.envs(variables.map(|(name, value)| (name, value)));
         command
             .stdin(input)
             .stdout(Stdio::piped())
@@ -155,7 +165,7 @@ fn feed(child: &mut Child, input: &str) {
 /// Reads a stream in a separate thread: a program that prints must not wait.
 fn in_background<S: Send + 'static, T: Send + 'static>(
     stream: Option<S>,
-    read: fn(S) -> T,
+    read: impl FnOnce(S) -> T + Send + 'static,
 ) -> Receiver<T> {
     let (send, receive) = mpsc::channel();
     if let Some(stream) = stream {

@@ -112,12 +112,17 @@ fn checks(checks: &[Check]) -> Table {
 }
 
 fn failures(failed: &[FailedCase]) -> Table {
+    const TITLE: &str = "Cases without a result";
+    const HEAD: [&str; 2] = ["case", "reason"];
+    if let [first, others @ ..] = failed
+        && !others.is_empty()
+        && others.iter().all(|other| other.reason == first.reason)
+    {
+        let all = format!("all {} without a result", failed.len());
+        return Table::new(TITLE, HEAD, [vec![all, first.reason.clone()]]);
+    }
     let row = |failed: &FailedCase| vec![failed.label.clone(), failed.reason.clone()];
-    Table::new(
-        "Cases without a result",
-        ["case", "reason"],
-        failed.iter().map(row),
-    )
+    Table::new(TITLE, HEAD, failed.iter().map(row))
 }
 
 /// Widest table in characters, with three for the gap between columns: this fits on the page, and

@@ -3,11 +3,11 @@
 use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{Change, Movement};
+use crate::store::{Change, Movement, without_baseline};
 use crate::study::coverage::incomplete;
 use crate::study::outcome::{Outcome, joined};
 use crate::text::lists::{self, and_more};
-use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places};
+use crate::text::number::{RATE_PLACES, committed_rate, counted, decimals, interval_places};
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -49,17 +49,25 @@ pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
 }
 
 fn guarded(finished: &[Finished], changes: &[Change]) -> String {
+    match without_baseline(finished, changes) {
+        Some(numbers) if can_be_blessed(finished) => {
+            return format!("no baseline yet: {} to accept", counted(numbers, "number"));
+        }
+        Some(_) => return "no baseline yet".to_owned(),
+        None => {}
+    }
     let guarded: usize = finished
         .iter()
         .map(|finished| finished.outcome.quantities.len())
         .sum();
-    let is_new = |change: &&Change| {
-        matches!(
-            change.movement,
-            Movement::New { .. } | Movement::NewFile { guarded: 0, .. }
-        )
-    };
-    let new = changes.iter().filter(is_new).count();
+    let numbers = changes
+        .iter()
+        .filter(|change| matches!(change.movement, Movement::New { .. }))
+        .count();
+    let files = changes
+        .iter()
+        .filter(|change| matches!(change.movement, Movement::NewFile { guarded: 0, .. }))
+        .count();
     let claims = changes
         .iter()
         .filter(|change| change.movement.is_of_one_claim())
@@ -73,8 +81,14 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
         1 => Some(format!("1 {one}")),
         n => Some(format!("{n} {many}")),
     };
-    let new_ones = (new > 0).then(|| format!("{new} not yet in the baseline"));
-    let values = changes.len() - claims - deleted - new;
+    // Whoever accepts the numbers of a new study accepts its claims, too.
+    let new = match (numbers, files) {
+        (0, 0) => None,
+        (0, files) => count(files, ["study", "studies"]),
+        (numbers, _) => count(numbers, ["number", "numbers"]),
+    };
+    let new = new.map(|new| format!("{new} not yet in the baseline"));
+    let values = changes.len() - claims - deleted - numbers - files;
     let changed = [
         count(deleted, ["study deleted", "studies deleted"]),
         count(claims, ["claim changed", "claims changed"]),
@@ -82,7 +96,7 @@ fn guarded(finished: &[Finished], changes: &[Change]) -> String {
             values,
             ["baseline value changed", "baseline values changed"],
         ),
-        new_ones,
+        new,
     ];
     match (changes.len(), guarded) {
         (0, 0) => "no baseline values".to_owned(),

@@ -95,21 +95,11 @@ pub fn diagnose(
     let contrast = contrast(&votes(project, finished, changes));
     let first = fields::first(finished, changes);
     let clearest = clearest(&failing);
-    let mut look_at = if claims.is_empty() {
+    let look_at = if claims.is_empty() {
         places(project, &contrast, first.first())
     } else {
         vec![]
     };
-    let again = clearest
-        .first()
-        .map(String::as_str)
-        .or(wrong.first().copied());
-    look_at.extend(again.map(|id| {
-        format!(
-            "`{} verify {id}` repeats the clearest failure",
-            project.command
-        )
-    }));
     let resembles = if claims.is_empty() {
         known.nearest(&Fingerprint::of(finished, changes))
     } else {
@@ -125,6 +115,25 @@ pub fn diagnose(
         clearest,
         moved: moved(finished, changes),
     })
+}
+
+impl Diagnosis {
+    /// Adds the command that repeats the clearest failure of a run of `verify`, which finds studies
+    /// by their ids.
+    pub fn add_repetition(&mut self, project: &Project, changes: &[Change]) {
+        let moved = changes
+            .iter()
+            .find(|change| is_number(change))
+            .map(|change| &change.study);
+        let clearest = self.clearest.first().or(moved);
+        let line = clearest.map(|id| {
+            format!(
+                "`{} verify {id}` repeats the clearest failure",
+                project.command
+            )
+        });
+        self.look_at.extend(line);
+    }
 }
 
 /// Where to look: the places that belong to the settings of a contrast and to a field.

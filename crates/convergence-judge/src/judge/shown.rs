@@ -61,6 +61,27 @@ impl Shown<'_> {
 /// * `step`: the name of the step.
 /// * `floor`: of the rule that judged; 0 if it had none, or several.
 pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
+    let rows = rows(step, columns);
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
+        cells.join("  ").trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect::<String>() + &legend(columns, floor)
+}
+
+/// The names, and the cells of each level, coarsest first; a mark, or a blank, ends each error.
+pub fn rows(step: &str, columns: &[Shown<'_>]) -> Vec<Vec<String>> {
     let names = columns
         .iter()
         .flat_map(|shown| [shown.name.to_owned(), "rate".to_owned()]);
@@ -84,26 +105,11 @@ pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
                 .collect(),
         );
     }
-    let width = |column: usize| {
-        rows.iter()
-            .map(|row| row[column].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
-    let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row
-            .iter()
-            .zip(&widths)
-            .map(|(cell, width)| format!("{cell:>width$}"))
-            .collect();
-        cells.join("  ").trim_end().to_owned() + "\n"
-    };
-    rows.iter().map(line).collect::<String>() + &legend(columns, floor)
+    rows
 }
 
 /// The meaning of the marks that occur.
-fn legend(columns: &[Shown<'_>], floor: f64) -> String {
+pub fn legend(columns: &[Shown<'_>], floor: f64) -> String {
     let occurs = |because: &Aside| {
         columns.iter().any(|shown| {
             shown

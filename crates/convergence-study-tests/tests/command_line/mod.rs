@@ -1,9 +1,13 @@
 //! A project's command line.
 
+mod begun;
 mod changes;
 mod failing;
+mod first;
 mod manufacture;
+mod options;
 mod rates;
+mod several;
 mod tables;
 mod visible;
 
@@ -287,7 +291,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     assert_eq!((status, err.as_str()), (Some(0), ""));
     assert_eq!(
         out,
-        "wrote mine.toml, mine.py\nnow  powers study mine.toml\nand  powers explain mine.toml\n"
+        "wrote mine.toml, mine.py\nread  powers explain mine.toml\nrun   powers study mine.toml\n"
     );
     let text = fs::read_to_string(root.path().join("mine.toml")).unwrap();
     assert!(
@@ -370,7 +374,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     }
     // The second file exists: the first is not written either.
     fs::remove_file(root.path().join("mine.toml")).unwrap();
-    let (status, _, err) = run(&root, &["new", "program", "mine"]);
+    let (status, _, err) = run(&root, &["new", "program", "mine", "--out", "."]);
     assert!(
         status == Some(2) && err.contains("mine.py: expected a new file"),
         "{err}"

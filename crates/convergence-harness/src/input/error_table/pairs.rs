@@ -32,6 +32,13 @@ struct Pair<'t> {
     is_marked: bool,
 }
 
+/// A name, and the place of a number in the list behind it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Key<'t> {
+    name: &'t str,
+    place: usize,
+}
+
 /// Characters around names and values.
 fn is_mark(c: char) -> bool {
     c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
@@ -54,11 +61,27 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     } {
         return None;
     }
-    Some(if longest > 1 {
+    Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
         records(&pairs)
     })
+}
+
+/// The numbers of a line that `=` or `:` separates from their names, such as `max error = 1.5e-3`.
+pub(crate) fn named_numbers(line: &str) -> Vec<(&str, f64)> {
+    if !line.contains(['=', ':']) {
+        return vec![];
+    }
+    let (pairs, _) = pairs(line);
+    let named = |pair: &Pair<'_>| match pair.values[..] {
+        [value] if pair.is_marked => number(value, false).map(|number| number.value),
+        _ => None,
+    };
+    let numbers = pairs
+        .iter()
+        .filter_map(|pair| Some((pair.name, named(pair)?)));
+    numbers.collect()
 }
 
 /// The pairs of a text, and how many lines begin with a nameless number.
@@ -173,15 +196,26 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
     grid
 }
 
+/// Whether a name with several numbers occurs again: then each list is the errors of one level.
+fn repeats_a_list(pairs: &[Pair<'_>]) -> bool {
+    let mut lists = HashSet::new();
+    let several = pairs.iter().filter(|pair| pair.values.len() > 1);
+    several.fold(false, |repeats, pair| !lists.insert(pair.name) || repeats)
+}
+
 /// A row for each repetition of the names. Names that a solver prints more often than the step are
 /// left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
-    let mut places: HashMap<&str, usize> = HashMap::new();
-    let mut counts: Vec<(&'t str, usize)> = vec![];
-    for pair in pairs {
-        let place = *places.entry(pair.name).or_insert(counts.len());
+    let mut places: HashMap<Key<'_>, usize> = HashMap::new();
+    let mut counts: Vec<(Key<'t>, usize)> = vec![];
+    let keys = |pair: &Pair<'t>| {
+        let name = pair.name;
+        (0..pair.values.len()).map(move |place| Key { name, place })
+    };
+    for key in pairs.iter().flat_map(keys) {
+        let place = *places.entry(key).or_insert(counts.len());
         if place == counts.len() {
-            counts.push((pair.name, 0));
+            counts.push((key, 0));
         }
         counts[place].1 += 1;
     }
@@ -189,8 +223,8 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
     counts
         .iter()
         .for_each(|(_, count)| *alike.entry(*count).or_default() += 1);
-    let is_step = |(name, count): &&(&str, usize)| {
-        *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_))
+    let is_step = |(key, count): &&(Key<'_>, usize)| {
+        *count > 1 && matches!(Word::of(key.name), Word::Step | Word::Count(_))
     };
     let common = || {
         counts
@@ -205,29 +239,32 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
     let (kept, others): (Vec<_>, Vec<_>) = counts
         .iter()
         .partition(|(_, count)| *count <= levels && 2 * count >= levels);
-    let why = |(name, count): (&str, usize)| {
+    let why = |(key, count): (Key<'_>, usize)| {
         (
-            name.to_owned(),
+            key.name.to_owned(),
             format!("printed {count} times for {levels} levels"),
         )
     };
     let first = kept
         .iter()
         .find(|(_, count)| *count == levels)
-        .map(|(name, _)| *name);
-    let names: Vec<&str> = kept.iter().map(|(name, _)| *name).collect();
-    let columns: HashMap<&str, usize> = names
+        .map(|(key, _)| key.name);
+    let names: Vec<&str> = kept.iter().map(|(key, _)| key.name).collect();
+    let columns: HashMap<Key<'_>, usize> = kept
         .iter()
         .enumerate()
-        .map(|(column, name)| (*name, column))
+        .map(|(column, (key, _))| (*key, column))
         .collect();
     let mut rows: Vec<Vec<&str>> = vec![];
     for pair in pairs {
         if Some(pair.name) == first {
             rows.push(vec![&pair.name[..0]; names.len()]);
         }
-        if let (Some(row), Some(column)) = (rows.last_mut(), columns.get(pair.name)) {
-            row[*column] = pair.values[0];
+        let Some(row) = rows.last_mut() else { continue };
+        for (key, value) in keys(pair).zip(&pair.values) {
+            if let Some(column) = columns.get(&key) {
+                row[*column] = value;
+            }
         }
     }
     RawTable {

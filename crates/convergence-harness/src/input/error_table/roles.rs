@@ -311,6 +311,9 @@ impl TableReader<'_> {
                 "factors by which `{}` falls, not its rates",
                 error.name
             )),
+            (Some((error, Derived::Factors)), _) => {
+                other(&format!("the factors by which `{}` falls", error.name))
+            }
             (_, Some(_)) if column.is_constant() => other("the same in each row"),
             (Some((error, _)), _) => other(&format!("the rates of `{}`", error.name)),
             _ if column.word == Word::Rate && column.is_steep() => Ok(Holds::Error),

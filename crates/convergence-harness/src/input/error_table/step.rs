@@ -48,7 +48,8 @@ impl TableReader<'_> {
             None if self.choice.ratio.is_some() => (self.levels()?, String::new()),
             None => self.natural_step()?,
         };
-        let measure = self.measure(column)?;
+        let (measure, by_rates) = self.measure(column)?;
+        let how = how + &by_rates;
         let name = &self.columns[column].name;
         let label = match measure {
             Measure::Step => name.to_owned(),
@@ -66,19 +67,22 @@ impl TableReader<'_> {
         })
     }
 
-    /// The column that numbers the levels: one named so rather than any that counts the rows.
+    /// The column that numbers the levels: one named so rather than any that counts the rows, or the
+    /// rows themselves where no column is a step.
     fn levels(&self) -> Result<usize, Refusal> {
+        if let Some(rows) = self.rows
+            && (self.columns.len() == 2 || self.natural_step().is_err())
+        {
+            return Ok(rows);
+        }
         let counts = |is_named: bool| {
             self.columns
                 .iter()
                 .position(|column| column.is_index && (column.word == Word::Cost || !is_named))
         };
         counts(true).or_else(|| counts(false)).ok_or_else(|| {
-            let found = listed(
-                self.columns
-                    .iter()
-                    .map(|column| format!("`{}`", column.name)),
-            );
+            let printed = self.columns[..self.rows.unwrap_or(self.columns.len())].iter();
+            let found = listed(printed.map(|column| format!("`{}`", column.name)));
             let expected = "a column of levels 0, 1, 2, ... for --ratio, or --step COLUMN";
             Refusal::from(self.refuse(expected, &found))
                 .offering([self.offer(|choice| choice.ratio = None)])
@@ -93,6 +97,13 @@ impl TableReader<'_> {
             .filter(|(k, column)| is_free(column) && wanted(*k, column.word))
             .map(|(k, _)| k)
             .collect()
+    }
+
+    /// The level whose ratio the rates of the table decide.
+    fn level_with_rates(&self) -> Option<usize> {
+        let is_level = |column: &Cells<'_>| column.is_index && column.word == Word::Cost;
+        let level = self.columns.iter().position(is_level)?;
+        self.stated_ratio(level).map(|_| level)
     }
 
     /// The step by its name, else the count closest to it, else the column that falls by regular
@@ -169,6 +180,9 @@ impl TableReader<'_> {
                 format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4)),
             ));
         }
+        if let Some(level) = self.level_with_rates() {
+            return Ok((level, String::new()));
+        }
         let described = |column: &Cells<'_>| {
             let why = match column.word {
                 _ if column.is_index => " (the number of the row)",
@@ -189,7 +203,19 @@ impl TableReader<'_> {
         let halved = self.columns.iter().any(is_level).then_some(halved);
         let found = listed(self.columns.iter().map(described));
         let refusal = self.refuse("a column of steps: add `h`, or name it with --step", &found);
-        Err(Refusal::from(refusal).offering(named.into_iter().chain(halved)))
+        let by_rows = Offer {
+            comment: "if each row halves the step",
+            ..self.offer(|choice| choice.ratio = Some(2.0))
+        };
+        let is_power = |column: &Cells<'_>| {
+            let base = column.name.split_once('^');
+            base.is_some_and(|(base, _)| Word::of(base) == Word::Step)
+        };
+        let is_error = |column: &Cells<'_>| column.word == Word::Error && column.is_steep();
+        let by_rows = (named.is_none() && halved.is_none())
+            .then_some(by_rows)
+            .filter(|_| self.columns.iter().any(is_error) && !self.columns.iter().any(is_power));
+        Err(Refusal::from(refusal).offering(named.into_iter().chain(halved).chain(by_rows)))
     }
 
     /// The command with a column as the step.
@@ -202,8 +228,8 @@ impl TableReader<'_> {
         self.offer(|choice| (choice.step, choice.dim) = (Some(name), dim))
     }
 
-    /// What the column of the step holds.
-    fn measure(&self, step: usize) -> Result<Measure, Refusal> {
+    /// What the column of the step holds, and the rates that say so where no option does.
+    fn measure(&self, step: usize) -> Result<(Measure, String), Refusal> {
         let Cells { name, word, .. } = &self.columns[step];
         let is_edge =
             reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
@@ -213,7 +239,7 @@ impl TableReader<'_> {
                 ("the values, not their logarithms", format!("`{name}`"))
             }
             (Some(_), Some(_)) => ("one of --dim and --ratio", "both".to_owned()),
-            (None, Some(ratio)) => return Ok(Measure::Level(ratio)),
+            (None, Some(ratio)) => return Ok((Measure::Level(ratio), String::new())),
             (Some(dim), None) if is_count && is_edge && dim != 1.0 => (
                 "no --dim but 1",
                 format!("`{name}`, which is known to be of one dimension"),
@@ -223,10 +249,26 @@ impl TableReader<'_> {
                 format!("the step `{name}`"),
             ),
             (None, None) if is_count && is_edge && matches!(word, Word::Count(_)) => {
-                return Ok(Measure::Count(1.0));
+                return Ok((Measure::Count(1.0), String::new()));
             }
-            (None, None) if is_count => return Err(self.without_dimension(step)),
-            (dim, None) => return Ok(dim.map_or(Measure::Step, Measure::Count)),
+            (None, None) if is_count => {
+                let stated = self
+                    .stated_dimension(step)
+                    .ok_or_else(|| self.without_dimension(step))?;
+                let how = format!(", as the rates of `{}` say", stated.error);
+                return Ok((Measure::Count(stated.number), how));
+            }
+            (None, None) if self.level_with_rates() == Some(step) => {
+                let stated = self
+                    .stated_ratio(step)
+                    .ok_or_else(|| self.without_dimension(step))?;
+                let how = format!(", as the rates of `{}` say", stated.error);
+                return Ok((Measure::Level(stated.number), how));
+            }
+            (dim, None) => {
+                let measure = dim.map_or(Measure::Step, Measure::Count);
+                return Ok((measure, String::new()));
+            }
         };
         Err(Refusal::from(self.refuse(expected, &found))
             .offering([self.offer(|choice| choice.dim = None)]))

@@ -1,5 +1,6 @@
 //! Any text as rows of cells below names.
 
+use super::forms::joined;
 use super::names::Word;
 use super::number::{is_dash, number};
 use super::pairs::{self, RawTable};
@@ -30,6 +31,7 @@ pub(super) fn plain(text: &str) -> String {
     let marked = MARKS
         .iter()
         .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+    let marked = joined(&marked);
     let mut parts = marked.split("\x1b[");
     let first = parts.next().unwrap_or_default().to_owned();
     // A colour ends after its first letter, a number of NumPy with its parenthesis.

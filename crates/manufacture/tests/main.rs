@@ -10,3 +10,4 @@ mod properties;
 mod public;
 mod random;
 mod refusals;
+mod threads;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use manufacture::{Finding, Language, Sampling};
 
-use crate::files::{HEAT, read};
+use crate::files::{HEAT, LIMIT, read};
 
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");
@@ -106,7 +106,7 @@ fn a_slip_in_emitted_c_is_found() {
         assert!(status.unwrap().success());
         let command = format!("{}", Path::new(&path("answer")).display());
         manufacture
-            .against(&command, None, &sampling())
+            .against(&command, None, &sampling(), LIMIT)
             .unwrap()
             .remove(0)
     };

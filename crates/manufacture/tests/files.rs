@@ -1,9 +1,14 @@
 //! Files that the tests have in common, and their values.
 
+use std::time::Duration;
+
 use manufacture::{Check, Comparison, Finding, Manufacture, Sampling};
 use serde_json::Value;
 
 pub(crate) const HEAT: &str = include_str!("files/heat.toml");
+
+/// The time limit of a program that does not hang.
+pub(crate) const LIMIT: Duration = Duration::from_secs(600);
 
 /// Allen-Cahn's equation, benchmark 7 of PFHub.
 pub(crate) const PFHUB: &str = include_str!("files/pfhub.toml");
@@ -94,6 +99,7 @@ pub(crate) fn against(
         ..Sampling::default()
     };
     let command = format!("python3 '{}'", path.display());
-    let mut comparisons = read(text).against(&command, face, &sampling).unwrap();
+    let comparisons = read(text).against(&command, face, &sampling, LIMIT);
+    let mut comparisons = comparisons.unwrap();
     comparisons.swap_remove(0)
 }

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use manufacture::{Comparison, Language, Manufacture, Sampling};
 
-use crate::files::read;
+use crate::files::{LIMIT, read};
 
 /// SplitMix64.
 struct Random(u64);
@@ -213,7 +213,9 @@ impl Built<'_> {
         sampling: &Sampling,
     ) -> Option<Vec<Comparison>> {
         let command = format!("'{program}' {}", face.unwrap_or(""));
-        self.manufacture.against(&command, face, sampling).ok()
+        self.manufacture
+            .against(&command, face, sampling, LIMIT)
+            .ok()
     }
 
     /// The library with one slip in a source; `None` if there is no room for it.

@@ -1,12 +1,17 @@
 //! Questions to another program: points on its standard input, values on its standard output.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::process::{Command, Stdio};
+use std::io::{self, Read as _, Write as _};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use crate::language::names::did_you_mean;
 use crate::problem::InputError;
+
+/// The pause between two looks at a program that has closed its output.
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// A quantity as the other program computes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,37 +59,69 @@ pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
 /// Runs a command on a question, and returns what it prints.
 ///
 /// # Errors
-/// It cannot be started, or it fails.
-pub(crate) fn run(command: &[String], question: String) -> Result<String, InputError> {
+/// It cannot be started, it fails, or it takes longer than the limit: then it is stopped.
+pub(crate) fn run(
+    command: &[String],
+    question: String,
+    limit: Duration,
+) -> Result<String, InputError> {
     let name = command.join(" ");
     let failed = |problem: String| InputError::whole(&name, problem);
     let (program, arguments) = command
         .split_first()
         .ok_or_else(|| failed("expected a command, found none".to_owned()))?;
-    let mut child = Command::new(program)
+    let child = Command::new(program)
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
-        .spawn()
+        .spawn();
+    let mut child = child.map_err(|error| failed(error.to_string()))?;
+    let answer = converse(&mut child, question, limit);
+    // Nothing is left behind; this fails for a program that has ended.
+    let _ = child.kill();
+    let status = child.wait().map_err(|error| failed(error.to_string()))?;
+    let too_slow = || {
+        failed(format!(
+            "was stopped at the limit of {} s",
+            limit.as_secs_f64()
+        ))
+    };
+    let answer = answer
+        .ok_or_else(too_slow)?
         .map_err(|error| failed(error.to_string()))?;
-    let input = child.stdin.take();
-    // A program that answers while it reads would block if one thread wrote and read in turn.
-    let writer = thread::spawn(move || {
-        // A program that ends early has not read everything: its answer is what counts.
-        input.map(|mut input| input.write_all(question.as_bytes()))
-    });
-    let output = child
-        .wait_with_output()
-        .map_err(|error| failed(error.to_string()))?;
-    let _ = writer.join();
-    if !output.status.success() {
-        return Err(failed(format!(
-            "expected exit status 0, found {}",
-            output.status
-        )));
+    if !status.success() {
+        return Err(failed(format!("expected exit status 0, found {status}")));
     }
-    String::from_utf8(output.stdout)
-        .map_err(|_| failed("expected text, found other bytes".to_owned()))
+    String::from_utf8(answer).map_err(|_| failed("expected text, found other bytes".to_owned()))
+}
+
+/// What a program prints about a question until it ends; `None` if it takes longer than the limit.
+///
+/// A program that answers while it reads would block if one thread wrote and read in turn, and one
+/// that hangs must block neither: each stream has a thread of its own.
+fn converse(child: &mut Child, question: String, limit: Duration) -> Option<io::Result<Vec<u8>>> {
+    let end = Instant::now().checked_add(limit);
+    if let Some(mut input) = child.stdin.take() {
+        // A program that ends early has not read everything: its answer is what counts.
+        thread::spawn(move || input.write_all(question.as_bytes()));
+    }
+    let (send, receive) = mpsc::channel();
+    if let Some(mut output) = child.stdout.take() {
+        thread::spawn(move || {
+            let mut answer = vec![];
+            let read = output.read_to_end(&mut answer);
+            send.send(read.map(|_| answer))
+        });
+    }
+    let answer = receive.recv_timeout(limit).ok()?;
+    // A program may close its output and go on.
+    while matches!(child.try_wait(), Ok(None)) {
+        if end.is_some_and(|end| Instant::now() >= end) {
+            return None;
+        }
+        thread::sleep(PAUSE);
+    }
+    Some(answer)
 }
 
 /// The parts of a line.

@@ -45,6 +45,14 @@ impl System {
         ("axisymmetric", System::Axisymmetric),
         ("cylindrical", System::Cylindrical),
     ];
+
+    /// As written in a file.
+    pub(crate) fn name(self) -> &'static str {
+        Self::ALL
+            .iter()
+            .find(|known| known.1 == self)
+            .map_or("", |known| known.0)
+    }
 }
 
 /// A number with a name.

@@ -188,6 +188,14 @@ impl Problem {
                 data,
             });
         }
+        // The sides in the order of the coordinates, so that other names change no order.
+        self.faces.sort_by_key(|face| match face.surface {
+            Surface::Side {
+                coordinate,
+                is_upper,
+            } => (coordinate, is_upper),
+            Surface::Level(_) => (usize::MAX, false),
+        });
         Ok(())
     }
 

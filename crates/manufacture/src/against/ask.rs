@@ -80,15 +80,11 @@ pub(crate) fn run(
     // Nothing is left behind; this fails for a program that has ended.
     let _ = child.kill();
     let status = child.wait().map_err(|error| failed(error.to_string()))?;
-    let too_slow = || {
-        failed(format!(
-            "was stopped at the limit of {} s",
-            limit.as_secs_f64()
-        ))
+    let Some(answer) = answer else {
+        let limit = limit.as_secs_f64();
+        return Err(failed(format!("was stopped at the limit of {limit} s")));
     };
-    let answer = answer
-        .ok_or_else(too_slow)?
-        .map_err(|error| failed(error.to_string()))?;
+    let answer = answer.map_err(|error| failed(error.to_string()))?;
     if !status.success() {
         return Err(failed(format!("expected exit status 0, found {status}")));
     }
@@ -163,10 +159,6 @@ pub(crate) fn read(
     known: &[String],
     points: usize,
 ) -> Result<Vec<Answer>, InputError> {
-    let at_line = |line: usize, problem: String| InputError {
-        line,
-        ..InputError::whole(command, problem)
-    };
     let mut lines = text
         .lines()
         .enumerate()
@@ -177,7 +169,7 @@ pub(crate) fn read(
     let names = names(is_head.then_some(first), known);
     let head_line = if is_head { lines.next() } else { None };
     let head_line = head_line.map_or(1, |line| line.0 + 1);
-    let names = names.map_err(|problem| at_line(head_line, problem))?;
+    let names = names.map_err(|problem| InputError::at_line(command, head_line, problem))?;
     let mut columns: Vec<Vec<String>> = vec![vec![]; names.len()];
     let mut last = 0;
     for (line, row) in lines {
@@ -185,14 +177,12 @@ pub(crate) fn read(
         let row = cells(row);
         if row.len() != names.len() {
             let problem = format!("expected {} numbers, found {}", names.len(), row.len());
-            return Err(at_line(last, problem));
+            return Err(InputError::at_line(command, last, problem));
         }
         for (column, cell) in columns.iter_mut().zip(row) {
             if !cell.parse::<f64>().is_ok_and(f64::is_finite) {
-                return Err(at_line(
-                    last,
-                    format!("expected a finite number, found `{cell}`"),
-                ));
+                let problem = format!("expected a finite number, found `{cell}`");
+                return Err(InputError::at_line(command, last, problem));
             }
             column.push(cell);
         }
@@ -200,14 +190,16 @@ pub(crate) fn read(
     let found = columns.first().map_or(0, Vec::len);
     if found != points {
         let problem = format!("expected {points} lines of numbers, found {found}");
-        return Err(at_line(last + 1, problem));
+        return Err(InputError::at_line(command, last + 1, problem));
     }
-    let answer = |(name, cells): (String, Vec<String>)| Answer {
-        values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
-        units: units(&cells),
-        name,
-    };
-    Ok(names.into_iter().zip(columns).map(answer).collect())
+    let answers = names.into_iter().zip(columns);
+    Ok(answers
+        .map(|(name, cells)| Answer {
+            values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
+            units: units(&cells),
+            name,
+        })
+        .collect())
 }
 
 /// The digits of a printed number: how many are significant, and how many follow the point.
@@ -260,15 +252,23 @@ fn units(cells: &[String]) -> Vec<f64> {
     let is_fixed = all
         .iter()
         .all(|digits| digits.decimals == first && !digits.has_exponent);
-    let unit = |cell: &String| {
-        let value = cell.parse::<f64>().unwrap_or(0.0).abs();
-        if is_fixed {
-            10_f64.powi(-first)
-        } else if value == 0.0 {
-            0.0
-        } else {
-            10_f64.powi(value.log10().floor() as i32 - significant + 1)
-        }
-    };
-    cells.iter().map(unit).collect()
+    let cells = cells.iter();
+    cells
+        .map(|cell| {
+            if is_fixed {
+                10_f64.powi(-first)
+            } else {
+                unit_of_significant(cell, significant)
+            }
+        })
+        .collect()
+}
+
+/// One unit of the last of so many significant digits.
+fn unit_of_significant(cell: &str, significant: i32) -> f64 {
+    let value = cell.parse::<f64>().unwrap_or(0.0).abs();
+    if value == 0.0 {
+        return 0.0;
+    }
+    10_f64.powi(value.log10().floor() as i32 - significant + 1)
 }

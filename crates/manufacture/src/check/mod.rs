@@ -66,8 +66,8 @@ impl Check {
     pub fn add(&mut self, findings: Vec<Finding>, is_strict: bool) {
         self.findings.extend(findings);
         self.findings.sort_by_key(|finding| !finding.fails);
-        let is_failure = |finding: &Finding| finding.fails || is_strict;
-        let fails = self.findings.iter().any(is_failure);
+        let mut findings = self.findings.iter();
+        let fails = findings.any(|finding| finding.fails || is_strict);
         self.verdict = if fails { "fail" } else { "pass" };
     }
 }
@@ -180,8 +180,9 @@ pub(crate) fn finding(code: &'static str, key: &str, text: String, value: Option
 fn singular(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
     for (index, quantity) in sampled.quantities.iter().enumerate() {
-        let bad = |entry: &(&[f64], &[Measured])| entry.1.iter().any(|v| !v.value.is_finite());
-        if let Some((point, values)) = sampled.over(index).find(bad) {
+        let mut entries = sampled.over(index);
+        let worst = entries.find(|entry| entry.1.iter().any(|v| !v.value.is_finite()));
+        if let Some((point, values)) = worst {
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
             let mut pairs = names.iter().zip(values);
             let Some((name, value)) = pairs.find(|pair| !pair.1.value.is_finite()) else {
@@ -250,8 +251,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
     for (index, quantity) in sampled.quantities.iter().enumerate() {
         let name = &quantity.name;
         if quantity.role == Role::Zero {
-            let bad = |entry: &(&[f64], &[Measured])| !is_zero(entry.1);
-            if let Some((point, values)) = sampled.over(index).find(bad) {
+            if let Some((point, values)) = sampled.over(index).find(|entry| !is_zero(entry.1)) {
                 let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
                 let at = place(model, point);
                 let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");

@@ -340,12 +340,13 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             return Err(refused(within, tree, problem));
         }
         let pairs = then.parts.iter().zip(&otherwise.parts);
-        let choose = |(then, otherwise)| {
-            self.algebra
-                .choose(*comparison, [&left, &right], then, otherwise)
-        };
+        let mut parts = vec![];
+        for (then, otherwise) in pairs {
+            let algebra = &mut self.algebra;
+            parts.push(algebra.choose(*comparison, [&left, &right], then, otherwise));
+        }
         Ok(Tensor {
-            parts: pairs.map(choose).collect(),
+            parts,
             shape: then.shape.clone(),
         })
     }

@@ -32,16 +32,20 @@ pub(super) fn library(
 ) -> Vec<EmittedFile> {
     let name = &model.problem.name;
     let prefix = prefix(model, language);
-    let parameter =
-        |parameter: &crate::problem::Parameter| format!("{prefix}parameter_{}", parameter.name);
+    let mut parameters: Vec<String> = vec![];
+    for parameter in &model.problem.parameters {
+        let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
+        let name = format!("{prefix}parameter_{}", parameter.name);
+        parameters.push(language.distinct(name, &names));
+    }
     let writer = Writer {
         model,
         language,
-        parameters: model.problem.parameters.iter().map(parameter).collect(),
+        parameters,
         integrals: integrals(model, functions),
         prefix,
     };
-    let head = writer.head();
+    let head = writer.head(functions);
     let mut body = String::new();
     for integral in &writer.integrals {
         body += &writer.integral(*integral);
@@ -104,8 +108,22 @@ fn integrals(model: &Model, functions: &[Function]) -> Vec<NodeId> {
 }
 
 impl Writer<'_> {
+    /// The names of the file that are written with `_` behind them, as a line of the first comment.
+    fn renamed(&self, functions: &[Function]) -> String {
+        let quantities = functions.iter().map(|f| (&f.name, &f.quantity));
+        let parameters = self.model.problem.parameters.iter();
+        let parameters = self.parameters.iter().zip(parameters.map(|p| &p.name));
+        let renamed = quantities.chain(parameters);
+        let renamed = renamed.filter(|(name, plain)| !name.ends_with(plain.as_str()));
+        let renamed: Vec<&str> = renamed.map(|(name, _)| name.as_str()).collect();
+        if renamed.is_empty() {
+            return String::new();
+        }
+        format!("Written with _ behind the name: {}\n", renamed.join(", "))
+    }
+
     /// The first comment: equations, conventions, version and a hash of the input.
-    fn head(&self) -> String {
+    fn head(&self, functions: &[Function]) -> String {
         let problem = &self.model.problem;
         let canonical = problem.canonical();
         let hash = canonical
@@ -127,8 +145,9 @@ impl Writer<'_> {
         let lines = format!(
             "Manufactured solution `{}`, by manufacture {version}, input {hash:016x}.\n{canonical}\
              Conventions: grad(v)_ij = dv_i/dx_j, div(A)_i = sum_j dA_ij/dx_j; tensors row by row; n points outwards.\n\
-             Build: {}",
+             {}Build: {}",
             problem.name,
+            self.renamed(functions),
             build.replace("NAME", &problem.name)
         );
         for line in lines.lines() {
@@ -190,8 +209,8 @@ impl Writer<'_> {
         } else {
             array
         };
-        let octave = |index: usize| self.language.number(self.model.graph.parameters[index]);
-        let values: Vec<String> = (0..self.parameters.len()).map(octave).collect();
+        let values = self.model.graph.parameters.iter();
+        let values: Vec<String> = values.map(|value| self.language.number(*value)).collect();
         let is_octave = self.language == Language::Octave;
         let names = Names {
             language: self.language,

@@ -110,11 +110,10 @@ impl<'t> Section<'t> {
     }
 
     pub(super) fn needed(&self, name: &str) -> Result<Field<'t>, InputError> {
-        let missing = || {
+        self.field(name).ok_or_else(|| {
             self.place()
                 .error(format!("expected the key `{name}`, found none"))
-        };
-        self.field(name).ok_or_else(missing)
+        })
     }
 
     pub(super) fn section(&self, name: &str) -> Result<Option<Section<'t>>, InputError> {
@@ -192,14 +191,14 @@ impl<'t> Field<'t> {
     pub(super) fn list(&self) -> Result<Vec<Field<'t>>, InputError> {
         match self.value {
             DeValue::Array(values) => {
-                let item = |value| Field {
+                let items = values.iter().map(|value| Field {
                     place: Place {
-                        line: self.reader.line(Spanned::span(value).start),
+                        line: self.reader.line(value.span().start),
                         ..self.place.clone()
                     },
                     ..self.reader.field("", &self.name, value)
-                };
-                Ok(values.iter().map(item).collect())
+                });
+                Ok(items.collect())
             }
             _ => Err(self.expected("a list")),
         }

@@ -64,8 +64,7 @@ impl Problem {
 
     fn space(&mut self, head: &Section<'_>) -> Result<(), InputError> {
         let field = head.needed("coordinates")?;
-        let named = |item: &Field<'_>| name(item);
-        self.coordinates = field.list()?.iter().map(named).collect::<Result<_, _>>()?;
+        self.coordinates = field.list()?.iter().map(name).collect::<Result<_, _>>()?;
         let found = self.coordinates.len();
         if !(1..=3).contains(&found) {
             let problem = format!("expected 1 to 3 coordinates, found {found}");
@@ -317,13 +316,14 @@ fn parameters(whole: &Section<'_>) -> Result<Vec<Parameter>, InputError> {
     let Some(section) = whole.section("parameters")? else {
         return Ok(vec![]);
     };
-    let parameter = |field: &Field<'_>| {
-        Ok(Parameter {
-            name: field.name.clone(),
+    let mut parameters = vec![];
+    for field in section.fields() {
+        parameters.push(Parameter {
             expression: field.expression()?,
-        })
-    };
-    section.fields().iter().map(parameter).collect()
+            name: field.name,
+        });
+    }
+    Ok(parameters)
 }
 
 fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
@@ -356,19 +356,17 @@ fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
 /// The terms of a table, in alphabetical order, each with its place in the file.
 fn named_terms(section: &Section<'_>) -> Result<Vec<Term>, InputError> {
     let fields = section.fields();
-    let place = |field: &Field<'_>| {
-        let before = |other: &&Field<'_>| other.start < field.start;
-        fields.iter().filter(before).count()
-    };
-    let named = |field: &Field<'_>| {
-        Ok(Term {
+    let mut terms = vec![];
+    for field in &fields {
+        let others = fields.iter();
+        terms.push(Term {
             label: field.name.clone(),
-            place: place(field),
+            place: others.filter(|other| other.start < field.start).count(),
             is_negative: false,
             expression: field.expression()?,
-        })
-    };
-    fields.iter().map(named).collect()
+        });
+    }
+    Ok(terms)
 }
 
 /// A text is cut into terms at its top-level + and -.
@@ -428,7 +426,6 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     let command = section.needed("command")?.list()?;
     let n = section.needed("n")?.list()?;
     let orders = section.needed("order")?.section()?.fields();
-    let order = |field: &Field<'_>| Ok((field.name.clone(), field.number()?));
     Ok(Some(Study {
         command: command
             .iter()
@@ -437,7 +434,7 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
         n: n.iter().map(Field::integer).collect::<Result<_, _>>()?,
         orders: orders
             .iter()
-            .map(order)
+            .map(|field| Ok((field.name.clone(), field.number()?)))
             .collect::<Result<Vec<_>, InputError>>()?,
     }))
 }

@@ -5,6 +5,7 @@ mod checks;
 mod closed_forms;
 mod emitted;
 mod files;
+mod functions;
 mod fuzz;
 mod orders;
 mod pages;

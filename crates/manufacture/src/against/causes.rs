@@ -345,7 +345,7 @@ fn simple(number: f64) -> f64 {
 /// How far-fetched a factor is: -1, 0, 2, 1/2, ...
 fn complexity(factor: f64) -> f64 {
     let simple = [-1.0, 0.0, 2.0, 0.5];
-    match simple.iter().position(|known| *known == factor) {
+    match simple.iter().position(|entry| *entry == factor) {
         Some(place) => place as f64,
         None => 10.0 + factor.abs().max(1.0 / factor.abs()),
     }

@@ -46,7 +46,7 @@ pub(crate) struct Evaluated {
 
 impl<'g> Tape<'g> {
     pub(crate) fn new(graph: &'g Graph, roots: &[NodeId]) -> Self {
-        let steps = needed(graph, roots);
+        let steps = nodes_below(graph, roots);
         let mut places = vec![u32::MAX; steps.last().map_or(0, |last| last.0 as usize + 1)];
         for (place, id) in steps.iter().enumerate() {
             places[id.0 as usize] = place as u32;
@@ -162,7 +162,7 @@ impl<'g> Tape<'g> {
 }
 
 /// The nodes below the roots, in increasing order.
-pub(crate) fn needed(graph: &Graph, roots: &[NodeId]) -> Vec<NodeId> {
+pub(crate) fn nodes_below(graph: &Graph, roots: &[NodeId]) -> Vec<NodeId> {
     let last = roots.iter().max().map_or(0, |last| last.0 as usize + 1);
     let mut is_needed = vec![false; last];
     for root in roots {

@@ -3,7 +3,7 @@
 use super::{Finding, Sampled, finding, is_same, is_zero};
 use std::collections::HashMap;
 
-use crate::arithmetic::tape::needed;
+use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::derive::{Part, Role, Slip};
 use crate::language::tree::Binary;
@@ -92,7 +92,7 @@ fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
 /// The degree in space, if all components are polynomials as they are written.
 fn polynomial(model: &Model, parts: &[NodeId]) -> Option<f64> {
     let mut degrees: HashMap<NodeId, Option<f64>> = HashMap::new();
-    for id in needed(&model.graph, parts) {
+    for id in nodes_below(&model.graph, parts) {
         let degree = degree(model, id, &degrees);
         degrees.insert(id, degree);
     }

@@ -264,7 +264,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
                 .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
             let Some((point, _)) = lowest else { continue };
             let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
-            let (value, point) = descend(model, sampler, &rows, point);
+            let Lowest { value, point } = descend(model, sampler, &rows, point);
             if !(value > 0.0) {
                 let at = place(model, &point);
                 let text = format!(
@@ -277,13 +277,14 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
     findings
 }
 
+/// The lowest value that is known, and where it is.
+struct Lowest {
+    value: f64,
+    point: Vec<f64>,
+}
+
 /// The lowest value near a point, by steps along the axes that are halved when none goes down.
-fn descend(
-    model: &Model,
-    sampler: &Sampler<'_>,
-    rows: &Rows<'_>,
-    start: &[f64],
-) -> (f64, Vec<f64>) {
+fn descend(model: &Model, sampler: &Sampler<'_>, rows: &Rows<'_>, start: &[f64]) -> Lowest {
     const SMALLEST_STEP: f64 = 1e-7;
     let mut point = start.to_vec();
     let mut value = rows.at(&point).tensors[0][0].value;
@@ -306,5 +307,5 @@ fn descend(
             step *= 0.5;
         }
     }
-    (value, point)
+    Lowest { value, point }
 }

@@ -39,9 +39,9 @@ impl Group<'_> {
     }
 }
 
-fn chosen(functions: &[Function], role: Role, part: Part) -> Vec<&Function> {
-    let chosen = functions.iter();
-    chosen
+fn functions_of(functions: &[Function], role: Role, part: Part) -> Vec<&Function> {
+    let functions = functions.iter();
+    functions
         .filter(|f| f.role == role && f.part == part)
         .collect()
 }
@@ -49,10 +49,10 @@ fn chosen(functions: &[Function], role: Role, part: Part) -> Vec<&Function> {
 fn groups<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Group<'f>> {
     let mut groups = vec![Group {
         face: "",
-        functions: chosen(functions, Role::Source, Part::Interior),
+        functions: functions_of(functions, Role::Source, Part::Interior),
     }];
     for (index, face) in model.problem.faces.iter().enumerate() {
-        let functions = chosen(functions, Role::Datum, Part::Face(index));
+        let functions = functions_of(functions, Role::Datum, Part::Face(index));
         if !functions.is_empty() {
             groups.push(Group {
                 face: &face.name,

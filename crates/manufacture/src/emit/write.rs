@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::functions::Function;
-use super::lower::{Names, lower};
+use super::lower::{Lowered, Names, lower};
 use super::{EmittedFile, Language, fill, runtime};
 use crate::arithmetic::quadrature::{self, POINTS};
-use crate::arithmetic::tape::needed;
+use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::model::Model;
 
@@ -94,12 +94,12 @@ pub(super) fn prefix(model: &Model, language: Language) -> String {
 /// The integrals below the functions, the inner before the outer.
 fn integrals(model: &Model, functions: &[Function]) -> Vec<NodeId> {
     let roots: Vec<NodeId> = functions.iter().flat_map(|f| f.roots.clone()).collect();
-    let mut open = needed(&model.graph, &roots);
+    let mut open = nodes_below(&model.graph, &roots);
     let mut integrals = vec![];
     while let Some(id) = open.pop() {
         if let Node::Integral { body, .. } = model.graph.node(id) {
             integrals.push(id);
-            open.extend(needed(&model.graph, &[*body]));
+            open.extend(nodes_below(&model.graph, &[*body]));
         }
     }
     integrals.sort();
@@ -186,7 +186,7 @@ impl Writer<'_> {
         let number = self
             .integrals
             .iter()
-            .position(|known| *known == id)
+            .position(|entry| *entry == id)
             .unwrap_or(0)
             + 1;
         let time = if self.model.problem.time.is_some() {
@@ -198,12 +198,7 @@ impl Writer<'_> {
     }
 
     /// Constants and values of roots with these names of the coordinates and of time.
-    fn statements(
-        &self,
-        roots: &[NodeId],
-        array: &str,
-        time: &str,
-    ) -> (Vec<[String; 2]>, Vec<String>) {
+    fn statements(&self, roots: &[NodeId], array: &str, time: &str) -> Lowered {
         let array_argument = if self.language == Language::Rust && array == "y" {
             "&y"
         } else {
@@ -220,8 +215,7 @@ impl Writer<'_> {
             parameters: if is_octave { &values } else { &self.parameters },
             integrals: &|id| self.call_of_integral(id, array_argument, time),
         };
-        let lowered = lower(&self.model.graph, roots, &names);
-        (lowered.constants, lowered.roots)
+        lower(&self.model.graph, roots, &names)
     }
 
     fn function(&self, function: &Function) -> String {
@@ -232,7 +226,7 @@ impl Writer<'_> {
         } else {
             first.as_deref().unwrap_or("t")
         };
-        let (constants, roots) = self.statements(&function.roots, "x", time);
+        let Lowered { constants, roots } = self.statements(&function.roots, "x", time);
         let mut body = String::new();
         let indent = runtime::indent(self.language);
         for [name, value] in &constants {
@@ -255,7 +249,7 @@ impl Writer<'_> {
         else {
             return String::new();
         };
-        let (constants, roots) = self.statements(&[*body], "y", "t");
+        let Lowered { constants, roots } = self.statements(&[*body], "y", "t");
         let indent = runtime::indent(self.language).repeat(2);
         let deeper = if self.language == Language::Fortran {
             "    "

@@ -109,7 +109,7 @@ impl<'t> Section<'t> {
         Some(self.reader.field(&self.path, name, value))
     }
 
-    pub(super) fn needed(&self, name: &str) -> Result<Field<'t>, InputError> {
+    pub(super) fn require(&self, name: &str) -> Result<Field<'t>, InputError> {
         self.field(name).ok_or_else(|| {
             self.place()
                 .error(format!("expected the key `{name}`, found none"))
@@ -121,7 +121,7 @@ impl<'t> Section<'t> {
     }
 
     /// Refuses keys other than these.
-    pub(super) fn only(&self, known: &[&str]) -> Result<(), InputError> {
+    pub(super) fn allow(&self, known: &[&str]) -> Result<(), InputError> {
         for (key, _) in self.table.iter() {
             let name: &str = key.get_ref();
             if !known.contains(&name) {

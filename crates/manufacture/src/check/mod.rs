@@ -250,13 +250,14 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
     let samples = sampled.points.len();
     for (index, quantity) in sampled.quantities.iter().enumerate() {
         let name = &quantity.name;
-        if quantity.role == Role::Zero {
-            if let Some((point, values)) = sampled.over(index).find(|entry| !is_zero(entry.1)) {
-                let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
-                let at = place(model, point);
-                let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
-                findings.push(finding("not-zero", &quantity.key, text, Some(value)));
-            }
+        let mut entries = sampled.over(index);
+        if quantity.role == Role::Zero
+            && let Some((point, values)) = entries.find(|entry| !is_zero(entry.1))
+        {
+            let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
+            let at = place(model, point);
+            let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
+            findings.push(finding("not-zero", &quantity.key, text, Some(value)));
         }
         if quantity.role == Role::Positive {
             let lowest = sampled

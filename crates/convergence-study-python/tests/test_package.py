@@ -203,8 +203,10 @@ def test_what_the_pages_show_works_as_it_is_pasted(tmp_path):
         for language, text, output in blocks(page):
             is_test = "(convergence)" in text
             if language == "python" and (is_test or "convergence_study" in text):
-                command = [sys.executable, "-m", "pytest", "-q", "test_it.py"] if is_test else [sys.executable, "test_it.py"]
-                (tmp_path / "test_it.py").write_text(text)
+                # A block may begin with the name of its file.
+                name = text.split("\n")[0].removeprefix("# ") if text.startswith("# test_") else "test_it.py"
+                command = [sys.executable, "-m", "pytest", "-q", name] if is_test else [sys.executable, name]
+                (tmp_path / name).write_text(text)
             elif language == "sh" and "new program" in text and page.name == "README.md":
                 command = ["sh", "-e", "-c", text]
             else:

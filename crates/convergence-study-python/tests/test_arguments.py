@@ -66,7 +66,8 @@ def test_tables_are_refused_in_words_of_python_with_calls_that_work():
 
 
 def test_every_refusal_of_a_table_is_in_words_of_python():
-    columns = {"n": N, "level": [0, 1, 2, 3], "u": [3.1, 3.04, 3.01, 3.0025], "w": [1.0, 3.0, 2.0, 4.0], "log h": [-1.0, -2.0, -3.0, -4.0], "dx": STEPS}
+    columns = {"n": N, "level": [0, 1, 2, 3], "dx": STEPS, "log h": [-1.0, -2.0, -3.0, -4.0]}
+    columns |= {"u": [3.1, 3.04, 3.01, 3.0025], "w": [1.0, 3.0, 2.0, 4.0]}
     chosen = [{}, {"dim": 2}, {"ratio": 2}, {"dim": 2, "ratio": 2}, {"step": "L9"}, {"columns": ["L9"]}, {"columns": ["u", "u"]}, {"names": ["a"]}]
     texts = set()
     for names in itertools.chain(itertools.combinations(columns, 2), itertools.combinations(columns, 3)):
@@ -147,7 +148,8 @@ def test_a_study_takes_steps():
     own = cs.study(lambda h: {"dt": 3 * h, "L2": h**2}, h=[0.2, 0.1, 0.05], order=2)
     assert own.to_dict()["levels"][0] == {"dt": pytest.approx(0.6), "L2": pytest.approx(0.04)} and str(own).splitlines()[1].split()[0] == "dt"
     assert refusal(solve, [0.1, 0.05], function=cs.study, order=2) == "n[0]: expected a whole number > 0, found 0.1; give steps as h=[...]"
-    for h, start in [([], "h: expected"), ([0.1, 0.1], "h[1]: expected each"), ([0.1, math.nan], "h[1]: expected a finite number > 0"), (5, "h: expected a seq")]:
+    wrong = [([], "h: expected"), ([0.1, 0.1], "h[1]: expected each"), ([0.1, math.nan], "h[1]: expected a finite number > 0")]
+    for h, start in [*wrong, (5, "h: expected a sequence")]:
         assert refusal(solve, h=h, function=cs.study, order=2).startswith(start)
     assert refusal(solve, [8], h=[0.1], function=cs.study, order=2) == "h: expected either n or h, found both"
     assert refusal(solve, name=3, function=cs.study, order=2) == "name: expected a text, found 3"
@@ -211,6 +213,8 @@ def test_an_index_is_the_step():
     table = pandas.DataFrame({"h": [*STEPS, 0.9], "L2": [*SQUARES, 7.0]})
     assert cs.judge(table[table.h < 0.5], order=2)["L2"].interval == expected.interval
     assert cs.judge(table[table.h < 0.3].sort_values("h"), order=2)["L2"].to_dict()["steps"] == STEPS[1:]
+    counts = pandas.DataFrame({"dofs": [25, 100, 400, 1600], "L2": SQUARES})
+    assert cs.judge(counts[counts.dofs > 25], order=2, dim=2)["L2"].to_dict()["steps"] == [0.1, 0.05, 0.025]
     assert refusal(pandas.Series(SQUARES), order=2).startswith("h: expected a series whose index is the step")
     assert "dim=2" in refusal(pandas.Series(E, index=N), order=2)
     two = pandas.DataFrame({"L2": SQUARES}, index=pandas.MultiIndex.from_arrays([STEPS, STEPS], names=["h", "dt"]))
@@ -265,7 +269,8 @@ def test_rates_returns_what_the_program_prints(tmp_path):
     counts = "n L2\n10 0.16\n20 0.04\n40 0.01\n"
     text = refusal(counts, function=cs.rates, order=2)
     assert text.startswith("standard input:1:1: expected dim=D") and "\n  rates(text, order=2, dim=2)  # all, in the plane" in text
-    assert cs.rates(counts, order=2, dim=1)["verdict"] == "inconclusive" and cs.rates("level L2\n0 0.16\n1 0.04\n2 0.01\n", ratio=2)["step"] == "2^(-level)"
+    assert cs.rates(counts, order=2, dim=1)["verdict"] == "inconclusive"
+    assert cs.rates("level L2\n0 0.16\n1 0.04\n2 0.01\n", ratio=2)["step"] == "2^(-level)"
     assert refusal(tmp_path / "no.csv", function=cs.rates).startswith("path_or_text: expected an existing file")
     assert refusal(counts, function=cs.rates, order="two").startswith("order: expected a number > 0")
     assert refusal(counts, function=cs.rates, order=-1).startswith("order: expected a number > 0")

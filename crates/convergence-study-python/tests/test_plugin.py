@@ -5,6 +5,9 @@ import json
 
 import pytest
 
+import convergence_study as cs
+from convergence_study.pytest_plugin import Run
+
 pytest_plugins = ["pytester"]
 
 TESTS = """
@@ -143,7 +146,8 @@ def test_a_test_that_was_not_run_is_not_gone(project):
 def test_workers_of_xdist_report_bless_and_guard(project):
     pytest.importorskip("xdist")
     baseline = project.path / "tests/convergence.json"
-    add(project, "\nimport pytest\n@pytest.mark.parametrize('a', ['+', '-', 'x', 'y'])\ndef test_two(convergence, a):\n    convergence.assert_order(H, H, order=1)\n")
+    tests = "\nimport pytest\n@pytest.mark.parametrize('a', ['+', '-', 'x', 'y'])\ndef test_two(convergence, a):\n"
+    add(project, tests + "    convergence.assert_order(H, H, order=1)\n")
     bless(project)
     expected = baseline.read_text()
     baseline.unlink()
@@ -160,6 +164,16 @@ def test_workers_of_xdist_report_bless_and_guard(project):
     moved.stdout.fnmatch_lines(["baseline: test-orders-test-study: error L2, n = 8 moved*"])
 
 
+def test_studies_of_workers_have_an_order_and_ids_of_their_own():
+    run = Run(None)
+    run.studies = [cs.study(lambda n: n**-2.0, [4, 8, 16], order=2, name=name) for name in "bca"]
+    run._sort()
+    assert [study.id for study in run.studies] == ["a", "b", "c"]
+    run.studies.append(run.studies[1])
+    with pytest.raises(ValueError, match="two tests have the id `b` in different workers of pytest-xdist"):
+        run._sort()
+
+
 def test_studies_of_a_worker_that_ended_are_missed(project):
     pytest.importorskip("xdist")
     add(project, "\ndef test_ends(convergence):\n    import os\n    os._exit(3)\n")
@@ -170,7 +184,8 @@ def test_studies_of_a_worker_that_ended_are_missed(project):
 
 def test_the_summary_of_a_failure_is_its_verdict_and_the_step_is_h(project, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
-    (project.path / "tests/test_bad.py").write_text("def test_upwind(convergence):\n    convergence.study(lambda n: n**-1.0, [8, 16, 32, 64], order=2)\n")
+    call = "convergence.study(lambda n: n**-1.0, [8, 16, 32, 64], order=2)"
+    (project.path / "tests/test_bad.py").write_text(f"def test_upwind(convergence):\n    {call}\n")
     failed = project.runpytest_subprocess("-rf")
     failed.stdout.fnmatch_lines(["FAILED tests/test_bad.py::test_upwind - AssertionError: error: fail: 1.000, claimed 2 ± 0.25: too low"])
     failed.stdout.fnmatch_lines(["E  *       h       error      rate"])
@@ -189,7 +204,8 @@ def test_table(convergence):
     claims = json.loads((project.path / "tests/convergence.json").read_text())["claims"]["test-table-test-table"]
     assert claims["floor"]["value"] == "6.2499999e-2" and claims["test"]["value"] == "tests/test_table.py::test_table"
     # A floor that is taken away is a changed claim.
-    (project.path / "tests/test_table.py").write_text(body.replace("1.0, 0.25, 0.0625, 0.06]", "1.0, 0.25, 0.0625, 0.015625]").replace(", floor=0.0625 - 1e-9", ""))
+    body = body.replace("0.0625, 0.06]", "0.0625, 0.015625]").replace(", floor=0.0625 - 1e-9", "")
+    (project.path / "tests/test_table.py").write_text(body)
     changed = project.runpytest_subprocess()
     assert changed.ret == 1
     changed.stdout.fnmatch_lines(["baseline: test-table-test-table: claim floor: was 6.2499999e-2, is absent"])

@@ -148,7 +148,10 @@ pub fn keep_scheme(
         target,
         reference,
         parts: None,
-        best: (f64::INFINITY, [f64::NAN; 2]),
+        best: Best {
+            error: f64::INFINITY,
+            parts: [f64::NAN; 2],
+        },
         failures: 0,
     };
     for _ in 0..ROUNDS {
@@ -172,10 +175,16 @@ struct Search {
     reference: Reference,
     /// The parts of space and time, once they are known.
     parts: Option<Parts>,
-    /// The smallest error so far, and its parts.
-    best: (f64, [f64; 2]),
+    /// The smallest error so far.
+    best: Best,
     /// The number of failed runs.
     failures: usize,
+}
+
+/// An error and its parts of space and time.
+struct Best {
+    error: f64,
+    parts: [f64; 2],
 }
 
 /// What a search does after a round.
@@ -229,8 +238,11 @@ impl Search {
                 run: own.curves.cost,
             }));
         }
-        if error < self.best.0 {
-            self.best = (error, parts.errors);
+        if error < self.best.error {
+            self.best = Best {
+                error,
+                parts: parts.errors,
+            };
         }
         // A run that is clearly too expensive is not started.
         let least: f64 = size(scene).iter().product();
@@ -241,10 +253,10 @@ impl Search {
     }
 
     fn not_reached(&self, reason: Reason) -> Unreachable {
-        let (reached, [space, time]) = self.best;
+        let [space, time] = self.best.parts;
         Unreachable::NotReached {
             target: self.target,
-            reached,
+            reached: self.best.error,
             space,
             time,
             reason,
@@ -362,7 +374,10 @@ impl Parts {
 
     /// By how much the product of elements and steps must grow until each part is at most `target`.
     fn growth(&self, target: f64) -> f64 {
-        let factor = |(error, order): (&f64, &f64)| (error / target).max(1.0).powf(order.recip());
-        self.errors.iter().zip(&self.orders).map(factor).product()
+        let mut growth = 1.0;
+        for (error, order) in self.errors.iter().zip(&self.orders) {
+            growth *= (error / target).max(1.0).powf(order.recip());
+        }
+        growth
     }
 }

@@ -268,10 +268,10 @@ fn run_within<M: Motion>(
             ControlFlow::Continue(())
         })
     };
-    let ended = run(motion, until, &[], &mut [&mut watch]);
+    let outcome = run(motion, until, &[], &mut [&mut watch]);
     match reason {
         Some(reason) => Err(reason),
-        None => ended.map_err(Reason::of_run),
+        None => outcome.map_err(Reason::of_run),
     }
 }
 

@@ -74,10 +74,10 @@ impl DgMotion {
         };
         // The value at x = 0 stays: the solver refuses initial data that contradict the boundary
         // conditions.
-        let planted =
-            move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
         let initial = dg::Initial {
-            theta: Box::new(planted),
+            theta: Box::new(move |x| {
+                theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x)
+            }),
             ..start
         };
         let problem = dg::Problem {

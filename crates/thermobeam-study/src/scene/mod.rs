@@ -223,8 +223,9 @@ impl Scene {
 
     /// The steps of dG; for a scene by a one-step scheme the default steps of dG.
     pub fn dg_stepping(&self) -> dg::Stepping {
-        let default = || method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end);
-        self.method.dg().unwrap_or_else(default)
+        self.method.dg().unwrap_or_else(|| {
+            method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end)
+        })
     }
 
     /// Mesh, steps, scheme and solver in two lines.
@@ -254,12 +255,6 @@ impl Scene {
 
     /// The scene as a problem for dG.
     pub fn dg_problem(&self) -> dg::Problem {
-        let function = |function: &Option<Expression>| -> Box<dyn Fn(f64) -> f64> {
-            match function.clone() {
-                Some(function) => Box::new(move |x| function.eval(x)),
-                None => Box::new(|_| 0.0),
-            }
-        };
         let Initial {
             u,
             u_t,
@@ -268,11 +263,11 @@ impl Scene {
             theta,
         } = &self.initial;
         let initial = dg::Initial {
-            u: function(u),
-            u_t: function(u_t),
-            phi: function(phi),
-            phi_t: function(phi_t),
-            theta: function(theta),
+            u: boxed(u),
+            u_t: boxed(u_t),
+            phi: boxed(phi),
+            phi_t: boxed(phi_t),
+            theta: boxed(theta),
         };
         let Self {
             beam,
@@ -308,16 +303,28 @@ pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError>
         // The error for every mesh without elements.
         return Mesh::uniform(0);
     }
-    let (nodes, n) = (mesh.nodes(), mesh.elements());
-    let node = |j: usize| {
+    let nodes = mesh.nodes();
+    let n = mesh.elements();
+    let mut resampled = vec![];
+    for j in 0..=elements {
         // In integers: a rounded j/m would shift nested nodes by a bit.
-        let (index, rest) = (j * n / elements, j * n % elements);
-        if rest == 0 {
-            return nodes[index];
-        }
-        nodes[index] + (nodes[index + 1] - nodes[index]) * (rest as f64 / elements as f64)
-    };
-    Mesh::from_nodes((0..=elements).map(node).collect())
+        let index = j * n / elements;
+        let rest = j * n % elements;
+        resampled.push(if rest == 0 {
+            nodes[index]
+        } else {
+            nodes[index] + (nodes[index + 1] - nodes[index]) * (rest as f64 / elements as f64)
+        });
+    }
+    Mesh::from_nodes(resampled)
+}
+
+/// A function of the initial data for dG; one that is not given is zero.
+fn boxed(function: &Option<Expression>) -> Box<dyn Fn(f64) -> f64> {
+    match function.clone() {
+        Some(function) => Box::new(move |x| function.eval(x)),
+        None => Box::new(|_| 0.0),
+    }
 }
 
 /// The table `[mesh]`.

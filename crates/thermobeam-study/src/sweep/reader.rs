@@ -221,8 +221,8 @@ fn probe(
     varied: &[VariedKey<'_>],
     is_drawn: bool,
 ) -> Result<Scene, InputError> {
-    let is_step = |varied: &&VariedKey<'_>| STEPS.iter().any(|name| varied.key.is("time", name));
-    let together = is_drawn || varied.iter().filter(is_step).count() == STEPS.len();
+    let count = varied.iter().filter(|varied| is_step(varied)).count();
+    let together = is_drawn || count == STEPS.len();
     let (steps, others): (Vec<_>, Vec<_>) = varied
         .iter()
         .partition(|varied| together && is_step(varied));
@@ -249,21 +249,25 @@ fn probe(
     Ok(common)
 }
 
+/// Whether a varied key is dt or t_end.
+fn is_step(varied: &VariedKey<'_>) -> bool {
+    STEPS.iter().any(|name| varied.key.is("time", name))
+}
+
 /// Converts an error of a scene into an error of the sweep file's field that caused it.
 fn traced(error: &InputError, set: &[Common<'_>], varied: &[&VariedKey<'_>]) -> InputError {
-    let named = |name: &str| error.field.as_deref() == Some(name);
-    let of_set = set
-        .iter()
-        .find(|(name, ..)| named(name))
-        .map(|(.., field)| field);
-    let of_key = varied
-        .iter()
-        .find(|varied| named(&varied.key.path()))
-        .map(|varied| &varied.probes[0].1);
-    let field = of_set
-        .or(of_key)
-        .or(varied.first().map(|varied| &varied.probes[0].1));
-    field.map_or_else(|| error.clone(), |field| at_field(error, field))
+    if let Some(path) = &error.field {
+        if let Some((.., field)) = set.iter().find(|(name, ..)| name == path) {
+            return at_field(error, field);
+        }
+        if let Some(varied) = varied.iter().find(|varied| varied.key.path() == *path) {
+            return at_field(error, &varied.probes[0].1);
+        }
+    }
+    match varied.first() {
+        Some(varied) => at_field(error, &varied.probes[0].1),
+        None => error.clone(),
+    }
 }
 
 fn at_field(error: &InputError, field: &Field<'_>) -> InputError {

@@ -205,13 +205,13 @@ impl Held {
             loaded: true,
             ..by_fixed_point(self.dt, Stopping::Iterations(iterations))
         };
-        let hold = |_, load: &mut [[f64; 3]]| {
+        let driver = Driver::new(self.problem.clone(), stepping)?;
+        let mut driver = driver.loaded(|_, load| {
             let n = load.len() - 1;
             let moment = -PRESSED / n as f64;
             load.iter_mut().for_each(|load| load[1] = moment);
             load[n] = [self.tip_load, 0.5 * moment, 0.0];
-        };
-        let mut driver = Driver::new(self.problem.clone(), stepping)?.loaded(hold);
+        });
         let mut contraction = None;
         run_to(&mut driver, self.dt, |_, report| {
             contraction = report.contraction;

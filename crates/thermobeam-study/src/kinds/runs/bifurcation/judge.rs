@@ -206,14 +206,15 @@ impl<'r> OfScene<'r> {
     }
 
     fn drawing(&self, diagram: &Diagram, title: String, [low, high]: [f64; 2]) -> String {
-        let is_shown = |(beta, _): &(f64, f64)| (low..=high).contains(beta);
+        let range = low..=high;
         let mut sorted: Vec<_> = diagram.branches.iter().collect();
         sorted.sort_by_key(|branch| (branch.key.place(), !branch.key.stable));
         let mut branches: Vec<figures::Branch> = vec![];
         for branch in sorted {
             let label = branch.key.name();
             let stable = branch.key.stable;
-            let points = branch.points.iter().copied().filter(is_shown);
+            let points = branch.points.iter().copied();
+            let points = points.filter(|(beta, _)| range.contains(beta));
             match branches.last_mut() {
                 Some(last)
                     if branch.key.is_straight()
@@ -230,11 +231,12 @@ impl<'r> OfScene<'r> {
         }
         // A branch found at a single β is a corner of the diagram, not a line.
         branches.retain(|branch| branch.points.len() > 1);
+        let tips = self.tips().filter(|(beta, _)| range.contains(beta));
         figures::bifurcation(&figures::Bifurcation {
             title,
             branches,
             obstacles: figures::obstacle_lines(self.scene.obstacles),
-            ends: plots::Series::new("end of a run", self.tips().filter(is_shown)),
+            ends: plots::Series::new("end of a run", tips),
         })
     }
 }

@@ -314,21 +314,24 @@ fn fixed_point_fails_at_one(compliances: &[Compliance<'_>]) -> Check {
     // Between SLOW and 1 either is allowed; NaN is neither.
     let holds =
         converged.iter().all(|of| of.alpha() <= 1.0) && failed.iter().all(|of| of.alpha() >= SLOW);
-    let name = |run: Option<&&Compliance<'_>>| {
-        run.map_or("none".to_owned(), |of| {
-            format!("{} (α = {:.3})", of.label(), of.alpha())
-        })
-    };
     Check::that(
         holds && !converged.is_empty() && !failed.is_empty(),
         "the fixed point converges while α < 1 and fails beyond; Newton's method does every step",
         format!(
             "last that converges: {}, first that fails: {}",
-            name(converged.last()),
-            name(failed.first())
+            label_with_alpha(converged.last()),
+            label_with_alpha(failed.first())
         ),
     )
     .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
+}
+
+/// A compliance and its predicted factor, in words.
+fn label_with_alpha(compliance: Option<&&Compliance<'_>>) -> String {
+    match compliance {
+        Some(compliance) => format!("{} (α = {:.3})", compliance.label(), compliance.alpha()),
+        None => "none".to_owned(),
+    }
 }
 
 fn contraction_as_predicted(compliances: &[Compliance<'_>]) -> Check {
@@ -355,38 +358,50 @@ fn contraction_as_predicted(compliances: &[Compliance<'_>]) -> Check {
 
 /// The compliances that each statement judges; the orders have ranges of their own.
 fn coverage(compliances: &[Compliance<'_>]) -> Vec<Coverage> {
-    let count = |items: &str, reason: fn(&Compliance<'_>) -> Option<&'static str>| {
-        Coverage::of(items, compliances.iter().map(reason))
-    };
-    vec![
-        count("compliances on a fixed grid for an order", |of| {
-            (!of.is_averaged()).then_some("a time step resolves the impact")
-        }),
-        count("compliances at rest and in an impact for an order", |of| {
-            (!of.is_stiff()).then_some("too soft")
-        }),
-        count("compliances for the end of convergence", |of| {
-            if of.fixed_point.is_none() {
-                return Some(NO_RESULT);
-            }
+    let mut unresolved = vec![];
+    let mut stiff = vec![];
+    let mut iterated = vec![];
+    let mut factors = vec![];
+    for compliance in compliances {
+        unresolved.push((!compliance.is_averaged()).then_some("a time step resolves the impact"));
+        stiff.push((!compliance.is_stiff()).then_some("too soft"));
+        iterated.push(if compliance.fixed_point.is_none() {
+            Some(NO_RESULT)
+        } else {
             (SLOW..=1.0)
-                .contains(&of.alpha())
+                .contains(&compliance.alpha())
                 .then_some("α just below 1")
-        }),
-        count("compliances for the factor α", |of| of.factor_left_out()),
+        });
+        factors.push(compliance.factor_left_out());
+    }
+    vec![
+        Coverage::of("compliances on a fixed grid for an order", unresolved),
+        Coverage::of("compliances at rest and in an impact for an order", stiff),
+        Coverage::of("compliances for the end of convergence", iterated),
+        Coverage::of("compliances for the factor α", factors),
     ]
 }
 
 fn contractions(compliances: &[Compliance<'_>]) -> Figure {
-    let runs = |label: &str, fails: bool| {
-        let runs = compliances
-            .iter()
-            .filter(|of| of.fixed_point.is_some() && of.fails() == fails);
-        plots::Series::new(label, runs.map(|of| (of.alpha(), of.contraction())))
-    };
+    let mut converging = vec![];
+    let mut failing = vec![];
+    for compliance in compliances {
+        if compliance.fixed_point.is_none() {
+            continue;
+        }
+        let point = (compliance.alpha(), compliance.contraction());
+        if compliance.fails() {
+            failing.push(point);
+        } else {
+            converging.push(point);
+        }
+    }
     let svg = contraction(&ContractionFactors {
         title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
-        measured: vec![runs("converges", false), runs("fails", true)],
+        measured: vec![
+            plots::Series::new("converges", converging),
+            plots::Series::new("fails", failing),
+        ],
         predicted: "predicted factor α".to_owned(),
         estimates: plots::Series::default(),
     });
@@ -394,21 +409,32 @@ fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     Figure::new("contraction", caption, svg)
 }
 
+/// A penetration over ε; NaN if a run is missing.
+fn penetration_series(
+    label: &str,
+    compliances: &[Compliance<'_>],
+    value: fn(&Compliance<'_>) -> Option<f64>,
+) -> plots::ErrorSeries {
+    let mut points = vec![];
+    for compliance in compliances {
+        points.push((compliance.epsilon, value(compliance).unwrap_or(f64::NAN)));
+    }
+    plots::ErrorSeries {
+        label: label.into(),
+        points,
+        ..plots::ErrorSeries::default()
+    }
+}
+
 /// Without the distance to the rigid limit: on the scale of the figure it coincides with the
 /// largest penetration.
 fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
-    let over_epsilon = |label: &str, run: fn(&Compliance<'_>) -> Option<f64>| plots::ErrorSeries {
-        label: label.into(),
-        points: compliances
-            .iter()
-            .map(|of| (of.epsilon, run(of).unwrap_or(f64::NAN)))
-            .collect(),
-        ..plots::ErrorSeries::default()
-    };
     let series = [
-        over_epsilon(LARGEST, |of| penetration(of.bouncing)),
-        over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
-        over_epsilon("at rest", |of| penetration(of.rest)),
+        penetration_series(LARGEST, compliances, |of| penetration(of.bouncing)),
+        penetration_series("peak of a resolved impact", compliances, |of| {
+            penetration(of.impact)
+        }),
+        penetration_series("at rest", compliances, |of| penetration(of.rest)),
     ];
     let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
     let resolved = compliances.first().map(|of| of.alpha() * of.epsilon);

@@ -21,8 +21,8 @@ use thermobeam::solve::Stopping;
 
 use super::curves::{Apart, Curves, Rows, Wanted, curves};
 use super::first::impact;
+use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::refine::finer;
 use super::{Cost, Reason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 
@@ -117,7 +117,13 @@ pub fn choose(
         run,
         finer_space,
         ..
-    } = reference(scene, None, &quantity.wanted(target), work)?;
+    } = reference(
+        scene,
+        None,
+        &quantity.wanted(target),
+        &Policy::default(),
+        work,
+    )?;
     Ok(Choice {
         scene: chosen,
         parts: [space[0], time[0]],
@@ -142,7 +148,13 @@ pub fn keep_scheme(
     let Some(mut scene) = coarsest(scene, target) else {
         return choose(scene, quantity, target, work);
     };
-    let reference = reference(&scene, None, &quantity.wanted(TENTH * target), work)?;
+    let reference = reference(
+        &scene,
+        None,
+        &quantity.wanted(TENTH * target),
+        &Policy::default(),
+        work,
+    )?;
     let mut search = Search {
         quantity,
         target,
@@ -348,7 +360,9 @@ struct Parts {
 impl Parts {
     /// From two runs: one with twice the elements, one with dt/2.
     fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
-        let [space, time] = finer(scene).map(|finer| own.other(&finer?, work));
+        let [space, time] = Policy::default()
+            .finer(scene)
+            .map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));
         let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
         // In the norm, the error of the mesh is orthogonal to that of a finer one, so squares add.

@@ -13,8 +13,8 @@ use serde::Serialize;
 use super::curves::{Curves, Rows, Wanted, curves};
 use super::data::Data;
 use super::first::first;
+use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::refine::finer;
 use super::{Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::Scene;
@@ -154,7 +154,9 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
     let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
     let Truth { reference, exact } = against(scene, &own, &times, work)?;
-    let finer = finer(scene).map(|finer| curves(&finer?, &Rows::Numbers, Some(&times), work));
+    let finer = Policy::default()
+        .finer(scene)
+        .map(|finer| curves(&finer?, &Rows::Numbers, Some(&times), work));
     let mut quantities = vec![];
     for observable in Observable::ALL {
         let Comparison { value, difference } = observable.compare(&own, &exact);
@@ -214,11 +216,12 @@ fn against(
         rows: Rows::Numbers,
         tolerance: scales.map(|scale| ROUGH * scale),
     };
+    let policy = Policy::default();
     // The last reference, and the scene's errors measured against it.
     let mut last: Option<(Truth, [f64; 3])> = None;
     for _ in 0..ROUNDS {
         let start = last.as_ref().map(|(truth, _)| &truth.reference.scene);
-        let outcome = reference(scene, start, &wanted, work).and_then(|reference| {
+        let outcome = reference(scene, start, &wanted, &policy, work).and_then(|reference| {
             let exact = curves(&reference.scene, &Rows::Numbers, Some(times), work)
                 .map_err(|reason| Unreachable::without_comparison(wanted.tolerance[0], reason))?;
             Ok(Truth { reference, exact })
